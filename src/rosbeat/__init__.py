@@ -1,0 +1,34 @@
+"""rosbeat: learn how robots talk.
+
+A learner needs one name from here, `Session`; `show` draws what a session recorded. Importing the
+package is quick and does not import ROS: names load when they are first used (PEP 562), so that
+tools which only build or check pages work where ROS is not installed.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from rosbeat import environment
+
+if TYPE_CHECKING:
+    from rosbeat import viz as viz
+    from rosbeat.runtime.session import Session as Session
+
+__version__ = "0.1.0"
+__all__ = ["Session", "viz"]
+
+# Before any message class is imported: the field checks are read at that moment.
+environment.apply()
+
+_HOMES = {"Session": ("rosbeat.runtime.session", "Session"), "viz": ("rosbeat.viz", None)}
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the name
+    """Load a public name when it is first used."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'rosbeat' has no attribute {name!r}")
+    module_name, attribute = _HOMES[name]
+    module = import_module(module_name)
+    return module if attribute is None else getattr(module, attribute)

@@ -1,0 +1,279 @@
+"""What was observed, as plain data.
+
+Everything here is a frozen dataclass of numbers, strings, tuples and dicts. Nothing says right or
+wrong, nothing needs ROS, and nothing differs between two runs of one program: there is no wall
+time, no process id, no path and no address in any of it.
+
+Times are integers in nanoseconds of virtual time since the session began (`time_ns`); the
+property `time` gives the same in seconds. Names of nodes and topics are fully qualified
+(`/temperature`), as `ros2 node list` and `ros2 topic list` print them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+NANOSECONDS = 1_000_000_000
+
+#: Topics that every node brings along; pictures and lists leave them out unless asked.
+INFRASTRUCTURE_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
+
+
+class Timed:
+    """Adds `time`, in seconds, to a record that has `time_ns`."""
+
+    __slots__ = ()
+    time_ns: int
+
+    @property
+    def time(self) -> float:
+        """Seconds of virtual time since the session began."""
+        return self.time_ns / NANOSECONDS
+
+
+@dataclass(frozen=True)
+class Sample(Timed):
+    """One message as it was published.
+
+    Attributes:
+        time_ns: When it was published, in nanoseconds of virtual time.
+        topic: The topic's full name, such as `/temperature`.
+        type_name: The message type, such as `std_msgs/msg/Float32`.
+        node: Full name of the node that published it.
+        data: The message as plain data: a dict from field name to value, nested where the
+            message is nested, arrays as lists. A `float32` field holds what was sent, rounded to
+            32 bits, as a subscriber receives it.
+    """
+
+    time_ns: int
+    topic: str
+    type_name: str
+    node: str
+    data: dict[str, Any]
+
+    @property
+    def value(self) -> Any:  # noqa: ANN401 - a message field may be of any plain type
+        """The only field's value if the message has one field, else the whole `data`."""
+        return next(iter(self.data.values())) if len(self.data) == 1 else self.data
+
+
+@dataclass(frozen=True)
+class LogRecord(Timed):
+    """One log line, as it came over `/rosout`.
+
+    Attributes:
+        time_ns: When it was logged, in nanoseconds of virtual time.
+        level: `DEBUG`, `INFO`, `WARN`, `ERROR` or `FATAL`.
+        name: The logger's name: the node's name without the leading slash, dots for namespaces.
+        text: The message.
+        function: The function that logged.
+        line: The line in the source (in a page: in the cell) that logged.
+    """
+
+    time_ns: int
+    level: str
+    name: str
+    text: str
+    function: str
+    line: int
+
+
+@dataclass(frozen=True)
+class CallbackRecord(Timed):
+    """One run of a callback.
+
+    Attributes:
+        time_ns: When it ran, in nanoseconds of virtual time. In virtual time a callback takes none.
+        node: Full name of the node whose callback it was.
+        kind: `timer`, `subscription`, `service`, `client`, `guard condition`, `waitable` or `task`.
+        name: The callback function's name, such as `publish_temperature`.
+        source: What it answered: the topic or service name; for a timer its period, as in `1 s`.
+    """
+
+    time_ns: int
+    node: str
+    kind: str
+    name: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Fault(Timed):
+    """An exception that left a callback, and so ended its node.
+
+    Attributes:
+        time_ns: When it happened, in nanoseconds of virtual time.
+        node: Full name of the node.
+        callback: Name of the callback function.
+        kind: The exception's class name, such as `ZeroDivisionError`.
+        text: The exception's message.
+        line: Line number of the learner's own line nearest to the fault, 0 if unknown.
+        code: That line's text, stripped, or an empty string.
+    """
+
+    time_ns: int
+    node: str
+    callback: str
+    kind: str
+    text: str
+    line: int
+    code: str
+
+
+@dataclass(frozen=True)
+class QoS:
+    """The quality of service of one endpoint, in ROS's own words.
+
+    Attributes:
+        reliability: `RELIABLE` or `BEST_EFFORT`.
+        durability: `VOLATILE` or `TRANSIENT_LOCAL`.
+        history: `KEEP_LAST` or `KEEP_ALL`.
+        depth: Queue length for `KEEP_LAST`, in messages.
+    """
+
+    reliability: str = "RELIABLE"
+    durability: str = "VOLATILE"
+    history: str = "KEEP_LAST"
+    depth: int = 10
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """One end of a topic or service.
+
+    Attributes:
+        node: Full name of the node it belongs to.
+        name: Full name of the topic or service.
+        type_name: Its type, such as `std_msgs/msg/Float32`.
+        kind: `publisher`, `subscription`, `server` or `client`.
+        qos: Its quality of service.
+        matched: How many endpoints on the other side it is connected to, or -1 if unknown.
+    """
+
+    node: str
+    name: str
+    type_name: str
+    kind: str
+    qos: QoS
+    matched: int = -1
+
+
+@dataclass(frozen=True)
+class TimerRecord:
+    """One timer of a node.
+
+    Attributes:
+        node: Full name of the node.
+        callback: Name of the function it calls.
+        period_ns: Its period in nanoseconds.
+        calls: How often it has fired so far.
+    """
+
+    node: str
+    callback: str
+    period_ns: int
+    calls: int
+
+
+@dataclass(frozen=True)
+class GraphSnapshot:
+    """The ROS graph at one moment.
+
+    Attributes:
+        nodes: Full names of the nodes, in order of creation.
+        endpoints: Their endpoints, in order of creation, those that every node has included.
+        timers: Their timers, in order of creation.
+    """
+
+    nodes: tuple[str, ...] = ()
+    endpoints: tuple[Endpoint, ...] = ()
+    timers: tuple[TimerRecord, ...] = ()
+
+    def topics(self, infrastructure: bool = False) -> tuple[str, ...]:
+        """Names of the topics, sorted; with `infrastructure` also those every node brings."""
+        kinds = ("publisher", "subscription")
+        names = {end.name for end in self.endpoints if end.kind in kinds}
+        return tuple(sorted(names if infrastructure else names - INFRASTRUCTURE_TOPICS))
+
+    def on(self, name: str, kind: str) -> tuple[Endpoint, ...]:
+        """The endpoints of one kind on one topic or service, in order of creation."""
+        return tuple(end for end in self.endpoints if end.name == name and end.kind == kind)
+
+
+@dataclass(frozen=True)
+class Observation(Timed):
+    """All that a session saw, from its beginning to `time_ns`.
+
+    Attributes:
+        time_ns: How far the session had run, in nanoseconds of virtual time.
+        seed: The seed of the random numbers its nodes drew.
+        samples: Every message published, in order, infrastructure topics left out.
+        logs: Every log line, in order.
+        callbacks: Every run of a callback, in order.
+        faults: Every exception that left a callback, in order.
+        graph: The graph at the end.
+    """
+
+    time_ns: int
+    seed: int
+    samples: tuple[Sample, ...] = ()
+    logs: tuple[LogRecord, ...] = ()
+    callbacks: tuple[CallbackRecord, ...] = ()
+    faults: tuple[Fault, ...] = ()
+    graph: GraphSnapshot = GraphSnapshot()
+
+
+@dataclass(frozen=True)
+class QueueStep(Timed):
+    """One change of a subscription's queue.
+
+    Attributes:
+        time_ns: When, in nanoseconds of virtual time.
+        kind: `arrived`, `taken` or `dropped`.
+        number: Which message of the topic it concerns, counted from 1 in order of arrival.
+        length: Messages in the queue after the step.
+    """
+
+    time_ns: int
+    kind: str
+    number: int
+    length: int
+
+
+def queue_steps(
+    arrivals: tuple[int, ...] | list[int], takes: tuple[int, ...] | list[int], depth: int
+) -> tuple[QueueStep, ...]:
+    """Replay a KEEP_LAST queue: what waits, what is taken, what is dropped.
+
+    A full queue drops its oldest message to make room for the newest; that is what the history
+    policy KEEP_LAST means (ROS 2 documentation, "About Quality of Service settings").
+
+    Args:
+        arrivals: Times at which messages arrive, in nanoseconds, ascending.
+        takes: Times at which the subscriber takes one, in nanoseconds, ascending. At equal times
+            an arrival comes before a take.
+        depth: Queue length in messages, at least 1.
+
+    Returns:
+        The steps in order of time.
+
+    Raises:
+        ValueError: If `depth` is below 1.
+    """
+    if depth < 1:
+        raise ValueError(f"depth must be at least 1, got {depth}")
+    moments = [(at, 0, number) for number, at in enumerate(arrivals, 1)]
+    moments += [(at, 1, 0) for at in takes]
+    queue: list[int] = []
+    steps: list[QueueStep] = []
+    for at, is_take, number in sorted(moments):
+        if is_take:
+            if queue:
+                steps.append(QueueStep(at, "taken", queue.pop(0), len(queue)))
+            continue
+        if len(queue) == depth:
+            steps.append(QueueStep(at, "dropped", queue.pop(0), len(queue)))
+        queue.append(number)
+        steps.append(QueueStep(at, "arrived", number, len(queue)))
+    return tuple(steps)

@@ -1,0 +1,44 @@
+"""The one clock of a session."""
+
+from __future__ import annotations
+
+from rclpy.clock import ClockType, ROSClock
+from rclpy.time import Time
+
+
+class SessionClock(ROSClock):
+    """A ROS clock that only its session moves.
+
+    Every node of a session uses this one object, so no node can read a time that another has
+    already left. rclpy's time source would set a node's clock from the parameter `use_sim_time`
+    and from `/clock` messages; both calls are accepted and change nothing.
+    """
+
+    def set_ros_time_override(self, time: Time) -> None:
+        """Accept rclpy's call and keep the session's own time."""
+
+    def _set_ros_time_is_active(self, enabled: bool) -> None:
+        """Accept rclpy's call; `follow_session` and `follow_wall` decide."""
+
+    def follow_session(self, time_ns: int) -> None:
+        """Show virtual time from now on, beginning at `time_ns`."""
+        self.advance(time_ns)
+        super()._set_ros_time_is_active(True)
+
+    def follow_wall(self) -> None:
+        """Show wall time from now on, as a clock does without `use_sim_time`."""
+        super()._set_ros_time_is_active(False)
+
+    def advance(self, time_ns: int) -> None:
+        """Move virtual time to `time_ns` nanoseconds."""
+        now = Time(nanoseconds=time_ns, clock_type=ClockType.ROS_TIME)
+        ROSClock.set_ros_time_override(self, now)  # once an instant, so without super()'s detour
+
+
+def make_clock() -> SessionClock:
+    """A clock at virtual time zero."""
+    # ROSClock's constructor always returns a plain ROSClock, whatever class it is asked for.
+    clock = ROSClock()
+    clock.__class__ = SessionClock
+    clock.follow_session(0)
+    return clock  # type: ignore[return-value]

@@ -1,0 +1,79 @@
+"""What a session prints in the cell that ran it.
+
+Log lines look as `ros2 run` prints them, with virtual time where wall time would stand, so that a
+page prints the same text on every run.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from rosbeat.records import Fault, LogRecord
+
+#: Log lines printed for one call of `run`; the rest is counted and stays in `logs()`.
+MOST_LINES = 100
+
+
+def seconds_text(time_ns: int) -> str:
+    """Nanoseconds as seconds, cut to three decimals."""
+    whole, rest = divmod(time_ns, 1_000_000_000)
+    return f"{whole}.{rest // 1_000_000:03d}"
+
+
+def log_text(record: LogRecord) -> str:
+    """One log line: level, time in seconds, logger, message."""
+    return f"[{record.level}] [{seconds_text(record.time_ns)}] [{record.name}]: {record.text}"
+
+
+def fault_text(fault: Fault) -> str:
+    """An exception in a callback, in three parts."""
+    where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+    return (
+        f"{fault.node} stopped at {seconds_text(fault.time_ns)} s, in {fault.callback}: "
+        f"{fault.kind}: {fault.text}{where}\n"
+        "  What it means: an exception that leaves a callback ends its node, as it would end the "
+        "node's process. The other nodes go on.\n"
+        "  What to try:   mend that line, then run the cell that adds the node again."
+    )
+
+
+class Console:
+    """Prints log lines as they come, up to a limit for each call of `run`.
+
+    Args:
+        quiet: Print no log lines at all.
+    """
+
+    def __init__(self, quiet: bool = False) -> None:
+        self._quiet = quiet
+        self._printed = 0
+        self._held_back = 0
+
+    def begin(self, quiet: bool = False) -> None:
+        """Count anew, for the next call of `run`."""
+        self._quiet, self._printed, self._held_back = quiet, 0, 0
+
+    def log(self, record: LogRecord) -> None:
+        """Print one log line, unless the limit is reached."""
+        if self._quiet:
+            return
+        if self._printed >= MOST_LINES:
+            self._held_back += 1
+            return
+        self._printed += 1
+        print(log_text(record))
+
+    def fault(self, fault: Fault) -> None:
+        """Print an exception that left a callback."""
+        print(fault_text(fault), file=sys.stderr)
+
+    def end(self) -> None:
+        """Say how many lines were not printed."""
+        if self._held_back:
+            print(f"... and {self._held_back} more lines; logs() has them all.")
+            self._held_back = 0
+
+
+def note(text: str) -> None:
+    """Tell the learner something that is not an error."""
+    print(f"rosbeat: {text}")

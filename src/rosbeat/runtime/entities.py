@@ -1,0 +1,91 @@
+"""What a session knows of each node and of each thing that can call back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from rclpy.node import Node
+
+from rosbeat.records import NANOSECONDS
+from rosbeat.runtime.recorder import CallbackLabel
+
+
+def full_name(name: str, namespace: str) -> str:
+    """A node's full name, such as `/room/sensor`."""
+    return f"/{namespace.strip('/')}/{name}".replace("//", "/")
+
+
+def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any callable
+    """The name a learner gave to a function, also when it is a lambda or an object."""
+    return getattr(callback, "__name__", type(callback).__name__)
+
+
+def period_text(period_ns: int) -> str:
+    """A timer's period as a person writes it, such as `0.5 s`."""
+    return f"{period_ns / NANOSECONDS:g} s"
+
+
+@dataclass(eq=False)
+class NodeState:
+    """One node of a session.
+
+    Attributes:
+        number: Order of creation.
+        name: Full name.
+        node: The node, once its constructor has got far enough.
+        spinning: Whether its callbacks are run: it was added, has no fault and is not paused.
+        ended: It raised in a callback or asked for shutdown, and does not come back.
+        logger: The logger handed to its code, made at the first call of `get_logger`.
+        entries: Its timers, subscriptions, servers and clients, in order of creation.
+        taps: What listens to its publishers, in order of creation.
+    """
+
+    number: int
+    name: str
+    node: Node | None = None
+    spinning: bool = False
+    ended: bool = False
+    logger: Any = None
+    entries: list[Entry] = field(default_factory=list)
+    taps: list[Any] = field(default_factory=list)
+
+
+class Entry:
+    """One timer, subscription, server or client, and what the executor needs of it.
+
+    Attributes:
+        number: Order of creation over the whole session.
+        state: The node it belongs to.
+        kind: `timer`, `subscription`, `service` or `client`.
+        entity: rclpy's object.
+        name: Full topic or service name; empty for a timer.
+        label: What its runs are recorded as.
+        take: Takes one thing that has arrived; a timer has none. See `direct`.
+        calls: How often its callback has run.
+        backlog: Take until nothing is left, since messages may have come while nobody took any.
+        owed: Stored messages that a transient-local subscription has yet to be given.
+    """
+
+    __slots__ = (
+        "backlog", "calls", "entity", "kind", "label", "name", "number", "owed", "state",
+        "take",
+    )  # fmt: skip
+
+    def __init__(
+        self,
+        number: int,
+        state: NodeState,
+        kind: str,
+        entity: Any,  # noqa: ANN401 - rclpy's entities share no base class
+        name: str,
+        label: CallbackLabel,
+        take: Callable[..., Any] | None = None,
+    ) -> None:
+        self.number, self.state, self.kind = number, state, kind
+        self.entity, self.name, self.label = entity, name, label
+        self.take = take
+        self.calls = 0
+        self.backlog = False
+        self.owed = 0

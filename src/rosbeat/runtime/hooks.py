@@ -1,0 +1,124 @@
+"""How a session learns of nodes, without the nodes being changed.
+
+rclpy offers no place to be told that a node, a publisher or a timer was made. The methods of `Node`
+that make them are therefore wrapped once, when this module is first imported. A wrapper looks at
+the node's own context: if that belongs to a session, the session's watcher is told; if not, the
+original runs and nothing else happens. Nothing is kept here, so there is nothing to share.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, Protocol
+
+from rclpy.context import Context
+from rclpy.node import Node
+
+ENTITY_METHODS = {
+    "create_publisher": "publisher",
+    "create_subscription": "subscription",
+    "create_timer": "timer",
+    "create_service": "service",
+    "create_client": "client",
+}
+
+
+class Watcher(Protocol):
+    """What a session does when its nodes change."""
+
+    def node_begins(self, name: str, namespace: str) -> None:
+        """A node of this name is about to be made."""
+
+    def node_made(self, node: Node) -> None:
+        """`Node.__init__` has returned."""
+
+    def entity_begins(self, node: Node) -> None:
+        """The node is about to make an entity."""
+
+    def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
+        """The node has made an entity of that kind."""
+
+    def node_ends(self, node: Node) -> None:
+        """The node is about to be destroyed."""
+
+    def logger_of(self, node: Node, original: Any) -> Any:  # noqa: ANN401
+        """The logger that the node's code gets."""
+
+    def explain_init(self) -> None:
+        """The learner called `rclpy.init()`."""
+
+    def explain_shutdown(self) -> None:
+        """The learner called `rclpy.shutdown()`."""
+
+
+def watcher_of(node: Node) -> Watcher | None:
+    """The watcher of a node's session, or None if it is in no session or not yet a node."""
+    # Not `node.context`: a class that forgot super().__init__() must fail with rclpy's own error.
+    return getattr(node.__dict__.get("_context"), "watcher", None)
+
+
+def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def init(node: Node, *args: Any, **kwargs: Any) -> None:
+        context: Context | None = kwargs.get("context")
+        watcher = getattr(context or _default_context(), "watcher", None)
+        name = kwargs.get("node_name", args[0] if args else None)
+        if watcher is None or not isinstance(name, str):
+            return original(node, *args, **kwargs)
+        watcher.node_begins(name, kwargs.get("namespace") or "/")
+        original(node, *args, **kwargs)
+        return watcher.node_made(node)
+
+    return init
+
+
+def _default_context() -> Context:
+    from rclpy.utilities import get_default_context
+
+    return get_default_context()
+
+
+def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]:
+    @wraps(original)
+    def create(node: Node, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
+        watcher = watcher_of(node)
+        if watcher is None:
+            return original(node, *args, **kwargs)
+        watcher.entity_begins(node)
+        entity = original(node, *args, **kwargs)
+        watcher.entity_made(node, kind, entity)
+        return entity
+
+    return create
+
+
+def _watch_end(original: Callable[[Node], None]) -> Callable[[Node], None]:
+    @wraps(original)
+    def destroy_node(node: Node) -> None:
+        watcher = watcher_of(node)
+        if watcher is not None:
+            watcher.node_ends(node)
+        original(node)
+
+    return destroy_node
+
+
+def _watch_logger(original: Callable[[Node], Any]) -> Callable[[Node], Any]:
+    @wraps(original)
+    def get_logger(node: Node) -> Any:  # noqa: ANN401
+        watcher = watcher_of(node)
+        return original(node) if watcher is None else watcher.logger_of(node, original(node))
+
+    return get_logger
+
+
+def _install() -> None:
+    Node.__init__ = _watch_birth(Node.__init__)
+    Node.destroy_node = _watch_end(Node.destroy_node)
+    Node.get_logger = _watch_logger(Node.get_logger)
+    for method, kind in ENTITY_METHODS.items():
+        setattr(Node, method, _watch_entity(getattr(Node, method), kind))
+
+
+_install()  # at import, so exactly once in a process

@@ -1,0 +1,61 @@
+"""Random numbers that belong to one session.
+
+A node draws from Python's global generator (`random.uniform`) or NumPy's. Each session keeps states
+of its own and lends them to the process only while its nodes run, so that the same seed gives the
+same numbers whatever else draws in between.
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+
+def _numpy_random() -> Any:  # noqa: ANN401 - a module
+    # Only a node that imported NumPy can draw from it; importing it here would cost 0.1 s.
+    return getattr(sys.modules.get("numpy"), "random", None)
+
+
+class SeededRandom:
+    """The random state of one session.
+
+    Args:
+        seed: The seed, 0 or more. NumPy takes it modulo 2**32.
+    """
+
+    def __init__(self, seed: int) -> None:
+        self._seed = seed
+        self._state = random.Random(seed).getstate()
+        self._numpy_state: Any = None
+
+    @contextmanager
+    def lent(self) -> Iterator[None]:
+        """Put this session's states in place of the process's, and back at the end."""
+        outer, numpy = random.getstate(), _numpy_random()
+        outer_numpy = numpy.get_state() if numpy else None
+        random.setstate(self._state)
+        if numpy:
+            self._enter_numpy(numpy)
+        try:
+            yield
+        finally:
+            self._state = random.getstate()
+            random.setstate(outer)
+            self._leave_numpy(outer_numpy)
+
+    def _enter_numpy(self, numpy: Any) -> None:  # noqa: ANN401
+        if self._numpy_state is None:
+            numpy.seed(self._seed % 2**32)
+        else:
+            numpy.set_state(self._numpy_state)
+
+    def _leave_numpy(self, outer: Any) -> None:  # noqa: ANN401
+        # NumPy may have been imported meanwhile; then there is no outer state to put back.
+        numpy = _numpy_random()
+        if numpy:
+            self._numpy_state = numpy.get_state()
+            if outer is not None:
+                numpy.set_state(outer)

@@ -1,0 +1,122 @@
+"""What happened, kept in columns while it happens and read back as records.
+
+A message or a callback costs one number in each of three columns instead of an object of its own;
+the objects of `rosbeat.records` are made when somebody asks.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from threading import Lock
+from typing import Any
+
+from rosbeat.records import CallbackRecord, Fault, LogRecord, Sample
+from rosbeat.runtime.messages import Memory
+
+
+@dataclass(frozen=True)
+class Channel:
+    """Where messages come from: one publisher of one node.
+
+    Attributes:
+        number: Place in the recorder's list of channels.
+        topic: Full topic name.
+        type_name: Message type, such as `std_msgs/msg/Float32`.
+        node: Full name of the publishing node.
+        memory: Copies its messages.
+    """
+
+    number: int
+    topic: str
+    type_name: str
+    node: str
+    memory: Memory
+
+
+@dataclass(frozen=True)
+class CallbackLabel:
+    """What all runs of one callback have in common; see `CallbackRecord` for the fields."""
+
+    number: int
+    node: str
+    kind: str
+    name: str
+    source: str
+
+
+@dataclass
+class Recorder:
+    """The memory of one session.
+
+    Columns grow one after the other, so whoever appends from several threads holds `lock`: in live
+    mode a node may publish from one thread while its callbacks run in another.
+
+    Attributes:
+        lock: For use in live mode.
+        logs: Log lines so far.
+        faults: Exceptions that left a callback so far.
+    """
+
+    logs: list[LogRecord] = field(default_factory=list)
+    faults: list[Fault] = field(default_factory=list)
+    lock: Lock = field(default_factory=Lock)
+    _channels: list[Channel] = field(default_factory=list)
+    _labels: list[CallbackLabel] = field(default_factory=list)
+    _sample_times: array[int] = field(default_factory=lambda: array("q"))
+    _sample_channels: array[int] = field(default_factory=lambda: array("I"))
+    _sample_copies: list[Any] = field(default_factory=list)
+    _callback_times: array[int] = field(default_factory=lambda: array("q"))
+    _callback_labels: array[int] = field(default_factory=lambda: array("I"))
+
+    def channel(self, topic: str, type_name: str, node: str, memory: Memory) -> Channel:
+        """Register a publisher."""
+        made = Channel(len(self._channels), topic, type_name, node, memory)
+        self._channels.append(made)
+        return made
+
+    def label(self, node: str, kind: str, name: str, source: str) -> CallbackLabel:
+        """Register a callback."""
+        made = CallbackLabel(len(self._labels), node, kind, name, source)
+        self._labels.append(made)
+        return made
+
+    def add_sample(self, time_ns: int, channel: int, copy: Any) -> None:  # noqa: ANN401
+        """Remember that a message was published."""
+        self._sample_times.append(time_ns)
+        self._sample_channels.append(channel)
+        self._sample_copies.append(copy)
+
+    def add_callback(self, time_ns: int, label: int) -> None:
+        """Remember that a callback ran."""
+        self._callback_times.append(time_ns)
+        self._callback_labels.append(label)
+
+    def samples(self, topic: str | None = None) -> Iterator[Sample]:
+        """Messages in order of publishing, of one topic or of all."""
+        wanted = {c.number for c in self._channels if topic in (None, c.topic)}
+        for at, number, copy in zip(
+            self._sample_times, self._sample_channels, self._sample_copies, strict=False
+        ):
+            if number in wanted:
+                yield self._sample(at, self._channels[number], copy)
+
+    @staticmethod
+    def _sample(at: int, channel: Channel, copy: Any) -> Sample:  # noqa: ANN401
+        data = channel.memory.plain(copy)
+        return Sample(at, channel.topic, channel.type_name, channel.node, data)
+
+    def callbacks(self) -> Iterator[CallbackRecord]:
+        """Runs of callbacks in order."""
+        for at, number in zip(self._callback_times, self._callback_labels, strict=False):
+            label = self._labels[number]
+            yield CallbackRecord(at, label.node, label.kind, label.name, label.source)
+
+    def calls_of(self, label: CallbackLabel) -> int:
+        """How often one callback has run."""
+        return self._callback_labels.count(label.number)
+
+    def topics(self) -> set[str]:
+        """Every topic that ever had a publisher."""
+        return {channel.topic for channel in self._channels}

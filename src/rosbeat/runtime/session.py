@@ -1,0 +1,407 @@
+"""The session: real ROS nodes, run in a page."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from difflib import get_close_matches
+from threading import Event
+from typing import Any, TypeVar, overload
+from weakref import finalize
+
+from rclpy.node import Node
+
+from rosbeat.errors import ClosedSessionError, NodeClassError, SessionError, UnknownTopicError
+from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
+from rosbeat.runtime import hooks as _hooks  # noqa: F401 - makes nodes watchable
+from rosbeat.runtime import learner_calls
+from rosbeat.runtime.construction import build_node
+from rosbeat.runtime.durations import duration_ns
+from rosbeat.runtime.entities import NodeState
+from rosbeat.runtime.randomness import SeededRandom
+from rosbeat.runtime.world import World
+
+SomeNode = TypeVar("SomeNode", bound=Node)
+
+learner_calls.install()
+
+
+class Session:
+    """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
+
+    ::
+
+        with Session(seed=7) as ros:
+            sensor = ros.add(TemperatureSensor)
+            ros.run(seconds=60)
+            ros.messages("temperature")
+
+    The nodes are real `rclpy` nodes on the real middleware, in a ROS context and domain of their
+    own. In virtual time (`run`) the clock jumps from one timer to the next, so a minute takes
+    milliseconds and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes
+    run against the wall clock, and other processes in the same domain can talk to them.
+
+    A session ends with its `with` block, with `close()`, when nothing refers to it any more, or
+    with the kernel; it leaves nothing behind. While it is open, a node that is made without a
+    context belongs to the session opened last.
+
+    Args:
+        seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
+            global generator. The same seed gives the same run.
+        domain_id: The ROS domain to join, 0 to 101. By default the session has one to itself, and
+            neither another session nor a terminal hears it.
+
+    Raises:
+        SessionError: If the seed or the domain id is not a whole number in its range.
+        DomainsExhaustedError: If no private domain id is left on this machine.
+    """
+
+    def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
+        _check_whole("seed", seed, 0, 2**63)
+        if domain_id is not None:
+            _check_whole("domain_id", domain_id, 0, 101)
+        self._seed = seed
+        self._world = World(domain_id)
+        self._random = SeededRandom(seed)
+        self._busy = False
+        # Also runs at interpreter exit, before the middleware is torn down.
+        self._finalizer = finalize(self, self._world.close)
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self._world.closed:
+            return "Session(closed)"
+        names = ", ".join(state.name for state in self._world.states()) or "no nodes"
+        mode = "live" if self.is_live else "virtual time"
+        return f"Session({mode}, {self.time:g} s, {names})"
+
+    # State.
+
+    @property
+    def time(self) -> float:
+        """Seconds of virtual time since the session began; live time counts as it passes."""
+        return self._world.now() / 1e9
+
+    @property
+    def domain_id(self) -> int:
+        """The ROS domain id, for `ROS_DOMAIN_ID` of a process that shall hear these nodes."""
+        return int(self._world.domain_id or 0)
+
+    @property
+    def is_live(self) -> bool:
+        """Whether the nodes run against the wall clock now."""
+        return self._world.live is not None
+
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """The nodes of this session, in order of creation."""
+        return tuple(state.node for state in self._world.states())
+
+    # Nodes.
+
+    @overload
+    def add(self, node: type[SomeNode]) -> SomeNode: ...
+    @overload
+    def add(self, node: SomeNode) -> SomeNode: ...
+    @overload
+    def add(self, node: Callable[[], SomeNode]) -> SomeNode: ...
+    def add(self, node: Any) -> Any:
+        """Make a node and run its callbacks from now on.
+
+        A node of the same name that runs in this session is replaced.
+
+        Args:
+            node: A node class, a function that returns a node, or a node made in this session.
+
+        Returns:
+            The node.
+
+        Raises:
+            NodeClassError: If it is none of these, or belongs to another context.
+            NodeConstructionError: If the constructor raises.
+            ClosedSessionError: If the session has ended.
+        """
+        with self._running("add"):
+            before = self._world.states()
+            try:
+                made = build_node(node)
+            except Exception:
+                self._clear_away(before)
+                raise
+            self._world.spin_node(self._state_of(made))
+        return made
+
+    def remove(self, node: Node | str) -> None:
+        """Destroy a node.
+
+        Args:
+            node: The node, or its name.
+
+        Raises:
+            SessionError: If the session has no such node.
+        """
+        self._check_open()
+        self._world.destroy(self._find(node))
+
+    def pause(self, node: Node | str) -> None:
+        """Run none of this node's callbacks for a while, as if it were busy.
+
+        Messages go on arriving and wait in its queues, as many as each queue holds.
+
+        Args:
+            node: The node, or its name.
+
+        Raises:
+            SessionError: If the session has no such node.
+        """
+        self._check_open()
+        self._world.rest_node(self._find(node))
+
+    def resume(self, node: Node | str) -> None:
+        """Run a paused node's callbacks again; it first gets what waits in its queues.
+
+        Args:
+            node: The node, or its name.
+
+        Raises:
+            SessionError: If the session has no such node, or it ended with an exception.
+        """
+        self._check_open()
+        state = self._find(node)
+        if state.ended:
+            raise SessionError(
+                f"{state.name} has ended and cannot go on.",
+                "An exception left one of its callbacks, or it called rclpy.shutdown().",
+                "Add it again: `ros.add(...)` makes a new node in its place.",
+            )
+        self._world.spin_node(state)
+
+    # Time.
+
+    def run(self, seconds: float, *, quiet: bool = False) -> None:
+        """Advance virtual time and run every callback that is due.
+
+        Timers due exactly at the end run too: a 1 Hz timer fires 60 times in the first 60 seconds.
+
+        Args:
+            seconds: Virtual seconds, 0 or more.
+            quiet: Print no log lines; `logs()` has them all the same.
+
+        Raises:
+            DurationError: If `seconds` is not a number from 0 up.
+            EndlessChainError: If callbacks cause one another for ever while no time passes.
+            SessionError: If the session is live, or `run` is called from a callback.
+        """
+        span = duration_ns(seconds)
+        with self._running("run"):
+            if self.is_live:
+                raise SessionError(
+                    "This session is live, so its time passes by itself.",
+                    "`run` moves virtual time, which stands still while the wall clock counts.",
+                    "Use `ros.wait(seconds)`, or `ros.stop()` first.",
+                )
+            self._world.console.begin(quiet)
+            try:
+                self._world.virtual.run_until(self._world.now() + span)
+            finally:
+                self._world.console.end()
+
+    def start(self) -> None:
+        """Go live: run the nodes against the wall clock, in a background thread.
+
+        Other processes in this ROS domain see the nodes and can talk to them. A session that is
+        live already stays so.
+        """
+        self._check_open()
+        if not self.is_live:
+            self._world.go_live()
+
+    def wait(
+        self, seconds: float | None = None, *, until: Callable[[], object] | None = None
+    ) -> bool:
+        """Let a live session run, and print what its nodes log meanwhile.
+
+        Args:
+            seconds: Wall-clock seconds at most; None waits until Interrupt.
+            until: Stop waiting as soon as this returns something true.
+
+        Returns:
+            Whether `until` came true; False if the time was up first.
+
+        Raises:
+            DurationError: If `seconds` is not a number from 0 up.
+            SessionError: If the session is not live.
+        """
+        self._check_open()
+        if not self.is_live:
+            raise SessionError(
+                "This session is not live, so there is nothing to wait for.",
+                "In virtual time nothing happens by itself.",
+                "Use `ros.run(seconds)`, or `ros.start()` first.",
+            )
+        deadline = None if seconds is None else time.monotonic() + duration_ns(seconds, "wait") / 1e9
+        self._world.console.begin()
+        try:
+            return self._wait(deadline, until or bool)
+        finally:
+            self._world.show_news()
+            self._world.console.end()
+
+    def stop(self) -> None:
+        """End live mode; virtual time goes on from here. Does nothing if the session is not live."""
+        self._check_open()
+        self._world.go_virtual()
+        self._world.show_news()
+
+    def close(self) -> None:
+        """End the session: destroy its nodes and its ROS context. A second call does nothing."""
+        self._finalizer()
+
+    # What happened.
+
+    def messages(self, topic: str) -> tuple[Sample, ...]:
+        """What was published on a topic, in order.
+
+        Args:
+            topic: The topic's name; `temperature` and `/temperature` are the same.
+
+        Raises:
+            UnknownTopicError: If the topic never had a publisher in this session.
+        """
+        name = "/" + topic.lstrip("/")
+        known = self._world.recorder.topics()
+        if name not in known:
+            raise _unknown_topic(name, known, self.graph())
+        return tuple(self._world.recorder.samples(name))
+
+    def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
+        """What the nodes said, in order.
+
+        Args:
+            node: Only the lines of this node, given itself or by name.
+        """
+        records = tuple(self._world.recorder.logs)
+        if node is None:
+            return records
+        name = node.get_name() if isinstance(node, Node) else node
+        wanted = name.strip("/").replace("/", ".")
+        return tuple(record for record in records if record.name == wanted)
+
+    def graph(self) -> GraphSnapshot:
+        """The nodes, topics, services and timers as they are now."""
+        self._check_open()
+        return self._world.graph()
+
+    def observation(self) -> Observation:
+        """Everything that was recorded so far, as plain data."""
+        recorder = self._world.recorder
+        return Observation(
+            self._world.now(),
+            self._seed,
+            tuple(recorder.samples()),
+            tuple(recorder.logs),
+            tuple(recorder.callbacks()),
+            tuple(recorder.faults),
+            self.graph(),
+        )
+
+    # How it works.
+
+    @contextmanager
+    def _running(self, what: str) -> Iterator[None]:
+        """Nodes of this session are about to run in this thread."""
+        self._check_open()
+        if self._world.virtual.current is not None:
+            raise SessionError(
+                f"`{what}` was called from inside a callback.",
+                "The session is running that callback now and cannot begin another run in it.",
+                f"Call `{what}` in a cell of its own, after the run.",
+            )
+        context, before = self._world.context, self._world.context.install()
+        try:
+            with self._random.lent():
+                yield
+        finally:
+            context.uninstall(before)
+
+    def _wait(self, deadline: float | None, until: Callable[[], object]) -> bool:
+        pulse = Event()  # nobody sets it: it is a sleep that an Interrupt ends at once
+        while True:
+            self._world.show_news()
+            if until():
+                return True
+            left = 0.05 if deadline is None else min(0.05, deadline - time.monotonic())
+            if left <= 0:
+                return False
+            pulse.wait(left)
+
+    def _check_open(self) -> None:
+        if self._world.closed:
+            raise ClosedSessionError(
+                "This session has ended.",
+                "Its nodes and its ROS context are gone; what it recorded can still be read.",
+                "Open a new one: `ros = Session()`.",
+            )
+
+    def _clear_away(self, before: list[NodeState]) -> None:
+        for state in self._world.states():
+            if state not in before:
+                self._world.destroy(state)
+
+    def _state_of(self, node: Node) -> NodeState:
+        state = self._world.state_of(node)
+        if state is None:
+            raise NodeClassError(
+                f"The node {node.get_name()!r} does not belong to this session.",
+                "It was made before the session was opened, in another session, or it has been "
+                "destroyed; a node cannot move from one ROS context to another.",
+                "Hand over its class instead: `ros.add(TemperatureSensor)`.",
+            )
+        return state
+
+    def _find(self, node: Node | str) -> NodeState:
+        if isinstance(node, Node):
+            return self._state_of(node)
+        name = "/" + str(node).lstrip("/")
+        state = self._world.named(name)
+        if state is None:
+            names = [state.name for state in self._world.states()]
+            raise SessionError(
+                f"This session has no node {name}.",
+                f"Its nodes are: {', '.join(names) or 'none yet'}.",
+                _nearest(name, names, "Add it first with `ros.add(...)`."),
+            )
+        return state
+
+
+def _check_whole(name: str, value: Any, low: int, high: int) -> None:  # noqa: ANN401
+    if isinstance(value, int) and not isinstance(value, bool) and low <= value <= high:
+        return
+    raise SessionError(
+        f"{name}={value!r} cannot be used.",
+        f"It must be a whole number from {low} to {high if high < 2**63 else 'about 9e18'}.",
+        f"Write for example Session({name}=7).",
+    )
+
+
+def _nearest(name: str, names: list[str], otherwise: str) -> str:
+    near = get_close_matches(name, names, 1, 0.6)
+    return f"Did you mean {near[0]}?" if near else otherwise
+
+
+def _unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTopicError:
+    listening = [end.node for end in graph.on(name, "subscription")]
+    means = f"{', '.join(listening)} listens there, but no node" if listening else "No node"
+    topics = sorted(known) or ["none yet"]
+    return UnknownTopicError(
+        f"Nobody has published on {name}.",
+        f"{means} of this session has a publisher of that name. Published topics: "
+        f"{', '.join(topics)}.",
+        _nearest(name, sorted(known), "Add the publishing node first, with `ros.add(...)`."),
+    )
