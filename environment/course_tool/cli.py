@@ -1,0 +1,101 @@
+"""The commands of `./environment/course`."""
+
+from __future__ import annotations
+
+import errno
+import os
+import traceback
+from collections.abc import Callable, Sequence
+from difflib import get_close_matches
+
+from course_tool import bench, checks, doctor, lab, relock, shell, testing
+from course_tool.layout import Layout, of_this_checkout
+from course_tool.messages import Problem, complain, say
+
+HELP = """\
+Usage:  ./environment/course COMMAND [OPTIONS]
+
+  lab      open the course in JupyterLab; options go to it: --no-browser --port 8889 --ip ...
+  test     check everything: lint, types, pages, tests; with arguments, pytest alone runs with them
+  shell    a bash in which ROS and the course's Python are active; -c "command" runs one command
+  doctor   say what works here, with the cure for what does not
+  bench    measure the course on this machine
+  lock     for maintainers: remake the locked versions (lock --upgrade takes newer ones)
+
+lab, test, shell and bench first make .venv, or refresh it when the course has changed.
+ROSBEAT_PYTHON=/path/to/python3.12 chooses the Python. ROS_DOMAIN_ID=42 chooses the ROS domain.
+"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run a command and return its exit code; whatever goes wrong is said in three parts."""
+    layout = of_this_checkout()
+    try:
+        return _run(layout, arguments)
+    except Problem as problem:
+        complain(problem)
+    except KeyboardInterrupt:
+        say("\nStopped, as you asked. The same command goes on from here.")
+        return 130
+    except OSError as error:
+        complain(_from_system(layout, error))
+    except Exception:  # the last net: never a bare traceback
+        complain(_unforeseen(traceback.format_exc()))
+    return 1
+
+
+def _run(layout: Layout, arguments: Sequence[str]) -> int:
+    name, *rest = arguments or ["help"]
+    if name in ("help", "--help", "-h"):
+        say(HELP)
+        return 0
+    if name not in _COMMANDS:
+        raise unknown(name)
+    return _COMMANDS[name](layout, rest)
+
+
+def unknown(name: str) -> Problem:
+    """Return the problem of a command that does not exist, with the nearest that does."""
+    near = get_close_matches(name, [*_PUBLIC, "help"], n=1)
+    cure = f"Did you mean:  ./environment/course {near[0]}" if near else "See all of them:"
+    return Problem(
+        f"There is no command '{name}'.",
+        f"The commands are {', '.join(_PUBLIC)} and help.",
+        cure if near else f"{cure}  ./environment/course help",
+    )
+
+
+def _variables(layout: Layout, arguments: Sequence[str]) -> int:
+    print(shell.variables(layout))
+    return 0
+
+
+def _from_system(layout: Layout, error: OSError) -> Problem:
+    place = str(error.filename or layout.root)
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        return checks.disk_full(place)
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return checks.not_writable(layout.root, f"{place}: {os.strerror(error.errno)}")
+    return _unforeseen(str(error))
+
+
+def _unforeseen(details: str) -> Problem:
+    return Problem(
+        "This command met something it does not know.",
+        "That is a fault of the course, not yours; your files are as they were.",
+        "Run  ./environment/course doctor  for what it can tell.\n"
+        "Please send its answer and the lines below to the course's issue tracker.",
+        details,
+    )
+
+
+_COMMANDS: dict[str, Callable[[Layout, Sequence[str]], int]] = {
+    "lab": lab.lab,
+    "test": testing.test,
+    "shell": shell.shell,
+    "doctor": doctor.doctor,
+    "bench": bench.bench,
+    "lock": relock.relock,
+    "variables": _variables,
+}
+_PUBLIC = tuple(name for name in _COMMANDS if name != "variables")

@@ -1,0 +1,46 @@
+"""`course lab`: JupyterLab, on the first page."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+from course_tool import prepare
+from course_tool.layout import Layout
+from course_tool.messages import say
+
+FIRST_PAGE = Path("notebooks") / "00_hear_the_heartbeat.ipynb"
+
+
+def lab(layout: Layout, options: Sequence[str]) -> NoReturn:
+    """Become JupyterLab, with a person's options passed through."""
+    environ = prepare.ready(layout, "course")
+    command = lab_command(layout, options, root_user=os.geteuid() == 0)
+    os.chdir(layout.root)
+    os.execve(layout.python, command, environ)
+
+
+def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list[str]:
+    """Return the command that opens JupyterLab.
+
+    Args:
+        layout: The checkout.
+        options: What the person added; a page of their own takes the first page's place.
+        root_user: Whether to allow what Jupyter refuses to the root user, as in a container.
+    """
+    command = [str(layout.python), "-m", "jupyterlab", f"--ServerApp.root_dir={layout.root}"]
+    if root_user and "--allow-root" not in options:
+        command.append("--allow-root")
+    return [*command, *_page(layout, options), *options]
+
+
+def _page(layout: Layout, options: Sequence[str]) -> list[str]:
+    if any(option.endswith(".ipynb") for option in options):
+        return []
+    if (layout.root / FIRST_PAGE).exists():
+        # As an address, not as a file: so it is also in what --no-browser prints.
+        return [f"--LabApp.default_url=/lab/tree/{FIRST_PAGE.as_posix()}"]
+    say(f"{FIRST_PAGE} is not there; JupyterLab opens on the folder.")
+    return []

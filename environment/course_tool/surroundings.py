@@ -1,0 +1,129 @@
+"""The environment variables that the course's processes start with.
+
+A machine may have a ROS of its own sourced. Its libraries and the course's do not mix, so our
+processes get the user's environment without the entries that lead into the other one.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from course_tool.layout import Layout
+
+_LISTS = (
+    "AMENT_PREFIX_PATH",
+    "CMAKE_PREFIX_PATH",
+    "COLCON_PREFIX_PATH",
+    "LD_LIBRARY_PATH",
+    "PATH",
+    "PKG_CONFIG_PATH",
+    "PYTHONPATH",
+)
+_SCALARS = ("ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_ETC_DIR", "ROS_PACKAGE_PATH")
+_INDEX = os.path.join("share", "ament_index", "resource_index", "packages", "rclpy")
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """A cleaned environment and what was left out of it."""
+
+    environ: dict[str, str]
+    other_ros: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def cleaned(environ: Mapping[str, str], layout: Layout) -> Surroundings:
+    """Return the environment without another ROS."""
+    others = other_roots(environ, layout)
+    kept = _without(environ, others)
+    # Set by the Python of some environment, perhaps not ours; ours sets it again for itself.
+    kept.pop("_ROS_WHEELS_BOOTSTRAP_COMPLETE", None)
+    # Would send the Python of .venv to another standard library.
+    kept.pop("PYTHONHOME", None)
+    notes = _notes_on_others(others) + _replace_missing_middleware(kept, layout)
+    return Surroundings(kept, tuple(others), tuple(notes))
+
+
+def inside(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
+    """Return a (cleaned) environment as it is with `.venv` active."""
+    active = dict(environ)
+    bin_folder = str(layout.venv / "bin")
+    rest = [
+        part for part in environ.get("PATH", os.defpath).split(os.pathsep) if part != bin_folder
+    ]
+    active["PATH"] = os.pathsep.join([bin_folder, *rest])
+    active["VIRTUAL_ENV"] = str(layout.venv)
+    # A kernel "python3" in the user's home would otherwise win over the course's.
+    active.setdefault("JUPYTER_PREFER_ENV_PATH", "1")
+    return active
+
+
+def with_ros(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
+    """Return an environment completed with what nodes need, for programs that are not Python."""
+    path = layout.root / "src" / "rosbeat" / "environment.py"
+    spec = importlib.util.spec_from_file_location("rosbeat_environment", path)
+    if spec is None or spec.loader is None:  # only for a file name without .py
+        raise ImportError(str(path))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    complete = dict(environ)
+    module.apply(complete, str(layout.venv))
+    return complete
+
+
+def other_roots(environ: Mapping[str, str], layout: Layout) -> list[str]:
+    """Return the prefixes of a ROS that is not the course's, and of what was built on it."""
+    listed = [entry for name in _LISTS for entry in _split(environ.get(name, ""))]
+    system = {"/".join(entry.split("/")[:4]) for entry in listed if entry.startswith("/opt/ros/")}
+    prefixes = [e for e in _split(environ.get("AMENT_PREFIX_PATH", "")) if not _ours(e, layout)]
+    if system or any(os.path.exists(os.path.join(entry, _INDEX)) for entry in prefixes):
+        # Workspaces on top of the other ROS go with it: they were built for its Python.
+        system.update(prefixes)
+    return sorted(system)
+
+
+def _without(environ: Mapping[str, str], roots: list[str]) -> dict[str, str]:
+    kept = dict(environ)
+    if not roots:
+        return kept
+    for name in _SCALARS:
+        kept.pop(name, None)
+    for name in _LISTS:
+        entries = _split(environ.get(name, ""))
+        left = [entry for entry in entries if not any(_within(entry, root) for root in roots)]
+        if len(left) < len(entries):
+            kept[name] = os.pathsep.join(left)
+    return {name: value for name, value in kept.items() if value or name not in _LISTS}
+
+
+def _replace_missing_middleware(environ: dict[str, str], layout: Layout) -> list[str]:
+    """Drop a middleware that the course's ROS does not have: it would end every node at once."""
+    name = environ.get("RMW_IMPLEMENTATION", "")
+    libraries = layout.venv / "lib"
+    if not name or not libraries.exists() or (libraries / f"lib{name}.so").exists():
+        return []
+    del environ["RMW_IMPLEMENTATION"]
+    return [f"RMW_IMPLEMENTATION={name} is not part of this ROS; using rmw_fastrtps_cpp here."]
+
+
+def _notes_on_others(others: list[str]) -> list[str]:
+    if not others:
+        return []
+    return [
+        f"Another ROS is sourced ({', '.join(others)}); here the course uses its own, in .venv."
+    ]
+
+
+def _ours(entry: str, layout: Layout) -> bool:
+    return _within(os.path.realpath(entry), os.path.realpath(layout.root))
+
+
+def _within(entry: str, root: str) -> bool:
+    return entry.rstrip("/") == root.rstrip("/") or entry.startswith(root.rstrip("/") + "/")
+
+
+def _split(value: str) -> list[str]:
+    return [entry for entry in value.split(os.pathsep) if entry]

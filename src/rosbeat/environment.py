@@ -1,0 +1,115 @@
+"""What ROS nodes need to find in the environment, as gentle defaults.
+
+Every Python of the course runs this once, as early as it can: the course's own ``.venv`` does it
+while the interpreter starts (so a kernel is right wherever it comes from, and `import rclpy` may
+come first), and ``import rosbeat`` does it for installations made another way, with conda say.
+
+A value that is already there is somebody's decision and stays. Because this runs at the start of
+every Python, it imports almost nothing.
+"""
+
+from __future__ import annotations
+
+import binascii
+import os
+import sys
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:  # `typing` itself would cost more than everything below together
+    from collections.abc import Mapping, MutableMapping
+
+__all__ = ["SHARED_DOMAINS", "apply", "defaults", "domain_id", "other_ros"]
+
+SHARED_DOMAINS = range(1, 51)
+"""Domain ids for people and their checkouts; 0 is ROS's own, 51 to 101 are for private sessions."""
+
+_PATH = "AMENT_PREFIX_PATH"
+_INSTALLATION = ("RMW_IMPLEMENTATION", "ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION")
+
+
+def domain_id(prefix: str | None = None, user: str | None = None) -> int:
+    """Return the domain id of a user in a checkout: always the same, and rarely a neighbour's.
+
+    Args:
+        prefix: The installation, by default that of the running Python.
+        user: Who runs it, by default the current user.
+    """
+    place = os.path.realpath(prefix or sys.prefix)
+    text = f"{user or _user()}\n{place}"
+    return SHARED_DOMAINS[binascii.crc32(text.encode("utf-8", "surrogateescape")) % 50]
+
+
+def defaults(prefix: str | None = None) -> dict[str, str]:
+    """Return what the course would set if nobody had set anything.
+
+    Args:
+        prefix: The installation that brings ROS, by default that of the running Python.
+    """
+    return {
+        _PATH: prefix or sys.prefix,
+        "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
+        # Nodes of this machine see each other; the class's network stays quiet.
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        # Message classes read this when they are imported: `String(data=3)` then says why not.
+        "ROS_PYTHON_CHECK_FIELDS": "1",
+        "ROS_DISTRO": "jazzy",
+        "ROS_VERSION": "2",
+        "ROS_PYTHON_VERSION": "3",
+        "ROS_DOMAIN_ID": str(domain_id(prefix)),
+    }
+
+
+def other_ros(environ: Mapping[str, str], prefix: str | None = None) -> list[str]:
+    """Return the ROS installations that the environment names besides the course's own.
+
+    Args:
+        environ: The environment to look at.
+        prefix: The course's own installation, by default that of the running Python.
+    """
+    own = os.path.realpath(prefix or sys.prefix)
+    return [
+        entry for entry in _entries(environ) if os.path.realpath(entry) != own and _has_rclpy(entry)
+    ]
+
+
+def apply(
+    environ: MutableMapping[str, str] | None = None, prefix: str | None = None
+) -> dict[str, str]:
+    """Set what is missing or empty and return what was set.
+
+    When a ROS of the user's own is sourced, its middleware and distribution stay as they are.
+
+    Args:
+        environ: The environment to complete, by default that of this process.
+        prefix: The installation that brings ROS, by default that of the running Python.
+    """
+    target = os.environ if environ is None else environ
+    missing = {name: value for name, value in defaults(prefix).items() if not target.get(name)}
+    if other_ros(target, prefix):
+        missing = {name: value for name, value in missing.items() if name not in _INSTALLATION}
+    missing.update(_longer_path(target, prefix or sys.prefix))
+    target.update(missing)
+    return missing
+
+
+def _longer_path(environ: Mapping[str, str], prefix: str) -> dict[str, str]:
+    """Return the look-up path with our prefix at its end, unless it is there already."""
+    entries = _entries(environ)
+    own = os.path.realpath(prefix)
+    if any(os.path.realpath(entry) == own for entry in entries):
+        return {}
+    return {_PATH: os.pathsep.join([*entries, prefix])}
+
+
+def _entries(environ: Mapping[str, str]) -> list[str]:
+    return [entry for entry in environ.get(_PATH, "").split(os.pathsep) if entry]
+
+
+def _has_rclpy(prefix: str) -> bool:
+    index = os.path.join(prefix, "share", "ament_index", "resource_index", "packages", "rclpy")
+    return os.path.exists(index)
+
+
+def _user() -> str:
+    getuid = getattr(os, "getuid", None)  # Windows has none
+    return str(getuid()) if getuid else os.environ.get("USERNAME", "")

@@ -1,0 +1,151 @@
+import json
+
+import pytest
+
+from course_tool import diagnosis_machine as machine
+from course_tool import diagnosis_ros as ros
+from course_tool import doctor, proof, stamp
+from course_tool.findings import note, ok, problem
+from course_tool.surroundings import Surroundings
+
+CLEAN = Surroundings({"PATH": "/usr/bin:/bin"}, (), ())
+FACTS = {
+    "rclpy": "7.1.6",
+    "rclpy_file": "/c/.venv/lib/python3.11/site-packages/rclpy/__init__.py",
+    "rmw": "rmw_fastrtps_cpp",
+    "environ": {"ROS_DOMAIN_ID": "12", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
+    "field_checks": True,
+    "milliseconds": 210.4,
+}
+
+
+def by_subject(findings):
+    return {finding.subject: finding for finding in findings}
+
+
+def test_a_finding_is_a_line_and_a_cure_another():
+    assert doctor.line(ok("clock", "now")) == "ok       clock              now"
+    assert doctor.line(problem("disk", "full", "empty it")).splitlines()[1].endswith("-> empty it")
+
+
+@pytest.mark.parametrize(
+    ("findings", "code"), [([ok("a", "b"), note("c", "d")], 0), ([problem("a", "b", "c")], 1)]
+)
+def test_the_exit_code_says_whether_something_needs_a_cure(layout, monkeypatch, findings, code):
+    monkeypatch.setattr(machine, "findings", lambda layout, clean: findings)
+    monkeypatch.setattr(ros, "findings", lambda layout, clean: [])
+    assert doctor.doctor(layout, []) == code
+
+
+def test_before_anything_is_installed(layout, monkeypatch, capsys):
+    assert doctor.doctor(layout, []) == 1
+    out = capsys.readouterr().out
+    assert "is not there yet" in out
+    assert "./environment/course lab  makes it" in out
+    assert not layout.venv.exists()
+
+
+def test_a_finished_environment(made):
+    stamp.write(made, "test")
+    assert machine.venv(made, CLEAN).state == "ok"
+    assert machine.lock(made) == ok("versions", ".venv is what environment/test.lock lists")
+
+
+def test_a_half_made_environment(made):
+    assert machine.venv(made, CLEAN).state == "problem"
+    assert "completes it" in machine.lock(made).cure
+
+
+def test_an_environment_that_the_course_has_left_behind(made):
+    stamp.write(made, "course")
+    made.lock("course").write_text("newer\n")
+    assert "refreshes it" in machine.lock(made).cure
+
+
+def test_disk():
+    assert machine.disk(2 * 10**9, installed=False).state == "ok"
+    assert machine.disk(10**9, installed=False).state == "problem"
+    assert machine.disk(10**9, installed=True).state == "ok"
+
+
+def test_shared_memory(tmp_path, monkeypatch):
+    assert machine.shared_memory(tmp_path).state == "ok"
+    assert machine.shared_memory(tmp_path / "gone").state == "problem"
+    monkeypatch.setattr(machine, "_ENOUGH_SHARED_MEMORY", 10**18)
+    assert "fastrtps_*" in machine.shared_memory(tmp_path).cure
+
+
+def test_a_clock_that_fell_back():
+    assert machine.clock(0.0).state == "problem"
+    assert machine.clock(1.8e9).state == "ok"
+
+
+@pytest.mark.parametrize(
+    ("argv", "state"),
+    [(["python"], "ok"), (["{venv}/bin/python"], "ok"), (["/usr/bin/python3"], "problem")],
+)
+def test_kernels(made, argv, state):
+    spec = made.venv / "share" / "jupyter" / "kernels" / "python3" / "kernel.json"
+    spec.parent.mkdir(parents=True)
+    spec.write_text(json.dumps({"argv": [part.format(venv=made.venv) for part in argv]}))
+    assert machine.kernel(made).state == state
+
+
+def test_no_kernel(made):
+    assert machine.kernel(made).state == "problem"
+
+
+def test_another_ros_is_noted_and_stops_nothing():
+    found = machine.foreign_ros(Surroundings({}, ("/opt/ros/humble",), ()))
+    assert found.state == "note"
+    assert "/opt/ros/humble" in found.text
+
+
+def test_bubblewrap_is_optional():
+    assert machine.isolation(None).state == "note"
+    assert machine.isolation("/usr/bin/bwrap").state == "ok"
+
+
+def test_a_ros_that_is_as_it_should_be():
+    assert {finding.state for finding in ros.judge(FACTS, {}, "/c/.venv")} == {"ok"}
+
+
+def test_who_chose_the_domain():
+    ours = by_subject(ros.judge(FACTS, {}, "/c/.venv"))["domain id"]
+    yours = by_subject(ros.judge(FACTS, {"ROS_DOMAIN_ID": "12"}, "/c/.venv"))["domain id"]
+    assert "the course's choice" in ours.text
+    assert "ROS_DOMAIN_ID in your environment" in yours.text
+
+
+@pytest.mark.parametrize(
+    ("change", "environ", "subject", "state"),
+    [
+        ({"rclpy_file": "/opt/ros/jazzy/rclpy/__init__.py"}, {}, "rclpy", "problem"),
+        ({"environ": {}}, {}, "domain id", "problem"),
+        ({"environ": {}}, {}, "discovery range", "note"),
+        ({"field_checks": False}, {}, "field checks", "problem"),
+        ({"field_checks": False}, {"ROS_PYTHON_CHECK_FIELDS": "0"}, "field checks", "note"),
+    ],
+)
+def test_what_is_not_as_it_should_be(change, environ, subject, state):
+    findings = by_subject(ros.judge({**FACTS, **change}, environ, "/c/.venv"))
+    assert findings[subject].state == state
+
+
+def test_a_ros_that_cannot_be_asked(made, monkeypatch):
+    def ask_ros(layout, environ):
+        raise proof.unheard()
+
+    monkeypatch.setattr(proof, "ask_ros", ask_ros)
+    (found,) = ros.findings(made, CLEAN)
+    assert found.state == "problem"
+
+
+def test_no_ros_without_an_environment(layout):
+    (found,) = ros.findings(layout, CLEAN)
+    assert "makes it" in found.cure
+
+
+def test_a_middleware_that_was_replaced_is_told():
+    clean = Surroundings({}, (), ("RMW_IMPLEMENTATION=x is not part of this ROS",))
+    assert ros.middleware_asked_for(clean)[0].state == "note"

@@ -1,0 +1,191 @@
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+REAL = Path(sys.base_prefix) / "bin" / f"python{sys.version_info[0]}.{sys.version_info[1]}"
+
+PYTHON = """\
+case "$2" in
+    -c) exec '{real}' -I -c '
+import sys
+sys.version_info = {version}
+exec(sys.argv[1])
+' "$3" ;;
+    *) echo "{name} runs: $*" ;;
+esac
+"""
+
+
+def script(path: Path, body: str) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!/bin/sh\n{body}\n")
+    path.chmod(0o755)
+    return path
+
+
+class Machine:
+    """A launcher in a folder of its own, and a PATH with only what is put there."""
+
+    def __init__(self, folder: Path):
+        self.root = folder / "a course"
+        self.bin = folder / "bin"
+        self.bin.mkdir(parents=True)
+        (self.root / "environment").mkdir(parents=True)
+        shutil.copy(ROOT / "environment" / "course", self.root / "environment")
+        for tool in ("bash", "uname", "sed", "head", "dirname"):
+            found = shutil.which(tool)
+            assert found
+            (self.bin / tool).symlink_to(found)
+
+    def has(self, name: str, version: tuple[int, int], where: Path | None = None) -> Path:
+        body = PYTHON.format(real=REAL, version=(*version, 0), name=name)
+        return script((where or self.bin) / name, body)
+
+    def is_a(self, system: str, machine: str) -> None:
+        (self.bin / "uname").unlink()
+        script(self.bin / "uname", f'[ "$1" = -s ] && echo {system} || echo {machine}')
+
+    def course(self, *arguments: str, **environ: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [self.bin / "bash", self.root / "environment" / "course", *arguments],
+            env={"PATH": str(self.bin), **environ},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    def refuses(self, **environ: str) -> str:
+        done = self.course("lab", **environ)
+        assert done.returncode == 1
+        assert done.stdout == ""
+        for label in ("What happened:", "What it means here:", "What to try:"):
+            assert label in done.stderr
+        return done.stderr
+
+
+@pytest.fixture
+def machine(tmp_path: Path) -> Machine:
+    return Machine(tmp_path)
+
+
+def test_hands_over_with_the_arguments_untouched(machine: Machine):
+    machine.has("python3", (3, 11))
+    done = machine.course("shell", "-c", "echo two words")
+    tool = machine.root / "environment" / "course_tool"
+    assert done.stdout == f"python3 runs: -I {tool} shell -c echo two words\n"
+    assert done.returncode == 0
+
+
+def test_standard_input_reaches_the_command(machine: Machine):
+    script(machine.bin / "python3", '[ "$2" = -c ] && echo "fits 3.11" || exec sed s/^/heard:/')
+    done = subprocess.run(
+        [machine.bin / "bash", machine.root / "environment" / "course", "shell"],
+        env={"PATH": str(machine.bin)},
+        input="hello\n",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.stdout == "heard:hello\n"
+
+
+@pytest.mark.parametrize("version", [(3, 10), (3, 11), (3, 12), (3, 13)])
+def test_every_python_of_the_course_fits(machine: Machine, version: tuple[int, int]):
+    machine.has("python3", version)
+    assert machine.course("lab").returncode == 0
+
+
+def test_too_old(machine: Machine):
+    machine.has("python3", (3, 8))
+    assert "too old: Python 3.8." in machine.refuses()
+
+
+def test_too_new(machine: Machine):
+    machine.has("python3", (3, 14))
+    assert "too new: Python 3.14." in machine.refuses()
+
+
+def test_old_and_new_but_none_that_fits(machine: Machine):
+    machine.has("python3", (3, 14))
+    machine.has("python", (3, 9))
+    assert "None of the Pythons on this machine fits: Python 3.14, Python 3.9." in machine.refuses()
+
+
+def test_no_python_at_all(machine: Machine):
+    assert "There is no Python on this machine" in machine.refuses()
+
+
+def test_something_called_python_that_is_none(machine: Machine):
+    script(machine.bin / "python3", "exit 127")
+    assert "There is no Python on this machine" in machine.refuses()
+
+
+def test_another_kind_of_python(machine: Machine):
+    script(machine.bin / "python3", 'echo "other 3.11 (PyPy, not the ordinary 64-bit CPython)"')
+    assert "Python 3.11 (PyPy" in machine.refuses()
+
+
+def test_an_unfit_python3_is_passed_over(machine: Machine):
+    machine.has("python3", (3, 14))
+    machine.has("python3.12", (3, 12))
+    machine.has("python3.10", (3, 10))
+    assert machine.course("lab").stdout.startswith("python3.12 runs:")
+
+
+def test_the_python_behind_venv_comes_first(machine: Machine, tmp_path: Path):
+    machine.has("python3", (3, 13))
+    home = tmp_path / "some where"
+    machine.has("python3.10", (3, 10), home)
+    config = machine.root / ".venv" / "pyvenv.cfg"
+    config.parent.mkdir()
+    config.write_text(f"home = {home}\nversion = 3.10.13\n")
+    assert machine.course("lab").stdout.startswith("python3.10 runs:")
+
+
+def test_a_venv_whose_python_is_gone_does_not_matter(machine: Machine):
+    machine.has("python3", (3, 13))
+    config = machine.root / ".venv" / "pyvenv.cfg"
+    config.parent.mkdir()
+    config.write_text("home = /nowhere/bin\nversion = 3.10.13\n")
+    assert machine.course("lab").stdout.startswith("python3 runs:")
+
+
+def test_rosbeat_python_comes_before_everything(machine: Machine, tmp_path: Path):
+    machine.has("python3", (3, 13))
+    chosen = machine.has("mine", (3, 11), tmp_path / "some where")
+    assert machine.course("lab", ROSBEAT_PYTHON=str(chosen)).stdout.startswith("mine runs:")
+
+
+@pytest.mark.parametrize(
+    ("version", "word"), [((3, 9), "3.9, which is too old"), ((3, 14), "3.14, which is too new")]
+)
+def test_rosbeat_python_that_does_not_fit(machine: Machine, version: tuple[int, int], word: str):
+    machine.has("python3", (3, 12))
+    chosen = machine.has("mine", version)
+    assert f"ROSBEAT_PYTHON names Python {word}." in machine.refuses(ROSBEAT_PYTHON=str(chosen))
+
+
+def test_rosbeat_python_that_is_none(machine: Machine):
+    machine.has("python3", (3, 12))
+    assert "does not run as a Python" in machine.refuses(ROSBEAT_PYTHON="/nowhere/python3")
+
+
+@pytest.mark.parametrize(
+    ("system", "kind"), [("Darwin", "arm64"), ("Linux", "aarch64"), ("MINGW64_NT-10.0", "x86_64")]
+)
+def test_other_machines_are_shown_their_ways(machine: Machine, system: str, kind: str):
+    machine.is_a(system, kind)
+    text = machine.refuses()
+    assert f"This machine is {system} on {kind}." in text
+    assert "environment/environment.yml" in text
+    assert "environment/Dockerfile" in text
+
+
+def test_the_launcher_can_be_run_as_it_is():
+    assert os.access(ROOT / "environment" / "course", os.X_OK)
+    assert os.access(ROOT / ".ci" / "run", os.X_OK)

@@ -1,0 +1,107 @@
+import os
+
+import pytest
+
+from course_tool import surroundings
+
+
+@pytest.fixture
+def robot(tmp_path):
+    """A ROS of the system, outside /opt."""
+    prefix = tmp_path / "robot" / "humble"
+    index = prefix / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    (index / "rclpy").touch()
+    return str(prefix)
+
+
+def test_an_ordinary_environment_stays_as_it_is(layout):
+    environ = {"PATH": "/usr/bin", "PYTHONPATH": "/home/ada/lib", "ROS_DOMAIN_ID": "7", "LANG": "C"}
+    clean = surroundings.cleaned(environ, layout)
+    assert clean.environ == environ
+    assert clean.other_ros == ()
+    assert clean.notes == ()
+
+
+def test_a_sourced_ros_is_left_out_and_the_rest_stays(layout):
+    clean = surroundings.cleaned(
+        {
+            "AMENT_PREFIX_PATH": "/opt/ros/humble",
+            "CMAKE_PREFIX_PATH": "/opt/ros/humble:/home/ada/cmake",
+            "LD_LIBRARY_PATH": "/opt/ros/humble/opt/x/lib:/opt/ros/humble/lib:/usr/local/cuda/lib",
+            "PATH": "/opt/ros/humble/bin:/usr/bin",
+            "PYTHONPATH": "/opt/ros/humble/lib/python3.10/site-packages",
+            "ROS_DISTRO": "humble",
+            "ROS_VERSION": "2",
+            "ROS_PYTHON_VERSION": "3",
+            "ROS_DOMAIN_ID": "7",
+        },
+        layout,
+    )
+    assert clean.environ == {
+        "CMAKE_PREFIX_PATH": "/home/ada/cmake",
+        "LD_LIBRARY_PATH": "/usr/local/cuda/lib",
+        "PATH": "/usr/bin",
+        "ROS_DOMAIN_ID": "7",
+    }
+    assert clean.other_ros == ("/opt/ros/humble",)
+    assert "/opt/ros/humble" in clean.notes[0]
+    assert ".venv" in clean.notes[0]
+
+
+def test_workspaces_on_top_of_it_go_with_it(layout, robot):
+    workspace = "/home/ada/ros2_ws/install/arm"
+    clean = surroundings.cleaned(
+        {
+            "AMENT_PREFIX_PATH": f"{workspace}:{robot}",
+            "PYTHONPATH": f"{workspace}/lib/python3.10/site-packages:/home/ada/lib",
+        },
+        layout,
+    )
+    assert clean.environ == {"PYTHONPATH": "/home/ada/lib"}
+    assert set(clean.other_ros) == {workspace, robot}
+
+
+def test_workspaces_of_the_course_stay(layout, robot):
+    own = str(layout.root / "my_ws" / "install" / "sensor_simulator")
+    path = os.pathsep.join([own, robot, str(layout.venv)])
+    clean = surroundings.cleaned({"AMENT_PREFIX_PATH": path}, layout)
+    assert clean.environ["AMENT_PREFIX_PATH"] == os.pathsep.join([own, str(layout.venv)])
+
+
+def test_a_folder_with_a_similar_name_is_another_folder(layout, robot):
+    clean = surroundings.cleaned({"AMENT_PREFIX_PATH": robot, "PATH": f"{robot}-tools/bin"}, layout)
+    assert clean.environ == {"PATH": f"{robot}-tools/bin"}
+
+
+def test_traces_of_another_environments_python_go(layout):
+    environ = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", "PYTHONHOME": "/usr"}
+    assert surroundings.cleaned(environ, layout).environ == {}
+
+
+def test_a_middleware_that_is_not_there_is_replaced(made):
+    environ = {"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"}
+    clean = surroundings.cleaned(environ, made)
+    assert clean.environ == {}
+    assert "rmw_cyclonedds_cpp is not part of this ROS" in clean.notes[0]
+
+
+def test_a_middleware_that_is_there_stays(made):
+    (made.venv / "lib" / "librmw_fastrtps_cpp.so").touch()
+    environ = {"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp"}
+    assert surroundings.cleaned(environ, made).environ == environ
+
+
+def test_inside_the_venv_comes_first_once(layout):
+    first = str(layout.venv / "bin")
+    active = surroundings.inside({"PATH": f"/usr/bin:{first}:/bin"}, layout)
+    assert active["PATH"] == f"{first}:/usr/bin:/bin"
+    assert active["VIRTUAL_ENV"] == str(layout.venv)
+    assert active["JUPYTER_PREFER_ENV_PATH"] == "1"
+
+
+def test_ros_is_set_from_the_courses_own_defaults(layout):
+    module = layout.root / "src" / "rosbeat" / "environment.py"
+    module.parent.mkdir(parents=True)
+    module.write_text("def apply(environ, prefix):\n    environ['SEEN'] = prefix\n")
+    assert surroundings.with_ros({"A": "b"}, layout) == {"A": "b", "SEEN": str(layout.venv)}

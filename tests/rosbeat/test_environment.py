@@ -1,0 +1,141 @@
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rosbeat import environment
+
+MODULE = Path(environment.__file__)
+PREFIX = "/home/ada/course/.venv"
+
+
+@pytest.fixture
+def robot(tmp_path):
+    """A ROS of the user's own."""
+    index = tmp_path / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    (index / "rclpy").touch()
+    return str(tmp_path)
+
+
+def test_an_empty_environment_gets_every_default():
+    environ = {}
+    assert environment.apply(environ, PREFIX) == environment.defaults(PREFIX)
+    assert environ == environment.defaults(PREFIX)
+
+
+def test_a_second_time_changes_nothing():
+    environ = {}
+    environment.apply(environ, PREFIX)
+    assert environment.apply(environ, PREFIX) == {}
+
+
+def test_the_values():
+    values = environment.defaults(PREFIX)
+    assert values["AMENT_PREFIX_PATH"] == PREFIX
+    assert values["RMW_IMPLEMENTATION"] == "rmw_fastrtps_cpp"
+    assert values["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
+    assert values["ROS_PYTHON_CHECK_FIELDS"] == "1"
+    assert values["ROS_DISTRO"] == "jazzy"
+
+
+@pytest.mark.parametrize("name", sorted(environment.defaults(PREFIX)))
+def test_what_somebody_set_stays(name):
+    environ = {name: "7"}
+    set_now = environment.apply(environ, PREFIX)
+    if name == "AMENT_PREFIX_PATH":
+        assert environ[name] == os.pathsep.join(["7", PREFIX])
+    else:
+        assert environ[name] == "7"
+        assert name not in set_now
+
+
+def test_an_empty_value_is_no_decision():
+    environ = {"ROS_DOMAIN_ID": ""}
+    environment.apply(environ, PREFIX)
+    assert environ["ROS_DOMAIN_ID"] == str(environment.domain_id(PREFIX))
+
+
+def test_a_workspace_keeps_its_place_before_ours():
+    environ = {"AMENT_PREFIX_PATH": "/home/ada/ws/install/arm"}
+    environment.apply(environ, PREFIX)
+    assert environ["AMENT_PREFIX_PATH"] == f"/home/ada/ws/install/arm{os.pathsep}{PREFIX}"
+
+
+def test_our_prefix_is_recognised_by_another_name(tmp_path):
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "real")
+    environ = {"AMENT_PREFIX_PATH": str(tmp_path / "link")}
+    assert "AMENT_PREFIX_PATH" not in environment.apply(environ, str(tmp_path / "real"))
+
+
+def test_a_ros_of_ones_own_keeps_its_middleware_and_distribution(robot):
+    environ = {"AMENT_PREFIX_PATH": robot}
+    environment.apply(environ, PREFIX)
+    assert environ["AMENT_PREFIX_PATH"] == f"{robot}{os.pathsep}{PREFIX}"
+    assert "RMW_IMPLEMENTATION" not in environ
+    assert "ROS_DISTRO" not in environ
+    assert environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
+
+
+def test_the_courses_own_ros_is_not_another_one(robot):
+    assert environment.other_ros({"AMENT_PREFIX_PATH": robot}, robot) == []
+    assert environment.other_ros({"AMENT_PREFIX_PATH": robot}, PREFIX) == [robot]
+
+
+def test_a_domain_is_stable_and_shared_ones_are_from_1_to_50():
+    ids = {environment.domain_id(f"/home/{n}/.venv", "1000") for n in range(2000)}
+    assert ids == set(range(1, 51))
+    assert environment.domain_id(PREFIX, "1000") == environment.domain_id(PREFIX, "1000")
+
+
+def test_users_and_checkouts_rarely_meet():
+    users = [environment.domain_id(PREFIX, str(uid)) for uid in range(1000, 1050)]
+    assert len(set(users)) > 25
+
+
+def test_a_domain_follows_the_real_place(tmp_path):
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "real")
+    assert environment.domain_id(str(tmp_path / "link")) == environment.domain_id(
+        str(tmp_path / "real")
+    )
+
+
+def test_a_system_without_user_numbers(monkeypatch):
+    monkeypatch.delattr(os, "getuid")
+    monkeypatch.setenv("USERNAME", "ada")
+    assert environment.domain_id(PREFIX) == environment.domain_id(PREFIX, "ada")
+
+
+def test_it_works_on_this_process_by_default(monkeypatch):
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    assert environment.apply()["ROS_DOMAIN_ID"] == str(environment.domain_id())
+
+
+def test_it_needs_nothing_of_rosbeat_and_nothing_slow():
+    code = f"""
+import sys
+before = set(sys.modules)
+import importlib.util, os
+spec = importlib.util.spec_from_file_location("alone", {str(MODULE)!r})
+loaded = set(sys.modules)
+module = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(module)
+module.apply()
+print(sorted(set(sys.modules) - loaded))
+"""
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", code], capture_output=True, text=True, check=True
+    )
+    assert set(eval(done.stdout)) <= {"__future__", "binascii"}
+
+
+def test_it_can_be_loaded_from_its_file_alone():
+    spec = importlib.util.spec_from_file_location("alone", MODULE)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    assert module.defaults(PREFIX) == environment.defaults(PREFIX)
