@@ -1,8 +1,9 @@
 """rosbeat: learn how robots talk.
 
-A learner needs one name from here, `Session`; `show` draws what a session recorded. Importing the
-package is quick and does not import ROS: names load when they are first used (PEP 562), so that
-tools which only build or check pages work where ROS is not installed.
+A learner needs three names from here: `Session` runs nodes, `viz` draws what a session recorded,
+`check` looks at the answer to an exercise. Importing the package is quick and does not import ROS:
+names load when they are first used (PEP 562), so that tools which only build or check pages work
+where ROS is not installed.
 """
 
 from __future__ import annotations
@@ -14,15 +15,20 @@ from rosbeat import environment
 
 if TYPE_CHECKING:
     from rosbeat import viz as viz
+    from rosbeat.exercises.checking import check as check
     from rosbeat.runtime.session import Session as Session
 
 __version__ = "0.1.0"
-__all__ = ["Session", "viz"]
+__all__ = ["Session", "check", "viz"]
 
 # Before any message class is imported: the field checks are read at that moment.
 environment.apply()
 
-_HOMES = {"Session": ("rosbeat.runtime.session", "Session"), "viz": ("rosbeat.viz", None)}
+_HOMES = {
+    "Session": ("rosbeat.runtime.session", "Session"),
+    "check": ("rosbeat.exercises.checking", "check"),
+    "viz": ("rosbeat.viz", None),
+}
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the name

@@ -12,6 +12,7 @@
     │   ├── DomainsExhaustedError   no private ROS domain id is left on this machine
     │   └── ClosedSessionError      the session has ended
     ├── PictureError                a picture cannot be drawn from what it was given
+    ├── ExerciseError               a check was asked for an exercise that does not exist
     ├── LessonError                 a lesson source breaks a rule of the builder
     ├── RecordError                 saved data that does not follow the schema
     └── CommandError                the command line was used in a way it does not know
@@ -86,6 +87,10 @@ class ClosedSessionError(SessionError):
 
 class PictureError(RosbeatError):
     """A picture cannot be drawn from what it was given."""
+
+
+class ExerciseError(RosbeatError):
+    """A check was asked for an exercise that does not exist."""
 
 
 class LessonError(RosbeatError):

@@ -225,6 +225,23 @@ class Observation(Timed):
 
 
 @dataclass(frozen=True)
+class Outcome:
+    """What a judge says of an observation.
+
+    Attributes:
+        exercise: The exercise's id, such as `03a`.
+        status: `passed`, `failed` or `not attempted`.
+        evidence: What was observed, one or two sentences.
+        hint: What to think about next; empty if nothing is wrong.
+    """
+
+    exercise: str
+    status: str
+    evidence: str = ""
+    hint: str = ""
+
+
+@dataclass(frozen=True)
 class QueueStep(Timed):
     """One change of a subscription's queue.
 

@@ -1,0 +1,139 @@
+"""The node and topic graph: who publishes what, and who listens.
+
+Nodes are ellipses and topics are rectangles, as rqt_graph draws them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from rosbeat.errors import PictureError
+from rosbeat.records import GraphSnapshot
+from rosbeat.viz import arrows, sources, theme
+from rosbeat.viz.canvas import Canvas, blank
+from rosbeat.viz.labels import Label, node_label, topic_label
+from rosbeat.viz.layers import Layering, layering
+from rosbeat.viz.picture import Picture
+from rosbeat.viz.placement import Placement, needed, place
+from rosbeat.viz.wiring import Wiring, describe, node_key, topic_key, wiring
+
+#: Widest line of a name in CSS pixels and font size in points, tried in this order.
+_FITS = ((200.0, 10.0), (150.0, 10.0), (115.0, 10.0), (115.0, 9.0), (95.0, 8.5))
+_ROOM = theme.WIDTH - 2 * theme.MARGIN
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """A placement with its labels, and whether it flows down instead of to the right."""
+
+    labels: dict[str, Label]
+    placement: Placement
+    down: bool
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the picture in CSS pixels."""
+        extent = (self.placement.length, self.placement.breadth)
+        width, height = reversed(extent) if self.down else extent
+        return max(theme.WIDTH, width + 2 * theme.MARGIN), height + 2 * theme.MARGIN
+
+    def point(self, along: float, across: float) -> tuple[float, float]:
+        """Canvas coordinates of a point of the placement; the picture is centred."""
+        width, height = self.size
+        if self.down:
+            return (width - self.placement.breadth) / 2 + across, height - theme.MARGIN - along
+        return (width - self.placement.length) / 2 + along, height - theme.MARGIN - across
+
+
+def graph(
+    source: sources.Observed | GraphSnapshot,
+    highlight: str | Iterable[str] = (),
+    infrastructure: bool = False,
+) -> Picture:
+    """Draw which nodes publish to which topics and which nodes subscribe.
+
+    An arrow is dashed where nothing passes: nobody is on the other side, the qualities of service
+    do not match, or the types differ. Nodes whose name has a part that begins with `_` are left
+    out.
+
+    Args:
+        source: A session, what it observed, or a graph.
+        highlight: Name of a node or topic, or several, to draw boldly.
+        infrastructure: Whether to show `/rosout`, `/parameter_events` and `/clock`, too.
+
+    Returns:
+        The picture.
+
+    Raises:
+        PictureError: If there is no node, or a highlighted name is not in the graph.
+    """
+    shown = wiring(sources.snapshot(source), infrastructure)
+    if not shown.nodes:
+        raise PictureError(
+            "There is no node to draw.",
+            "The graph was taken before a node was added, or all of its nodes are hidden.",
+            "Add a node to the session first.",
+        )
+    names = [highlight] if isinstance(highlight, str) else list(highlight)
+    known = (*shown.nodes, *shown.topics)
+    strong = {sources.known_name(name, known, "node or topic") for name in names}
+    layout = _layout(shown, strong)
+    width, height = layout.size
+    with blank(height, width) as canvas:
+        _draw(canvas, shown, layout)
+    return Picture(canvas.figure, describe(shown), "Nodes and topics")
+
+
+def _layout(shown: Wiring, strong: set[str]) -> _Layout:
+    """The first layout that fits: from left to right if possible, else from top to bottom."""
+    starts = {node_key(name): 0 for name in shown.nodes}
+    starts.update((topic_key(name), 1) for name in shown.topics)
+    plan = layering(starts, [(edge.source, edge.target) for edge in shown.edges])
+    tries = [(down, *fit) for down in (False, True) for fit in _FITS]
+    for down, limit, size in tries:
+        layout = _attempt(plan, _labels(shown, strong, limit, size), down)
+        if layout and layout.size[0] <= theme.WIDTH:
+            return layout
+    return layout or _forced(plan, _labels(shown, strong, *_FITS[-1]))
+
+
+def _attempt(plan: Layering, labels: dict[str, Label], down: bool) -> _Layout | None:
+    sizes = {name: _extent(label, down) for name, label in labels.items()}
+    if not down and needed(plan, sizes) > _ROOM:
+        return None
+    return _Layout(labels, place(plan, sizes, 0.0 if down else _ROOM), down)
+
+
+def _extent(label: Label, down: bool) -> tuple[float, float]:
+    """A label's size along and across the flow."""
+    width, height = label.size
+    return (height, width) if down else (width, height)
+
+
+def _forced(plan: Layering, labels: dict[str, Label]) -> _Layout:
+    sizes = {name: label.size for name, label in labels.items()}
+    return _Layout(labels, place(plan, sizes, _ROOM), down=False)
+
+
+def _labels(shown: Wiring, strong: set[str], limit: float, size: float) -> dict[str, Label]:
+    labels = {node_key(name): node_label(name, limit, size, name in strong) for name in shown.nodes}
+    for name, types in shown.topics.items():
+        faults = shown.faults(name)
+        labels[topic_key(name)] = topic_label(name, types, faults, limit, size, name in strong)
+    return labels
+
+
+def _draw(canvas: Canvas, shown: Wiring, layout: _Layout) -> None:
+    place_of = layout.placement
+    for edge in shown.edges:
+        stroke = arrows.BROKEN if edge.fault else arrows.PLAIN
+        link = (edge.source, edge.target)
+        if link in place_of.routes:
+            points = [layout.point(*point) for point in place_of.routes[link]]
+            arrows.draw(canvas, arrows.curve(points, layout.down), stroke)
+        else:
+            points = [layout.point(*point) for point in place_of.returns[link]]
+            arrows.draw(canvas, arrows.cornered(points), stroke)
+    for name, box in place_of.boxes.items():
+        layout.labels[name].draw(canvas, *layout.point(box.along, box.across))

@@ -1,0 +1,108 @@
+"""How pictures look: colours, sizes, marks. The only place that says so.
+
+The strong colours are those of Okabe and Ito ("Color Universal Design", 2008,
+https://jfly.uni-koeln.de/color/), which people with any common kind of colour blindness can tell
+apart. Green and purple are darkened until a thin line in them is readable, and the colours for
+text until text is. Colour is never alone: what differs in colour differs in shape or dash as well.
+
+A picture brings its own opaque, soft background, the card. So it looks the same on a light and on
+a dark page, and one contrast holds for both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+#: Width of a picture in CSS pixels; the text column of JupyterLab is about 800 wide.
+WIDTH = 780
+#: Figure units: 100 dots per inch make one CSS pixel one hundredth of an inch.
+DPI = 100
+#: Image pixels per CSS pixel, so that text is sharp on screens of high density.
+DENSITY = 2
+#: Free space at the rim, in CSS pixels.
+MARGIN = 18
+
+#: Font sizes in points; 10 points are 14 CSS pixels, the size of the page's own text.
+TEXT = 10.0
+SMALL = 8.5
+TINY = 7.5
+
+CARD = "#FAFAF7"
+INK = "#1F2933"
+MUTED = "#52606D"
+RULE = "#D5DAE0"
+
+BLUE = "#0072B2"
+GREEN = "#008C66"
+VERMILLION = "#D55E00"
+PURPLE = "#A34C80"
+
+#: Shapes of the graph: pale inside, so that the name on them stays readable.
+NODE_FILL = "#DDEBF6"
+NODE_FILL_STRONG = "#B5D6EF"
+TOPIC_FILL = "#FFF1CF"
+TOPIC_FILL_STRONG = "#FFDD94"
+TOPIC_EDGE = "#9A6700"
+#: Text that says what is wrong, and the line that shows it.
+ALERT = VERMILLION
+ALERT_TEXT = "#A84300"
+#: Text in the colour of what goes well.
+TAKEN = GREEN
+TAKEN_TEXT = "#00694D"
+
+#: Background tints of threshold bands, from the lowest to the highest, then around again.
+BANDS = ("#D9EBF8", "#E8F5EA", "#FCE3CE", "#F5E6EF")
+
+
+@dataclass(frozen=True)
+class Style:
+    """How one series of a picture is marked, in three ways at once.
+
+    Attributes:
+        colour: Line colour.
+        marker: Matplotlib marker.
+        dash: Matplotlib line style, by name or as (offset, on-off lengths in points).
+    """
+
+    colour: str
+    marker: str
+    dash: str | tuple[float, tuple[float, ...]]
+
+
+#: One style per series, in order of use.
+STYLES = (
+    Style(BLUE, "o", "-"),
+    Style(VERMILLION, "s", "--"),
+    Style(GREEN, "^", "-."),
+    Style(PURPLE, "D", ":"),
+    Style(INK, "v", (0, (7, 2))),
+)
+
+#: What matplotlib needs to know; everything else is its default, whatever a page has set.
+RC = {
+    "font.family": "DejaVu Sans",
+    "font.size": TEXT,
+    "text.color": INK,
+    "text.parse_math": False,
+    # Without hinting a text is equally wide at every density, in PNG and in SVG.
+    "text.hinting": "none",
+    "axes.edgecolor": RULE,
+    "axes.labelcolor": INK,
+    "axes.facecolor": "none",
+    "axes.unicode_minus": True,
+    "xtick.color": RULE,
+    "ytick.color": RULE,
+    "xtick.labelcolor": MUTED,
+    "ytick.labelcolor": MUTED,
+    "figure.facecolor": CARD,
+    "savefig.facecolor": CARD,
+    "svg.hashsalt": "rosbeat",
+    "svg.fonttype": "path",
+    "path.simplify": True,
+    "agg.path.chunksize": 0,
+}
+
+
+def style(number: int) -> Style:
+    """The style of series `number`, counted from 0; after the last the first comes again."""
+    return STYLES[number % len(STYLES)]

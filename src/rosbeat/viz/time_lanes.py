@@ -1,0 +1,208 @@
+"""The timeline: one lane per node, a mark per callback, an arrow per message."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import isfinite
+
+from matplotlib.path import Path
+
+from rosbeat.errors import PictureError
+from rosbeat.records import NANOSECONDS
+from rosbeat.viz import arrows, axis, key, sources, theme
+from rosbeat.viz.canvas import Canvas, blank, line_height, text_width, wrap
+from rosbeat.viz.happenings import Happenings, Message, happenings, node_of
+from rosbeat.viz.lane_words import describe, left_out
+from rosbeat.viz.picture import Picture
+
+_LANE = 62.0
+_NAMES = 170.0
+_STUB = 32.0
+_BENT = 14.0
+_CALLBACKS = {
+    "timer": ("timer callback", theme.Style(theme.BLUE, "s", "")),
+    "subscription": ("subscription callback", theme.Style(theme.TAKEN, "o", "")),
+}
+_OTHER = ("other callback", theme.Style(theme.PURPLE, "D", ""))
+_LOG = theme.Style(theme.MUTED, "|", "")
+_WARNING = theme.Style(theme.ALERT, "^", "")
+_FAULT = theme.Style(theme.ALERT, "X", "")
+_MESSAGES = tuple(look for look in theme.STYLES if look.colour not in (theme.ALERT, theme.TAKEN))
+_LOST = theme.Style(theme.ALERT, "", "--")
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """Where lanes and times are, in CSS pixels."""
+
+    scale: axis.Scale
+    levels: dict[str, float]
+    bottom: float
+    top: float
+
+
+def timeline(
+    source: sources.Observed,
+    topics: str | Iterable[str] | None = None,
+    until: float | None = None,
+) -> Picture:
+    """Draw when callbacks ran and which message made which callback run.
+
+    A message belongs to the subscription callbacks on its topic at its own instant, since in
+    virtual time a message takes none. At most about 60 events are shown; the picture says what it
+    left out.
+
+    Args:
+        source: A session, or what it observed.
+        topics: Topics to show, one name or several, with the nodes that use them. By default all
+            topics but the infrastructure, and all nodes.
+        until: Last time to show, in seconds of virtual time.
+
+    Returns:
+        The picture.
+
+    Raises:
+        PictureError: If a topic is unknown, the time is not a number from 0 up, or nothing
+            happened.
+    """
+    seen = sources.observed(source)
+    names = [*seen.graph.topics(infrastructure=True), *(one.topic for one in seen.samples)]
+    wanted = sources.topic_names(topics, tuple(dict.fromkeys(names)))
+    shown = happenings(seen, wanted, _nanoseconds(until), everyone=topics is None)
+    entries, note = _key(shown), left_out(shown)
+    room = theme.WIDTH - 2 * theme.MARGIN
+    head = key.height(entries, room) + 6
+    foot = 26 + (line_height(theme.SMALL) + 6 if note else 0)
+    with blank(2 * theme.MARGIN + head + _LANE * len(shown.lanes) + foot) as canvas:
+        plan = _plan(shown, canvas.height - theme.MARGIN - head)
+        key.draw(canvas, entries, theme.MARGIN, canvas.height - theme.MARGIN, room)
+        axis.draw(canvas, plan.scale, plan.bottom, plan.top)
+        _draw(canvas, shown, plan)
+        canvas.text(theme.MARGIN, theme.MARGIN, note, theme.SMALL, theme.MUTED)
+    return Picture(canvas.figure, describe(shown), "Callbacks and messages over time")
+
+
+def _nanoseconds(until: float | None) -> int | None:
+    if until is None:
+        return None
+    if not isinstance(until, (int, float)) or not isfinite(until) or until < 0:
+        raise PictureError(
+            f"A timeline cannot end at {until!r}.",
+            "`until` is a time in seconds of virtual time, from 0 up.",
+            "For example `until=10`.",
+        )
+    return round(until * NANOSECONDS)
+
+
+def _plan(shown: Happenings, top: float) -> _Plan:
+    levels = {name: top - (rank + 0.5) * _LANE for rank, name in enumerate(shown.lanes)}
+    rows = [row for name in shown.lanes for row in wrap(name, _NAMES)]
+    left = theme.MARGIN + max(map(text_width, rows)) + 24
+    scale = axis.Scale(0.0, shown.end, left, theme.WIDTH - theme.MARGIN - 34)
+    return _Plan(scale, levels, top - _LANE * len(levels), top)
+
+
+def _draw(canvas: Canvas, shown: Happenings, plan: _Plan) -> None:
+    for name, y in plan.levels.items():
+        _draw_lane(canvas, name, y, plan)
+    for message in shown.messages:
+        _draw_message(canvas, message, shown.topics.index(message.topic), plan)
+    _draw_callbacks(canvas, shown, plan)
+    for log in shown.logs:
+        look = _LOG if log.level in ("DEBUG", "INFO") else _WARNING
+        # Beside the arrows that leave and reach the lane, so that none covers it.
+        _mark(canvas, plan.scale(log.time) + 9, plan.levels[node_of(log)] - 13, look, 6)
+    for fault in shown.faults:
+        _mark(canvas, plan.scale(fault.time), plan.levels[fault.node], _FAULT, 11)
+
+
+def _draw_lane(canvas: Canvas, name: str, y: float, plan: _Plan) -> None:
+    ends = [plan.scale.left - 8, plan.scale.right + 8]
+    canvas.axes.plot(ends, [y, y], color=theme.RULE, lw=2, zorder=1, solid_capstyle="round")
+    rows = wrap(name, _NAMES)
+    for rank, row in enumerate(rows):
+        offset = (len(rows) - 1) / 2 - rank
+        canvas.text(plan.scale.left - 18, y + offset * line_height(), row, align="right")
+
+
+def _draw_message(canvas: Canvas, message: Message, topic: int, plan: _Plan) -> None:
+    x, y = plan.scale(message.time), plan.levels[message.source]
+    for target in message.targets:
+        if target in plan.levels and target != message.source:
+            look = _topic_style(topic)
+            stroke = arrows.Stroke(look.colour, look.dash, 1.6)
+            arrows.draw(canvas, _way(x, y, plan.levels[target]), stroke)
+    if not message.targets:
+        stub = Path([(x, y - 7), (x, y - _STUB)])
+        arrows.draw(canvas, stub, arrows.Stroke(_LOST.colour, _LOST.dash, 1.6))
+
+
+def _topic_style(topic: int) -> theme.Style:
+    """The style of a topic's messages; never the one that says that a message got lost."""
+    return _MESSAGES[topic % len(_MESSAGES)]
+
+
+def _way(x: float, start: float, end: float) -> Path:
+    """Straight to the next lane; around the marks of the lanes between, if there are any."""
+    end += 6 if start > end else -6
+    if abs(start - end) <= _LANE:
+        return Path([(x, start), (x, end)])
+    points = [(x, start), (x + _BENT, (start + end) / 2), (x, end)]
+    return arrows.curve(points, downward=True)
+
+
+def _draw_callbacks(canvas: Canvas, shown: Happenings, plan: _Plan) -> None:
+    alike = Counter((one.node, one.time, one.kind) for one in shown.callbacks)
+    for node, time, kind in alike:
+        _, look = _CALLBACKS.get(kind, _OTHER)
+        # A timer's mark is the larger, so that a callback it caused at once stays visible in it.
+        _mark(canvas, plan.scale(time), plan.levels[node], look, 10 if kind == "timer" else 7)
+    for (node, time), number in _crowds(alike).items():
+        if number > 1:
+            x, y = plan.scale(time) + 8, plan.levels[node] + 12
+            canvas.text(x, y, f"×{number}", theme.SMALL, theme.MUTED)
+
+
+def _crowds(alike: Counter[tuple[str, float, str]]) -> dict[tuple[str, float], int]:
+    """For each node and instant how often the most frequent kind of callback ran."""
+    most: dict[tuple[str, float], int] = {}
+    for (node, time, _), number in alike.items():
+        most[node, time] = max(number, most.get((node, time), 0))
+    return most
+
+
+def _mark(canvas: Canvas, x: float, y: float, look: theme.Style, size: float) -> None:
+    canvas.axes.plot(
+        [x], [y], marker=look.marker, ms=size, color=look.colour, mec=_rim(look), mew=1.2, zorder=4
+    )
+
+
+def _rim(look: theme.Style) -> str:
+    """A rim in the card's colour keeps overlapping marks apart; a bare line has none."""
+    return look.colour if look.marker == "|" else theme.CARD
+
+
+def _key(shown: Happenings) -> list[key.Entry]:
+    """The marks in use, each with its meaning."""
+    kinds = dict.fromkeys(_CALLBACKS.get(one.kind, _OTHER) for one in shown.callbacks)
+    entries = [key.Entry(words, look) for words, look in kinds]
+    taken = {one.topic for one in shown.messages if one.targets}
+    for number, topic in enumerate(shown.topics):
+        if topic in taken:
+            look = _topic_style(number)
+            entries.append(
+                key.Entry(f"message on {topic}", theme.Style(look.colour, "", look.dash))
+            )
+    rare = (
+        ("message nobody took", _LOST, any(not one.targets for one in shown.messages)),
+        ("log line", _LOG, any(one.level in ("DEBUG", "INFO") for one in shown.logs)),
+        (
+            "warning or error",
+            _WARNING,
+            any(one.level not in ("DEBUG", "INFO") for one in shown.logs),
+        ),
+        ("node ended by an exception", _FAULT, bool(shown.faults)),
+    )
+    return entries + [key.Entry(words, look) for words, look, used in rare if used]

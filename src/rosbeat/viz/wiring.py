@@ -1,0 +1,156 @@
+"""Who talks to whom: a snapshot of the ROS graph as vertices and edges, with what is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from rosbeat.records import INFRASTRUCTURE_TOPICS, Endpoint, GraphSnapshot
+from rosbeat.viz.words import count, listing, sentence_case
+
+_OTHER = {"publisher": "subscription", "subscription": "publisher"}
+_NOBODY = {"publisher": "nobody subscribes", "subscription": "nobody publishes"}
+_QOS = "QoS does not match"
+_TYPE = "types differ"
+
+
+@dataclass(frozen=True)
+class Edge:
+    """One arrow: a publisher's node to a topic, or a topic to a subscription's node.
+
+    Attributes:
+        source: Name of the node or topic where it begins.
+        target: Name of the topic or node where it ends.
+        fault: Why nothing passes: empty if something does.
+    """
+
+    source: str
+    target: str
+    fault: str = ""
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """What a graph picture shows.
+
+    Attributes:
+        nodes: Names of the nodes shown, in order of creation.
+        topics: Names of the topics shown with their types, in order of first use.
+        edges: The arrows. A topic may have the name of a node, so ends are keys made by
+            `node_key` and `topic_key`.
+        hidden: Names of nodes left out because a part of their name begins with `_`.
+    """
+
+    nodes: tuple[str, ...]
+    topics: dict[str, tuple[str, ...]]
+    edges: tuple[Edge, ...]
+    hidden: tuple[str, ...] = ()
+
+    def around(self, topic: str) -> tuple[list[Edge], list[Edge]]:
+        """The edges into a topic and those out of it."""
+        key = topic_key(topic)
+        into = [edge for edge in self.edges if edge.target == key]
+        return into, [edge for edge in self.edges if edge.source == key]
+
+    def faults(self, topic: str) -> tuple[str, ...]:
+        """What is wrong around a topic, each kind once."""
+        into, out = self.around(topic)
+        return tuple(dict.fromkeys(edge.fault for edge in into + out if edge.fault))
+
+
+def node_key(name: str) -> str:
+    """The key of a node among edges."""
+    return f"node {name}"
+
+
+def topic_key(name: str) -> str:
+    """The key of a topic among edges."""
+    return f"topic {name}"
+
+
+def is_hidden(name: str) -> bool:
+    """Whether a ROS name is hidden: a part of it begins with an underscore.
+
+    Source: ROS 2 design, "Topic and Service name mapping to DDS", hidden names.
+    """
+    return any(part.startswith("_") for part in name.split("/"))
+
+
+def wiring(graph: GraphSnapshot, infrastructure: bool = False) -> Wiring:
+    """The part of a graph that a picture shows.
+
+    Args:
+        graph: The graph.
+        infrastructure: Whether to show the topics that every node brings along, too.
+    """
+    owners = [*graph.nodes, *(end.node for end in graph.endpoints)]
+    names = tuple(dict.fromkeys(owners))
+    nodes = tuple(name for name in names if not is_hidden(name))
+    skipped = frozenset() if infrastructure else INFRASTRUCTURE_TOPICS
+    ends = [end for end in graph.endpoints if end.kind in _OTHER and end.name not in skipped]
+    shown = [end for end in ends if end.node in nodes]
+    return Wiring(nodes, _topics(shown), _edges(shown, ends), tuple(filter(is_hidden, names)))
+
+
+def describe(shown: Wiring) -> str:
+    """The wiring in whole sentences."""
+    head = f"{count(len(shown.nodes), 'node')} and {count(len(shown.topics), 'topic')}."
+    said = [sentence_case(head), *(_topic_words(shown, topic) for topic in shown.topics)]
+    busy = {end for edge in shown.edges for end in (edge.source, edge.target)}
+    alone = [name for name in shown.nodes if node_key(name) not in busy]
+    if alone:
+        verb = "uses" if len(alone) == 1 else "use"
+        said.append(f"{listing(alone)} {verb} no topic.")
+    if shown.hidden:
+        said.append(f"Left out: {count(len(shown.hidden), 'hidden node')}.")
+    return " ".join(said)
+
+
+def _topics(ends: Iterable[Endpoint]) -> dict[str, tuple[str, ...]]:
+    types: dict[str, tuple[str, ...]] = {}
+    for end in ends:
+        types[end.name] = tuple(dict.fromkeys((*types.get(end.name, ()), end.type_name)))
+    return types
+
+
+def _edges(shown: Iterable[Endpoint], every: list[Endpoint]) -> tuple[Edge, ...]:
+    found: dict[tuple[str, str], str] = {}
+    for end in shown:
+        ends = (node_key(end.node), topic_key(end.name))
+        pair = ends if end.kind == "publisher" else (ends[1], ends[0])
+        fault = _fault(end, every)
+        # Two endpoints of one node on one topic are one arrow; it is broken only if both are.
+        found[pair] = fault if found.get(pair, fault) else ""
+    return tuple(Edge(source, target, fault) for (source, target), fault in found.items())
+
+
+def _fault(end: Endpoint, every: list[Endpoint]) -> str:
+    others = [one for one in every if one.name == end.name and one.kind == _OTHER[end.kind]]
+    if end.matched > 0:
+        return ""
+    if not others:
+        return _NOBODY[end.kind]
+    if end.matched < 0:
+        return ""
+    return _QOS if any(one.type_name == end.type_name for one in others) else _TYPE
+
+
+def _topic_words(shown: Wiring, topic: str) -> str:
+    into, out = shown.around(topic)
+    types = listing(name.rsplit("/", 1)[-1] for name in shown.topics[topic])
+    writers = listing(edge.source.removeprefix("node ") for edge in into) or "nobody"
+    readers = listing(edge.target.removeprefix("node ") for edge in out) or "nobody"
+    said = [f"{topic} ({types}): published by {writers}, subscribed to by {readers}."]
+    said += [f"There, {_because(fault, into + out)}." for fault in shown.faults(topic)]
+    return " ".join(said)
+
+
+def _because(fault: str, edges: list[Edge]) -> str:
+    if fault in _NOBODY.values():
+        return f"{fault}, so no message passes"
+    ends = (
+        edge.source if edge.target.startswith("topic ") else edge.target
+        for edge in edges
+        if edge.fault == fault
+    )
+    return f"{fault} for {listing(end.removeprefix('node ') for end in ends)}"

@@ -1,0 +1,134 @@
+"""The colours can be read and told apart, by people who see colour differently as well."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from rosbeat.viz import theme
+
+# Machado, Oliveira and Fernandes, "A Physiologically-based Model for Simulation of Color Vision
+# Deficiency", IEEE Transactions on Visualization and Computer Graphics 15(6), 2009: severity 1.0,
+# for linear RGB.
+VISION = {
+    "full": np.eye(3),
+    "protanopia": np.array(
+        [
+            [0.152286, 1.052583, -0.204868],
+            [0.114503, 0.786281, 0.099216],
+            [-0.003882, -0.048116, 1.051998],
+        ]
+    ),
+    "deuteranopia": np.array(
+        [
+            [0.367322, 0.860646, -0.227968],
+            [0.280085, 0.672501, 0.047413],
+            [-0.011820, 0.042940, 0.968881],
+        ]
+    ),
+    "tritanopia": np.array(
+        [
+            [1.255528, -0.076749, -0.178779],
+            [-0.078411, 0.930809, 0.147602],
+            [0.004733, 0.691367, 0.303900],
+        ]
+    ),
+}
+# IEC 61966-2-1 (sRGB), D65.
+TO_XYZ = np.array(
+    [
+        [0.4124564, 0.3575761, 0.1804375],
+        [0.2126729, 0.7151522, 0.0721750],
+        [0.0193339, 0.1191920, 0.9503041],
+    ]
+)
+WHITE = np.array([0.95047, 1.0, 1.08883])
+
+TEXT_ON = {
+    theme.INK: (theme.CARD, theme.NODE_FILL, theme.NODE_FILL_STRONG, theme.TOPIC_FILL,
+                theme.TOPIC_FILL_STRONG),
+    theme.MUTED: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG),
+    theme.ALERT_TEXT: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG),
+    theme.TAKEN_TEXT: (theme.CARD,),
+}  # fmt: skip
+TOGETHER = {
+    "series": [look.colour for look in theme.STYLES],
+    "callbacks": [theme.BLUE, theme.TAKEN, theme.PURPLE, theme.ALERT],
+    "queue": [theme.BLUE, theme.TAKEN, theme.ALERT, theme.INK],
+    "arrows": [theme.INK, theme.ALERT],
+    "shapes": [theme.BLUE, theme.TOPIC_EDGE],
+    "bands": list(theme.BANDS[:3]),
+}
+# CIE76 distances; 2.3 is just noticeable (Mahy et al., 1994). Bands have names and dashed limits.
+LEAST = {"bands": 4.0}
+
+
+def linear(colour):
+    part = np.array([int(colour[at : at + 2], 16) for at in (1, 3, 5)]) / 255
+    return np.where(part <= 0.04045, part / 12.92, ((part + 0.055) / 1.055) ** 2.4)
+
+
+def contrast(one, other):
+    """WCAG 2.2, "contrast ratio"."""
+    low, high = sorted(linear(colour) @ [0.2126, 0.7152, 0.0722] for colour in (one, other))
+    return (high + 0.05) / (low + 0.05)
+
+
+def lab(rgb):
+    part = TO_XYZ @ np.clip(rgb, 0, 1) / WHITE
+    x, y, z = np.where(part > 0.008856, np.cbrt(part), 7.787 * part + 16 / 116)
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+
+def distance(one, other, vision):
+    return float(np.linalg.norm(lab(vision @ linear(one)) - lab(vision @ linear(other))))
+
+
+def test_the_measures_agree_with_known_values():
+    assert contrast("#000000", "#FFFFFF") == pytest.approx(21)
+    assert distance("#000000", "#FFFFFF", VISION["full"]) == pytest.approx(100, abs=0.01)
+    assert distance("#FF0000", "#00FF00", VISION["full"]) > 150
+    # The classic pair: what full vision tells apart, a deuteranope hardly does.
+    olive, brown = "#7A7A00", "#A05A00"
+    assert distance(olive, brown, VISION["deuteranopia"]) < distance(olive, brown, VISION["full"])
+
+
+@pytest.mark.parametrize(("text", "grounds"), TEXT_ON.items())
+def test_text_has_a_contrast_of_at_least_4_5(text, grounds):
+    assert {
+        ground: contrast(text, ground) for ground in grounds if contrast(text, ground) < 4.5
+    } == {}
+
+
+@pytest.mark.parametrize("ground", [theme.CARD, *theme.BANDS])
+def test_lines_have_a_contrast_of_at_least_3(ground):
+    assert all(contrast(look.colour, ground) >= 3 for look in theme.STYLES)
+
+
+@pytest.mark.parametrize("page", ["#FFFFFF", "#111111"])
+def test_the_card_is_opaque_and_soft_on_light_and_dark_pages(page):
+    assert len(theme.CARD) == 7
+    assert contrast(theme.INK, theme.CARD) >= 7
+    assert page != theme.CARD
+
+
+@pytest.mark.parametrize("vision", VISION)
+@pytest.mark.parametrize("group", TOGETHER)
+def test_colours_used_together_can_be_told_apart(group, vision):
+    pairs = combinations(TOGETHER[group], 2)
+    near = {pair: distance(*pair, VISION[vision]) for pair in pairs}
+    assert min(near.values()) >= LEAST.get(group, 12.0), near
+
+
+def test_no_style_differs_in_colour_alone():
+    assert len({look.marker for look in theme.STYLES}) == len(theme.STYLES)
+    assert len({look.dash for look in theme.STYLES}) == len(theme.STYLES)
+
+
+def test_styles_come_again_after_the_last():
+    assert theme.style(len(theme.STYLES)) == theme.style(0)
+
+
+def test_a_picture_fits_the_page():
+    assert theme.WIDTH <= 800
+    assert min(theme.TEXT, theme.SMALL, theme.TINY) * theme.DPI / 72 >= 10

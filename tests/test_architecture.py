@@ -1,0 +1,369 @@
+"""The house stays in order: who imports whom, how long things are, what is documented.
+
+Each rule is a function from sources to a list of complaints. It is applied to the whole helper
+package, and to a bad sample, which proves that it can fail.
+"""
+
+import ast
+import re
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+from statistics import median
+from textwrap import dedent
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / "src" / "rosbeat"
+
+#: Which rooms of the house a room may import from. A room may always import from itself.
+MAY_IMPORT = {
+    "errors": set(),
+    "environment": set(),
+    "records": {"errors"},
+    "viz": {"records", "errors"},
+    "checks": {"records", "errors"},
+    "runtime": {"errors", "records", "environment"},
+    "exercises": {"runtime", "checks", "records", "errors", "viz", "rosbeat"},
+    "workspace": {"errors", "records", "environment"},
+    "grading": {
+        *("errors", "records", "environment", "runtime", "viz", "checks", "exercises"),
+        *("workspace", "rosbeat"),
+    },
+    "authoring": {"errors"},
+    # The package itself hands out names of other rooms.
+    "rosbeat": {"environment", "viz", "runtime", "exercises"},
+}
+#: `cli` may import everything, and nobody may import `cli`.
+EVERYWHERE = {"cli", "__main__"}
+#: Rooms that use nothing but the standard library, and those with a short list.
+THIRD_PARTY = {
+    "errors": set(),
+    "records": set(),
+    "environment": set(),
+    "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
+    "viz": {"matplotlib", "PIL", "numpy"},
+    "checks": set(),
+}
+ROS = re.compile(r"rclpy|_rclpy|rcl_interfaces|builtin_interfaces|rosidl\w*|rmw\w*|\w+_(msgs|srvs)")
+MAX_LINES, MEDIAN_LINES = 400, 130
+MEDIAN_BODY, LONG_BODY, SHARE_BELOW = 7, 20, 0.9
+# Written in two parts so that this file does not complain about itself.
+MACHINE = re.compile(
+    r"(?<![\w.])/wo"
+    r"rk(?![\w-])|(?<!\w)\.lib"
+    r"rary\b|(?<![\w./])/tmp/pro"
+    r"be\b|\.\./sha"
+    r"red/"
+)
+
+
+# What is there.
+
+
+@cache
+def package():
+    """Every module of the helper package with its source, by dotted name."""
+    found = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+        found[".".join(parts).removesuffix(".__init__")] = path.read_text(encoding="utf-8")
+    return found
+
+
+def room_of(module):
+    """The room a module is in: the part after `rosbeat`, or `rosbeat` for the package itself."""
+    return module.split(".")[1] if "." in module else module
+
+
+def is_for_types(node):
+    return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)
+
+
+def statements(tree, with_types):
+    """Every node of a tree, those under `if TYPE_CHECKING` only if asked for."""
+    todo = [tree]
+    while todo:
+        node = todo.pop()
+        yield node
+        if with_types or not is_for_types(node):
+            todo += ast.iter_child_nodes(node)
+
+
+def imports(source, known=(), with_types=True):
+    """Dotted names of everything a module imports, in functions as well."""
+    found = []
+    for node in statements(ast.parse(source), with_types):
+        if isinstance(node, ast.Import):
+            found += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+            found += [name if name in known else node.module for name in names]
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(
+            ("import_module", "__import__")
+        ):
+            found += [arg.value for arg in node.args[:1] if isinstance(arg, ast.Constant)]
+    return found
+
+
+def functions(tree):
+    return [node for node in ast.walk(tree)
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]  # fmt: skip
+
+
+# The rules.
+
+
+def wrong_directions(sources):
+    said = []
+    for module, source in sources.items():
+        room = room_of(module)
+        if room in EVERYWHERE:
+            continue
+        for name in imports(source, sources):
+            if name.split(".")[0] == "rosbeat":
+                target = room_of(name)
+                if target != room and target not in MAY_IMPORT.get(room, set()):
+                    said.append(f"{module} imports {name}")
+    return said
+
+
+def unknown_rooms(sources):
+    known = set(MAY_IMPORT) | EVERYWHERE
+    return sorted({room_of(module) for module in sources} - known)
+
+
+def ros_outside_runtime(sources):
+    return [f"{module} imports {name}" for module, source in sources.items()
+            if room_of(module) != "runtime"
+            for name in imports(source, sources) if ROS.fullmatch(name.split(".")[0])]  # fmt: skip
+
+
+def foreign_imports(sources):
+    said = []
+    for module, source in sources.items():
+        if room_of(module) in THIRD_PARTY:
+            allowed = THIRD_PARTY[room_of(module)] | sys.stdlib_module_names | {"rosbeat"}
+            tops = {name.split(".")[0] for name in imports(source, sources)}
+            said += [f"{module} imports {top}" for top in sorted(tops - allowed)]
+    return said
+
+
+def cycles(sources):
+    """Modules that import each other around a circle, imports for types not counted."""
+    left = {
+        module: set(sources) & set(imports(source, sources, with_types=False))
+        for module, source in sources.items()
+    }
+    while True:
+        free = [module for module, ends in left.items() if not any(end in left for end in ends)]
+        if not free:
+            return sorted(left)
+        for module in free:
+            del left[module]
+
+
+def long_files(sources):
+    lengths = {module: len(source.splitlines()) for module, source in sources.items()}
+    said = [f"{module} has {count} lines" for module, count in lengths.items() if count > MAX_LINES]
+    if median(lengths.values()) >= MEDIAN_LINES:
+        said.append(f"the median file has {median(lengths.values())} lines")
+    return said
+
+
+def body_length(function, lines):
+    """Lines of a body that are not blank, the docstring not counted."""
+    body = function.body[1:] if ast.get_docstring(function) else function.body
+    inside = lines[body[0].lineno - 1 : function.end_lineno] if body else []
+    return sum(bool(line.strip()) for line in inside)
+
+
+def long_functions(sources):
+    counts = [
+        body_length(function, source.splitlines())
+        for source in sources.values()
+        for function in functions(ast.parse(source))
+    ]
+    said = []
+    if median(counts) >= MEDIAN_BODY:
+        said.append(f"the median body has {median(counts)} lines")
+    share = sum(count <= LONG_BODY for count in counts) / len(counts)
+    if share < SHARE_BELOW:
+        said.append(f"only {share:.0%} of the bodies have {LONG_BODY} lines or fewer")
+    return said
+
+
+def public_things(tree, prefix=""):
+    """Public classes and functions, methods of public classes included, with their names."""
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            overload = any("overload" in ast.unparse(mark) for mark in node.decorator_list)
+            if not node.name.startswith("_") and not overload:
+                yield prefix + node.name, node
+                if isinstance(node, ast.ClassDef):
+                    yield from public_things(node, f"{prefix}{node.name}.")
+
+
+def undocumented(sources):
+    said = []
+    for module, source in sources.items():
+        tree = ast.parse(source)
+        said += [] if ast.get_docstring(tree) else [module]
+        said += [f"{module}.{name}" for name, node in public_things(tree)
+                 if not ast.get_docstring(node)]  # fmt: skip
+    return said
+
+
+def unannotated(sources):
+    said = []
+    for module, source in sources.items():
+        for function in functions(ast.parse(source)):
+            given = function.args
+            every = [*given.posonlyargs, *given.args, *given.kwonlyargs]
+            every += [one for one in (given.vararg, given.kwarg) if one]
+            bare = [
+                one.arg for one in every if not one.annotation and one.arg not in ("self", "cls")
+            ]
+            bare += [] if function.returns else ["return"]
+            said += [f"{module}.{function.name}: {name}" for name in bare]
+    return said
+
+
+def machine_paths(texts):
+    return [f"{name}: {line.strip()}" for name, text in texts.items()
+            for line in text.splitlines() if MACHINE.search(line)]  # fmt: skip
+
+
+def tracked():
+    """Every text file that is or will be in the repository."""
+    command = ["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard", "-z"]
+    try:
+        listed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        paths = [ROOT / name for name in listed.split("\0") if name]
+    except (OSError, subprocess.CalledProcessError):
+        rooms = ("src", "tests", "docs", "environment", "notebooks", "solutions")
+        paths = [path for room in rooms for path in (ROOT / room).rglob("*")]
+    texts = {}
+    for path in paths:
+        data = path.read_bytes() if path.is_file() else b"\0"
+        if b"\0" not in data:
+            texts[str(path.relative_to(ROOT))] = data.decode("utf-8", "replace")
+    return texts
+
+
+# The rules hold.
+
+RULES = [wrong_directions, unknown_rooms, ros_outside_runtime, foreign_imports, cycles, long_files,
+         long_functions, undocumented, unannotated]  # fmt: skip
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_the_package_keeps_the_rule(rule):
+    assert rule(package()) == []
+
+
+def test_no_file_names_a_machine():
+    assert machine_paths(tracked()) == []
+
+
+def test_there_is_something_to_look_at():
+    assert {"rosbeat", "rosbeat.errors", "rosbeat.records", "rosbeat.viz"} <= set(package())
+    assert "pyproject.toml" in tracked() or not (ROOT / ".git").exists()
+
+
+# The rules can fail.
+
+LONG = "def f() -> None:\n" + "    print()\n" * 21
+BAD = {
+    "errors imports records": (wrong_directions, "rosbeat.errors", "import rosbeat.records"),
+    "viz imports runtime": (wrong_directions, "rosbeat.viz.a", "from rosbeat.runtime import b"),
+    "viz imports the package": (wrong_directions, "rosbeat.viz.a", "from rosbeat import Session"),
+    "checks import viz": (wrong_directions, "rosbeat.checks.a", "from rosbeat.viz import graph"),
+    "inside a function": (wrong_directions, "rosbeat.records", "def f():\n import rosbeat.viz"),
+    "for types": (
+        *(wrong_directions, "rosbeat.records"),
+        "if TYPE_CHECKING:\n from rosbeat.runtime import a",
+    ),
+    "by name": (wrong_directions, "rosbeat.viz.a", "import_module('rosbeat.runtime.session')"),
+    "authoring imports records": (
+        wrong_directions,
+        "rosbeat.authoring.a",
+        "import rosbeat.records",
+    ),
+    "grading imports authoring": (
+        *(wrong_directions, "rosbeat.grading.a"),
+        "from rosbeat.authoring import a",
+    ),
+    "anybody imports cli": (wrong_directions, "rosbeat.grading.a", "from rosbeat.cli import main"),
+    "a new room": (unknown_rooms, "rosbeat.cellar.a", ""),
+    "viz imports rclpy": (ros_outside_runtime, "rosbeat.viz.a", "from rclpy.node import Node"),
+    "cli imports messages": (
+        ros_outside_runtime,
+        "rosbeat.cli",
+        "from std_msgs.msg import Float32",
+    ),
+    "workspace imports rclpy": (ros_outside_runtime, "rosbeat.workspace.a", "import rclpy as r"),
+    "records import numpy": (foreign_imports, "rosbeat.records", "import numpy"),
+    "authoring imports rich": (foreign_imports, "rosbeat.authoring.a", "from rich import print"),
+    "a file too long": (long_files, "rosbeat.a", "\n" * 401),
+    "long files": (long_files, "rosbeat.a", "\n" * 130),
+    "long functions": (long_functions, "rosbeat.a", LONG),
+    "a module without docstring": (undocumented, "rosbeat.a", "x = 1"),
+    "a class without docstring": (undocumented, "rosbeat.a", '"""A."""\nclass A: pass'),
+    "a method without docstring": (
+        *(undocumented, "rosbeat.a"),
+        '"""A."""\nclass A:\n """A."""\n def f(self): pass',
+    ),
+    "an argument without type": (unannotated, "rosbeat.a", "def f(x) -> None: pass"),
+    "a result without type": (unannotated, "rosbeat.a", "def f(x: int): pass"),
+    "variable arguments": (unannotated, "rosbeat.a", "def f(*x, **y: int) -> None: pass"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_the_rule_notices(case):
+    rule, module, source = BAD[case]
+    assert rule({module: source}) != []
+
+
+def test_a_circle_is_noticed_and_one_for_types_is_not():
+    one = "from rosbeat.viz import b"
+    assert cycles({"rosbeat.viz.a": one, "rosbeat.viz.b": "import rosbeat.viz.a"}) != []
+    for_types = "if TYPE_CHECKING:\n    import rosbeat.viz.a"
+    assert cycles({"rosbeat.viz.a": one, "rosbeat.viz.b": for_types}) == []
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [("see /wo", "rk/main/src"), ("cd /wo", "rk"), ("the .lib", "rary"), ("../sha", "red/a")],
+)
+def test_a_machine_path_is_noticed(parts):
+    assert machine_paths({"README.md": f"fine\n{''.join(parts)}\n"}) != []
+
+
+@pytest.mark.parametrize("line", ["/workspace", "/home/you/work", "a.library", "https://a.b/work"])
+def test_other_paths_are_fine(line):
+    assert machine_paths({"README.md": line}) == []
+
+
+def test_good_sources_get_no_complaint():
+    good = '''
+        """A module."""
+
+        from rosbeat.errors import PictureError
+
+
+        class A:
+            """A class."""
+
+            def f(self, x: int) -> int:
+                """A method."""
+                return x
+    '''
+    sources = {"rosbeat.viz.a": dedent(good), "rosbeat.errors": '"""Errors."""'}
+    assert [rule(sources) for rule in RULES if rule is not long_functions] == [[]] * (
+        len(RULES) - 1
+    )
+    assert long_functions(sources) == []
