@@ -1,0 +1,300 @@
+# ---
+# title: Write a publisher
+# minutes: 40
+# needs: ["00"]
+# summary: Build the temperature sensor line by line: imports, node, publisher, timer, random walk, clamp, log and the script entry point.
+# ---
+
+# %% [markdown]
+# # Write a publisher
+#
+# **Goal:** you write a node that plays a temperature sensor and publishes a new reading every
+# second.
+#
+# **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
+#
+# On the way you meet every line of a real sensor node, from the imports to the last line that starts
+# the program.
+
+# %% [markdown]
+# ## Import what you need
+#
+# Four imports do it:
+#
+# - `rclpy` is the ROS client library for Python: everything that talks to ROS goes through it;
+# - `Node` is the class that every node builds on;
+# - `Float32` is a **message type**: what kind of data a topic carries, here one decimal number;
+# - `random` comes with Python and will make the temperature wander.
+
+# %%
+import random
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+# %% [markdown]
+# On this page you also use the session, the pictures and the checks of this course. The file on a
+# robot does not need them.
+
+# %%
+from rosbeat import Session, check, viz
+
+# %% [markdown]
+# ## Name the node
+#
+# A node is a class that inherits from `Node`. Its constructor, `__init__`, first calls the
+# constructor of `Node` and gives it the node's name. Without that call the class is not a node yet.
+
+# %%
+class QuietSensor(Node):
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.get_logger().info("Temperature Sensor Node Started")
+
+# %% [markdown]
+# **Predict:** what does this node say in ten seconds?
+
+# %%
+with Session() as ros:
+    ros.add(QuietSensor)
+    ros.run(seconds=10)
+
+# %% [markdown]
+# One line, and it comes from the constructor. A node does nothing by itself. It needs something that
+# calls it. For a sensor, that is a **timer**.
+
+# %% [markdown]
+# ## Publish on every tick
+#
+# Two lines in the constructor give the node a voice and a beat:
+#
+# - `create_publisher(Float32, "temperature", 10)` opens the topic. The three arguments are the
+#   message type, the topic's name, and the **queue depth**: how many messages are kept for a
+#   subscriber that is slow.
+# - `create_timer(1.0, self.publish_temperature)` calls a method every 1.0 seconds. Notice that there
+#   are no brackets after the method's name: you hand it over, and the timer calls it.
+
+# %%
+class SteadySensor(Node):
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.publisher_ = self.create_publisher(Float32, "temperature", 10)
+        self.timer = self.create_timer(1.0, self.publish_temperature)
+        self.temperature = 22.0
+
+    def publish_temperature(self):
+        msg = Float32()
+        msg.data = self.temperature
+        self.publisher_.publish(msg)
+
+# %% [markdown]
+# The method makes an empty message, puts the temperature into its field `data`, and publishes it.
+# Which fields a type has is part of the type; `Float32` has just this one.
+#
+# **Predict:** the timer starts at zero seconds. When does the first message come?
+
+# %%
+with Session() as ros:
+    ros.add(SteadySensor)
+    ros.run(seconds=4)
+    readings = ros.messages("temperature")
+
+[(reading.time, reading.value) for reading in readings]
+
+# %% [markdown]
+# The first one comes after one full period, not at once. A timer waits first and calls then.
+
+# %% [markdown]
+# ## Let the temperature wander
+#
+# A real sensor does not say the same thing for ever. Add a small random number each time:
+# `random.uniform(-0.5, 0.5)` is somewhere between -0.5 and +0.5. A value that changes by small
+# random steps makes a **random walk**.
+#
+# A walk has no fence. So the tutorial behind this course keeps it in a range with
+# `max(10.2, min(28.0, ...))`. Read it from the inside out: `min` cuts off what is above 28,
+# `max` cuts off what is below 10.2. This is called **clamping**.
+
+# %%
+class TemperatureSensor(Node):
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.publisher_ = self.create_publisher(Float32, "temperature", 10)
+        self.timer = self.create_timer(1.0, self.publish_temperature)
+        self.temperature = 22.0
+        self.get_logger().info("Temperature Sensor Node Started")
+
+    def publish_temperature(self):
+        self.temperature += random.uniform(-0.5, 0.5)
+        self.temperature = max(10.2, min(28.0, self.temperature))
+
+        msg = Float32()
+        msg.data = self.temperature
+        self.publisher_.publish(msg)
+        self.get_logger().info(f"Publishing: {self.temperature:.2f}C")
+
+# %% [markdown]
+# This is the complete sensor. The last line logs what was published; `:.2f` writes the number with
+# two decimals. The log is for people, the message is for nodes.
+
+# %%
+ros = Session(seed=8)
+sensor = ros.add(TemperatureSensor)
+ros.run(seconds=5)
+
+# %% [markdown]
+# `seed=8` picks the random numbers. With the same seed you get the same walk, today and tomorrow.
+#
+# **Predict:** how does a quarter of an hour look? Will the walk reach a limit?
+
+# %%
+ros.run(seconds=895, quiet=True)
+viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)})
+
+# %% [markdown]
+# The band is what the clamp allows. Where the walk meets its edge, it goes along it until a step
+# leads away.
+#
+# What you see came out of real messages. Look at one, and at the node's own variable beside it:
+
+# %%
+ros.messages("temperature")[-1].value, sensor.temperature
+
+# %% [markdown]
+# They differ in the last digits. Python calculates with 64 bits, and a `Float32` carries 32. A
+# subscriber gets the rounded number. This is no mistake: it is what the message type promises.
+#
+# ## Look at it from outside
+#
+# A publisher needs nobody. Here is the graph: a sensor, a topic, and no one on the other side.
+
+# %%
+viz.graph(ros.graph())
+
+# %% [markdown]
+# ## Turn the class into a program
+#
+# On a robot, the class lives in a file of its own. A function `main` starts the node, keeps it
+# running and cleans up:
+#
+# - `rclpy.init()` starts ROS in this process; it must come before the first node;
+# - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until somebody stops it;
+# - `Ctrl` + `C` in the terminal raises `KeyboardInterrupt`, which `main` catches;
+# - at the end the node is destroyed and ROS is shut down.
+
+# %%
+def main(args=None):
+    rclpy.init(args=args)
+    node = TemperatureSensor()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+# %% [markdown]
+# The tutorial writes `rclpy.shutdown()` in the last line. In the ROS version used here, `Ctrl` + `C`
+# has shut ROS down already when that line runs, and a second time is an error. `try_shutdown` does
+# it only if it is still needed.
+#
+# Two more lines complete the file. The very first line, `#!/usr/bin/env python3`, tells the system
+# to run it with Python 3. The last two are the **script entry point**:
+#
+# ```python
+# if __name__ == "__main__":
+#     main()
+# ```
+#
+# They call `main` if the file is run as a program, and not if it is imported. On a page you do not
+# call `main`: it would spin until you interrupt it. `ros.run(...)` does its work here.
+
+# %% [markdown]
+# **How the data flows:** `main` starts ROS and makes the node. The node makes its publisher and its
+# timer. Every second the timer calls `publish_temperature`, which takes a step, clamps it, publishes
+# a message and logs a line. This goes on until `Ctrl` + `C`.
+
+# %% [markdown]
+# ## Try it: another sensor
+#
+# Complete the constructor of a humidity sensor: it publishes `Float32` messages on the topic
+# `humidity`, with a queue depth of 5, and calls `publish_humidity` twice a second.
+
+# %% exercise="03a"
+class HumiditySensor(Node):
+    def __init__(self):
+        super().__init__("humidity_sensor")
+        # --- answer
+        self.publisher_ = self.create_publisher(Float32, "humidity", 5)
+        self.timer = self.create_timer(0.5, self.publish_humidity)
+        # --- blank
+        # self.publisher_ = self.create_publisher(____, ____, ____)
+        # self.timer = self.create_timer(____, ____)
+        # --- end
+
+    def publish_humidity(self):
+        self.publisher_.publish(Float32(data=45.0))
+
+# %% check="03a"
+check("03a", HumiditySensor)
+
+# %% [markdown]
+# ## Try it: a living room
+#
+# 10.2 degrees is cold for a room. It is probably a slip in the tutorial: 18.0 was meant. And in a
+# room with thick walls the temperature moves slowly. Write the method yourself: take a random step
+# of at most 0.3 degrees up or down, keep the temperature between 18 and 28, and publish it.
+
+# %% exercise="03b"
+class RoomSensor(Node):
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.publisher_ = self.create_publisher(Float32, "temperature", 10)
+        self.timer = self.create_timer(1.0, self.publish_temperature)
+        self.temperature = 22.0
+
+    def publish_temperature(self):
+        # --- answer
+        self.temperature += random.uniform(-0.3, 0.3)
+        self.temperature = max(18.0, min(28.0, self.temperature))
+        self.publisher_.publish(Float32(data=self.temperature))
+        # --- blank
+        # self.temperature += ____
+        # self.temperature = ____
+        # ____
+        # --- end
+
+# %% check="03b"
+check("03b", RoomSensor)
+
+# %% [markdown]
+# ## What went wrong: a number is not a message
+#
+# **Predict:** this sensor publishes the number itself. What happens at the first tick?
+
+# %%
+class HastySensor(SteadySensor):
+    def publish_temperature(self):
+        self.publisher_.publish(self.temperature)
+
+with Session() as ros:
+    ros.add(HastySensor)
+    ros.run(seconds=3)
+
+# %% [markdown]
+# **Symptom:** a `TypeError`, and the node stops. **Instrument:** the error itself; it names the line,
+# what was expected and what it got. **Cause:** a publisher sends messages of its type, and `22.0` is
+# a plain Python number. **Cure:** make a `Float32` and put the number into its field `data`.
+
+# %% [markdown]
+# ## Remember
+#
+# - `super().__init__("name")` makes the class a node.
+# - `create_publisher(type, topic, depth)` opens a topic; `publish(msg)` sends.
+# - `create_timer(period, method)` calls the method once a period, first after one period.
+# - `rclpy.init`, `rclpy.spin` and `try_shutdown` belong to the program around the node.
+#
+# On a robot this class stands in `temperature_publisher.py`, unchanged.
+#
+# **Next:** [write a subscriber](04_write_a_subscriber.ipynb) that listens to this sensor.

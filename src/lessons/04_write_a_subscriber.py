@@ -1,0 +1,339 @@
+# ---
+# title: Write a subscriber
+# minutes: 40
+# needs: ["00", "03"]
+# summary: Build the temperature monitor: a subscription, a callback with three states, and what sets subscriber and publisher apart.
+# ---
+
+# %% [markdown]
+# # Write a subscriber
+#
+# **Goal:** you write a node that listens to the temperature sensor and says whether the room is too
+# hot, too cold or just right.
+#
+# **Time:** 40 minutes. **You need:** [write a publisher](03_write_a_publisher.ipynb).
+
+# %%
+import random
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Float32, String
+
+from rosbeat import Session, check, viz
+from rosbeat.records import queue_steps
+
+# %% [markdown]
+# The first lines are the publisher's: `rclpy` is the ROS client library for Python, `Node` the class
+# that every node builds on, and `Float32` the message type. A subscriber must use the type that the
+# publisher uses, or the two sides do not understand each other. In a file of its own the monitor
+# needs no `random`; here the sensor does.
+#
+# ## Bring a sensor
+#
+# To have something to listen to, here is the sensor of the last page, without its log lines.
+
+# %%
+class TemperatureSensor(Node):
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.publisher_ = self.create_publisher(Float32, "temperature", 10)
+        self.timer = self.create_timer(1.0, self.publish_temperature)
+        self.temperature = 22.0
+
+    def publish_temperature(self):
+        self.temperature += random.uniform(-0.5, 0.5)
+        self.temperature = max(10.2, min(28.0, self.temperature))
+        self.publisher_.publish(Float32(data=self.temperature))
+
+# %% [markdown]
+# ## Listen to a topic
+#
+# One call in the constructor does it. `create_subscription` takes four arguments:
+#
+# - `Float32`, the type of message to expect;
+# - `"temperature"`, the name of the topic;
+# - `self.temperature_callback`, the **callback**: the method to call when a message arrives;
+# - `10`, the queue depth: how many messages are kept while the node is busy.
+#
+# You never call the callback yourself. ROS calls it, once for each message, and hands the message
+# over as `msg`. So a callback always has two parameters: `self` and the message.
+
+# %%
+class Listener(Node):
+    def __init__(self):
+        super().__init__("temperature_monitor")
+        self.subscription = self.create_subscription(
+            Float32, "temperature", self.temperature_callback, 10
+        )
+
+    def temperature_callback(self, msg):
+        self.get_logger().info(f"I heard {msg.data:.2f}")
+
+# %% [markdown]
+# **Predict:** first the listener runs alone for five seconds, then a sensor joins for three. What
+# is logged, and when?
+
+# %%
+with Session(seed=8) as ros:
+    ros.add(Listener)
+    ros.run(seconds=5)
+    ros.add(TemperatureSensor)
+    ros.run(seconds=3)
+
+# %% [markdown]
+# Nothing for five seconds, then one line a second. A publisher acts: its timer drives it. A
+# subscriber **reacts**: only a message wakes it. It does not ask whether there is something new, and
+# it does not mind that the sensor came after it. Waiting costs it nothing.
+
+# %% [markdown]
+# ## Judge what you hear
+#
+# The monitor shall say *High* above 26 degrees, *Low* below 20, and *Normal* in between.
+
+# %%
+class TemperatureMonitor(Node):
+    def __init__(self):
+        super().__init__("temperature_monitor")
+        self.subscription = self.create_subscription(
+            Float32, "temperature", self.temperature_callback, 10
+        )
+        self.get_logger().info("Temperature Monitor Node Started")
+
+    def temperature_callback(self, msg):
+        temp = msg.data
+        if temp > 26.0:
+            status = "High"
+        elif temp < 20.0:
+            status = "Low"
+        else:
+            status = "Normal"
+        self.get_logger().info(f"Temperature: {temp:.2f}C - Status:{status}")
+
+# %% [markdown]
+# This is the complete monitor. Read the callback from top to bottom:
+#
+# - `temp = msg.data` takes the number out of the message;
+# - `if`, `elif` and `else` are tried in this order, and the first that fits wins, so every number
+#   gets exactly one status;
+# - `>` and `<` leave the limits themselves out: exactly 26.0 is *Normal*, and so is exactly 20.0;
+# - the last line reports what was found, with two decimals.
+
+# %%
+ros = Session(seed=8)
+ros.add(TemperatureSensor)
+ros.add(TemperatureMonitor)
+ros.run(seconds=4)
+
+# %% [markdown]
+# **Predict:** in ten minutes, how often does the status change? Roughly is good enough.
+
+# %%
+ros.run(seconds=596, quiet=True)
+
+def status_of(line):
+    return line.text.split("Status:")[-1]
+
+lines = ros.logs("temperature_monitor")[1:]
+statuses = [status_of(line) for line in lines]
+{word: statuses.count(word) for word in ("Low", "Normal", "High")}
+
+# %%
+limits = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
+viz.values(ros.observation(), "temperature", bands=limits)
+
+# %% [markdown]
+# The bands are the three states. Look at the places where the line runs along a border: there the
+# status flickers from one word to the other and back with every small step. How often does it
+# change?
+
+# %%
+changes = sum(a != b for a, b in zip(statuses, statuses[1:]))
+f"{len(statuses)} readings, {changes} changes"
+
+# %% [markdown]
+# ## See the two together
+#
+# In the graph, sensor and monitor stand on the two sides of one topic. A second monitor would be one
+# more ellipse on the right, and the sensor would not change.
+
+# %%
+viz.graph(ros.graph())
+
+# %%
+viz.timeline(ros.observation(), until=3)
+
+# %% [markdown]
+# Each tick of the sensor's timer sends a message, and the message starts the monitor's callback.
+# Nothing in the sensor's code mentions the monitor, and nothing in the monitor's code mentions the
+# sensor. Any node that publishes a `Float32` on `temperature` would do.
+#
+# ## Let messages wait
+#
+# What if the monitor is busy for a while? Its messages wait in a **queue**. The 10 in
+# `create_subscription` is the length of that queue. `ros.pause` plays the busy node: it takes no
+# messages until `ros.resume`.
+#
+# **Predict:** the monitor is paused for 15 seconds while the sensor publishes once a second. How
+# many readings does it get when it comes back?
+
+# %%
+with Session(seed=8) as ros:
+    ros.add(TemperatureSensor)
+    ros.add(TemperatureMonitor)
+    ros.pause("temperature_monitor")
+    ros.run(seconds=15)
+    ros.resume("temperature_monitor")
+    ros.run(seconds=0, quiet=True)
+    waited = len(ros.logs("temperature_monitor")) - 1
+    seen = ros.observation()
+
+waited
+
+# %% [markdown]
+# Ten. The picture shows the queue second by second. The numbers are readings, and time runs to the
+# right.
+
+# %%
+arrivals = [sample.time_ns for sample in seen.samples]
+takes = [call.time_ns for call in seen.callbacks if call.kind == "subscription"]
+viz.queue(queue_steps(arrivals, takes, depth=10), depth=10)
+
+# %% [markdown]
+# When the queue is full, each new reading pushes the oldest one out. So the depth has nothing to do
+# with ten messages per second, and the sensor never waits for anybody. It does not even know that
+# five readings were lost. For a temperature that is fine: the newest readings matter most.
+#
+# ## Turn the class into a program
+#
+# The monitor's `main` is the sensor's, with another class in it. `rclpy.init` starts ROS,
+# `TemperatureMonitor()` makes the node, and `rclpy.spin` keeps the program alive and calls the
+# callback whenever a message has arrived.
+
+# %%
+def main(args=None):
+    rclpy.init(args=args)
+    node = TemperatureMonitor()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+# %% [markdown]
+# The tutorial's monitor leaves out the last two lines. The program ends anyway, and the system takes
+# back what it held. But if you tidy up every time, you do not have to think about when it matters.
+# Around `main` the file has the same first and last lines as the sensor's: `#!/usr/bin/env python3`,
+# and the script entry point that calls `main()`.
+#
+# **How the data flows:** `main` makes the node, and the node its subscription. `rclpy.spin` waits.
+# A message arrives, the callback takes the number out, finds the status and logs it, and the waiting
+# goes on until `Ctrl` + `C`.
+
+# %% [markdown]
+# ## Compare the two
+#
+# | | publisher | subscriber |
+# |---|---|---|
+# | what it does | sends data | receives data |
+# | made with | `create_publisher()` | `create_subscription()` |
+# | driven by | a timer: it acts | a message: it reacts |
+# | its method | is called by the timer and calls `publish()` | is called by ROS with a message |
+# | the data | is made here | is used here |
+#
+# A node may be both. The last exercise is one that listens *and* speaks.
+
+# %% [markdown]
+# ## Try it: watch a fridge
+#
+# A fridge has limits of its own. Above 8 degrees it is *Warm*, below 2 degrees it is *Frost*, and in
+# between all is *Fine*. Exactly 8.0 and exactly 2.0 are still *Fine*. Write the decision; it may
+# take more lines than the blank.
+
+# %% exercise="04a"
+class FridgeMonitor(Node):
+    def __init__(self):
+        super().__init__("fridge_monitor")
+        self.create_subscription(Float32, "temperature", self.temperature_callback, 10)
+
+    def temperature_callback(self, msg):
+        temp = msg.data
+        # --- answer
+        if temp > 8.0:
+            status = "Warm"
+        elif temp < 2.0:
+            status = "Frost"
+        else:
+            status = "Fine"
+        # --- blank
+        # status = ____
+        # --- end
+        self.get_logger().info(f"Fridge: {temp:.2f}C - Status:{status}")
+
+# %% check="04a"
+check("04a", FridgeMonitor)
+
+# %% [markdown]
+# ## Try it: raise the alarm
+#
+# This node sits in the middle: it listens to `temperature` and publishes a `String` on the topic
+# `alert`, but only if a reading is above 26 or below 20. What the text says is up to you. Other nodes
+# can listen to `alert` and need not know any limit.
+
+# %% exercise="04b"
+class Alarm(Node):
+    def __init__(self):
+        super().__init__("alarm")
+        self.create_subscription(Float32, "temperature", self.temperature_callback, 10)
+        # --- answer
+        self.alerts = self.create_publisher(String, "alert", 10)
+        # --- blank
+        # self.alerts = ____
+        # --- end
+
+    def temperature_callback(self, msg):
+        # --- answer
+        if msg.data > 26.0 or msg.data < 20.0:
+            self.alerts.publish(String(data=f"{msg.data:.1f} degrees"))
+        # --- blank
+        # if ____:
+        #     self.alerts.publish(____)
+        # --- end
+
+# %% check="04b"
+check("04b", Alarm)
+
+# %% [markdown]
+# ## What went wrong: the callback is called too early
+#
+# Two small brackets too many, in the line that subscribes. **Predict:** when does this fail: at the
+# first message, or before?
+
+# %%
+class EagerMonitor(Node):
+    def __init__(self):
+        super().__init__("temperature_monitor")
+        self.create_subscription(Float32, "temperature", self.temperature_callback(), 10)
+
+    def temperature_callback(self, msg=None):
+        self.get_logger().info("called")
+
+# %% tags=["raises-exception"]
+with Session() as ros:
+    ros.add(EagerMonitor)
+
+# %% [markdown]
+# **Symptom:** *called* appears before any message, and the constructor fails. **Instrument:** the
+# line that the error names. **Cause:** `self.temperature_callback()` calls the method and hands over
+# its result, which is `None`; ROS needs the method itself. **Cure:** no brackets.
+
+# %% [markdown]
+# ## Remember
+#
+# - `create_subscription(type, topic, callback, depth)` listens; ROS calls the callback.
+# - `msg.data` takes the value out of the message.
+# - A queue keeps the newest messages of a slow subscriber, as many as its depth.
+# - A publisher acts, a subscriber reacts, and a node may do both.
+#
+# On a robot this class stands in `temperature_subscriber.py`, unchanged.

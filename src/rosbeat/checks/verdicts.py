@@ -1,0 +1,70 @@
+"""The three outcomes, and the reasons that every exercise shares."""
+
+from __future__ import annotations
+
+from rosbeat.records import Fault, Observation, Outcome
+
+PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
+
+#: What a learner replaces; the name is never defined, so running it raises a NameError.
+BLANK = "____"
+
+#: What the middleware says, in its own way, when one topic has two message types.
+_TYPE_CLASH = ("invalid allocator", "existing topic name")
+
+
+def passed(exercise: str, evidence: str) -> Outcome:
+    """The answer does what was asked."""
+    return Outcome(exercise, PASSED, evidence)
+
+
+def failed(exercise: str, evidence: str, hint: str) -> Outcome:
+    """The answer does something else; `evidence` says what, `hint` where to look."""
+    return Outcome(exercise, FAILED, evidence, hint)
+
+
+def not_attempted(exercise: str) -> Outcome:
+    """A blank is still a blank."""
+    return Outcome(exercise, NOT_ATTEMPTED, f"There is still a blank, {BLANK}, in the cell above.")
+
+
+def is_blank(fault: Fault) -> bool:
+    """Whether an exception came from a blank that was not filled in."""
+    return fault.kind == "NameError" and f"'{BLANK}'" in fault.text
+
+
+def before_judging(exercise: str, observation: Observation) -> Outcome | None:
+    """What can be said whatever the exercise asks: a blank, or an exception; else None."""
+    if any(is_blank(fault) for fault in observation.faults):
+        return not_attempted(exercise)
+    if observation.faults:
+        return _raised(exercise, observation.faults[0])
+    return None
+
+
+def _raised(exercise: str, fault: Fault) -> Outcome:
+    if fault.callback in ("add", "run"):  # the session itself refused; its sentence is complete
+        return failed(exercise, fault.text, "Hand over the class that you wrote, by its name.")
+    where = f" Line {fault.line} of your cell: `{fault.code}`." if fault.line else ""
+    return failed(
+        exercise,
+        f"{fault.callback} raised {fault.kind}: {_first_sentence(fault.text)}.{where}",
+        _hint_for(fault),
+    )
+
+
+def _first_sentence(text: str) -> str:
+    # Errors of the middleware go on for lines with addresses of its own source files.
+    return text.split(", at ")[0].split("\n")[0].rstrip(".")
+
+
+def _hint_for(fault: Fault) -> str:
+    if any(sign in fault.text for sign in _TYPE_CLASH):
+        return (
+            "What this error means: the topic exists already, with another message type. Both "
+            "sides must use the same type."
+        )
+    return (
+        "An exception ends a node. Read the last sentence of the error first; it says what ROS "
+        "expected there."
+    )

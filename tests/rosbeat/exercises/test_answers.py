@@ -1,0 +1,78 @@
+"""Every exercise: nothing, right, differently right, and wrong answers with what is said to them."""
+
+import answers as a  # the folder is put on the path by conftest.py
+import pytest
+
+from rosbeat.exercises.checking import EXERCISES, check
+
+pytestmark = pytest.mark.ros
+
+RIGHT = {
+    "00a": [a.WeatherReader, a.LambdaReader, lambda: a.WeatherReader()],
+    "00b": [a.SportsReporter, a.CountingReporter],
+    "03a": [a.HumiditySensor, a.ParameterHumiditySensor],
+    "03b": [a.RoomSensor, a.RoomSensorWithIfs],
+    "04a": [a.FridgeMonitor, a.ShoutingFridge],
+    "04b": [a.Alarm],
+}
+
+WRONG = [
+    ("00a", a.ReaderOfAnotherTopic, "for messages on /sports"),
+    ("00a", a.ReaderWithALetterWrong, "It listens on /wether."),
+    ("00a", a.GreedyReader, "/politics, /weather"),
+    ("00a", a.ReaderWithoutSubscription, "It has no subscription."),
+    ("00a", "WeatherReader", "'WeatherReader' is not a node"),
+    ("00a", int, "int is a class, but not a node."),
+    ("00b", a.HastyReporter, "9 articles appeared on /sports"),
+    ("00b", a.ReporterOnAnotherTopic, "It published on /sport."),
+    ("00b", a.SilentReporter, "It published nothing."),
+    ("03a", a.SlowHumiditySensor, "5 readings appeared, the first at 1 s"),
+    ("03a", a.ShallowHumiditySensor, "queue depth is 10"),
+    ("03a", a.DoubleHumiditySensor, "std_msgs/msg/Float64"),
+    ("03a", a.TemperatureInsteadOfHumidity, "It published on /temperature"),
+    ("03a", a.HumidityWithoutTimer, "Nothing calls the callback."),
+    ("03a", a.HumidityThatForgetsToPublish, "does its callback call publish?"),
+    ("03a", a.HumidityWithSwappedArguments, "__init__ raised"),
+    ("03b", a.RoomWithTheTutorialsSlip, "It got below 18."),
+    ("03b", a.RoomWithoutUpperLimit, "It got above 28."),
+    ("03b", a.NarrowRoom, "narrower limits"),
+    ("03b", a.JumpyRoom, "too wide"),
+    ("03b", a.LazyRoom, "The steps are small."),
+    ("03b", a.ConstantRoom, "It never changes."),
+    ("04a", a.FridgeWithClosedUpperLimit, "For a reading of 8 the node said Warm."),
+    ("04a", a.FridgeWithClosedLowerLimit, "For a reading of 2 the node said Frost."),
+    ("04a", a.FridgeUpsideDown, "For a reading of 9.5 the node said Frost."),
+    ("04a", a.FridgeThatSaysEverything, "Warm and Frost and Fine"),
+    ("04a", a.SilentFridge, "nothing was logged"),
+    ("04a", a.DeafFridge, "another message type"),
+    ("04b", a.AlarmAtTheLimit, "for a reading of 26"),
+    ("04b", a.HotAlarm, "No alert for a reading of 19.75."),
+    ("04b", a.DoubleAlarm, "8 alerts for 4 readings."),
+    ("04b", a.MuteAlarm, "nothing was published on /alert"),
+]
+
+
+@pytest.mark.parametrize(
+    ("exercise", "answer"), [(key, answer) for key, all_ in RIGHT.items() for answer in all_]
+)
+def test_right_answers_pass(exercise, answer):
+    outcome = check(exercise, answer).outcome
+    assert outcome.status == "passed", outcome
+    assert not outcome.hint
+
+
+@pytest.mark.parametrize(("exercise", "answer", "said"), WRONG)
+def test_wrong_answers_fail_and_are_told_why(exercise, answer, said):
+    outcome = check(exercise, answer).outcome
+    assert outcome.status == "failed", outcome
+    assert said in f"{outcome.evidence} {outcome.hint}"
+    assert outcome.hint
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_a_blank_is_not_attempted(exercise):
+    assert check(exercise, a.UntouchedReader).outcome.status == "not attempted"
+
+
+def test_every_exercise_has_right_and_wrong_answers():
+    assert set(RIGHT) == set(EXERCISES) == {exercise for exercise, _, _ in WRONG}
