@@ -11,9 +11,7 @@ from rosbeat.exercises import page_00, page_03, page_04
 from rosbeat.exercises.exercise import Exercise
 
 EXERCISES: dict[str, Exercise] = {
-    exercise.id: exercise
-    for page in (page_00, page_03, page_04)
-    for exercise in page.EXERCISES
+    exercise.id: exercise for page in (page_00, page_03, page_04) for exercise in page.EXERCISES
 }
 
 

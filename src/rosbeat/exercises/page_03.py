@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 from rosbeat.checks.verdicts import failed, passed
@@ -63,7 +64,7 @@ def _judge_walk(observation: Observation) -> Outcome:
     if len(values) < 2:
         return _nothing("03b", observation, "temperature")
     low, high = min(values), max(values)
-    widest = max(abs(b - a) for a, b in zip(values, values[1:], strict=False))
+    widest = max(abs(b - a) for a, b in pairwise(values))
     evidence = (
         f"In two hours the temperature went from {low:.2f} to {high:.2f} degrees, "
         f"in steps of at most {widest:.2f}."

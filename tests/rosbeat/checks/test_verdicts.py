@@ -33,7 +33,9 @@ def test_an_unknown_line_is_not_mentioned():
 
 def test_what_the_session_refused_is_told_in_its_own_words():
     refused = fault("NodeClassError", "3 is not a node.", callback="add")
-    assert before_judging("03a", Observation(0, 0, faults=(refused,))).evidence == "3 is not a node."
+    assert (
+        before_judging("03a", Observation(0, 0, faults=(refused,))).evidence == "3 is not a node."
+    )
 
 
 def test_nothing_to_say_before_judging_when_nothing_was_raised():

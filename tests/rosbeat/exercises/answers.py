@@ -25,7 +25,9 @@ class WeatherReader(Node):
 class LambdaReader(Node):
     def __init__(self):
         super().__init__("anything")
-        self.create_subscription(String, "/weather", lambda msg: print(msg.data), QoSProfile(depth=1))
+        self.create_subscription(
+            String, "/weather", lambda msg: print(msg.data), QoSProfile(depth=1)
+        )
 
 
 class ReaderOfAnotherTopic(WeatherReader):

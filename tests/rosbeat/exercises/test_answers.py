@@ -1,4 +1,4 @@
-"""Every exercise: nothing, right, differently right, and wrong answers with what is said to them."""
+"""Every exercise: nothing, right, differently right, and wrong answers and what they are told."""
 
 import answers as a  # the folder is put on the path by conftest.py
 import pytest

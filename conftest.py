@@ -1,0 +1,3 @@
+"""Pages are tests: see `tests/notebooks`."""
+
+pytest_plugins = ["notebooks.plugin", "pytester"]

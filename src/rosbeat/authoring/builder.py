@@ -1,0 +1,105 @@
+"""What `rosbeat build` does: every page from its source, compared or written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from nbformat import NotebookNode
+
+from rosbeat.authoring import pages
+from rosbeat.authoring.files import Change, compare, stale_pages, write
+from rosbeat.authoring.layout import Course, choose
+from rosbeat.authoring.lint import check_lessons
+from rosbeat.authoring.source import Lesson
+from rosbeat.errors import LessonError
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to build.
+
+    Attributes:
+        names: Lessons by number, name or file; none means all.
+        check: Compare only; nothing on disk changes.
+        run: Build the solution pages too, which means running them.
+    """
+
+    names: tuple[str, ...] = ()
+    check: bool = False
+    run: bool = True
+
+
+def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> list[Change]:
+    """Build pages, and report each one that differed from what was on disk.
+
+    Args:
+        course: Where the sources and the pages are.
+        plan: What to build.
+        tell: Gets one line of progress per page.
+
+    Raises:
+        LessonError: A lesson breaks a rule, or a page does not run.
+    """
+    lessons = course.lessons()
+    chosen = choose(lessons, list(plan.names))
+    _refuse_findings(course, lessons, chosen)
+    changes = []
+    for path, make in _pages(course, chosen, plan):
+        change = _settle(path, pages.to_bytes(make()), plan.check)
+        tell(_line(course, path, change))
+        changes += [change] if change else []
+    for change in [] if plan.names else _stale(course, lessons, plan.check):
+        tell(_line(course, change.path, change))
+        changes.append(change)
+    return changes
+
+
+Make = Callable[[], NotebookNode]
+
+
+def _refuse_findings(course: Course, lessons: list[Lesson], chosen: list[Lesson]) -> None:
+    findings = check_lessons(course, lessons, chosen)
+    if findings:
+        raise LessonError(
+            "\n".join(str(finding) for finding in findings),
+            f"{len(findings)} rules of the lessons are broken, so nothing was built.",
+            "Mend them one by one; `rosbeat lint` shows them without building.",
+        )
+
+
+def _pages(course: Course, chosen: list[Lesson], plan: Plan) -> Iterator[tuple[Path, Make]]:
+    for lesson in chosen:
+        file = f"{lesson.name}.ipynb"
+        yield course.notebooks / file, _notebook(lesson)
+        if plan.run:
+            yield course.solutions / file, _solution(lesson, course.solutions)
+
+
+def _notebook(lesson: Lesson) -> Make:
+    return lambda: pages.notebook_page(lesson)
+
+
+def _solution(lesson: Lesson, folder: Path) -> Make:
+    return lambda: pages.solution_page(lesson, folder)
+
+
+def _settle(path: Path, content: bytes, check: bool) -> Change | None:
+    change = compare(path, content)
+    if change and not check:
+        write(path, content)
+    return change
+
+
+def _line(course: Course, path: Path, change: Change | None) -> str:
+    return f"{change.kind if change else 'same':8} {path.relative_to(course.root)}"
+
+
+def _stale(course: Course, lessons: list[Lesson], check: bool) -> Iterator[Change]:
+    names = {lesson.name for lesson in lessons}
+    for folder in (course.notebooks, course.solutions):
+        for path in stale_pages(folder, names):
+            if not check:
+                path.unlink()
+            yield Change(path, "stale")

@@ -1,0 +1,26 @@
+"""Answers in, or blanks in their place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from nbformat import NotebookNode
+
+from rosbeat.authoring import markers
+
+
+def fill_answers(page: NotebookNode) -> NotebookNode:
+    """Keep the answers and remove markers and blanks."""
+    return _rewrite(page, markers.solution)
+
+
+def blank_answers(page: NotebookNode) -> NotebookNode:
+    """Keep the blanks, uncommented, and remove markers and answers."""
+    return _rewrite(page, markers.learner)
+
+
+def _rewrite(page: NotebookNode, rewrite: Callable[[str], str]) -> NotebookNode:
+    for cell in page.cells:
+        if cell.cell_type == "code":
+            cell.source = rewrite(cell.source)
+    return page

@@ -1,0 +1,178 @@
+"""The `rosbeat` command: one subcommand, one registration in `COMMANDS`."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NoReturn
+
+from rosbeat import __version__
+from rosbeat.errors import CommandError, LessonError, RosbeatError
+
+__all__ = ["COMMANDS", "Command", "main"]
+
+FAILED = 1
+MISUSED = 2
+INTERRUPTED = 130
+
+
+@dataclass(frozen=True)
+class Command:
+    """A subcommand.
+
+    Attributes:
+        name: What is typed.
+        help: One line for `rosbeat --help`.
+        arguments: Declares the subcommand's arguments on its parser.
+        run: Does the work and returns the exit code; imports what it needs when it is called, so
+            that every other subcommand starts quickly.
+    """
+
+    name: str
+    help: str
+    arguments: Callable[[argparse.ArgumentParser], None]
+    run: Callable[[argparse.Namespace], int]
+
+
+def _page_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("pages", nargs="*", metavar="PAGE", help="03, a name, a file; default: all")
+    parser.add_argument("--root", type=Path, default=None, help="the checkout (default: found)")
+
+
+def _build_arguments(parser: argparse.ArgumentParser) -> None:
+    _page_arguments(parser)
+    parser.add_argument("--check", action="store_true", help="compare only, write nothing")
+    parser.add_argument("--no-run", action="store_true", help="leave the solution pages alone")
+
+
+def _build(options: argparse.Namespace) -> int:
+    from rosbeat.authoring import builder, layout
+
+    course = layout.find_course((options.root or Path.cwd()).resolve())
+    plan = builder.Plan(tuple(options.pages), options.check, not options.no_run)
+    found = builder.build(course, plan, lambda line: print(line, flush=True))
+    changes = [change for change in found if change.matters]
+    if not options.check or not changes:
+        return 0
+    names = ", ".join(f"{c.path.parent.name}/{c.path.name} ({c.kind})" for c in changes)
+    raise LessonError(
+        f"{len(changes)} pages are not what their sources say: {names}.",
+        "\n".join(["Learners would open something else.", *(c.diff for c in changes if c.diff)]),
+        "Run `rosbeat build`, look at the difference, and keep it.",
+    )
+
+
+def _lint(options: argparse.Namespace) -> int:
+    from rosbeat.authoring import layout, lint
+
+    course = layout.find_course((options.root or Path.cwd()).resolve())
+    lessons = course.lessons()
+    chosen = layout.choose(lessons, options.pages)
+    findings = lint.check_lessons(course, lessons, chosen)
+    for finding in findings:
+        print(finding)
+    print(f"{len(chosen)} lessons, {len(findings)} findings")
+    return FAILED if findings else 0
+
+
+COMMANDS: tuple[Command, ...] = (
+    Command("build", "make the pages from their sources", _build_arguments, _build),
+    Command("lint", "check the lesson sources against the rules", _page_arguments, _lint),
+)
+
+
+class _Parser(argparse.ArgumentParser):
+    """Reports misuse in three parts instead of argparse's one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise CommandError(f"{message}.", "", f"`{self.prog} --help` says what it knows.")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Args:
+        arguments: What was typed after ``rosbeat``, by default `sys.argv`.
+
+    Returns:
+        0 if all is well, 1 if the work failed, 2 if the command line was misused.
+    """
+    typed = list(sys.argv[1:] if arguments is None else arguments)
+    trace = "--traceback" in typed
+    try:
+        return _run([word for word in typed if word != "--traceback"])
+    except CommandError as error:
+        return _complain(error, MISUSED)
+    except RosbeatError as error:
+        return _complain(error, FAILED)
+    except KeyboardInterrupt:
+        return _complain(RosbeatError("interrupted."), INTERRUPTED)
+    except BrokenPipeError:
+        # Whoever read our output (`| head`) has seen enough; keep Python from flushing into it.
+        sys.stdout = None
+        return 0
+    except OSError as error:
+        return _complain(_system_error(error), FAILED)
+    except Exception as error:
+        if trace:
+            raise
+        return _complain(_own_mistake(error), FAILED)
+
+
+def _run(typed: list[str]) -> int:
+    parser = _parser()
+    _require_known(typed)
+    options = parser.parse_args(typed)
+    if options.command is None:
+        parser.print_help()
+        return 0
+    return int(options.run(options))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="rosbeat", description="Learn how robots talk: tools of the course.")
+    parser.add_argument("--version", action="version", version=f"rosbeat {__version__}")
+    parser.add_argument("--traceback", action="store_true", help="show where a mistake happened")
+    subparsers = parser.add_subparsers(dest="command", metavar="COMMAND", title="commands")
+    for command in COMMANDS:
+        child = subparsers.add_parser(command.name, help=command.help, description=command.help)
+        command.arguments(child)
+        child.set_defaults(run=command.run)
+    return parser
+
+
+def _require_known(typed: list[str]) -> None:
+    names = [command.name for command in COMMANDS]
+    if not typed or typed[0].startswith("-") or typed[0] in names:
+        return
+    nearest = difflib.get_close_matches(typed[0], names, n=1, cutoff=0.5)
+    meant = f"Did you mean `rosbeat {nearest[0]}`? " if nearest else ""
+    raise CommandError(
+        f"rosbeat has no command {typed[0]!r}.", "", f"{meant}The commands are: {', '.join(names)}."
+    )
+
+
+def _complain(error: RosbeatError, code: int) -> int:
+    print(f"rosbeat: {error}", file=sys.stderr)
+    return code
+
+
+def _system_error(error: OSError) -> RosbeatError:
+    name = f" ({error.filename})" if error.filename else ""
+    return RosbeatError(
+        f"{error.strerror or error}{name}.",
+        "The operating system refused something that the command needs.",
+        "Check that the file exists, that it may be written, and that the disk has room.",
+    )
+
+
+def _own_mistake(error: Exception) -> RosbeatError:
+    return RosbeatError(
+        f"{type(error).__name__}: {error}",
+        "This is a mistake in rosbeat, not in what you typed.",
+        "Run the command again with --traceback and report what it prints.",
+    )

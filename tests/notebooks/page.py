@@ -1,0 +1,130 @@
+"""A page as a test: nbval's file and cells, with the holes closed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from queue import Empty
+from typing import Any, NoReturn
+
+import pytest
+from nbval.plugin import IPyNbCell, IPyNbFile
+
+from notebooks.comparison import Watch, comparable, missing_outputs
+from notebooks.kernel import KernelDiedError, WatchedKernel
+
+_OUTPUT_TIMEOUT = 10
+# How long a thread that died with the last cell has to say so.
+_SILENCE = 0.3
+
+
+class Page(IPyNbFile):
+    """A notebook whose cells run one after the other in a kernel of their own."""
+
+    kernel: WatchedKernel | None = None
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.watch = Watch()
+
+    def collect(self) -> Iterator[pytest.Item]:
+        cells = list(super().collect())
+        if self.compare_outputs:
+            yield StoredOutputs.from_parent(self, name="stored outputs")
+        for cell in cells:
+            yield Cell.from_parent(
+                self, name=cell.name, cell_num=cell.cell_num, cell=cell.cell, options=cell.options
+            )
+        yield EndOfPage.from_parent(self, name="end of the page")
+
+    def setup(self) -> None:
+        timeout = self.config.option.nbval_kernel_startup_timeout
+        self.kernel = WatchedKernel(str(self.path.parent), timeout)
+        self.setup_sanitize_files()
+
+    def teardown(self) -> None:
+        # nbval stops only kernels that are alive, and keeps the sockets of dead ones.
+        if self.kernel is not None:
+            self.kernel.stop()
+
+    def get_kernel_message(self, timeout: float | None = None, stream: str = "iopub") -> Any:
+        message = super().get_kernel_message(timeout, stream)
+        self.watch.see(message)
+        return message
+
+
+class Cell(IPyNbCell):
+    """A code cell; beyond nbval's comparison, nothing may go wrong unseen."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.output_timeout = _OUTPUT_TIMEOUT
+
+    def runtest(self) -> None:
+        self.parent.watch.replaced = ""
+        try:
+            super().runtest()
+        except KernelDiedError as death:
+            self.raise_cell_error(str(death))
+        for problem in self.problems():
+            self.raise_cell_error(problem)
+
+    def problems(self) -> Iterator[str]:
+        """What nbval would let pass."""
+        raised = any(output.output_type == "error" for output in self.test_outputs)
+        if self.options["check_exception"] and not raised:
+            yield "The cell is to raise an exception, and raised none"
+        if self.parent.kernel.reply.get("status") == "error" and not raised:
+            yield "The kernel reports an error without a message; an unknown magic does this"
+        if self.parent.watch.replaced:
+            yield f"The cell replaces outputs ({self.parent.watch.replaced}): not comparable"
+        background = self.parent.watch.background_exception()
+        if background:
+            yield f"An exception in the background, of this cell or one before it:\n{background}"
+
+    def compare_outputs(self, test: Any, ref: Any, skip_compare: Any = None) -> bool:
+        return super().compare_outputs(comparable(test), comparable(ref), skip_compare)
+
+
+class PageItem(pytest.Item):
+    """A statement about a page as a whole."""
+
+    def fail(self, message: str) -> NoReturn:
+        """Fail with a message and no traceback, which would show only this plugin."""
+        pytest.fail(f"{self.path.name}: {message}", pytrace=False)
+
+    def reportinfo(self) -> tuple[Any, int, str]:
+        return self.path, 0, self.name
+
+
+class StoredOutputs(PageItem):
+    """A page without outputs would pass every comparison."""
+
+    def runtest(self) -> None:
+        problem = missing_outputs(self.parent.nb.cells)
+        if problem:
+            self.fail(f"{problem} Nothing can be compared; build the page with its outputs.")
+
+
+class EndOfPage(PageItem):
+    """Nothing is left behind: no dying thread, no kernel that aborts when it ends."""
+
+    def runtest(self) -> None:
+        self.drain()
+        background = self.parent.watch.background_exception()
+        if background:
+            self.fail(f"an exception in the background:\n{background}")
+        if not self.parent.kernel.is_alive():
+            self.fail("the kernel did not live to the end of the page.")
+        code = self.parent.kernel.leave()
+        if code != 0:
+            self.fail(f"the kernel ended with code {code}. {self.parent.kernel.last_words()}")
+
+    def drain(self) -> None:
+        """Read what still comes after the last cell."""
+        if not self.parent.kernel.is_alive():
+            return
+        while True:
+            try:
+                self.parent.get_kernel_message(timeout=_SILENCE)
+            except Empty:
+                return

@@ -1,0 +1,52 @@
+"""Both trees say what the sources say. Outputs are nbval's business, so nothing is run here."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from rosbeat.authoring import pages
+from rosbeat.authoring.files import stale_pages
+from rosbeat.authoring.layout import Course
+from rosbeat.authoring.lint import check_lessons
+from rosbeat.authoring.source import read_lesson
+
+COURSE = Course(Path(__file__).parents[2])
+SOURCES = sorted(COURSE.sources.glob("*.py"))
+each_source = pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.stem)
+
+
+def without_outputs(page):
+    for cell in page.cells:
+        if cell.cell_type == "code":
+            cell.outputs, cell.execution_count = [], None
+    return pages.to_bytes(page)
+
+
+@each_source
+def test_the_source_keeps_the_rules(source):
+    findings = check_lessons(COURSE, COURSE.lessons(), [read_lesson(source)])
+    assert not findings, "\n".join(map(str, findings))
+
+
+@each_source
+def test_the_learners_page_is_built_from_the_source(source):
+    page = COURSE.notebooks / f"{source.stem}.ipynb"
+    assert page.read_bytes() == pages.to_bytes(pages.notebook_page(read_lesson(source))), BUILD
+
+
+@each_source
+def test_the_solution_page_is_built_from_the_source(source):
+    stored = nbformat.read(COURSE.solutions / f"{source.stem}.ipynb", as_version=4)
+    draft = pages.solution_draft(read_lesson(source))
+    assert without_outputs(stored) == without_outputs(draft), BUILD
+
+
+@pytest.mark.parametrize("folder", [COURSE.notebooks, COURSE.solutions], ids=lambda path: path.name)
+def test_every_page_has_its_source(folder):
+    assert stale_pages(folder, {source.stem for source in SOURCES}) == []
+
+
+BUILD = "the page is not what its source says: run `rosbeat build`"

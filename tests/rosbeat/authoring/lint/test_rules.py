@@ -1,0 +1,187 @@
+"""Every rule with samples that keep it and samples that break it."""
+
+from __future__ import annotations
+
+import pytest
+
+from rosbeat.authoring.lint import LINTS, check_lessons
+from rosbeat.authoring.lint.marks import answer_markers
+
+EXERCISE = """
+# %% exercise="00a"
+class Sensor(Node):
+    def __init__(self):
+        # --- answer
+        self.timer = self.create_timer(1.0, self.publish_temperature)
+        # --- blank
+        # self.timer = self.create_timer(____, ____)
+        # --- end
+
+# %% check="00a"
+print("not attempted yet")
+"""
+ANSWER = "# --- answer\n{}\n# --- blank\n{}\n# --- end\n"
+
+BROKEN = {
+    "leaked-answer": [
+        EXERCISE + "# %%\nself.timer = self.create_timer(1.0,  self.publish_temperature)",
+        EXERCISE + "# %% [markdown]\n# Write `self.timer=self.create_timer(1.0, "
+        "self.publish_temperature)`.",
+        EXERCISE + "# %% [markdown]\n# ```\n# self.timer = self.create_timer(\n#     1.0,\n"
+        "#     self.publish_temperature)\n# ```",
+        EXERCISE + "# %% [markdown]\n# ![it says self.timer = self.create_timer(1.0, "
+        "self.publish_temperature)](x.svg)",
+        EXERCISE.replace("# self.timer = self.create_timer(____, ____)",
+                         "# # self.timer = self.create_timer(1.0, self.publish_temperature)\n"
+                         "        # self.timer = ____"),
+    ],
+    "prose-as-code": [
+        "# %%\n# A sentence that was meant to be prose.",
+        "# %%\n",
+        "# %%\n" + "# Words and more words that say a lot here.\n" * 6 + "x = 1",
+    ],
+    "code-as-prose": [
+        "# %% [markdown]\n# Look:\n#\n#     self.timer = None",
+        "# %% [markdown]\n# import rclpy",
+        "# %% [markdown]\n# from rclpy.node import Node",
+        "# %% [markdown]\n# $ ros2 topic list",
+        "# %% [markdown]\n# node = Sensor()",
+        "# %% [markdown]\n# def main(args=None):",
+    ],
+    "syntax": ["# %%\nThis is prose.", "# %%\nx = (1"],
+    "blank-outside-function": [
+        '# %% exercise="00a"\n' + ANSWER.format("period = 1.0", "# period = ____"),
+        '# %% exercise="00a"\nclass A:\n    # --- answer\n    x = 1\n    # --- blank\n'
+        "    # x = ____\n    # --- end",
+        '# %% exercise="00a"\n' + ANSWER.format("def f(x=1): pass", "# def f(x=____): pass"),
+        '# %% exercise="00a"\n' + ANSWER.format("class A(Node): pass", "# class A(____): pass"),
+    ],
+    "stray-blank": ["# %%\ndef f():\n    return ____"],
+    "answer-outside-exercise": [
+        "# %%\n" + ANSWER.format("x = 1", "# def f(): ____"),
+        '# %% exercise="00a"\nx = 1\n# %% check="00a"\nx',
+        '# %% exercise="00a" only="notebook"\n' + ANSWER.format("x = 1", "# def f(): ____"),
+    ],
+    "exercise-names": [EXERCISE.replace("00a", "00b"), EXERCISE.replace("00a", "03a"),
+                       EXERCISE + EXERCISE],
+    "exercise-pairs": [EXERCISE.split("# %% check")[0], '# %% check="00a"\nx = 1',
+                       EXERCISE + '# %% check="00a"\nx = 1'],
+    "cell-budget": ["# %%\n" + "x = 1\n" * 26, "# %% [markdown]\n# " + "word " * 121,
+                    EXERCISE.replace("# %% check", "    x = 1\n" * 40 + "# %% check")],
+    "page-budget": [""],
+    "broken-link": [
+        "# %% [markdown]\n# [next](01_nothing.ipynb)",
+        "# %% [markdown]\n# [up](#no-such-heading)",
+        "# %% [markdown]\n# [page](00_hear_it.ipynb#Hear-what)",
+        "# %% [markdown]\n# ![a drawing](pictures/none.svg)",
+        '# %% [markdown]\n# <img src="none.png" alt="a drawing">',
+        "# %% [markdown]\n# ![a drawing](attachment:x.png)",
+    ],
+    "alt-text": ["# %% [markdown]\n# ![](https://example.org/x.svg)",
+                 '# %% [markdown]\n# <img src="https://example.org/x.png">',
+                 '# %% [markdown]\n# <img alt="" src="https://example.org/x.png">'],
+    "title": ["# %% [markdown]\n# # Another title"],
+    "heading-levels": ["# %% [markdown]\n# ### Too deep"],
+    "heading-numbers": ["# %% [markdown]\n# ## 2. Second without a first",
+                        "# %% [markdown]\n# ## Exercise 00c"],
+    "endless": ["# %%\nrclpy.spin(node)", "# %%\nfrom rclpy import spin\nspin(node)",
+                "# %%\nwhile True:\n    step()", "# %%\nif ready:\n    executor.spin()"],
+    "unseen-by-nbval": ["# %%\nclear_output(wait=True)", "# %%\ndisplay(x, display_id='a')",
+                        "# %%\nhandle.update_display(1)"],
+    "machine-path": ["# %%\nopen('/home/ada/x')", "# %% [markdown]\n# In `/tmp/x`.",
+                     "# %% [markdown]\n# In `C:\\Users\\ada`."],
+    "answer-markers": ["# %%\n# --- answer\nx = 1", "# %% [markdown]\n# # --- blank"],
+}  # fmt: skip
+
+KEPT = [
+    EXERCISE,
+    EXERCISE + '# %% [markdown] only="solution"\n# It is `self.timer = self.create_timer(1.0, '
+    "self.publish_temperature)`.",
+    '# %% exercise="00a"\n# Short lines are everybody\'s.\ndef f():\n'
+    "    # --- answer\n    pass\n    # --- blank\n    # ____\n    # --- end\n"
+    '# %%\ndef g():\n    pass\n# %% check="00a"\nf',
+    '# %% exercise="00a"\nf = 1\n'
+    + ANSWER.format("g = lambda x: x + 1", "# g = lambda x: ____")
+    + '# %% check="00a"\nf',
+    "# %%\n# One remark.\nx = 1",
+    "# %%\n%matplotlib inline\n!ls\nx = 1",
+    "# %%\n%%bash\nls -l | head",
+    "# %% [markdown]\n# ```python\n# import rclpy\n# rclpy.spin(node)\n# ```",
+    "# %% [markdown]\n# for the first time:\n# - `self.timer = None` makes no timer.",
+    "# %% [markdown]\n# Fill in each `____`.",
+    "# %% [markdown]\n# [here](#Hear-it) [page](00_hear_it.ipynb#Hear-it) "
+    "[solution](../solutions/00_hear_it.ipynb) [web](https://docs.ros.org/en/jazzy/)",
+    "# %% [markdown]\n# ![a drawing](../src/lessons/00_hear_it.py)",
+    "# %% [markdown]\n# `source /opt/ros/jazzy/setup.bash` and ~/.bashrc",
+    "# %% [markdown]\n# ## 1. First\n# ### Deeper\n# ## 2. Second",
+    "# %% [markdown]\n# ```\n# # not a heading\n# ```",
+    "# %%\ndef main():\n    rclpy.spin(node)",
+    "# %%\nwhile True:\n    break",
+    "# %%\ndef f():\n    while True:\n        pass",
+]
+
+
+def names_of(checkout, body, **options):
+    lesson = checkout.lesson(body, **options)
+    return {finding.lint for finding in check_lessons(checkout.course, [lesson], [lesson])}
+
+
+@pytest.mark.parametrize(
+    ("name", "body"), [(name, body) for name, bodies in BROKEN.items() for body in bodies]
+)
+def test_a_sample_that_breaks_the_rule_is_found(checkout, name, body):
+    assert name in names_of(checkout, body, filler=name != "page-budget")
+
+
+@pytest.mark.parametrize("body", KEPT)
+def test_a_sample_that_keeps_the_rules_is_left_alone(checkout, body):
+    assert names_of(checkout, body, filler=True) == set()
+
+
+def test_every_rule_has_a_broken_sample():
+    rules = {lint.__name__.replace("_", "-") for lint in (*LINTS, answer_markers)}
+    assert rules == {*BROKEN, "page-numbers"}
+
+
+def test_a_number_belongs_to_one_page_and_needs_come_first(checkout):
+    twin = checkout.lesson("", name="00_hear_again")
+    later = checkout.lesson("", name="02_say_it", title="Say it", needs="[00, 02, 07]")
+    lessons = [checkout.lesson(""), twin, later]
+    found = [f for f in check_lessons(checkout.course, lessons, lessons) if "page-n" in f.lint]
+    whats = " ".join(finding.what for finding in found)
+    assert "also belongs to 00_hear_again" in whats
+    assert "page 07, which is not there" in whats
+    assert "page 02, which comes later" in whats
+
+
+def test_a_title_begins_with_a_verb(checkout):
+    assert "title" in names_of(checkout, "", title="The publisher")
+
+
+def test_an_answer_that_a_drawing_shows_is_found(checkout):
+    drawing = checkout.course.notebooks / "x.svg"
+    drawing.write_text("<text>self.timer = self.create_timer(1.0, self.publish_temperature)</text>")
+    body = EXERCISE + "# %% [markdown]\n# ![a drawing](x.svg)"
+    assert names_of(checkout, body, filler=True) == {"leaked-answer"}
+
+
+def test_links_to_other_pages_know_their_headings(checkout):
+    other = checkout.lesson("# %% [markdown]\n# ## Look closer", name="01_say_it", title="Say it")
+    body = "# %% [markdown]\n# [good](01_say_it.ipynb#Look-closer) [bad](01_say_it.ipynb#Look)"
+    lesson = checkout.lesson(body, filler=True)
+    found = check_lessons(checkout.course, [lesson, other], [lesson])
+    assert ["#Look'" in finding.what for finding in found] == [True]
+
+
+def test_a_finding_names_file_line_rule_and_cure(checkout):
+    lesson = checkout.lesson("# %%\nx = 1\nprint(____)", filler=True)
+    (finding,) = [
+        f for f in check_lessons(checkout.course, [lesson], [lesson]) if f.lint == "stray-blank"
+    ]
+    line = lesson.path.read_text().split("\n").index("print(____)") + 1
+    assert str(finding).startswith(f"src/lessons/00_hear_it.py:{line}: stray-blank: ____ stands")
+
+
+def test_later_pages_are_longer_than_the_first(checkout):
+    body = {"filler": True, "name": "03_say_it", "title": "Say it"}
+    assert names_of(checkout, "", **body) == {"page-budget"}

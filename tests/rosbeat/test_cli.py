@@ -1,0 +1,117 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from rosbeat import __version__, cli
+from rosbeat.errors import RosbeatError
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    (tmp_path / "src" / "lessons").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def command(work):
+    return cli.Command("work", "does it", lambda parser: None, work)
+
+
+def test_help_names_every_command(capsys):
+    assert cli.main([]) == 0
+    text = capsys.readouterr().out
+    assert all(registered.name in text for registered in cli.COMMANDS)
+
+
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_help_and_version_end_well(option, capsys):
+    with pytest.raises(SystemExit) as caught:
+        cli.main([option])
+    assert caught.value.code == 0
+    assert "rosbeat" in capsys.readouterr().out
+
+
+def test_version_is_the_packages(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["--version"])
+    assert capsys.readouterr().out.strip() == f"rosbeat {__version__}"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["biuld"], "Did you mean `rosbeat build`?"),
+        (["linnt"], "Did you mean `rosbeat lint`?"),
+        (["xyzzy"], "The commands are: build, lint."),
+        (["build", "--wrong"], "--help"),
+    ],
+)
+def test_misuse_says_what_to_try_and_ends_with_2(arguments, expected, capsys):
+    assert cli.main(arguments) == cli.MISUSED
+    said = capsys.readouterr().err
+    assert expected in said
+    assert "Traceback" not in said
+
+
+def test_an_empty_course_builds_and_lints(course, capsys):
+    assert cli.main(["build", "--check"]) == 0
+    assert cli.main(["lint"]) == 0
+    assert "0 lessons, 0 findings" in capsys.readouterr().out
+
+
+def test_findings_are_printed_and_end_with_1(course, capsys):
+    (course / "src" / "lessons" / "00_hear_it.py").write_text(
+        "# ---\n# title: Hear it\n# minutes: 1\n# needs: []\n# summary: x\n# ---\n# %%\n1\n"
+    )
+    assert cli.main(["lint"]) == cli.FAILED
+    assert "src/lessons/00_hear_it.py:1: title:" in capsys.readouterr().out
+
+
+def test_an_error_of_ours_has_three_parts(course, capsys):
+    (course / "src" / "lessons" / "hear.py").write_text("")
+    assert cli.main(["build"]) == cli.FAILED
+    said = capsys.readouterr().err
+    assert all(part in said for part in ("NN_slug", "What it means:", "What to try:"))
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "expected"),
+    [
+        (RosbeatError("no.", "means", "try"), cli.FAILED, "What to try:   try"),
+        (PermissionError(13, "Permission denied", "x.ipynb"), cli.FAILED, "(x.ipynb)"),
+        (KeyError("lost"), cli.FAILED, "a mistake in rosbeat"),
+        (KeyboardInterrupt(), cli.INTERRUPTED, "interrupted"),
+    ],
+)
+def test_no_error_ends_in_a_traceback(error, code, expected, capsys, monkeypatch):
+    def work(options):
+        raise error
+
+    monkeypatch.setattr(cli, "COMMANDS", (command(work),))
+    assert cli.main(["work"]) == code
+    assert expected in capsys.readouterr().err
+
+
+def test_a_mistake_of_ours_can_be_traced(monkeypatch):
+    def work(options):
+        raise KeyError("lost")
+
+    monkeypatch.setattr(cli, "COMMANDS", (command(work),))
+    with pytest.raises(KeyError):
+        cli.main(["work", "--traceback"])
+
+
+def test_python_m_rosbeat_is_rosbeat_and_needs_neither_ros_nor_jupyter():
+    code = (
+        "import sys; from rosbeat.cli import main; main([]); "
+        "print({'rclpy', 'nbclient', 'jupytext', 'matplotlib'} & set(sys.modules))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip().endswith("set()")
+    done = subprocess.run(
+        [sys.executable, "-m", "rosbeat", "biuld"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == cli.MISUSED
