@@ -12,13 +12,16 @@
 #
 # **Time:** 20 minutes. **You need:** a little Python: classes, methods, `self`.
 #
-# To run a cell, click into it and press `Shift` + `Enter`.
+# A page is made of **cells**. Click into the first one and press `Shift` + `Enter` to run it; go on
+# from top to bottom. A `[*]` beside a cell means that it is still running. If you get lost, choose
+# *Kernel, Restart Kernel* from the menu and begin again at the top.
 
 # %% [markdown]
 # ## Send the first message
 #
-# A robot is many small programs that talk. In ROS 2 such a program is called a **node**. Here is a
-# whole one. It plays a thermometer. Run the next three cells.
+# A robot's software has many small parts that talk. In ROS 2 such a part is called a **node**. On a
+# robot it is often a program of its own; here, several can share a page. What one node sends to
+# others is a **message**. Here is a whole node. It plays a thermometer. Run the next three cells.
 
 # %%
 from rclpy.node import Node
@@ -43,11 +46,11 @@ ros.add(Thermometer)
 ros.run(seconds=3)
 
 # %% [markdown]
-# That is a heartbeat: one message a second. The number after `INFO` is the time in seconds, and
-# the name after it is the node that speaks.
+# That is a heartbeat: one message a second. Each line is a **log** line, a note for people. The
+# number after `INFO` is the time in seconds, and the name after it is the node that speaks.
 #
 # You did not wait three seconds. A `Session` runs real ROS nodes in **virtual time**: its clock
-# jumps from one event to the next. So a minute takes no time, and you get the same result as
+# jumps from one event to the next. So a minute takes almost no time, and you get the same result as
 # everybody else.
 #
 # **Predict:** how many messages are there after one more minute? Say a number, then run the cell.
@@ -58,8 +61,9 @@ len(ros.messages("temperature"))
 
 # %% [markdown]
 # Three before and sixty now. `quiet=True` only keeps the log lines off the page; the messages were
-# sent, and the session has recorded each of them. Here is the first: when it was published (in
-# nanoseconds, so a billion is one second), on which topic, of which type, by which node, and the data.
+# sent, and the session has recorded each of them. `ros.messages` gives them all. Here is the first:
+# when it was sent (in nanoseconds, so a billion is one second), where, what type, from whom, and the
+# data.
 
 # %%
 ros.messages("temperature")[0]
@@ -77,11 +81,14 @@ ros.messages("temperature")[0]
 # - a **publisher** sends messages to a topic;
 # - a **subscriber** receives the messages of a topic, each in a function called its **callback**.
 #
-# Two sides need to agree on two things only: the topic's name and the type of its messages.
+# This is **publish and subscribe**, or pub/sub for short. On these pages the two sides need to agree
+# on two things: the topic's name, and the **message type**, which says what kind of data a message
+# carries.
 
 # %% [markdown]
 # Here is a reporter. It publishes text, which has the message type `String`, on a topic that you
-# choose.
+# choose. `create_timer(1.0, self.write)` makes a **timer**: it calls `write` every 1.0 seconds. What
+# the 10 means comes on a later page.
 
 # %%
 class Reporter(Node):
@@ -107,6 +114,9 @@ class Reader(Node):
         self.get_logger().info(f"I read: {msg.data}")
 
 # %% [markdown]
+# `add` takes a class, as before, or a node that you make yourself, when its constructor needs
+# arguments. `ros.close()` ends the first session.
+#
 # **Predict:** three reporters write, two readers read. Nobody reads politics. Which lines appear?
 
 # %%
@@ -121,7 +131,8 @@ newsroom.run(seconds=2)
 
 # %% [markdown]
 # Ana gets sports, Ben gets the weather, and nobody gets anything else. The picture shows why:
-# ellipses are nodes, boxes are topics, and messages follow the arrows.
+# ellipses are nodes, boxes are topics, and messages follow the arrows. The slash belongs to the full
+# name: `weather` and `/weather` are the same topic here.
 
 # %%
 viz.graph(newsroom.graph())
@@ -134,8 +145,9 @@ viz.graph(newsroom.graph())
 viz.timeline(newsroom.observation())
 
 # %% [markdown]
-# Time runs from left to right here. Each message leaves a reporter's timer and arrives in a
-# reader's callback at the same instant.
+# Time runs from left to right. Squares are timer callbacks, circles are subscription callbacks. The
+# messages on sports and weather arrive at the same instant of virtual time; on a robot it takes a
+# moment. The short arrows are politics: nobody takes them.
 #
 # ## Take the newsroom apart
 #
@@ -149,7 +161,7 @@ viz.timeline(newsroom.observation())
 len(newsroom.messages("politics"))
 
 # %% [markdown]
-# The politics reporter published all the same. It cannot tell whether anybody listens.
+# The politics reporter published two messages. It does not need to know whether anybody listens.
 #
 # **Does a publisher notice when somebody comes?** Cleo joins late. No line of a reporter changes.
 
@@ -158,7 +170,7 @@ newsroom.add(Reader("cleo", "weather"))
 newsroom.run(seconds=1)
 
 # %% [markdown]
-# Cleo reads what is published from now on. What came before she was there has passed her by.
+# Cleo reads what is published from now on. She does not get earlier messages.
 #
 # **Does a subscriber need a publisher?** Take the weather reporter out.
 
@@ -172,7 +184,9 @@ newsroom.run(seconds=2)
 #
 # - **in name:** they know a topic, not each other;
 # - **in number:** none, one or many can be on either side;
-# - **in life:** each comes and goes by itself.
+# - **in time:** each starts and stops by itself.
+#
+# So each part of a robot can be small, run beside the others, and be used again in another robot.
 
 # %% [markdown]
 # ## Try it: read the weather
@@ -199,7 +213,7 @@ check("00a", WeatherReader)
 # %% [markdown]
 # ## Try it: report on sports
 #
-# Now the other side. This reporter shall publish an article on `sports` every two seconds. Two
+# Now the other side. This reporter publishes an article on `sports` every two seconds. There are two
 # blanks this time.
 
 # %% exercise="00b"
@@ -238,8 +252,8 @@ newsroom.run(seconds=1)
 viz.graph(newsroom.graph())
 
 # %% [markdown]
-# The dashed lines lead to topics that have only one side. Dan listens to `/sport`, and no one is
-# there: the topic is called `/sports`. The cure is one letter.
+# Dashed lines touch a topic that has only one side. Dan listens to `/sport`, and no one is there: the
+# topic is called `/sports`. The cure is one letter.
 
 # %%
 newsroom.add(Reader("dan", "sports"))
@@ -247,16 +261,17 @@ newsroom.run(seconds=1)
 newsroom.close()
 
 # %% [markdown]
-# A node of the same name takes the place of the old one, so there was only one Dan at any time.
+# In a session, a node of the same name replaces the old one. On a robot both would run, so give each
+# node a name of its own.
 #
 # ## Remember
 #
-# - A **node** is a small program with one job.
+# - A **node** is a small part of a robot's software, with one job.
 # - A **publisher** sends messages to a **topic**; a **subscriber** gets them in its **callback**.
-# - They agree on the topic's name and the message type, and on nothing else.
-# - When nothing arrives, look at the graph first: compare the names.
+# - They agree on the topic's name and the message type, and need not know each other.
+# - When nothing arrives, look at the graph first.
 #
-# Nothing here was pretended. These classes are ordinary ROS 2 code, the messages went through the
-# same middleware that robots use, and the files of a robot look just like these cells.
+# Only clock and data are made up. These classes are ordinary ROS 2 code, and the messages
+# went through the **middleware** that robots use: the software that carries them.
 #
-# **Next:** [write a publisher](03_write_a_publisher.ipynb), a sensor whose temperature changes.
+# **Next:** [write a publisher](03_write_a_publisher.ipynb). Pages 01 and 02 come later.

@@ -23,7 +23,7 @@
 #
 # - `rclpy` is the ROS client library for Python: everything that talks to ROS goes through it;
 # - `Node` is the class that every node builds on;
-# - `Float32` is a **message type**: what kind of data a topic carries, here one decimal number;
+# - `Float32` is the message type: it carries one decimal number;
 # - `random` comes with Python and will make the temperature wander.
 
 # %%
@@ -44,7 +44,8 @@ from rosbeat import Session, check, viz
 # ## Name the node
 #
 # A node is a class that inherits from `Node`. Its constructor, `__init__`, first calls the
-# constructor of `Node` and gives it the node's name. Without that call the class is not a node yet.
+# constructor of `Node` and gives it the node's name. Without that call the object is not a working
+# node. `get_logger().info(...)` writes a line to the log; on a robot it appears in the terminal.
 
 # %%
 class QuietSensor(Node):
@@ -53,7 +54,8 @@ class QuietSensor(Node):
         self.get_logger().info("Temperature Sensor Node Started")
 
 # %% [markdown]
-# **Predict:** what does this node say in ten seconds?
+# **Predict:** what does this node say in ten seconds? (`with` closes the session at the end of the
+# block.)
 
 # %%
 with Session() as ros:
@@ -62,16 +64,16 @@ with Session() as ros:
 
 # %% [markdown]
 # One line, and it comes from the constructor. A node does nothing by itself. It needs something that
-# calls it. For a sensor, that is a **timer**.
+# calls it. For a sensor, that is a timer.
 
 # %% [markdown]
 # ## Publish on every tick
 #
 # Two lines in the constructor give the node a voice and a beat:
 #
-# - `create_publisher(Float32, "temperature", 10)` opens the topic. The three arguments are the
-#   message type, the topic's name, and the **queue depth**: how many messages are kept for a
-#   subscriber that is slow.
+# - `create_publisher(Float32, "temperature", 10)` makes a publisher for one topic. The arguments are
+#   the message type, the topic's name, and the **queue depth**: how many of its newest messages the
+#   publisher keeps for delivery. The underscore in `publisher_` is only part of the name.
 # - `create_timer(1.0, self.publish_temperature)` calls a method every 1.0 seconds. Notice that there
 #   are no brackets after the method's name: you hand it over, and the timer calls it.
 
@@ -89,8 +91,10 @@ class SteadySensor(Node):
         self.publisher_.publish(msg)
 
 # %% [markdown]
-# The method makes an empty message, puts the temperature into its field `data`, and publishes it.
-# Which fields a type has is part of the type; `Float32` has just this one.
+# `self.temperature = 22.0` is where it starts: room temperature, in degrees Celsius. The method makes
+# a new message, whose `data` is 0.0, puts the temperature in, and publishes it. The named parts of a
+# message are its **fields**; `Float32` has just this one. `Float32(data=22.0)` makes and fills a
+# message in one step.
 #
 # **Predict:** the timer starts at zero seconds. When does the first message come?
 
@@ -108,13 +112,13 @@ with Session() as ros:
 # %% [markdown]
 # ## Let the temperature wander
 #
-# A real sensor does not say the same thing for ever. Add a small random number each time:
-# `random.uniform(-0.5, 0.5)` is somewhere between -0.5 and +0.5. A value that changes by small
-# random steps makes a **random walk**.
+# A real sensor does not say the same thing every time. `random.uniform(-0.5, 0.5)` is a random number
+# between -0.5 and +0.5, and `+=` adds it to the old value. A value that changes by small random steps
+# makes a **random walk**.
 #
-# A walk has no fence. So the tutorial behind this course keeps it in a range with
-# `max(10.2, min(28.0, ...))`. Read it from the inside out: `min` cuts off what is above 28,
-# `max` cuts off what is below 10.2. This is called **clamping**.
+# A random walk can go anywhere. So the tutorial that this course follows keeps it in a range with
+# `max(10.2, min(28.0, ...))`. Read it from the inside out: `min` cuts off what is above 28, `max` cuts
+# off what is below 10.2. This is called **clamping**.
 
 # %%
 class TemperatureSensor(Node):
@@ -135,8 +139,9 @@ class TemperatureSensor(Node):
         self.get_logger().info(f"Publishing: {self.temperature:.2f}C")
 
 # %% [markdown]
-# This is the complete sensor. The last line logs what was published; `:.2f` writes the number with
-# two decimals. The log is for people, the message is for nodes.
+# This is the complete sensor. The last line logs what was published. The `f` before the quotes puts
+# values where the braces are, and `:.2f` writes a number with two decimals. The log is for people,
+# the message is for nodes.
 
 # %%
 ros = Session(seed=8)
@@ -144,7 +149,8 @@ sensor = ros.add(TemperatureSensor)
 ros.run(seconds=5)
 
 # %% [markdown]
-# `seed=8` picks the random numbers. With the same seed you get the same walk, today and tomorrow.
+# Each reading is at most half a degree from the one before. `seed=8` picks the random numbers: with
+# the same seed you get the same walk, today and tomorrow.
 #
 # **Predict:** how does a quarter of an hour look? Will the walk reach a limit?
 
@@ -153,10 +159,12 @@ ros.run(seconds=895, quiet=True)
 viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)})
 
 # %% [markdown]
-# The band is what the clamp allows. Where the walk meets its edge, it goes along it until a step
-# leads away.
+# The band is what the clamp allows, and the circles mark some of the readings. The walk meets the
+# upper limit several times, and goes along it until a step leads away. It never comes near the lower
+# one.
 #
-# What you see came out of real messages. Look at one, and at the node's own variable beside it:
+# What you see came out of real messages. Look at the last one, and at the node's own variable beside
+# it:
 
 # %%
 ros.messages("temperature")[-1].value, sensor.temperature
@@ -167,7 +175,7 @@ ros.messages("temperature")[-1].value, sensor.temperature
 #
 # ## Look at it from outside
 #
-# A publisher needs nobody. Here is the graph: a sensor, a topic, and no one on the other side.
+# A publisher needs nobody. Here is the graph: a sensor, a topic, and no one on the other side yet.
 
 # %%
 viz.graph(ros.graph())
@@ -178,9 +186,11 @@ viz.graph(ros.graph())
 # On a robot, the class lives in a file of its own. A function `main` starts the node, keeps it
 # running and cleans up:
 #
-# - `rclpy.init()` starts ROS in this process; it must come before the first node;
+# - `rclpy.init()` starts ROS in this process; it must come before the first node. `args` may hold
+#   arguments from the command line;
+# - `TemperatureSensor()` makes the node: it runs `__init__`;
 # - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until somebody stops it;
-# - `Ctrl` + `C` in the terminal raises `KeyboardInterrupt`, which `main` catches;
+# - `Ctrl` + `C` in the terminal raises `KeyboardInterrupt`. `main` catches it, and `pass` does nothing;
 # - at the end the node is destroyed and ROS is shut down.
 
 # %%
@@ -195,12 +205,16 @@ def main(args=None):
     rclpy.try_shutdown()
 
 # %% [markdown]
-# The tutorial writes `rclpy.shutdown()` in the last line. In the ROS version used here, `Ctrl` + `C`
-# has shut ROS down already when that line runs, and a second time is an error. `try_shutdown` does
-# it only if it is still needed.
-#
-# Two more lines complete the file. The very first line, `#!/usr/bin/env python3`, tells the system
-# to run it with Python 3. The last two are the **script entry point**:
+# The tutorial's `main` differs in two places, and you can learn from both. It ends with
+# `rclpy.shutdown()`. In the ROS version used here, `Ctrl` + `C` has shut ROS down already when that
+# line runs, and a second time is an error. `try_shutdown` does it only if it is still needed. And the
+# tutorial spells its class in two ways, `TemperatureSensor` and `TemperaturSensor`. One in the class
+# line and the other in `main` end in a `NameError`: Python compares names letter by letter, as ROS
+# does with topics.
+
+# %% [markdown]
+# Three more lines complete the file. The very first, `#!/usr/bin/env python3`, tells the system to run
+# it with Python 3. The last two are the **script entry point**:
 #
 # ```python
 # if __name__ == "__main__":
@@ -209,8 +223,7 @@ def main(args=None):
 #
 # They call `main` if the file is run as a program, and not if it is imported. On a page you do not
 # call `main`: it would spin until you interrupt it. `ros.run(...)` does its work here.
-
-# %% [markdown]
+#
 # **How the data flows:** `main` starts ROS and makes the node. The node makes its publisher and its
 # timer. Every second the timer calls `publish_temperature`, which takes a step, clamps it, publishes
 # a message and logs a line. This goes on until `Ctrl` + `C`.
@@ -244,7 +257,9 @@ check("03a", HumiditySensor)
 #
 # 10.2 degrees is cold for a room. It is probably a slip in the tutorial: 18.0 was meant. And in a
 # room with thick walls the temperature moves slowly. Write the method yourself: take a random step
-# of at most 0.3 degrees up or down, keep the temperature between 18 and 28, and publish it.
+# of at most 0.3 degrees up or down, keep the temperature between 18.0 and 28.0, and publish it. Write
+# the decimal points: a `Float32` wants a float, and 18 is an int. The last blank may become several
+# lines.
 
 # %% exercise="03b"
 class RoomSensor(Node):
@@ -291,10 +306,10 @@ with Session() as ros:
 # ## Remember
 #
 # - `super().__init__("name")` makes the class a node.
-# - `create_publisher(type, topic, depth)` opens a topic; `publish(msg)` sends.
+# - `create_publisher(type, topic, depth)` makes a publisher; `publish(msg)` sends.
 # - `create_timer(period, method)` calls the method once a period, first after one period.
 # - `rclpy.init`, `rclpy.spin` and `try_shutdown` belong to the program around the node.
 #
-# On a robot this class stands in `temperature_publisher.py`, unchanged.
+# On a robot this class is in the file `temperature_publisher.py`, unchanged.
 #
 # **Next:** [write a subscriber](04_write_a_subscriber.ipynb) that listens to this sensor.

@@ -24,10 +24,9 @@ from rosbeat import Session, check, viz
 from rosbeat.records import queue_steps
 
 # %% [markdown]
-# The first lines are the publisher's: `rclpy` is the ROS client library for Python, `Node` the class
-# that every node builds on, and `Float32` the message type. A subscriber must use the type that the
-# publisher uses, or the two sides do not understand each other. In a file of its own the monitor
-# needs no `random`; here the sensor does.
+# The first lines are the publisher's. A subscriber must use the message type that the publisher uses,
+# or the two sides do not understand each other. In a file of its own the monitor needs no `random`;
+# here the sensor does.
 #
 # ## Bring a sensor
 #
@@ -57,7 +56,7 @@ class TemperatureSensor(Node):
 # - `10`, the queue depth: how many messages are kept while the node is busy.
 #
 # You never call the callback yourself. ROS calls it, once for each message, and hands the message
-# over as `msg`. So a callback always has two parameters: `self` and the message.
+# over as `msg`. So this method has two parameters: `self` and the message.
 
 # %%
 class Listener(Node):
@@ -83,13 +82,13 @@ with Session(seed=8) as ros:
 
 # %% [markdown]
 # Nothing for five seconds, then one line a second. A publisher acts: its timer drives it. A
-# subscriber **reacts**: only a message wakes it. It does not ask whether there is something new, and
-# it does not mind that the sensor came after it. Waiting costs it nothing.
+# subscriber is passive: it **reacts**, and only a message wakes it. It does not ask whether there is
+# something new, and it does not mind that the sensor came after it. Waiting costs almost nothing.
 
 # %% [markdown]
 # ## Judge what you hear
 #
-# The monitor shall say *High* above 26 degrees, *Low* below 20, and *Normal* in between.
+# The monitor says *High* above 26 degrees, *Low* below 20, and *Normal* in between.
 
 # %%
 class TemperatureMonitor(Node):
@@ -126,7 +125,8 @@ ros.add(TemperatureMonitor)
 ros.run(seconds=4)
 
 # %% [markdown]
-# **Predict:** in ten minutes, how often does the status change? Roughly is good enough.
+# Four readings, four times *Normal*. Now count the words over ten minutes, and draw the readings with
+# the three states as bands. `status_of` cuts the word out of a log line; you need not read it closely.
 
 # %%
 ros.run(seconds=596, quiet=True)
@@ -143,15 +143,19 @@ limits = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
 viz.values(ros.observation(), "temperature", bands=limits)
 
 # %% [markdown]
-# The bands are the three states. Look at the places where the line runs along a border: there the
-# status flickers from one word to the other and back with every small step. How often does it
-# change?
+# Near a border, a small step is enough to change the status. *Low* would happen too if the sensor's
+# lower limit were 18.0, as was probably meant: it begins below 20.
+#
+# **Predict:** how often does the status change in these ten minutes? Roughly is good enough.
 
 # %%
 changes = sum(a != b for a, b in zip(statuses, statuses[1:]))
 f"{len(statuses)} readings, {changes} changes"
 
 # %% [markdown]
+# 26 changes, for a line that crosses a border only a few times for good. Most of them come in groups:
+# the status flickers.
+#
 # ## See the two together
 #
 # In the graph, sensor and monitor stand on the two sides of one topic. A second monitor would be one
@@ -165,14 +169,14 @@ viz.timeline(ros.observation(), until=3)
 
 # %% [markdown]
 # Each tick of the sensor's timer sends a message, and the message starts the monitor's callback.
-# Nothing in the sensor's code mentions the monitor, and nothing in the monitor's code mentions the
-# sensor. Any node that publishes a `Float32` on `temperature` would do.
+# Neither node's code mentions the other. Any node that publishes a `Float32` on `temperature` would do.
 #
 # ## Let messages wait
 #
 # What if the monitor is busy for a while? Its messages wait in a **queue**. The 10 in
-# `create_subscription` is the length of that queue. `ros.pause` plays the busy node: it takes no
-# messages until `ros.resume`.
+# `create_subscription` is the length of that queue. (The publisher's 10 is another queue; a busy
+# callback fills the subscriber's.) `ros.pause` plays the busy node: it takes no messages until
+# `ros.resume`. The last lines of the cell only count.
 #
 # **Predict:** the monitor is paused for 15 seconds while the sensor publishes once a second. How
 # many readings does it get when it comes back?
@@ -191,8 +195,9 @@ with Session(seed=8) as ros:
 waited
 
 # %% [markdown]
-# Ten. The picture shows the queue second by second. The numbers are readings, and time runs to the
-# right.
+# Ten. The picture shows the queue. The numbers are readings, and time runs to the right: up to 15
+# seconds, each column is one second. Then the monitor is back and takes ten readings at once, one
+# column each.
 
 # %%
 arrivals = [sample.time_ns for sample in seen.samples]
@@ -316,17 +321,17 @@ class EagerMonitor(Node):
         super().__init__("temperature_monitor")
         self.create_subscription(Float32, "temperature", self.temperature_callback(), 10)
 
-    def temperature_callback(self, msg=None):
-        self.get_logger().info("called")
+    def temperature_callback(self, msg):
+        self.get_logger().info(f"I heard {msg.data:.2f}")
 
 # %% tags=["raises-exception"]
 with Session() as ros:
     ros.add(EagerMonitor)
 
 # %% [markdown]
-# **Symptom:** *called* appears before any message, and the constructor fails. **Instrument:** the
-# line that the error names. **Cause:** `self.temperature_callback()` calls the method and hands over
-# its result, which is `None`; ROS needs the method itself. **Cure:** no brackets.
+# **Symptom:** the constructor fails, before any message. **Instrument:** the line that the error
+# names. **Cause:** the brackets call the method at once, without a message, so Python misses `msg`.
+# **Cure:** hand over the method itself, without brackets.
 
 # %% [markdown]
 # ## Remember
@@ -336,4 +341,6 @@ with Session() as ros:
 # - A queue keeps the newest messages of a slow subscriber, as many as its depth.
 # - A publisher acts, a subscriber reacts, and a node may do both.
 #
-# On a robot this class stands in `temperature_subscriber.py`, unchanged.
+# On a robot this class is in the file `temperature_subscriber.py`, unchanged.
+#
+# You have both halves of a system now: one node speaks, one listens, and neither knows the other.

@@ -9,8 +9,27 @@ PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
 #: What a learner replaces; the name is never defined, so running it raises a NameError.
 BLANK = "____"
 
-#: What the middleware says, in its own way, when one topic has two message types.
-_TYPE_CLASH = ("invalid allocator", "existing topic name")
+#: Signs in an error, and what it means in an answer of a page.
+_HINTS = (
+    (
+        ("invalid allocator", "existing topic name"),
+        "What this error means: the topic exists already, with another message type. Both sides "
+        "must use the same type.",
+    ),
+    (
+        ("must be of type 'float'",),
+        "A Float32 carries a float. 18 is an int: write 18.0, with a decimal point.",
+    ),
+    (
+        ("'NoneType' object is not callable", "required positional argument: 'msg'"),
+        "Hand over the method itself, without brackets after its name: ROS calls it later.",
+    ),
+    (
+        ("NameError:",),
+        "Python does not know this name. A text needs quotes; a method of the node needs self. "
+        "before it.",
+    ),
+)
 
 
 def passed(exercise: str, evidence: str) -> Outcome:
@@ -59,12 +78,10 @@ def _first_sentence(text: str) -> str:
 
 
 def _hint_for(fault: Fault) -> str:
-    if any(sign in fault.text for sign in _TYPE_CLASH):
-        return (
-            "What this error means: the topic exists already, with another message type. Both "
-            "sides must use the same type."
-        )
+    for signs, hint in _HINTS:
+        if any(sign in f"{fault.kind}: {fault.text}" for sign in signs):
+            return hint
     return (
-        "An exception ends a node. Read the last sentence of the error first; it says what ROS "
+        "An exception ends a node. Read the last sentence of the error first; it says what was "
         "expected there."
     )

@@ -15,6 +15,7 @@ _PERIOD = NANOSECONDS // 2
 #: Long enough for a walk of such steps to meet both limits again and again.
 _TWO_HOURS = 7200.0
 _STEP = 0.3
+_LIMITS = (18.0, 28.0)
 _FLOAT = "std_msgs/msg/Float32"
 
 
@@ -63,25 +64,32 @@ def _judge_walk(observation: Observation) -> Outcome:
     values = [float(sample.value) for sample in _on(observation, "/temperature")]
     if len(values) < 2:
         return _nothing("03b", observation, "temperature")
-    low, high = min(values), max(values)
-    widest = max(abs(b - a) for a, b in pairwise(values))
     evidence = (
-        f"In two hours the temperature went from {low:.2f} to {high:.2f} degrees, "
-        f"in steps of at most {widest:.2f}."
+        f"In two hours the temperature went from {min(values):.2f} to {max(values):.2f} degrees, "
+        f"in steps of at most {_widest(values):.2f}."
     )
-    hint = _walk_hint(low, high, widest)
+    hint = _walk_hint(values)
     return failed("03b", evidence, hint) if hint else passed("03b", evidence)
 
 
-def _walk_hint(low: float, high: float, widest: float) -> str:
+def _walk_hint(values: list[float]) -> str:
     """What is wrong with the walk, or an empty text."""
+    low, high, widest = min(values), max(values), _widest(values)
+    if widest == 0 and low in _LIMITS:
+        return f"It stays at {low:g} from the first reading on. Are min and max swapped?"
     if widest == 0:
         return "It never changes. Each call must add a random number to self.temperature."
+    if values == sorted(values):
+        return "It only rises. A step may go down, too."
     if widest > _STEP + 1e-5:  # room for rounding to 32 bits
         return "A step is too wide. random.uniform(a, b) gives a number between a and b."
     if widest < 0.8 * _STEP:
         return f"The steps are small. They may reach {_STEP} degrees, up and down."
     return _limit_hint(low, high)
+
+
+def _widest(values: list[float]) -> float:
+    return max(abs(b - a) for a, b in pairwise(values))
 
 
 def _limit_hint(low: float, high: float) -> str:

@@ -21,13 +21,14 @@ _FRIDGE = {
     -18.0: "Frost",
 }
 _ROOM = {22.0: False, 27.5: True, 26.0: False, 26.25: True, 20.0: False, 19.75: True, -5.0: True}
-_FLOAT = "std_msgs/msg/Float32"
+_FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
+_SENSOR = "/temperature_sensor"
 _WORDS = ("Warm", "Frost", "Fine")
 
 
 def _fed(answer: Any, values: Iterable[float]) -> Observation:  # noqa: ANN401
     readings = list(values)
-    sensor = feeder("temperature_sensor", "temperature", _FLOAT, readings)
+    sensor = feeder(_SENSOR.strip("/"), "temperature", _FLOAT, readings)
     return observe(answer, len(readings) + 1, others=[sensor])
 
 
@@ -67,18 +68,40 @@ def _judge_alarm(observation: Observation) -> Outcome:
     if deaf:
         return deaf
     wanted = [second for second, alarming in enumerate(_ROOM.values(), 1) if alarming]
-    times = [sample.time for sample in observation.samples if sample.topic == "/alert"]
+    alerts = [sample for sample in observation.samples if sample.topic == "/alert"]
+    if not alerts:
+        return failed("04b", *_silent_words(observation))
+    if alerts[0].type_name != _STRING:
+        return failed(
+            "04b",
+            f"The alerts are messages of type {alerts[0].type_name}.",
+            "An alert is a String: the first argument of create_publisher, and what you publish.",
+        )
+    times = [sample.time for sample in alerts]
     if times == wanted:
         return passed("04b", f"{len(_ROOM)} readings, {len(times)} alerts: none too many.")
     return failed("04b", *_alarm_words(times, wanted))
 
 
-def _alarm_words(times: list[float], wanted: list[int]) -> tuple[str, str]:
-    if not times:
+def _silent_words(observation: Observation) -> tuple[str, str]:
+    topics = {s.topic for s in observation.samples if s.node not in ("", _SENSOR)}
+    if topics:
         return (
-            "Readings were too high and too low, and nothing was published on /alert.",
-            "Make a publisher in __init__ and call its publish in the callback.",
+            f"It published on {', '.join(sorted(topics))}, and nothing on /alert.",
+            "The topic is called alert. Topics match letter by letter.",
         )
+    if any(end.name == "/alert" for end in observation.graph.endpoints):
+        return (
+            "Readings were too high and too low, and no alert was published.",
+            "Is your condition ever true? No reading is above 26 and below 20 at once.",
+        )
+    return (
+        "Readings were too high and too low, and nothing was published on /alert.",
+        "Make a publisher in __init__ and call its publish in the callback.",
+    )
+
+
+def _alarm_words(times: list[float], wanted: list[int]) -> tuple[str, str]:
     values = list(_ROOM)
     extra = [values[int(at) - 1] for at in times if at not in wanted]
     if extra:

@@ -141,6 +141,18 @@ class HumidityThatForgetsToPublish(HumiditySensor):
         pass
 
 
+class HumidityThatCallsItsCallback(HumiditySensor):
+    def __init__(self):
+        super().__init__()
+        self.create_timer(0.5, self.publish_humidity())
+
+
+class HumidityWithoutQuotes(Node):
+    def __init__(self):
+        super().__init__("humidity_sensor")
+        self.publisher_ = self.create_publisher(Float32, humidity, 5)  # noqa: F821
+
+
 class HumidityWithSwappedArguments(Node):
     def __init__(self):
         super().__init__("humidity_sensor")
@@ -197,6 +209,23 @@ class LazyRoom(RoomSensor):
 
 class ConstantRoom(RoomSensor):
     step = 0.0
+
+
+class SwappedRoom(RoomSensor):
+    def publish_temperature(self):
+        self.temperature += random.uniform(-0.3, 0.3)
+        self.temperature = min(18.0, max(28.0, self.temperature))
+        self.publisher_.publish(Float32(data=self.temperature))
+
+
+class RisingRoom(RoomSensor):
+    def publish_temperature(self):
+        self.temperature = min(28.0, self.temperature + 0.3)
+        self.publisher_.publish(Float32(data=self.temperature))
+
+
+class WholeRoom(RoomSensor):
+    low, high = 18, 28
 
 
 class FridgeMonitor(Node):
@@ -281,3 +310,30 @@ class DoubleAlarm(Alarm):
 class MuteAlarm(Alarm):
     def check(self, msg):
         pass
+
+
+class ImpossibleAlarm(Alarm):
+    def check(self, msg):
+        if msg.data > 26 and msg.data < 20:
+            self.alerts.publish(String(data="!"))
+
+
+class NumberAlarm(Node):
+    def __init__(self):
+        super().__init__("alarm")
+        self.create_subscription(Float32, "temperature", self.check, 10)
+        self.alerts = self.create_publisher(Float32, "alert", 10)
+
+    def check(self, msg):
+        if not 20 <= msg.data <= 26:
+            self.alerts.publish(msg)
+
+
+class AlarmOnAnotherTopic(Alarm):
+    def __init__(self):
+        super().__init__()
+        self.alerts = self.create_publisher(String, "alerts", 10)
+
+
+class AlarmWithoutPublisher(FridgeMonitor):
+    pass
