@@ -10,6 +10,7 @@ from nbformat import NotebookNode
 
 from rosbeat.authoring import pages
 from rosbeat.authoring.files import Change, compare, stale_pages, write
+from rosbeat.authoring.keeping import keep_work
 from rosbeat.authoring.layout import Course, choose
 from rosbeat.authoring.lint import check_lessons
 from rosbeat.authoring.source import Lesson
@@ -47,8 +48,11 @@ def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> li
     _refuse_findings(course, lessons, chosen)
     changes = []
     for path, make in _pages(course, chosen, plan):
-        change = _settle(path, pages.to_bytes(make()), plan.check)
+        content = pages.to_bytes(make())
+        change = compare(path, content)
         tell(_line(course, path, change))
+        if change and not plan.check:
+            _replace(course, path, content, tell)
         changes += [change] if change else []
     for change in [] if plan.names else _stale(course, lessons, plan.check):
         tell(_line(course, change.path, change))
@@ -85,11 +89,12 @@ def _solution(lesson: Lesson, folder: Path) -> Make:
     return lambda: pages.solution_page(lesson, folder)
 
 
-def _settle(path: Path, content: bytes, check: bool) -> Change | None:
-    change = compare(path, content)
-    if change and not check:
-        write(path, content)
-    return change
+def _replace(course: Course, path: Path, content: bytes, tell: Callable[[str], None]) -> None:
+    # What is in solutions/ came from the builder, outputs and all; only notebooks/ holds work.
+    kept = keep_work(path) if path.parent == course.notebooks else None
+    if kept:
+        tell(f"kept     {kept.relative_to(course.root)}: somebody had worked in this page")
+    write(path, content)
 
 
 def _line(course: Course, path: Path, change: Change | None) -> str:
@@ -101,5 +106,7 @@ def _stale(course: Course, lessons: list[Lesson], check: bool) -> Iterator[Chang
     for folder in (course.notebooks, course.solutions):
         for path in stale_pages(folder, names):
             if not check:
+                if folder == course.notebooks:
+                    keep_work(path)
                 path.unlink()
             yield Change(path, "stale")

@@ -57,3 +57,17 @@ def test_a_broken_rule_stops_the_build_before_anything_is_written(checkout, told
         build(checkout, told)
     assert "nothing was built" in caught.value.means
     assert contents(checkout) == {}
+
+
+def test_a_page_that_was_worked_in_is_kept_before_it_is_replaced(checkout, told):
+    checkout.write(BODY, filler=True)
+    build(checkout, told, run=False)
+    page = checkout.course.notebooks / "00_hear_it.ipynb"
+    worked = page.read_text().replace('"execution_count": null', '"execution_count": 1', 1)
+    page.write_text(worked)
+    build(checkout, told, run=False, check=True)
+    assert not (page.parent / "kept").exists()
+    build(checkout, told, run=False)
+    assert (page.parent / "kept" / "00_hear_it-1.ipynb").read_text() == worked
+    assert any(line.startswith("kept     notebooks/kept/00_hear_it-1.ipynb") for line in told)
+    assert '"execution_count": 1' not in page.read_text()
