@@ -23,14 +23,15 @@ MAY_IMPORT = {
     "errors": set(),
     "environment": set(),
     "records": {"errors"},
+    "observations": {"records", "errors"},
     "viz": {"records", "errors"},
     "checks": {"records", "errors"},
     "runtime": {"errors", "records", "environment"},
     "exercises": {"runtime", "checks", "records", "errors", "viz", "rosbeat"},
     "workspace": {"errors", "records", "environment"},
     "grading": {
-        *("errors", "records", "environment", "runtime", "viz", "checks", "exercises"),
-        *("workspace", "rosbeat"),
+        *("errors", "records", "observations", "environment", "runtime", "viz", "checks"),
+        *("exercises", "workspace", "rosbeat"),
     },
     "authoring": {"errors"},
     # The package itself hands out names of other rooms.
@@ -42,6 +43,7 @@ EVERYWHERE = {"cli", "__main__"}
 THIRD_PARTY = {
     "errors": set(),
     "records": set(),
+    "observations": set(),
     "environment": set(),
     "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
     "viz": {"matplotlib", "PIL", "numpy"},

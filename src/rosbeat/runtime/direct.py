@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from inspect import iscoroutine
+from inspect import iscoroutinefunction
 from typing import Any, Protocol
 
 from rclpy.subscription import Subscription
@@ -37,7 +37,7 @@ def take_message(entry: Entry, _: Sender) -> Work | None:
     if entry.owed:
         taken = _wait_for_stored(entry)
     else:
-        handle = subscription.handle
+        handle = entry.handle
         with handle:
             taken = handle.take_message(subscription.msg_type, subscription.raw)
     if taken is None:
@@ -53,7 +53,7 @@ def _take_now(subscription: Subscription) -> Any:  # noqa: ANN401
 
 def _wait_for_stored(entry: Entry) -> Any:  # noqa: ANN401
     # A transient-local publisher sends its stored messages to a late joiner from a thread of its
-    # own: 1 time in 20 they are not there yet when the subscription is. How many must come is known.
+    # own: 1 time in 20 they are not there yet when the subscription is. How many come is known.
     deadline = time.monotonic() + _STORED_DEADLINE
     while (taken := _take_now(entry.entity)) is None and time.monotonic() < deadline:
         time.sleep(0.0005)
@@ -66,18 +66,20 @@ def take_request(entry: Entry, sender: Sender) -> Work | None:
     service = entry.entity
     with service.handle:
         request, header = service.handle.service_take_request(service.srv_type.Request)
-    return None if header is None else (_serve, (entry, request, header, sender))
+    if header is None:
+        return None
+    serve = _serve_later if iscoroutinefunction(service.callback) else _serve
+    return serve, (entry, request, header, sender)
 
 
-def _serve(entry: Entry, request: Any, header: Any, sender: Sender) -> Any:  # noqa: ANN401
+def _serve(entry: Entry, request: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
     response = entry.entity.callback(request, entry.entity.srv_type.Response())
-    if iscoroutine(response):
-        return _serve_later(entry, response, header, sender)
-    return _answer(entry, response, header, sender)
+    _answer(entry, response, header, sender)
 
 
-async def _serve_later(entry: Entry, response: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
-    _answer(entry, await response, header, sender)
+async def _serve_later(entry: Entry, request: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
+    response = await entry.entity.callback(request, entry.entity.srv_type.Response())
+    _answer(entry, response, header, sender)
 
 
 def _answer(entry: Entry, response: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401

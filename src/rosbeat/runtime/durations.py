@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import inf, isfinite
 from numbers import Real
 from typing import Any
 
@@ -26,13 +26,17 @@ def duration_ns(seconds: Any, what: str = "run(seconds=...)") -> int:  # noqa: A
     if not isinstance(seconds, Real) or isinstance(seconds, bool):
         kind = type(seconds).__name__
         raise _refusal(f"{what} was given {seconds!r}, which is of type {kind}.")
-    if not isfinite(seconds):
-        raise _refusal(f"{what} was given {seconds}.")
-    if seconds < 0:
-        raise _refusal(f"{what} was given {seconds:g}: a negative time.")
-    if seconds > LONGEST:
-        raise _refusal(f"{what} was given {seconds:g}: more than {LONGEST:g} seconds.")
-    return round(float(seconds) * NANOSECONDS)
+    try:
+        span = float(seconds)
+    except OverflowError:
+        span = inf
+    if not isfinite(span):
+        raise _refusal(f"{what} was given {span}.")
+    if span < 0:
+        raise _refusal(f"{what} was given {span:g}: a negative time.")
+    if span > LONGEST:
+        raise _refusal(f"{what} was given {span:g}: more than {LONGEST:g} seconds.")
+    return round(span * NANOSECONDS)
 
 
 def _refusal(what: str) -> DurationError:

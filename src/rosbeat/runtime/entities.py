@@ -19,6 +19,8 @@ def full_name(name: str, namespace: str) -> str:
 
 def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any callable
     """The name a learner gave to a function, also when it is a lambda or an object."""
+    if callback is None:
+        return "nothing"  # a timer whose callback was left out, or that of a rate
     return getattr(callback, "__name__", type(callback).__name__)
 
 
@@ -58,19 +60,23 @@ class Entry:
     Attributes:
         number: Order of creation over the whole session.
         state: The node it belongs to.
-        kind: `timer`, `subscription`, `service` or `client`.
+        kind: `timer`, `wall timer` (on another clock than the session's: it fires in live mode
+            only), `subscription`, `service` or `client`.
         entity: rclpy's object.
+        handle: Its handle, which is a property of it and so takes a call to get.
         name: Full topic or service name; empty for a timer.
         label: What its runs are recorded as.
+        label_number: The label's number.
         take: Takes one thing that has arrived; a timer has none. See `direct`.
         calls: How often its callback has run.
         backlog: Take until nothing is left, since messages may have come while nobody took any.
         owed: Stored messages that a transient-local subscription has yet to be given.
+        deadline: Where the agenda keeps a timer, in nanoseconds; None if it waits elsewhere.
     """
 
     __slots__ = (
-        "backlog", "calls", "entity", "kind", "label", "name", "number", "owed", "state",
-        "take",
+        "backlog", "calls", "deadline", "entity", "handle", "kind", "label",
+        "label_number", "name", "number", "owed", "state", "take",
     )  # fmt: skip
 
     def __init__(
@@ -85,7 +91,10 @@ class Entry:
     ) -> None:
         self.number, self.state, self.kind = number, state, kind
         self.entity, self.name, self.label = entity, name, label
+        self.label_number = label.number
+        self.handle = entity.handle
         self.take = take
         self.calls = 0
         self.backlog = False
         self.owed = 0
+        self.deadline: int | None = None

@@ -21,6 +21,7 @@ ENTITY_METHODS = {
     "create_timer": "timer",
     "create_service": "service",
     "create_client": "client",
+    "create_rate": "rate",
 }
 
 
@@ -60,15 +61,16 @@ def watcher_of(node: Node) -> Watcher | None:
 
 def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
-    def init(node: Node, *args: Any, **kwargs: Any) -> None:
+    def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401
         context: Context | None = kwargs.get("context")
         watcher = getattr(context or _default_context(), "watcher", None)
         name = kwargs.get("node_name", args[0] if args else None)
         if watcher is None or not isinstance(name, str):
-            return original(node, *args, **kwargs)
+            original(node, *args, **kwargs)
+            return
         watcher.node_begins(name, kwargs.get("namespace") or "/")
         original(node, *args, **kwargs)
-        return watcher.node_made(node)
+        watcher.node_made(node)
 
     return init
 

@@ -31,14 +31,22 @@ def snapshot(states: Iterable[NodeState]) -> GraphSnapshot:
 def _endpoints(state: NodeState) -> Iterator[Endpoint]:
     node = state.node
     assert node is not None
-    for publisher in node.publishers:
+    for publisher in filter(_is_alive, node.publishers):
         yield _publisher(state, publisher)
-    for subscription in node.subscriptions:
+    for subscription in filter(_is_alive, node.subscriptions):
         yield _subscription(state, subscription)
     for service in node.services:
         yield _service(state, service, "server")
     for client in node.clients:
         yield _service(state, client, "client")
+
+
+def _is_alive(entity: Any) -> bool:  # noqa: ANN401
+    try:
+        with entity.handle:
+            return True
+    except InvalidHandle:
+        return False  # destroyed by itself, not by its node
 
 
 def _publisher(state: NodeState, publisher: Any) -> Endpoint:  # noqa: ANN401
@@ -70,7 +78,7 @@ def _service(state: NodeState, entity: Any, kind: str) -> Endpoint:  # noqa: ANN
 
 def _timers(state: NodeState) -> Iterator[TimerRecord]:
     for entry in state.entries:
-        if entry.kind == "timer" and (period := _period(entry)) is not None:
+        if entry.kind.endswith("timer") and (period := _period(entry)) is not None:
             yield TimerRecord(state.name, entry.label.name, period, entry.calls)
 
 

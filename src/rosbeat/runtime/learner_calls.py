@@ -17,7 +17,7 @@ from typing import Any
 import rclpy
 import rclpy.signals
 from rclpy.context import Context
-from rclpy.executors import Executor
+from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -49,7 +49,12 @@ def _in_kernel() -> bool:
 
 def _init(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
-    def init(*, args: Any = None, context: Context | None = None, **options: Any) -> None:
+    def init(
+        *,
+        args: list[str] | None = None,
+        context: Context | None = None,
+        **options: Any,  # noqa: ANN401 - rclpy's own
+    ) -> None:
         target = context or rclpy.get_default_context()
         if isinstance(target, SessionContext):
             target.init()
@@ -72,19 +77,30 @@ def _spin(original: Callable[..., None]) -> Callable[..., None]:
         if watcher is not None:
             _spin_in_session(watcher, node)
             return
-        executor = executor or rclpy.get_global_executor()
-        try:
-            executor.add_node(node)
-            while executor.context.ok():
-                executor.spin_once(timeout_sec=PULSE)
-        finally:
-            executor.remove_node(node)
+        _spin_until_interrupt(node, executor or _executor_for(node))
 
     return spin
 
 
+def _executor_for(node: Node) -> Executor:
+    if node.context is rclpy.get_default_context():
+        return rclpy.get_global_executor()
+    # While a session is open its context is the default, which is not the node's.
+    return SingleThreadedExecutor(context=node.context)
+
+
+def _spin_until_interrupt(node: Node, executor: Executor) -> None:
+    try:
+        executor.add_node(node)
+        while executor.context.ok():
+            executor.spin_once(timeout_sec=PULSE)
+    finally:
+        executor.remove_node(node)
+
+
 def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401 - World imports this package
     """Run the session's nodes against the wall clock until Interrupt."""
+    world.refuse_in_callback("rclpy.spin")
     state = world.state_of(node)
     world.spin_node(state)
     was_live = world.live is not None
@@ -96,6 +112,9 @@ def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401 - World im
         while world.live is not None and not state.ended:
             world.show_news()
             pulse.wait(PULSE / 2)
+    except KeyboardInterrupt:
+        world.hurry()
+        raise
     finally:
         if not was_live:
             world.go_virtual()
@@ -129,10 +148,12 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
         world: Any = watcher_of(node)
         if world is None:
             original(node, future, executor, timeout_sec)
-        elif world.live is not None:
+            return
+        world.refuse_in_callback("rclpy.spin_until_future_complete")
+        world.spin_node(world.state_of(node))
+        if world.live is not None:
             world.live.wait_for(future, timeout_sec)
         else:
-            world.spin_node(world.state_of(node))
-            world.wait_for(future, timeout_sec)
+            world.wait_until(lambda: future.done() or future.cancelled(), timeout_sec)
 
     return spin_until_future_complete

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+import ctypes
+import time
 from threading import Event, Thread, current_thread
 from typing import Any, Protocol
 
 from rclpy.context import Context
 from rclpy.executors import (
+    ConditionReachedException,
     ExternalShutdownException,
     ShutdownException,
     SingleThreadedExecutor,
 )
 from rclpy.node import Node
-from rclpy.task import Future
+from rclpy.task import Future, Task
 
 from rosbeat.runtime.entities import NodeState
+
+#: Seconds that a callback may still take when live mode ends; then it is broken off.
+PATIENCE = 2.0
+#: The same when the learner presses Interrupt.
+HURRY = 0.1
 
 
 class LiveHost(Protocol):
@@ -23,11 +31,18 @@ class LiveHost(Protocol):
     def spinning_nodes(self) -> list[NodeState]:
         """The nodes whose callbacks run, in order of creation."""
 
-    def callback_ran(self, entity: Any) -> None:  # noqa: ANN401 - rclpy's entities
+    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
         """A callback of this entity is about to run."""
 
     def entity_raised(self, node: Node | None, entity: Any, error: BaseException) -> None:  # noqa: ANN401
         """An exception left a callback of this entity."""
+
+
+class BrokenOff(BaseException):
+    """Thrown into a callback that does not return although Interrupt or an end was asked for."""
+
+    def __str__(self) -> str:
+        return "it did not return, so it was broken off"
 
 
 class LiveExecutor(SingleThreadedExecutor):
@@ -39,17 +54,23 @@ class LiveExecutor(SingleThreadedExecutor):
     Args:
         context: The session's context.
         host: The session.
+
+    Attributes:
+        current: The node whose callback is running, or None.
     """
 
     def __init__(self, context: Context, host: LiveHost) -> None:
+        self.current: Node | None = None
+        self._handler: Task | None = None
         self._host = host
+        self._stopping = Event()
         super().__init__(context=context)
         self._thread = Thread(target=self.spin, name="rosbeat live", daemon=True)
 
     def get_nodes(self) -> list[Node]:
         """The nodes in order of creation; rclpy's own answer comes from an unordered set."""
-        mine = set(super().get_nodes())
-        return [s.node for s in self._host.spinning_nodes() if s.node in mine]
+        mine = self._nodes
+        return [state.node for state in self._host.spinning_nodes() if state.node in mine]
 
     def start(self) -> None:
         """Begin to run callbacks."""
@@ -69,23 +90,63 @@ class LiveExecutor(SingleThreadedExecutor):
         """Stop running callbacks and wait until the thread has ended.
 
         Without the wait the interpreter may be gone while the thread is still inside rclpy, which
-        aborts the process.
+        aborts the process. `Executor.shutdown` alone would pull the guard condition from under a
+        callback that is just being begun.
         """
+        self._stopping.set()
+        self.wake()
+        self._thread.join(PATIENCE)
+        if self._thread.is_alive():
+            self._break_off()
+            self._thread.join(PATIENCE)
+        for task, _, _ in self._tasks:
+            task.cancel()  # a coroutine that still waits; this frees its callback group
         self.shutdown()
-        self._thread.join()
+
+    def hurry(self) -> None:
+        """Break off the callback that is running now, unless it returns at once.
+
+        An endless loop in a callback leaves other threads so little time that even showing the
+        interrupt would take seconds.
+        """
+        running, deadline = self._handler, time.monotonic() + HURRY
+        while running is not None and self._handler is running:
+            if time.monotonic() > deadline:
+                self._break_off()
+                return
+            time.sleep(0.001)
 
     def spin(self) -> None:
         """Run callbacks until `finish`."""
-        try:
-            while True:
+        while True:
+            try:
                 self._run_one()
-        except (ShutdownException, ExternalShutdownException):
-            pass
+            except BrokenOff:
+                self._cb_iter = None  # it came just after the callback had returned
+            except (ConditionReachedException, ShutdownException, ExternalShutdownException):
+                return
+
+    def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
+        self._host.callback_ran(entity, node)
+        return super()._make_handler(entity, node, take)
 
     def _run_one(self) -> None:
-        handler, entity, node = self.wait_for_ready_callbacks()
-        self._host.callback_ran(entity)
-        handler()
-        error = handler.exception()
+        handler, entity, node = self.wait_for_ready_callbacks(condition=self._stopping.is_set)
+        error: BaseException | None = None
+        self.current, self._handler = node, handler
+        try:
+            handler()
+        except BaseException as stop:  # SystemExit would end the thread unheard
+            error = stop
+            handler.cancel()
+        finally:
+            self.current = self._handler = None
+        error = error or handler.exception()
         if error is not None:
             self._host.entity_raised(node, entity, error)
+
+    def _break_off(self) -> None:
+        # The documented way to stop Python code in another thread; it cannot stop a sleep in C,
+        # which then goes on by itself, in a daemon thread.
+        number = ctypes.c_ulong(self._thread.ident or 0)
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(number, ctypes.py_object(BrokenOff))

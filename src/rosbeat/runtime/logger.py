@@ -4,7 +4,7 @@ rclpy hands each log line to rcl, which prints it and publishes it on `/rosout`.
 `/rosout` publisher for each logger name *in the whole process*: a second node of the same name,
 in whatever session, logs through the first one's publisher, and falls silent when that is
 destroyed (rcl, logging_rosout.c). A session that listened on `/rosout` would hear its neighbours,
-so lines are taken one step earlier, from the node's own logger, and then go on to `/rosout` as ever.
+so lines are taken one step earlier, from the node's own logger, and go on to `/rosout` as ever.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class SessionLogger(RcutilsLogger):
         )):  # fmt: skip
             return False
         self._places[place] = severity
-        level, name = LoggingSeverity(severity).name, options.get("name", self.name)
+        level, name = LoggingSeverity(severity).name, str(options.get("name", self.name))
         self._listener(level, name, str(message), frame.f_code.co_name, frame.f_lineno)
         return True
 

@@ -15,7 +15,8 @@ from typing import Any
 from rclpy.serialization import deserialize_message, serialize_message
 
 _PLAIN_TYPES = frozenset(
-    "boolean octet float double int8 uint8 int16 uint16 int32 uint32 int64 uint64 string".split()
+    ["boolean", "octet", "float", "double", "string"]
+    + [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
 )
 
 

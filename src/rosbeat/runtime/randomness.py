@@ -30,10 +30,26 @@ class SeededRandom:
         self._seed = seed
         self._state = random.Random(seed).getstate()
         self._numpy_state: Any = None
+        self._is_lent = False
 
     @contextmanager
     def lent(self) -> Iterator[None]:
-        """Put this session's states in place of the process's, and back at the end."""
+        """Put this session's states in place of the process's, and back at the end.
+
+        Within another `lent` of the same session it does nothing: a constructor may call a service.
+        """
+        if self._is_lent:
+            yield
+            return
+        self._is_lent = True
+        try:
+            with self._exchanged():
+                yield
+        finally:
+            self._is_lent = False
+
+    @contextmanager
+    def _exchanged(self) -> Iterator[None]:
         outer, numpy = random.getstate(), _numpy_random()
         outer_numpy = numpy.get_state() if numpy else None
         random.setstate(self._state)

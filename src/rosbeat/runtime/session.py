@@ -5,21 +5,18 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from difflib import get_close_matches
 from threading import Event
 from typing import Any, TypeVar, overload
 from weakref import finalize
 
 from rclpy.node import Node
 
-from rosbeat.errors import ClosedSessionError, NodeClassError, SessionError, UnknownTopicError
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.runtime import hooks as _hooks  # noqa: F401 - makes nodes watchable
-from rosbeat.runtime import learner_calls
+from rosbeat.runtime import learner_calls, refusals
 from rosbeat.runtime.construction import build_node
 from rosbeat.runtime.durations import duration_ns
 from rosbeat.runtime.entities import NodeState
-from rosbeat.runtime.randomness import SeededRandom
 from rosbeat.runtime.world import World
 
 SomeNode = TypeVar("SomeNode", bound=Node)
@@ -58,13 +55,11 @@ class Session:
     """
 
     def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
-        _check_whole("seed", seed, 0, 2**63)
+        refusals.check_whole("seed", seed, 0, 2**63)
         if domain_id is not None:
-            _check_whole("domain_id", domain_id, 0, 101)
+            refusals.check_whole("domain_id", domain_id, 0, 101)
         self._seed = seed
-        self._world = World(domain_id)
-        self._random = SeededRandom(seed)
-        self._busy = False
+        self._world = World(seed, domain_id)
         # Also runs at interpreter exit, before the middleware is torn down.
         self._finalizer = finalize(self, self._world.close)
 
@@ -106,11 +101,9 @@ class Session:
     # Nodes.
 
     @overload
-    def add(self, node: type[SomeNode]) -> SomeNode: ...
+    def add(self, node: Callable[[], SomeNode]) -> SomeNode: ...  # a class is one, too
     @overload
     def add(self, node: SomeNode) -> SomeNode: ...
-    @overload
-    def add(self, node: Callable[[], SomeNode]) -> SomeNode: ...
     def add(self, node: Any) -> Any:
         """Make a node and run its callbacks from now on.
 
@@ -131,7 +124,7 @@ class Session:
             before = self._world.states()
             try:
                 made = build_node(node)
-            except Exception:
+            except BaseException:  # Interrupt, too
                 self._clear_away(before)
                 raise
             self._world.spin_node(self._state_of(made))
@@ -175,11 +168,7 @@ class Session:
         self._check_open()
         state = self._find(node)
         if state.ended:
-            raise SessionError(
-                f"{state.name} has ended and cannot go on.",
-                "An exception left one of its callbacks, or it called rclpy.shutdown().",
-                "Add it again: `ros.add(...)` makes a new node in its place.",
-            )
+            raise refusals.node_has_ended(state.name)
         self._world.spin_node(state)
 
     # Time.
@@ -201,14 +190,10 @@ class Session:
         span = duration_ns(seconds)
         with self._running("run"):
             if self.is_live:
-                raise SessionError(
-                    "This session is live, so its time passes by itself.",
-                    "`run` moves virtual time, which stands still while the wall clock counts.",
-                    "Use `ros.wait(seconds)`, or `ros.stop()` first.",
-                )
+                raise refusals.session_is_live()
             self._world.console.begin(quiet)
             try:
-                self._world.virtual.run_until(self._world.now() + span)
+                self._world.virtual.run_until(refusals.check_end(self._world.now() + span))
             finally:
                 self._world.console.end()
 
@@ -216,9 +201,14 @@ class Session:
         """Go live: run the nodes against the wall clock, in a background thread.
 
         Other processes in this ROS domain see the nodes and can talk to them. A session that is
-        live already stays so.
+        live already stays so. Each timer begins a new period; the parameter `use_sim_time` reads
+        False while the session is live.
+
+        Raises:
+            SessionError: If `start` is called from a callback.
         """
         self._check_open()
+        self._world.refuse_in_callback("ros.start")
         if not self.is_live:
             self._world.go_live()
 
@@ -236,26 +226,35 @@ class Session:
 
         Raises:
             DurationError: If `seconds` is not a number from 0 up.
-            SessionError: If the session is not live.
+            SessionError: If the session is not live, or `wait` is called from a callback.
         """
         self._check_open()
+        self._world.refuse_in_callback("ros.wait")
         if not self.is_live:
-            raise SessionError(
-                "This session is not live, so there is nothing to wait for.",
-                "In virtual time nothing happens by itself.",
-                "Use `ros.run(seconds)`, or `ros.start()` first.",
-            )
-        deadline = None if seconds is None else time.monotonic() + duration_ns(seconds, "wait") / 1e9
+            raise refusals.session_is_not_live()
+        span = None if seconds is None else duration_ns(seconds, "wait(seconds=...)") / 1e9
+        deadline = None if span is None else time.monotonic() + span
         self._world.console.begin()
         try:
             return self._wait(deadline, until or bool)
+        except KeyboardInterrupt:
+            self._world.hurry()
+            raise
         finally:
             self._world.show_news()
             self._world.console.end()
 
     def stop(self) -> None:
-        """End live mode; virtual time goes on from here. Does nothing if the session is not live."""
+        """End live mode; virtual time goes on from here. Does nothing if the session is not live.
+
+        Each timer begins a new period. A callback that has not returned after two seconds is broken
+        off.
+
+        Raises:
+            SessionError: If `stop` is called from a callback.
+        """
         self._check_open()
+        self._world.refuse_in_callback("ros.stop")
         self._world.go_virtual()
         self._world.show_news()
 
@@ -273,11 +272,13 @@ class Session:
 
         Raises:
             UnknownTopicError: If the topic never had a publisher in this session.
+            SessionError: If `topic` is not a name.
         """
-        name = "/" + topic.lstrip("/")
+        self._world.show_faults()
+        name = "/" + refusals.check_name("messages", topic).lstrip("/")
         known = self._world.recorder.topics()
         if name not in known:
-            raise _unknown_topic(name, known, self.graph())
+            raise refusals.unknown_topic(name, known, self._world.graph())
         return tuple(self._world.recorder.samples(name))
 
     def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
@@ -285,12 +286,15 @@ class Session:
 
         Args:
             node: Only the lines of this node, given itself or by name.
+
+        Raises:
+            SessionError: If `node` is neither a name nor a node that is or was in this session.
         """
+        self._world.show_faults()
         records = tuple(self._world.recorder.logs)
         if node is None:
             return records
-        name = node.get_name() if isinstance(node, Node) else node
-        wanted = name.strip("/").replace("/", ".")
+        wanted = self._name_of(node).strip("/").replace("/", ".")
         return tuple(record for record in records if record.name == wanted)
 
     def graph(self) -> GraphSnapshot:
@@ -299,7 +303,11 @@ class Session:
         return self._world.graph()
 
     def observation(self) -> Observation:
-        """Everything that was recorded so far, as plain data."""
+        """Everything that was recorded so far, as plain data.
+
+        Of a session that has ended it holds the graph as it was just before the end.
+        """
+        self._world.show_faults()
         recorder = self._world.recorder
         return Observation(
             self._world.now(),
@@ -308,7 +316,7 @@ class Session:
             tuple(recorder.logs),
             tuple(recorder.callbacks()),
             tuple(recorder.faults),
-            self.graph(),
+            self._world.graph(),
         )
 
     # How it works.
@@ -317,18 +325,9 @@ class Session:
     def _running(self, what: str) -> Iterator[None]:
         """Nodes of this session are about to run in this thread."""
         self._check_open()
-        if self._world.virtual.current is not None:
-            raise SessionError(
-                f"`{what}` was called from inside a callback.",
-                "The session is running that callback now and cannot begin another run in it.",
-                f"Call `{what}` in a cell of its own, after the run.",
-            )
-        context, before = self._world.context, self._world.context.install()
-        try:
-            with self._random.lent():
-                yield
-        finally:
-            context.uninstall(before)
+        self._world.refuse_in_callback(f"ros.{what}")
+        with self._world.running():
+            yield
 
     def _wait(self, deadline: float | None, until: Callable[[], object]) -> bool:
         pulse = Event()  # nobody sets it: it is a sleep that an Interrupt ends at once
@@ -343,11 +342,8 @@ class Session:
 
     def _check_open(self) -> None:
         if self._world.closed:
-            raise ClosedSessionError(
-                "This session has ended.",
-                "Its nodes and its ROS context are gone; what it recorded can still be read.",
-                "Open a new one: `ros = Session()`.",
-            )
+            raise refusals.session_has_ended()
+        self._world.show_faults()
 
     def _clear_away(self, before: list[NodeState]) -> None:
         for state in self._world.states():
@@ -357,13 +353,16 @@ class Session:
     def _state_of(self, node: Node) -> NodeState:
         state = self._world.state_of(node)
         if state is None:
-            raise NodeClassError(
-                f"The node {node.get_name()!r} does not belong to this session.",
-                "It was made before the session was opened, in another session, or it has been "
-                "destroyed; a node cannot move from one ROS context to another.",
-                "Hand over its class instead: `ros.add(TemperatureSensor)`.",
-            )
+            raise refusals.foreign_node(node, self._world.name_of(node))
         return state
+
+    def _name_of(self, node: Node | str) -> str:
+        if not isinstance(node, Node):
+            return refusals.check_name("logs", node)
+        name = self._world.name_of(node)
+        if name is None:
+            raise refusals.foreign_node(node)
+        return name
 
     def _find(self, node: Node | str) -> NodeState:
         if isinstance(node, Node):
@@ -371,37 +370,5 @@ class Session:
         name = "/" + str(node).lstrip("/")
         state = self._world.named(name)
         if state is None:
-            names = [state.name for state in self._world.states()]
-            raise SessionError(
-                f"This session has no node {name}.",
-                f"Its nodes are: {', '.join(names) or 'none yet'}.",
-                _nearest(name, names, "Add it first with `ros.add(...)`."),
-            )
+            raise refusals.no_such_node(name, [other.name for other in self._world.states()])
         return state
-
-
-def _check_whole(name: str, value: Any, low: int, high: int) -> None:  # noqa: ANN401
-    if isinstance(value, int) and not isinstance(value, bool) and low <= value <= high:
-        return
-    raise SessionError(
-        f"{name}={value!r} cannot be used.",
-        f"It must be a whole number from {low} to {high if high < 2**63 else 'about 9e18'}.",
-        f"Write for example Session({name}=7).",
-    )
-
-
-def _nearest(name: str, names: list[str], otherwise: str) -> str:
-    near = get_close_matches(name, names, 1, 0.6)
-    return f"Did you mean {near[0]}?" if near else otherwise
-
-
-def _unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTopicError:
-    listening = [end.node for end in graph.on(name, "subscription")]
-    means = f"{', '.join(listening)} listens there, but no node" if listening else "No node"
-    topics = sorted(known) or ["none yet"]
-    return UnknownTopicError(
-        f"Nobody has published on {name}.",
-        f"{means} of this session has a publisher of that name. Published topics: "
-        f"{', '.join(topics)}.",
-        _nearest(name, sorted(known), "Add the publishing node first, with `ros.add(...)`."),
-    )

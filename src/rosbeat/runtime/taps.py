@@ -9,8 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rclpy.client import Client
+from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSCompatibility, QoSProfile, qos_check_compatible
+from rclpy.timer import Rate, Timer
 
 from rosbeat.runtime.messages import Memory, Raw
 
@@ -28,11 +31,10 @@ class PublisherTap:
         count: Messages published so far.
     """
 
-    def __init__(
-        self, publisher: Publisher, memory: Memory, heard: Callable[[Any], None]
-    ) -> None:
+    def __init__(self, publisher: Publisher, memory: Memory, heard: Callable[[Any], None]) -> None:
         self.topic: str = publisher.topic_name
         self.count = 0
+        self._handle = publisher.handle
         self._qos: QoSProfile = publisher.qos_profile
         send, take, message_type = publisher.publish, memory.take, publisher.msg_type
 
@@ -48,14 +50,41 @@ class PublisherTap:
         policies = (self._qos.durability, qos.durability)
         if any(policy != DurabilityPolicy.TRANSIENT_LOCAL for policy in policies):
             return 0
+        if not self._is_alive():
+            return 0
         compatible, _ = qos_check_compatible(self._qos, qos)
         if compatible == QoSCompatibility.ERROR:
             return 0
         return min(self.count, self._qos.depth or self.count)
 
+    def _is_alive(self) -> bool:
+        try:
+            with self._handle:
+                return True
+        except InvalidHandle:  # destroyed, and what it had stored with it
+            return False
+
+
+def tap_timer(timer: Timer, moved: Callable[[], None]) -> None:
+    """Listen to one timer: `moved` is called after each `reset`, which changes its deadline."""
+    original = timer.reset
+
+    def reset() -> None:
+        original()
+        moved()
+
+    timer.reset = reset
+
+
+def tap_rate(rate: Rate, sleep: Callable[[Callable[[], None]], None]) -> None:
+    """Let `sleep` decide how one rate sleeps; it is given rate's own way."""
+    original = rate.sleep
+    rate.sleep = lambda: sleep(original)
+
 
 def tap_client(
-    client: Any,  # noqa: ANN401 - rclpy.client.Client, untyped
+    client: Client,
+    check: Callable[[], None],
     asked: Callable[[], None],
     wait_for: Callable[[Any, float | None], Any],
 ) -> None:
@@ -63,6 +92,7 @@ def tap_client(
 
     Args:
         client: The client; its `call_async` and `call` are replaced.
+        check: Called before `call` begins; raises where it would wait for ever.
         asked: Called after each request.
         wait_for: Runs the nodes until a future is done and returns its result; used by `call`,
             which would otherwise wait for an answer that nobody is running to give.
@@ -75,6 +105,7 @@ def tap_client(
         return future
 
     def call(request: Any, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
+        check()
         return wait_for(call_async(request), timeout_sec)
 
     client.call_async = call_async

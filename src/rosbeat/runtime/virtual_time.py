@@ -12,47 +12,29 @@ What follows is known without waiting: within one participant Fast DDS hands a m
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
-from inspect import iscoroutine
-from typing import Any, Protocol
+from collections.abc import Callable, Coroutine
+from inspect import iscoroutine, iscoroutinefunction
+from typing import Any
 
-from rclpy.client import Client
 from rclpy.context import Context
-from rclpy.event_handler import EventHandler
 from rclpy.exceptions import InvalidHandle
-from rclpy.executors import SingleThreadedExecutor, TimeoutException
-from rclpy.node import Node
-from rclpy.service import Service
-from rclpy.subscription import Subscription
 from rclpy.task import Task
-from rclpy.timer import Timer
 
 from rosbeat.runtime.agenda import Agenda
-from rosbeat.runtime.chains import SUSPICIOUS, ChainGuard
+from rosbeat.runtime.chains import MOST_TURNS, SUSPICIOUS, ChainGuard
 from rosbeat.runtime.clock import SessionClock
 from rosbeat.runtime.coroutines import Coroutines, Waiting
 from rosbeat.runtime.entities import Entry, NodeState
+from rosbeat.runtime.interrupts import Interrupts
 from rosbeat.runtime.recorder import Recorder
-
-_TAKEN_DIRECTLY = (Subscription, Timer, Client, Service)
-
-
-class Host(Protocol):
-    """What the executor asks of its session."""
-
-    def spinning_nodes(self) -> list[NodeState]:
-        """The nodes whose callbacks run, in order of creation."""
-
-    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
-        """An exception left a callback."""
+from rosbeat.runtime.wait_set import Host, WaitSetExecutor
 
 
-class VirtualTimeExecutor(SingleThreadedExecutor):
+class VirtualTimeExecutor(WaitSetExecutor):
     """Runs callbacks in virtual time.
 
-    Timers, subscriptions, services and clients are taken directly. Guard conditions and waitables
-    (actions, QoS events) go through rclpy's own wait set, which costs about a millisecond a pass
-    and is therefore asked only for nodes that have them, and after entities were made or destroyed.
+    Timers, subscriptions, services and clients are taken directly; see `WaitSetExecutor` for the
+    rest.
 
     Args:
         context: The session's context.
@@ -62,43 +44,32 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
 
     Attributes:
         now: Virtual time in nanoseconds.
-        current: The node whose callback is running, or None.
+        running: Whether `run_until` is at work.
     """
 
     def __init__(
         self, context: Context, clock: SessionClock, recorder: Recorder, host: Host
     ) -> None:
         self.now = 0
-        self.current: NodeState | None = None
+        self.running = False
         # Not `_clock`: rclpy's executor has a steady clock of that name.
-        self._session_clock, self._record, self._host = clock, recorder.add_callback, host
+        self._session_clock, self._host = clock, host
+        self._note_time, self._note_label = recorder.callback_columns()
         self._agenda = Agenda()
         self._chain = ChainGuard()
+        self._interrupts = Interrupts()
         self._coroutines = Coroutines(self)
         self._listeners: dict[tuple[str, str], list[Entry]] = {}
         self._ready: deque[tuple[Entry, int]] = deque()
-        self._changed = True
-        self._wait_set_nodes: list[Node] = []
         super().__init__(context=context)
 
     # What rclpy calls.
 
-    def get_nodes(self) -> list[Node]:
-        """The nodes in order of creation; rclpy's own answer comes from an unordered set."""
-        return [state.node for state in self._host.spinning_nodes()]
-
-    def wake(self) -> None:
-        """Entities were made or destroyed."""
-        self._changed = True
-        super().wake()
-
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:  # noqa: ANN401
         """Run a callback or coroutine as soon as what is running has ended."""
-        return self._coroutines.add_task(callback, args, kwargs, self.current)
-
-    def can_execute(self, entity: Any) -> bool:  # noqa: ANN401 - rclpy's own signature
-        """Keep from rclpy's wait set what is taken directly."""
-        return not isinstance(entity, _TAKEN_DIRECTLY) and bool(super().can_execute(entity))
+        task = Task(callback, args, kwargs, executor=self)
+        self._coroutines.add_task(task, callback, self.current)
+        return task
 
     # What the session calls.
 
@@ -106,7 +77,7 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
         """Run this entity's callback from now on, whenever its node spins."""
         if entry.kind == "timer":
             self._agenda.add(entry, self.now)
-        else:
+        elif entry.take is not None:
             self._listeners.setdefault((entry.kind, entry.name), []).append(entry)
             self._look_at(entry)
 
@@ -114,12 +85,13 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
         """A node is destroyed: drop what it had."""
         for entry in state.entries:
             self._drop(entry)
+        self._coroutines.drop_abandoned()
 
     def resume(self, state: NodeState) -> None:
         """A node begins to spin: look at everything that waited for it meanwhile."""
         self._changed = True
         for entry in state.entries:
-            if entry.kind != "timer":
+            if entry.take is not None:
                 self._look_at(entry)
 
     def sender(self, kind: str, name: str) -> Callable[[], None]:
@@ -140,9 +112,17 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
         """Something was sent to the `kind` entities called `name`."""
         self.sender(kind, name)()
 
-    def reschedule(self, timers: list[Entry]) -> None:
-        """Read every timer's deadline anew, after the clock was changed from outside."""
-        self._agenda.rebuild(timers, self.now)
+    def timer_reset(self, entry: Entry) -> None:
+        """A timer's `reset` was called."""
+        self._agenda.move(entry, self.now)
+
+    def look_anew(self) -> None:
+        """Look at everything again: the clock was changed from outside, or a run was broken off."""
+        states = self._host.states()
+        self._agenda.rebuild([e for s in states for e in s.entries if e.kind == "timer"], self.now)
+        self._ready.clear()
+        for state in states:
+            self.resume(state)
 
     def run_until(self, end: int, done: Callable[[], bool] | None = None) -> None:
         """Advance virtual time to `end`, in nanoseconds, or until `done` is true.
@@ -150,24 +130,32 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
         Raises:
             EndlessChainError: If callbacks cause one another for ever while no time passes.
         """
+        self.running = True
         try:
-            self._drain()
-            while not (done and done()):
-                deadline = self._agenda.next_deadline(self.now)
-                if deadline is None or deadline > end:
-                    self._advance(end)
-                    return
-                self._step(deadline)
+            with self._interrupts:
+                self._run(end, done)
         except BaseException:
-            # An interrupt or an endless chain. What is ready stays ready, for the next run, but
-            # counts from there.
+            # An interrupt or an endless chain. It may have come between any two steps, so some
+            # timer or message may be noted nowhere.
             self._chain.depth = 0
-            waiting = [(entry, 0) for entry, _ in self._ready]
-            self._ready.clear()
-            self._ready.extend(waiting)
+            self.forget_passes()
+            self.look_anew()
+            self._interrupts.insist()
             raise
+        finally:
+            self.running = False
 
     # How it works.
+
+    def _run(self, end: int, done: Callable[[], bool] | None) -> None:
+        self._drain()
+        while not (done and done()):
+            self._interrupts.insist()
+            deadline = self._agenda.next_deadline(self.now)
+            if deadline is None or deadline > end:
+                self._advance(end)
+                return
+            self._step(deadline)
 
     def _drop(self, entry: Entry) -> None:
         listeners = self._listeners.get((entry.kind, entry.name), [])
@@ -192,8 +180,7 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
     def _fire(self, entry: Entry) -> None:
         if not self._coroutines.is_free(entry):
             return  # back on the agenda when its callback group is free
-        timer = entry.entity
-        handle = timer.handle
+        handle = entry.handle
         try:
             with handle:
                 due = entry.state.spinning and handle.is_timer_ready()
@@ -203,12 +190,13 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
             return  # destroyed
         if due:
             self._chain.timer_fires(entry)
-            self._call(entry, timer.callback)
+            self._call(entry, entry.entity.callback)
         self._agenda.add(entry, self.now)
 
     def _drain(self) -> None:
         # The hot path: three attribute look-ups here are a tenth of a message's cost.
         ready, chain, waiting = self._ready, self._chain, self._coroutines.waiting
+        turns = 0
         while True:
             while ready:
                 entry, depth = ready.popleft()
@@ -218,12 +206,15 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
                         chain.inspect(entry)
                     self._take(entry)
             chain.depth = 0
-            if not (self._resume_coroutines() or self._ask_rclpy()):
+            if not (self._resume_coroutines() or self.ask_rclpy() or ready):
                 return
+            turns += 1
+            if turns > MOST_TURNS:
+                raise chain.turns_without_end(self._suspects())
 
     def _take(self, entry: Entry) -> None:
         try:
-            work = entry.take(entry, self)
+            work = entry.take(entry, self)  # type: ignore[misc] # only timers have none
         except InvalidHandle:
             self._drop(entry)  # destroyed while its message was on the way
             return
@@ -232,80 +223,69 @@ class VirtualTimeExecutor(SingleThreadedExecutor):
             return
         if entry.backlog or entry.owed:
             self._ready.appendleft((entry, self._chain.depth))
-        self._call(entry, work[0], work[1])
+        callback, arguments = work
+        self._call(entry, callback, arguments)
 
     def _call(
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...] = ()
     ) -> None:
         entry.calls += 1
-        self._record(self.now, entry.label.number)
+        self._note_time(self.now)
+        self._note_label(entry.label_number)
         self.current = entry.state
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
+            self._interrupts.insist()
             self._host.callback_raised(entry.state, entry.label.name, error)
         else:
-            if result is not None and iscoroutine(result):
-                self._coroutines.adopt(result, entry)
+            # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
+            if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
+                self._begin(result, entry)
         finally:
             self.current = None
+
+    def _begin(self, coroutine: Coroutine[Any, Any, Any], entry: Entry) -> None:
+        waiting = self._coroutines.adopt(coroutine, entry)
+        self._resume_one(waiting)
+        if waiting.ended:
+            self._end(waiting)
 
     def _resume_coroutines(self) -> bool:
         """Give every waiting coroutine a turn; say whether anything came of it."""
         if not self._coroutines.waiting:
             return False
-        ended = self._coroutines.turn(self._resume_one)
-        for waiting in ended:
-            error = waiting.task.exception()
-            if error is not None:
-                self._host.callback_raised(waiting.state, waiting.name, error)
-        if ended:
-            self._unblock()
-        return bool(ended or self._ready)
+        self._coroutines.drop_abandoned()
+        further = self._coroutines.turn(self._resume_one)
+        for waiting in [waiting for waiting in self._coroutines.waiting if waiting.ended]:
+            self._end(waiting)
+        return further
 
-    def _unblock(self) -> None:
+    def _resume_one(self, waiting: Waiting) -> None:
+        self.current = waiting.state
+        try:
+            waiting.task()
+        except SystemExit as error:
+            waiting.task.cancel()
+            self._host.callback_raised(waiting.state, waiting.name, error)
+        except BaseException:
+            waiting.task.cancel()  # rclpy would take it for running, for ever
+            self._coroutines.end(waiting)
+            raise
+        finally:
+            self.current = None
+
+    def _end(self, waiting: Waiting) -> None:
+        self._coroutines.end(waiting)
+        error = waiting.task.exception()
+        if error is not None:
+            self._host.callback_raised(waiting.state, waiting.name, error)
         for entry in self._coroutines.unblock():
             if entry.kind == "timer":
                 self._agenda.add(entry, self.now)
             else:
-                self._ready.append((entry, 0))
+                self._ready.append((entry, self._chain.depth))
 
-    def _resume_one(self, waiting: Waiting) -> None:
-        self.current = waiting.state
-        waiting.task()
-        self.current = None
-
-    def _ask_rclpy(self) -> bool:
-        """One pass of rclpy's own wait set; say whether anything came of it."""
-        nodes = self._nodes_for_wait_set()
-        progress = False
-        while nodes:
-            try:
-                handler, _, node = self.wait_for_ready_callbacks(timeout_sec=0, nodes=nodes)
-            except TimeoutException:
-                break
-            handler()
-            progress = progress or handler.done()
-            self._check(handler, node)
-        return progress
-
-    def _nodes_for_wait_set(self) -> list[Node]:
-        if not self._changed:
-            return self._wait_set_nodes
-        self._changed = False
-        nodes = self.get_nodes()
-        self._wait_set_nodes = [node for node in nodes if _needs_wait_set(node)]
-        return nodes
-
-    def _check(self, handler: Task, node: Node) -> None:
-        error = handler.exception()
-        if error is not None:
-            state = next((s for s in self._host.spinning_nodes() if s.node is node), None)
-            self._host.callback_raised(state, "a waitable", error)
-
-
-def _needs_wait_set(node: Node) -> bool:
-    # Every publisher and subscription has event handlers; they can only fire after a change.
-    return any(True for _ in node.guards) or any(
-        not isinstance(waitable, EventHandler) for waitable in node.waitables
-    )
+    def _suspects(self) -> list[str]:
+        names = [f"{w.state.name} ({w.name})" for w in self._coroutines.waiting if w.state]
+        return list(dict.fromkeys(names)) or [s.name for s in self._host.states() if s.spinning]

@@ -17,7 +17,9 @@ class Echo(Node):
 
 
 def test_a_feeder_publishes_one_value_a_second_and_then_falls_silent():
-    observation = observe(Echo, 9, others=[feeder("f", "in", "std_msgs/msg/Float32", [1.0, 2.5, -3.0])])
+    observation = observe(
+        Echo, 9, others=[feeder("f", "in", "std_msgs/msg/Float32", [1.0, 2.5, -3.0])]
+    )
     heard = [(s.time, s.value) for s in observation.samples if s.topic == "/echo"]
     assert heard == [(1, 1.0), (2, 2.5), (3, -3.0)]
 

@@ -1,0 +1,55 @@
+"""All benchmarks, in one table. Called by `./environment/course bench`; `--quick` takes a minute.
+
+Ratios are what counts: both sides of each are measured in this run, in turns. A missed target is
+shown and does not change the exit code, which is 0 unless a benchmark breaks.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import time
+
+import live_mode
+import memory
+import scaling
+import simulation
+import throughput
+from measuring import Row, table
+
+BENCHMARKS = {
+    "throughput": throughput.measure,
+    "simulation": simulation.measure,
+    "live": live_mode.measure,
+    "memory": memory.measure,
+    "scaling": scaling.measure,
+}
+
+
+def main() -> None:
+    """Run what was asked for and print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="fewer repeats, for a first look")
+    parser.add_argument("names", nargs="*", metavar="name", help=f"of {', '.join(BENCHMARKS)}")
+    options = parser.parse_args()
+    for name in options.names:
+        if name not in BENCHMARKS:
+            parser.error(f"there is no benchmark {name}; there are {', '.join(BENCHMARKS)}")
+    begin = time.monotonic()
+    rows: list[Row] = []
+    for name in options.names or BENCHMARKS:
+        print(f"{name} ...", flush=True)
+        rows += BENCHMARKS[name](options.quick)
+    print(f"\n{table(rows)}\n")
+    missed = sum(bool(row.target) and not row.met for row in rows)
+    print(f"{missed} targets missed; {time.monotonic() - begin:.0f} s; {_machine()}")
+
+
+def _machine() -> str:
+    load = os.getloadavg()[0]
+    return f"Python {platform.python_version()}, {os.cpu_count()} cores, load {load:.1f}"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,138 @@
+"""The same program gives the same observation, byte for byte."""
+
+import multiprocessing
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+
+import pytest
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+
+import six_nodes
+from nodes import Listener, Talker
+from rosbeat import Session
+from rosbeat.observations import digest
+
+TESTS = Path(six_nodes.__file__).parent
+#: The lead runs 200; a test suite does not need to.
+RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "25"))
+PROCESSES = int(os.environ.get("ROSBEAT_DETERMINISM_PROCESSES", "4"))
+
+
+def _burn() -> None:
+    while True:
+        pass
+
+
+@contextmanager
+def busy_cores(number: int = 2) -> Iterator[None]:
+    """Keep processor cores busy with something else."""
+    burners = [multiprocessing.get_context("spawn").Process(target=_burn) for _ in range(number)]
+    for burner in burners:
+        burner.start()
+    try:
+        yield
+    finally:
+        for burner in burners:
+            burner.kill()
+            burner.join()
+
+
+def test_the_program_does_what_it_says():
+    seen = six_nodes.observe()
+    assert len(seen.graph.nodes) == 6
+    assert len([s for s in seen.samples if s.topic == "/walk"]) == 40
+    assert len([s for s in seen.samples if s.topic == "/second"]) == 13
+    stored = [log for log in seen.logs if log.name == "late_reader" and log.time == 5.01]
+    assert len(stored) == 3
+    assert seen.faults == ()
+
+
+def test_runs_in_one_process():
+    assert {digest(six_nodes.observe()) for _ in range(RUNS)} == {six_nodes.DIGEST}
+
+
+def test_runs_while_all_cores_are_busy():
+    with busy_cores():
+        assert {digest(six_nodes.observe()) for _ in range(RUNS // 5)} == {six_nodes.DIGEST}
+
+
+def test_runs_in_fresh_processes():
+    environ = {**os.environ, "PYTHONPATH": os.pathsep.join([str(TESTS), *filter(None, sys.path)])}
+    for number in range(PROCESSES):
+        environ["PYTHONHASHSEED"] = str(number)
+        done = subprocess.run(
+            [sys.executable, str(TESTS / "six_nodes.py")],
+            env=environ, capture_output=True, text=True, timeout=60, check=True,
+        )  # fmt: skip
+        assert done.stdout.strip() == six_nodes.DIGEST
+        assert done.stderr == ""
+
+
+def stored(depth, **options):
+    return QoSProfile(depth=depth, durability=DurabilityPolicy.TRANSIENT_LOCAL, **options)
+
+
+def late(published=20, stores=5, wants=10):
+    """What a late joiner gets."""
+    with Session() as ros:
+        talker = ros.add(partial(Talker, burst=published, qos=stored(stores)))
+        ros.run(1)
+        listener = ros.add(partial(Listener, qos=stored(wants)))
+        ros.run(0)
+        heard = list(listener.heard)
+        talker.talk()
+        ros.run(0)
+        assert listener.heard[len(heard) :][-1] == 2 * published
+        return heard
+
+
+def test_a_late_joiner_gets_exactly_what_is_stored():
+    assert all(late() == [16, 17, 18, 19, 20] for _ in range(100))
+
+
+def test_a_late_joiner_while_all_cores_are_busy():
+    with busy_cores():
+        assert all(late() == [16, 17, 18, 19, 20] for _ in range(20))
+
+
+@pytest.mark.parametrize(
+    ("published", "stores", "wants", "gets"),
+    [(3, 5, 10, 3), (20, 10, 4, 4), (1, 1, 1, 1), (20, 1, 10, 1)],
+)
+def test_the_smaller_of_both_depths(published, stores, wants, gets):
+    assert late(published, stores, wants) == list(range(published - gets + 1, published + 1))
+
+
+def test_a_volatile_late_joiner_gets_nothing(ros):
+    ros.add(partial(Talker, qos=stored(5)))
+    ros.run(5)
+    listener = ros.add(Listener)
+    ros.run(0)
+    assert listener.heard == []
+
+
+def test_a_publisher_that_is_gone_stores_nothing(ros):
+    import time
+
+    talker = ros.add(partial(Talker, qos=stored(5)))
+    ros.run(5)
+    talker.destroy_publisher(talker.publisher)
+    talker.timer.cancel()
+    begin = time.monotonic()
+    listener = ros.add(partial(Listener, qos=stored(5)))
+    ros.run(1)
+    assert listener.heard == []
+    assert time.monotonic() - begin < 1.0
+
+
+def test_keep_all_gets_all_that_is_stored(ros):
+    ros.add(partial(Talker, burst=8, qos=stored(5)))
+    ros.run(1)
+    listener = ros.add(partial(Listener, qos=stored(0, history=HistoryPolicy.KEEP_ALL)))
+    ros.run(0)
+    assert listener.heard == [4, 5, 6, 7, 8]

@@ -1,0 +1,229 @@
+"""`rclpy.init`, `spin` and `shutdown` in a cell: they work or explain themselves; none hangs."""
+
+import signal
+import threading
+import time
+from functools import partial
+
+import pytest
+import rclpy
+from rclpy.node import Node
+from rclpy.task import Future
+
+from nodes import Doer, Listener, Speaker, Talker, Ticker
+from rosbeat import Session
+from rosbeat.errors import SessionError
+
+
+@pytest.fixture
+def interrupt():
+    """Press Interrupt after so many seconds."""
+    timers = []
+
+    def after(seconds):
+        timer = threading.Timer(seconds, signal.raise_signal, [signal.SIGINT])
+        timers.append(timer)
+        timer.start()
+
+    yield after
+    for timer in timers:
+        timer.cancel()
+        timer.join()
+
+
+@pytest.fixture
+def plain():
+    """ROS as a learner starts it, without a session."""
+    rclpy.init(args=[], domain_id=50, signal_handler_options=rclpy.SignalHandlerOptions.NO)
+    yield
+    rclpy.try_shutdown()
+
+
+def main(kind, args=None):
+    """What every tutorial ends with."""
+    rclpy.init(args=args)
+    node = kind()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+def test_init_in_a_session_has_nothing_to_do(ros, capsys):
+    rclpy.init()
+    rclpy.init(args=["--ros-args"])
+    assert capsys.readouterr().out.count("rclpy.init() has nothing to do here") == 2
+    assert rclpy.ok()
+
+
+def test_shutdown_in_a_session_leaves_it_open(ros, capsys):
+    rclpy.shutdown()
+    rclpy.try_shutdown()
+    assert "leaves this session open" in capsys.readouterr().out
+    assert rclpy.ok()
+    ticker = ros.add(partial(Ticker, 1.0))
+    ros.run(2)
+    assert len(ticker.fired) == 2
+
+
+def test_shutdown_in_a_callback_ends_that_node(ros, capsys):
+    doer = ros.add(partial(Doer, lambda _: rclpy.shutdown()))
+    ticker = ros.add(partial(Ticker, 1.0))
+    ros.run(5)
+    assert "/doer called rclpy.shutdown() and stops" in capsys.readouterr().out
+    assert len([run for run in ros.observation().callbacks if run.node == "/doer"]) == 1
+    assert len(ticker.fired) == 5
+    with pytest.raises(SessionError, match="cannot go on"):
+        ros.resume(doer)
+
+
+def test_shutdown_in_a_live_callback_ends_that_node(ros, capsys):
+    ros.add(partial(Doer, lambda _: rclpy.shutdown(), period=0.01))
+    ticker = ros.add(partial(Ticker, 0.01))
+    ros.start()
+    assert ros.wait(10, until=lambda: len(ticker.fired) > 10)
+    runs = [run for run in ros.observation().callbacks if run.node == "/doer"]
+    assert len(runs) == 1
+    assert "/doer called rclpy.shutdown()" in capsys.readouterr().out
+
+
+def test_spin_runs_live_until_interrupt(ros, capsys, interrupt):
+    ticker = ros.add(partial(Ticker, 0.01))
+    interrupt(0.5)
+    with pytest.raises(KeyboardInterrupt):
+        rclpy.spin(ticker)
+    assert len(ticker.fired) > 5
+    assert not ros.is_live
+    assert "spins in real time until you interrupt" in capsys.readouterr().out
+    count = len(ticker.fired)
+    ros.run(1)
+    assert len(ticker.fired) == count + 100
+
+
+def test_spin_with_nothing_to_do_can_be_interrupted(ros, interrupt):
+    node = ros.add(lambda: Node("idle"))
+    interrupt(0.3)
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        rclpy.spin(node)
+    assert time.monotonic() - begin < 0.8
+
+
+def test_spin_ends_with_a_fault(ros, capsys):
+    doer = ros.add(partial(Doer, lambda _: 1 / 0, period=0.01))
+    rclpy.spin(doer)
+    assert "ZeroDivisionError" in capsys.readouterr().err
+
+
+def test_spin_of_a_node_that_was_not_added(ros, interrupt):
+    ticker = Ticker(0.01)
+    interrupt(0.4)
+    with pytest.raises(KeyboardInterrupt):
+        rclpy.spin(ticker)
+    assert ticker.fired
+
+
+def test_main_in_a_session(ros, capsys, interrupt):
+    interrupt(0.4)
+    main(partial(Speaker, period=0.02))
+    lines = capsys.readouterr().out.splitlines()
+    assert "rclpy.init() has nothing to do here" in lines[0]
+    assert "here is speaker" in lines[2]
+    assert "leaves this session open" in lines[-1]
+    assert ros.nodes == ()
+    ros.add(Talker)
+    ros.run(1)
+
+
+def test_spin_once_points_to_run(ros, says):
+    with pytest.raises(SessionError) as caught:
+        rclpy.spin_once(ros.add(Talker))
+    says(caught.value, "ros.run")
+
+
+@pytest.mark.parametrize(
+    "call", [rclpy.spin, lambda n: rclpy.spin_until_future_complete(n, Future())]
+)
+def test_spinning_in_a_callback_is_refused(ros, call, capsys):
+    ros.add(partial(Doer, call))
+    ros.run(1)
+    (fault,) = ros.observation().faults
+    assert fault.kind == "SessionError"
+    assert "deadlock" in capsys.readouterr().err
+
+
+def test_spin_until_a_future_that_never_comes(ros):
+    node = ros.add(lambda: Node("waits"))
+    rclpy.spin_until_future_complete(node, Future(), timeout_sec=7.0)
+    assert ros.time == 7
+    future = Future()
+    future.cancel()
+    rclpy.spin_until_future_complete(node, future)
+    assert ros.time == 7
+
+
+def test_spin_until_future_complete_live(ros):
+    node = ros.add(lambda: Node("waits"))
+    future = Future()
+    node.create_timer(0.05, lambda: future.set_result(5))
+    ros.start()
+    rclpy.spin_until_future_complete(node, future, timeout_sec=10.0)
+    assert future.result() == 5
+
+
+def test_without_a_session_spin_can_be_interrupted(plain, interrupt):
+    node = Node("idle")
+    interrupt(0.3)
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        rclpy.spin(node)
+    assert time.monotonic() - begin < 0.8
+    node.destroy_node()
+
+
+def test_without_a_session_everything_is_rclpys_own(plain):
+    talker, listener = Talker(period=0.01), Listener()
+    for node in (talker, listener):
+        assert not node.get_parameter("use_sim_time").value
+    deadline = time.monotonic() + 10
+    while not listener.heard and time.monotonic() < deadline:
+        rclpy.spin_once(talker, timeout_sec=0.05)
+        rclpy.spin_once(listener, timeout_sec=0.05)
+    assert listener.heard
+    talker.destroy_node()
+    listener.destroy_node()
+
+
+def test_a_plain_node_beside_a_session(plain, interrupt, capfd):
+    node = Node("plain")
+    fired = []
+    node.create_timer(0.02, lambda: fired.append(1))
+    node.get_logger().info("before")
+    with Session() as ros:
+        ros.add(Speaker)
+        ros.run(2)
+        interrupt(0.3)
+        with pytest.raises(KeyboardInterrupt):
+            rclpy.spin(node)
+        assert fired
+    printed = capfd.readouterr()
+    assert "here is speaker" in printed.out
+    assert "here is speaker" not in printed.err
+    node.get_logger().info("after")
+    printed_after = capfd.readouterr()
+    # rcl writes to its own buffer of file descriptor 2.
+    assert "before" in printed.err + printed_after.err
+    assert rclpy.ok()
+    node.destroy_node()
+
+
+def test_after_the_session_init_works_as_ever():
+    with Session():
+        pass
+    assert not rclpy.ok()
+    rclpy.init(args=[], domain_id=50, signal_handler_options=rclpy.SignalHandlerOptions.NO)
+    assert rclpy.ok()
+    rclpy.shutdown()

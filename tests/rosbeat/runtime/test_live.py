@@ -1,0 +1,321 @@
+"""Against the wall clock, in a background thread; other processes can talk to the nodes."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from functools import partial
+
+import pytest
+from rclpy.node import Node
+from rclpy.task import Future
+from std_srvs.srv import Trigger
+
+from nodes import AsyncDoer, Doer, Listener, Server, Speaker, Talker, Ticker
+from rosbeat import Session
+from rosbeat.errors import DurationError, SessionError
+
+OTHER_PROCESS = """
+import rclpy, sys
+from rclpy.node import Node
+from std_msgs.msg import Int32
+rclpy.init()
+node = Node("outside")
+heard = []
+node.create_subscription(Int32, "count", heard.append, 10)
+publisher = node.create_publisher(Int32, "reply", 10)
+print("ready", flush=True)
+while len(heard) < 3:
+    rclpy.spin_once(node, timeout_sec=0.1)
+while True:
+    publisher.publish(Int32(data=heard[-1].data))
+    rclpy.spin_once(node, timeout_sec=0.05)
+"""
+
+
+def live_threads():
+    return [thread for thread in threading.enumerate() if thread.name == "rosbeat live"]
+
+
+def test_timers_follow_the_wall_clock(ros):
+    ticker = ros.add(partial(Ticker, 0.02))
+    ros.run(1)
+    count = len(ticker.fired)
+    ros.start()
+    begin = time.monotonic()
+    assert ros.wait(10, until=lambda: len(ticker.fired) >= count + 20)
+    assert time.monotonic() - begin >= 0.02 * 19
+    assert ros.is_live
+    assert 1.3 < ros.time < 10
+
+
+def test_messages_and_logs_are_recorded(ros, capsys):
+    ros.add(partial(Talker, period=0.02))
+    listener = ros.add(Listener)
+    ros.add(partial(Speaker, period=0.02))
+    ros.start()
+    assert ros.wait(10, until=lambda: len(listener.heard) >= 10)
+    ros.stop()
+    samples = ros.messages("count")
+    assert [sample.value for sample in samples] == list(range(1, len(samples) + 1))
+    assert [sample.time_ns for sample in samples] == sorted(sample.time_ns for sample in samples)
+    assert len(capsys.readouterr().out.splitlines()) == len(ros.logs())
+
+
+def test_start_does_not_fire_at_once(ros):
+    ticker = ros.add(partial(Ticker, 30.0, 0.01))
+    ros.run(29)
+    ros.start()
+    assert ros.wait(10, until=lambda: len(ticker.times(1)) > 2905)
+    assert ticker.times(0) == []
+
+
+def test_virtual_time_goes_on_at_the_right_rate(ros):
+    ticker = ros.add(partial(Ticker, 0.1))
+    talker, listener = ros.add(partial(Talker, period=0.1)), ros.add(Listener)
+    for _ in range(2):
+        ros.run(1)
+        ros.start()
+        ros.start()
+        count = len(ticker.fired)
+        assert ros.wait(10, until=lambda count=count: len(ticker.fired) > count)
+        ros.stop()
+        ros.stop()
+        assert not ros.is_live
+        before, fired, heard = ros.time, len(ticker.fired), len(listener.heard)
+        ros.run(2)
+        assert ros.time == pytest.approx(before + 2)
+        assert len(ticker.fired) - fired == 20
+        assert listener.heard == list(range(1, talker.count + 1))
+        assert len(listener.heard) - heard in (20, 21)
+
+
+def test_use_sim_time_tells_the_truth(ros):
+    changes = []
+    node = ros.add(lambda: Node("honest"))
+    node.add_post_set_parameters_callback(changes.extend)
+
+    def sim_time():
+        return node.get_parameter("use_sim_time").value
+
+    assert sim_time() is True
+    assert node.get_clock().now().nanoseconds == 0
+    ros.start()
+    assert sim_time() is False
+    assert abs(node.get_clock().now().nanoseconds - time.time_ns()) < 1e9
+    born_live = ros.add(lambda: Node("born_live"))
+    assert born_live.get_parameter("use_sim_time").value is False
+    assert abs(born_live.get_clock().now().nanoseconds - time.time_ns()) < 1e9
+    ros.stop()
+    assert sim_time() is True
+    assert born_live.get_parameter("use_sim_time").value is True
+    assert node.get_clock().now().nanoseconds == round(ros.time * 1e9)
+    assert changes == []
+
+
+def test_nodes_see_the_sessions_time_in_constructors_and_callbacks(ros):
+    class Watch(Node):
+        def __init__(self):
+            super().__init__("watch")
+            self.seen = [self.now()]
+            self.create_timer(0.5, lambda: self.seen.append(self.now()))
+
+        def now(self):
+            return self.get_clock().now().nanoseconds / 1e9, self.get_parameter(
+                "use_sim_time"
+            ).value
+
+    ros.run(3)
+    watch = ros.add(Watch)
+    ros.run(1)
+    assert watch.seen == [(3.0, True), (3.5, True), (4.0, True)]
+
+
+def test_a_fault_is_shown_in_the_next_call_and_the_others_go_on(ros, capsys, eventually):
+    ros.add(partial(Doer, lambda _: 1 / 0, period=0.01))
+    ticker = ros.add(partial(Ticker, 0.01))
+    ros.start()
+    eventually(lambda: ros._world.recorder.faults)
+    assert capsys.readouterr().err == ""
+    ros.logs()
+    assert capsys.readouterr().err.count("ZeroDivisionError") == 1
+    count = len(ticker.fired)
+    assert ros.wait(10, until=lambda: len(ticker.fired) > count + 5)
+    ros.stop()
+    assert len(ros.observation().faults) == 1
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("error", [SystemExit, KeyboardInterrupt])
+def test_a_callback_that_exits_does_not_silence_the_others(ros, capsys, error):
+    def do(_):
+        raise error
+
+    ros.add(partial(Doer, do, period=0.01))
+    ticker = ros.add(partial(Ticker, 0.01))
+    ros.start()
+    assert ros.wait(10, until=lambda: ros.observation().faults)
+    count = len(ticker.fired)
+    assert ros.wait(10, until=lambda: len(ticker.fired) > count + 5)
+    capsys.readouterr()
+
+
+def test_a_paused_node_rests_and_resumes(ros):
+    talker, listener = ros.add(partial(Talker, period=0.01)), ros.add(partial(Listener, qos=3))
+    ros.start()
+    ros.pause(listener)
+    count, goal = len(listener.heard), talker.count + 10
+    assert ros.wait(10, until=lambda: talker.count > goal)
+    assert len(listener.heard) <= count + 1
+    ros.resume(listener)
+    goal = len(listener.heard) + 5
+    assert ros.wait(10, until=lambda: len(listener.heard) >= goal)
+
+
+def test_a_node_added_and_removed_while_live(ros):
+    ros.start()
+    talker, listener = ros.add(partial(Talker, period=0.01)), ros.add(Listener)
+    assert ros.wait(10, until=lambda: len(listener.heard) > 3)
+    ros.add(partial(Talker, period=0.01))
+    assert talker not in ros.nodes
+    ros.remove(listener)
+    assert [node.get_name() for node in ros.nodes] == ["talker"]
+
+
+def test_call_in_a_cell_while_live(ros):
+    ros.add(Server)
+    client = ros.add(lambda: Node("asker")).create_client(Trigger, "ask")
+    ros.start()
+    assert client.call(Trigger.Request(), timeout_sec=10.0).message == "1"
+
+
+def test_call_in_a_live_callback_is_explained(ros, capsys):
+    ros.add(Server)
+
+    def do(node):
+        node.create_client(Trigger, "ask").call(Trigger.Request())
+
+    ros.add(partial(Doer, do, period=0.01))
+    ros.start()
+    assert ros.wait(10, until=lambda: ros.observation().faults)
+    assert "deadlock" in capsys.readouterr().err
+
+
+def test_stop_frees_a_group_in_which_a_coroutine_waits(ros):
+    async def do(node):
+        node.seen += 1
+        if node.seen == 3:
+            await Future()
+
+    doer = ros.add(partial(AsyncDoer, do, period=0.01))
+    doer.seen = 0
+    ros.start()
+    assert ros.wait(10, until=lambda: doer.seen == 3)
+    ros.stop()
+    ros.run(0.05)
+    assert doer.seen == 8
+
+
+def test_a_callback_that_never_returns_is_broken_off(ros, capsys):
+    def do(_):
+        while True:
+            pass
+
+    ros.add(partial(Doer, do, period=0.01))
+    ros.start()
+    assert ros.wait(10, until=lambda: ros.observation().callbacks)
+    ros.stop()
+    assert live_threads() == []
+    (fault,) = ros.observation().faults
+    assert fault.kind == "BrokenOff"
+    capsys.readouterr()
+
+
+def test_a_message_that_came_late_is_heard_in_virtual_time(ros):
+    talker, listener = ros.add(partial(Talker, period=1000.0)), ros.add(Listener)
+    ros.start()
+    ros.pause(listener)
+    talker.talk()
+    ros.stop()
+    ros.resume(listener)
+    ros.run(0)
+    assert listener.heard == [1]
+
+
+def test_wait(ros, says):
+    with pytest.raises(SessionError) as caught:
+        ros.wait(1)
+    says(caught.value, "not live")
+    ros.start()
+    with pytest.raises(DurationError) as error:
+        ros.wait(-1)
+    says(error.value, "wait(seconds=...)")
+    assert ros.wait(0) is False
+    assert ros.wait(0.1) is False
+    assert ros.wait(until=lambda: True) is True
+    with pytest.raises(SessionError) as caught:
+        ros.run(1)
+    says(caught.value, "ros.wait")
+
+
+def test_interrupt_ends_a_wait_at_once(ros):
+    ros.add(partial(Ticker, 0.01))
+    ros.start()
+    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        ros.wait()
+    assert time.monotonic() - begin < 0.7
+    timer.join()
+    assert ros.is_live
+
+
+def test_closing_while_live_leaves_no_thread():
+    for _ in range(5):
+        with Session() as ros:
+            ros.add(partial(Talker, period=0.001))
+            ros.add(Listener)
+            ros.start()
+            ros.wait(0.02)
+        assert live_threads() == []
+
+
+def test_stopping_in_full_swing_records_no_fault(ros):
+    ros.add(partial(Talker, period=0.0005))
+    ros.add(Listener)
+    for _ in range(30):
+        ros.start()
+        ros.wait(0.01)
+        ros.stop()
+    assert ros.observation().faults == ()
+
+
+def test_two_sessions_in_one_domain_hear_each_other(ros):
+    with Session(domain_id=ros.domain_id) as other:
+        assert other.domain_id == ros.domain_id
+        ros.add(partial(Talker, period=0.02))
+        listener = other.add(Listener)
+        ros.start()
+        other.start()
+        assert other.wait(20, until=lambda: len(listener.heard) >= 3)
+
+
+def test_another_process_hears_and_is_heard(ros):
+    ros.add(partial(Talker, period=0.02))
+    listener = ros.add(partial(Listener, topic="reply"))
+    ros.start()
+    environ = {**os.environ, "ROS_DOMAIN_ID": str(ros.domain_id)}
+    environ["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
+    program = f"import rosbeat\n{OTHER_PROCESS}"
+    outside = subprocess.Popen(
+        [sys.executable, "-c", program], env=environ, stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert outside.stdout.readline() == "ready\n"
+        assert ros.wait(30, until=lambda: len(listener.heard) >= 3)
+    finally:
+        outside.kill()
+        outside.communicate()
