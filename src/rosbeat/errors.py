@@ -10,6 +10,7 @@
     │   ├── UnknownTopicError       nobody published on that topic
     │   ├── EndlessChainError       callbacks cause each other for ever without time passing
     │   ├── DomainsExhaustedError   no private ROS domain id is left on this machine
+    │   ├── NoSessionError          a node was made on a page with no session open
     │   └── ClosedSessionError      the session has ended
     ├── PictureError                a picture cannot be drawn from what it was given
     ├── ExerciseError               a check was asked for an exercise that does not exist
@@ -79,6 +80,10 @@ class EndlessChainError(SessionError):
 
 class DomainsExhaustedError(SessionError):
     """Every private ROS domain id of this machine is taken."""
+
+
+class NoSessionError(SessionError):
+    """A node was made on a page while no session was open and ROS was not started otherwise."""
 
 
 class ClosedSessionError(SessionError):

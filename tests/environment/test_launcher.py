@@ -37,7 +37,7 @@ class Machine:
         self.bin.mkdir(parents=True)
         (self.root / "environment").mkdir(parents=True)
         shutil.copy(ROOT / "environment" / "course", self.root / "environment")
-        for tool in ("bash", "uname", "sed", "head", "dirname"):
+        for tool in ("bash", "uname", "sed", "head", "dirname", "readlink"):
             found = shutil.which(tool)
             assert found
             (self.bin / tool).symlink_to(found)
@@ -79,6 +79,21 @@ def test_hands_over_with_the_arguments_untouched(machine: Machine):
     tool = machine.root / "environment" / "course_tool"
     assert done.stdout == f"python3 runs: -I {tool} shell -c echo two words\n"
     assert done.returncode == 0
+
+
+def test_a_link_to_the_command_works(machine: Machine, tmp_path: Path):
+    machine.has("python3", (3, 11))
+    link = tmp_path / "link"
+    link.symlink_to(machine.root / "environment" / "course")
+    done = subprocess.run(
+        [machine.bin / "bash", link, "doctor"],
+        env={"PATH": str(machine.bin)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    tool = machine.root / "environment" / "course_tool"
+    assert done.stdout == f"python3 runs: -I {tool} doctor\n"
 
 
 def test_standard_input_reaches_the_command(machine: Machine):

@@ -16,7 +16,9 @@ from torture.kernel import Kernel
 FULL = os.environ.get("ROSBEAT_TORTURE") == "full"
 STARTS, RERUNS, INTERRUPTS = (50, 20, 20) if FULL else (8, 20, 3)
 #: Interrupt ends every cell within this many seconds.
-AT_ONCE = 0.5
+# What is promised, where the machine is not busy with other tests. Otherwise an interrupt has to
+# work; how quickly says more about the machine.
+AT_ONCE = 0.5 if FULL else 5.0
 #: Shared by every kernel and every DDS process on the machine, so somebody else may hold them.
 SHARED = ("/dev/shm/lttng", "/dev/shm/fastrtps_port70")
 

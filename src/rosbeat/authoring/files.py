@@ -10,6 +10,7 @@ from pathlib import Path
 
 import nbformat
 
+from rosbeat.authoring.opened import only_opened
 from rosbeat.authoring.pictures import without_pictures
 
 _DIFF_LINES = 40
@@ -22,7 +23,8 @@ class Change:
 
     Attributes:
         path: The page.
-        kind: ``"new"``, ``"changed"``, ``"pictures"`` if only they differ, or ``"stale"``.
+        kind: ``"new"``, ``"changed"`` or ``"stale"``; ``"pictures"`` if only they differ, and
+            ``"opened"`` if a learner's page was opened or run, and says what it said before.
         diff: The first lines of a unified diff.
     """
 
@@ -33,7 +35,7 @@ class Change:
     @property
     def matters(self) -> bool:
         """Whether the page says something else, not only looks different."""
-        return self.kind != "pictures"
+        return self.kind not in ("pictures", "opened")
 
 
 def compare(path: Path, content: bytes) -> Change | None:
@@ -51,6 +53,8 @@ def compare(path: Path, content: bytes) -> Change | None:
     present = path.read_bytes()
     if present == content:
         return None
+    if only_opened(present, content):
+        return Change(path, "opened")
     old, new = without_pictures(present), without_pictures(content)
     return Change(path, "pictures") if old == new else Change(path, "changed", _diff(old, new))
 

@@ -8,12 +8,16 @@ original runs and nothing else happens. Nothing is kept here, so there is nothin
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
-from functools import wraps
+from functools import partial, wraps
 from typing import Any, Protocol
 
 from rclpy.context import Context
+from rclpy.exceptions import NotInitializedException
 from rclpy.node import Node
+
+from rosbeat.errors import NoSessionError
 
 ENTITY_METHODS = {
     "create_publisher": "publisher",
@@ -66,13 +70,32 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
         watcher = getattr(context or _default_context(), "watcher", None)
         name = kwargs.get("node_name", args[0] if args else None)
         if watcher is None or not isinstance(name, str):
-            original(node, *args, **kwargs)
+            _make_alone(partial(original, node, *args, **kwargs))
             return
         watcher.node_begins(name, kwargs.get("namespace") or "/")
         original(node, *args, **kwargs)
         watcher.node_made(node)
 
     return init
+
+
+def _make_alone(make: Callable[[], None]) -> None:
+    try:
+        make()
+    except NotInitializedException:
+        if not in_kernel():
+            raise
+        raise NoSessionError(
+            "A node was made, and no session is open.",
+            "A node needs ROS to be running. On a page a session starts it, and the last session "
+            "has been closed.",
+            "Run the cell with `Session()` again; or call `rclpy.init()` first, as a program does.",
+        ) from None
+
+
+def in_kernel() -> bool:
+    """Whether this process is a Jupyter kernel."""
+    return "ipykernel.kernelapp" in sys.modules
 
 
 def _default_context() -> Context:

@@ -8,6 +8,17 @@ from types import FrameType
 from typing import Any
 
 
+def show_briefly(interrupt: KeyboardInterrupt, text: str) -> None:
+    """Let IPython show one line for an interrupt, and not the stack it happened to hit.
+
+    Args:
+        interrupt: The exception that is on its way.
+        text: What to say.
+    """
+    lines = [f"KeyboardInterrupt: {text}"]
+    interrupt._render_traceback_ = lambda: lines  # type: ignore[attr-defined] # IPython's protocol
+
+
 class Interrupts:
     """Remembers, within a `with` block, that Interrupt was pressed.
 

@@ -8,7 +8,6 @@ kernel alive; nodes of a session stay with their session.
 
 from __future__ import annotations
 
-import sys
 import threading
 from collections.abc import Callable
 from functools import wraps
@@ -24,7 +23,8 @@ from rclpy.task import Future
 from rosbeat.errors import SessionError
 from rosbeat.runtime.console import note
 from rosbeat.runtime.context import SessionContext
-from rosbeat.runtime.hooks import watcher_of
+from rosbeat.runtime.hooks import in_kernel, watcher_of
+from rosbeat.runtime.interrupts import show_briefly
 
 #: Seconds between two looks at whether the learner pressed Interrupt.
 PULSE = 0.1
@@ -38,13 +38,9 @@ def install() -> None:
     rclpy.spin = _spin(rclpy.spin)
     rclpy.spin_once = _spin_once(rclpy.spin_once)
     rclpy.spin_until_future_complete = _spin_until(rclpy.spin_until_future_complete)
-    if _in_kernel() and threading.current_thread() is threading.main_thread():
+    if in_kernel() and threading.current_thread() is threading.main_thread():
         # rclpy.init() may have been called before rosbeat was imported.
         rclpy.signals.uninstall_signal_handlers()
-
-
-def _in_kernel() -> bool:
-    return "ipykernel.kernelapp" in sys.modules
 
 
 def _init(original: Callable[..., None]) -> Callable[..., None]:
@@ -59,7 +55,7 @@ def _init(original: Callable[..., None]) -> Callable[..., None]:
         if isinstance(target, SessionContext):
             target.init()
             return
-        if _in_kernel():
+        if in_kernel():
             options.setdefault("signal_handler_options", rclpy.signals.SignalHandlerOptions.NO)
             if context is None and target.ok():
                 note("ROS is running already in this kernel; rclpy.init() changes nothing.")
@@ -94,6 +90,9 @@ def _spin_until_interrupt(node: Node, executor: Executor) -> None:
         executor.add_node(node)
         while executor.context.ok():
             executor.spin_once(timeout_sec=PULSE)
+    except KeyboardInterrupt as interrupt:
+        show_briefly(interrupt, f"{node.get_name()} has stopped spinning.")
+        raise
     finally:
         executor.remove_node(node)
 
@@ -112,7 +111,8 @@ def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401 - World im
         while world.live is not None and not state.ended:
             world.show_news()
             pulse.wait(PULSE / 2)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
+        show_briefly(interrupt, f"{state.name} has stopped spinning; the session goes on.")
         world.hurry()
         raise
     finally:

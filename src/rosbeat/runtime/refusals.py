@@ -126,6 +126,12 @@ def unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTo
     listening = [end.node for end in graph.on(name, "subscription")]
     means = f"{', '.join(listening)} listens there, but no node" if listening else "No node"
     topics = sorted(known) or ["none yet"]
+    if any(end.matched > 0 for end in graph.on(name, "subscription")):
+        return UnknownTopicError(
+            f"No node of this session has published on {name}.",
+            "Another process publishes there. What it sends is not recorded, only delivered.",
+            "Log or keep the messages in the callback of a node that subscribes.",
+        )
     return UnknownTopicError(
         f"Nobody has published on {name}.",
         f"{means} of this session has a publisher of that name. Published topics: "

@@ -17,6 +17,7 @@ from rosbeat.runtime import learner_calls, refusals
 from rosbeat.runtime.construction import build_node
 from rosbeat.runtime.durations import duration_ns
 from rosbeat.runtime.entities import NodeState
+from rosbeat.runtime.interrupts import show_briefly
 from rosbeat.runtime.world import World
 
 SomeNode = TypeVar("SomeNode", bound=Node)
@@ -194,6 +195,9 @@ class Session:
             self._world.console.begin(quiet)
             try:
                 self._world.virtual.run_until(refusals.check_end(self._world.now() + span))
+            except KeyboardInterrupt as interrupt:
+                show_briefly(interrupt, f"stopped at {self.time:g} s; the session goes on.")
+                raise
             finally:
                 self._world.console.end()
 
@@ -237,7 +241,8 @@ class Session:
         self._world.console.begin()
         try:
             return self._wait(deadline, until or bool)
-        except KeyboardInterrupt:
+        except KeyboardInterrupt as interrupt:
+            show_briefly(interrupt, "you stopped waiting; the session is still live.")
             self._world.hurry()
             raise
         finally:

@@ -138,11 +138,16 @@ def _fault(end: Endpoint, every: list[Endpoint]) -> str:
 def _topic_words(shown: Wiring, topic: str) -> str:
     into, out = shown.around(topic)
     types = listing(name.rsplit("/", 1)[-1] for name in shown.topics[topic])
-    writers = listing(edge.source.removeprefix("node ") for edge in into) or "nobody"
-    readers = listing(edge.target.removeprefix("node ") for edge in out) or "nobody"
+    writers = listing(edge.source.removeprefix("node ") for edge in into) or _outside(out)
+    readers = listing(edge.target.removeprefix("node ") for edge in out) or _outside(into)
     said = [f"{topic} ({types}): published by {writers}, subscribed to by {readers}."]
     said += [f"There, {_because(fault, into + out)}." for fault in shown.faults(topic)]
     return " ".join(said)
+
+
+def _outside(edges: list[Edge]) -> str:
+    """Who is on the other side when no node of the graph is: what passes goes to others."""
+    return "another process" if any(not edge.fault for edge in edges) else "nobody"
 
 
 def _because(fault: str, edges: list[Edge]) -> str:

@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 
 from nodes import AsyncDoer, Doer, Listener, Server, Speaker, Talker, Ticker
 from rosbeat import Session
-from rosbeat.errors import DurationError, SessionError
+from rosbeat.errors import DurationError, SessionError, UnknownTopicError
 
 OTHER_PROCESS = """
 import rclpy, sys
@@ -301,6 +301,10 @@ def test_two_sessions_in_one_domain_hear_each_other(ros):
         ros.start()
         other.start()
         assert other.wait(20, until=lambda: len(listener.heard) >= 3)
+        topic = next(end.name for end in other.graph().endpoints if end.kind == "subscription")
+        with pytest.raises(UnknownTopicError, match="No node of this session") as caught:
+            other.messages(topic)
+        assert "Another process publishes there" in caught.value.means
 
 
 def test_another_process_hears_and_is_heard(ros):

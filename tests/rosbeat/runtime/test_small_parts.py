@@ -2,22 +2,24 @@
 
 import os
 import signal
+import sys
 import threading
 from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from rclpy.exceptions import InvalidHandle
+from rclpy.exceptions import InvalidHandle, NotInitializedException
+from rclpy.node import Node
 
-from rosbeat.errors import DurationError, EndlessChainError
+from rosbeat.errors import DurationError, EndlessChainError, NoSessionError
 from rosbeat.records import Fault, LogRecord
 from rosbeat.runtime import chains
 from rosbeat.runtime.agenda import Agenda
 from rosbeat.runtime.console import fault_text, log_text, seconds_text
 from rosbeat.runtime.durations import duration_ns
 from rosbeat.runtime.entities import callback_name, full_name, period_text
-from rosbeat.runtime.interrupts import Interrupts
+from rosbeat.runtime.interrupts import Interrupts, show_briefly
 
 
 class Handle:
@@ -159,3 +161,19 @@ def test_texts():
     assert [full_name("a", space) for space in ("", "/", "x", "/x/y/")] == [
         "/a", "/a", "/x/a", "/x/y/a",
     ]  # fmt: skip
+
+
+def test_an_interrupt_shows_one_line_where_it_can():
+    interrupt = KeyboardInterrupt()
+    show_briefly(interrupt, "stopped at 3 s.")
+    assert interrupt._render_traceback_() == ["KeyboardInterrupt: stopped at 3 s."]
+
+
+def test_on_a_page_a_node_without_a_session_is_explained(monkeypatch):
+    with pytest.raises(NotInitializedException):  # in a program: rclpy's own words
+        Node("alone")
+    monkeypatch.setitem(sys.modules, "ipykernel.kernelapp", sys)
+    with pytest.raises(NoSessionError, match="no session is open") as caught:
+        Node("alone")
+    assert caught.value.means
+    assert "Session()" in caught.value.to_try

@@ -51,6 +51,13 @@ def test_a_matched_or_unknown_pair_is_fine(make):
         assert wiring(graph).faults("/t") == ()
 
 
+def test_what_comes_from_another_process_is_not_said_to_come_from_nobody(make):
+    heard = wiring(make.graph(make.sub("/b", "/t", 1)))
+    assert "published by another process, subscribed to by /b" in describe(heard)
+    said = wiring(make.graph(make.pub("/a", "/t", 1)))
+    assert "published by /a, subscribed to by another process" in describe(said)
+
+
 def test_one_broken_reader_does_not_break_the_others(make):
     graph = make.graph(make.pub("/a", "/t"), make.sub("/b", "/t", 0), make.sub("/c", "/t"))
     assert [edge.fault for edge in wiring(graph).edges] == ["", "QoS does not match", ""]
