@@ -1,0 +1,141 @@
+"""Running a program as `ros2 run` does: signals go in, the exit code comes out."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Collection, Sequence
+from pathlib import Path
+from types import TracebackType
+
+from ros2_command.errors import CommandError
+
+#: What somebody may send to `ros2 run` and mean for the program.
+PASSED_ON = frozenset({signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT})
+_FROM_KERNEL = 128  # SI_KERNEL: typed at a terminal, so every process in the foreground has it
+#: Seconds to wait for a signal that the whole group gets.
+_LATER = 0.2
+
+
+class GroupWatch:
+    """Tells a signal for the whole process group from one for this process alone.
+
+    The program is in the same group, so it has the first kind already, and a second Ctrl+C while
+    it is ending would break its good end. Linux does not say which kind a signal was; therefore a
+    small process in the group blocks them all, and what waits there was sent to the group.
+    """
+
+    def __init__(self) -> None:
+        self._read, self._write = os.pipe()
+        self._pid = os.fork()
+        if self._pid == 0:
+            os.close(self._write)
+            os.read(self._read, 1)  # ends when the parent does, however it ends
+            os._exit(0)
+
+    def has_seen(self, number: int) -> bool:
+        """Whether the signal reached the group; says no only after a while.
+
+        The kernel hands a signal to one process of the group after the other, and on a busy machine
+        the watch may get it later than this process does.
+        """
+        deadline = time.monotonic() + _LATER
+        while not (seen := self._holds(number)) and time.monotonic() < deadline:
+            time.sleep(0.005)
+        return seen
+
+    def _holds(self, number: int) -> bool:
+        status = Path(f"/proc/{self._pid}/status").read_text()
+        masks = [line.split()[1] for line in status.splitlines() if line.startswith("ShdPnd:")]
+        return any(int(mask, 16) >> (number - 1) & 1 for mask in masks)
+
+    def __enter__(self) -> GroupWatch:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        os.close(self._write)
+        os.close(self._read)
+        os.waitpid(self._pid, 0)
+
+
+def run_child(command: Sequence[str]) -> int:
+    """Run a program with this one's input and output, and wait for it.
+
+    Returns:
+        Its exit code, or 256 minus the number of the signal that ended it.
+
+    Raises:
+        CommandError: If it cannot be started.
+    """
+    sys.stdout.flush()
+    watched = PASSED_ON | {signal.SIGCHLD}
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, watched)
+    try:
+        # The watch is there first, so that it misses no signal that the program gets.
+        with GroupWatch() as watch:
+            code = _wait(_start(command, before), watch)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    return _report(code)
+
+
+def _start(command: Sequence[str], mask: Collection[int]) -> subprocess.Popen[bytes]:
+    def unblock() -> None:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+    try:
+        # One thread only and nothing but a system call in between, so preexec_fn is safe.
+        return subprocess.Popen(list(command), preexec_fn=unblock)
+    except OSError as error:
+        raise CommandError(*_why_not(command[0], error)) from None
+
+
+def _why_not(program: str, error: OSError) -> list[str]:
+    path = Path(program)
+    if isinstance(error, FileNotFoundError) and path.is_file():
+        with path.open("rb") as file:
+            first = file.readline(200).decode("utf-8", "replace").strip()
+        return [
+            f"Failed to start {program}: its first line names a program that does not exist:",
+            f"  {first}",
+            "Build the package again, or correct that line.",
+        ]
+    if error.errno == 8:  # ENOEXEC
+        return [
+            f"Failed to start {program}: it does not say which program should run it.",
+            "Its first line should be:  #!/usr/bin/env python3",
+        ]
+    return [f"Failed to start {program}: {error.strerror}"]
+
+
+def _wait(process: subprocess.Popen[bytes], watch: GroupWatch) -> int:
+    for_the_group: set[int] = set()
+    while (code := process.poll()) is None:
+        info = signal.sigwaitinfo(PASSED_ON | {signal.SIGCHLD})
+        number = info.si_signo
+        if number == signal.SIGCHLD or info.si_code == _FROM_KERNEL:
+            continue
+        # What waits in the watch stays there, so of each signal only the first tells anything;
+        # the same one again is passed on: somebody insists.
+        if number not in for_the_group and watch.has_seen(number):
+            for_the_group.add(number)
+        else:
+            process.send_signal(number)
+    return code
+
+
+def _report(code: int) -> int:
+    if code > 0:
+        print(f"[ros2run]: Process exited with failure {code}")
+    elif code < 0:
+        print(f"[ros2run]: {signal.strsignal(-code)}")
+        return 256 + code
+    return code

@@ -1,0 +1,256 @@
+"""The ROS graph as a hidden node sees it, and when it can be believed."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from importlib.resources import as_file, files
+from typing import Any, NoReturn
+
+from ros2_command.errors import CommandError
+from ros2_command.local_processes import count_participants, domain_id, only_this_machine
+from ros2_command.names import full_name, is_hidden
+from ros2_command.untyped import Untyped
+
+PROFILE_VARIABLE = "FASTRTPS_DEFAULT_PROFILES_FILE"
+UNKNOWN = "_NODE_NAME_UNKNOWN_"
+#: The graph is believed if it has not changed for this long, in seconds ...
+QUIET = 0.1
+#: ... and every process of this machine is in it. Those of other machines announce themselves
+#: each 0.1 s, and cannot be counted, so they are given two chances.
+OTHER_MACHINES = 0.25
+#: A process without the discovery profile announces itself each 3 s. After that it has stopped.
+AT_MOST = 3.5
+_LOOK_EVERY = 0.02
+
+
+def add_graph_arguments(parser: ArgumentParser, daemon: bool = True) -> None:
+    """The options of verbs that ask the graph.
+
+    Args:
+        parser: The verb's parser.
+        daemon: Whether the original's verb can use its daemon.
+    """
+    parser.add_argument(
+        "--spin-time", type=float, default=None,
+        help="Spin time in seconds to wait for discovery (default: until the graph has settled)",
+    )  # fmt: skip
+    parser.add_argument(
+        "-s", "--use-sim-time", action="store_true", help="Enable ROS simulation time"
+    )
+    if daemon:
+        parser.add_argument(
+            "--no-daemon", action="store_true",
+            help="Do not spawn nor use an already running daemon (here: there is none)",
+        )  # fmt: skip
+
+
+class Graph:
+    """A hidden node, and what it can see.
+
+    Attributes:
+        node: The rclpy node.
+        context: Its context.
+        node_name: The node's name, still known after `close`.
+    """
+
+    def __init__(self, node: Untyped, context: Untyped, spin_time: float | None = None) -> None:
+        from rclpy.executors import SingleThreadedExecutor
+
+        self.node, self.context = node, context
+        self.node_name = str(node.get_name())
+        self._spin_time = spin_time
+        self._born = time.monotonic()
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(node)
+
+    def close(self) -> None:
+        """Take the node out of the graph."""
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self.context.try_shutdown()
+
+    @property
+    def age(self) -> float:
+        """Seconds since the node appeared."""
+        return time.monotonic() - self._born
+
+    def spin_until(self, done: Callable[[], bool], seconds: float | None = None) -> bool:
+        """Let callbacks run until a condition holds.
+
+        Args:
+            done: The condition.
+            seconds: When to give up; never if None.
+
+        Returns:
+            Whether the condition holds.
+        """
+        end = None if seconds is None else time.monotonic() + seconds
+        while not done():
+            left = _LOOK_EVERY if end is None else min(_LOOK_EVERY, end - time.monotonic())
+            if left <= 0:
+                return False
+            self._executor.spin_once(timeout_sec=left)
+        return True
+
+    def spin_for(self, seconds: float) -> None:
+        """Let callbacks run for some time."""
+        self.spin_until(lambda: False, seconds)
+
+    def settle(self, enough: Callable[[], bool] = lambda: False) -> Graph:
+        """Wait until the graph can be believed, and return this object.
+
+        That is when every process of this machine is seen, the names of its nodes are known, and
+        nothing has changed for a moment.
+
+        Args:
+            enough: Ends the wait early, as soon as it is true.
+        """
+        if self._spin_time is not None:
+            time.sleep(max(0.0, self._spin_time - self.age))
+            return self
+        at_least = 0.0 if only_this_machine() else OTHER_MACHINES
+        last, since = None, self._born
+        while self.age < AT_MOST and not enough():
+            now = self._look()
+            if now != last:
+                last, since = now, time.monotonic()
+            quiet = time.monotonic() - since >= QUIET
+            if quiet and self.age >= at_least and self._is_complete():
+                break
+            time.sleep(_LOOK_EVERY)
+        return self
+
+    def _look(self) -> object:
+        topics = self.topics()
+        counts = [
+            (self.node.count_publishers(name), self.node.count_subscribers(name))
+            for name, _ in topics
+        ]
+        return sorted(self.node.get_node_names_and_namespaces()), topics, self.services(), counts
+
+    def _is_complete(self) -> bool:
+        """Whether every ROS process is seen and has told the names of its nodes.
+
+        A process tells of its publishers and of its subscriptions in two separate streams, each
+        in order of creation, and creates one of each for this topic first.
+        """
+        topic = ("ros_discovery_info", True)
+        seen = {_process(one) for one in self.node.get_publishers_info_by_topic(*topic)}
+        heard = {_process(one) for one in self.node.get_subscriptions_info_by_topic(*topic)}
+        if seen != heard or len(seen) < count_participants(domain_id()):
+            return False
+        named = set()
+        for name, _ in self.topics():
+            for one in self.publishers(name) + self.subscriptions(name):
+                if one.node_name == UNKNOWN:
+                    return False
+                named.add(_process(one))
+        return seen <= named
+
+    def topics(self) -> list[tuple[str, list[str]]]:
+        """Every topic with its types, sorted."""
+        return sorted(self.node.get_topic_names_and_types())
+
+    def services(self) -> list[tuple[str, list[str]]]:
+        """Every service with its types, sorted."""
+        return sorted(self.node.get_service_names_and_types())
+
+    def nodes(self, hidden: bool = False) -> list[str]:
+        """The full name of every node but this one, sorted."""
+        own = full_name(self.node.get_name(), self.node.get_namespace())
+        names = [full_name(*one) for one in self.node.get_node_names_and_namespaces()]
+        return sorted(name for name in names if name != own and (hidden or not is_hidden(name)))
+
+    def publishers(self, topic: str) -> list[Any]:
+        """Every publisher on a topic."""
+        return list(self.node.get_publishers_info_by_topic(topic))
+
+    def subscriptions(self, topic: str) -> list[Any]:
+        """Every subscription to a topic."""
+        return list(self.node.get_subscriptions_info_by_topic(topic))
+
+    def others(self, endpoints: list[Any]) -> list[Any]:
+        """Those endpoints that are not this node's."""
+        return [one for one in endpoints if one.node_name != self.node.get_name()]
+
+
+def _process(endpoint: Untyped) -> bytes:
+    """The part of an endpoint's address that all endpoints of a process have in common."""
+    return bytes(endpoint.endpoint_gid[:12])
+
+
+@contextmanager
+def open_graph(args: Namespace | None = None, name: str | None = None) -> Iterator[Graph]:
+    """Appear in the graph as a hidden node, and leave it at the end.
+
+    Args:
+        args: The verb's arguments; `--spin-time` and `--use-sim-time` are read from them.
+        name: The node's name, `_ros2cli_<pid>` by default.
+
+    Raises:
+        CommandError: If ROS cannot be started.
+    """
+    _check_domain()
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _leave)
+    with _profile():
+        graph = _start(args, name or f"_ros2cli_{os.getpid()}")
+    try:
+        yield graph
+    finally:
+        with suppress(KeyboardInterrupt):
+            graph.close()
+
+
+def _leave(number: int, frame: object) -> NoReturn:
+    """Take the node out of the graph first; else others would see it for as long as it is due."""
+    raise SystemExit(128 + number)
+
+
+def _start(args: Namespace | None, name: str) -> Graph:
+    import rclpy
+    from rclpy.parameter import Parameter
+    from rclpy.signals import SignalHandlerOptions
+
+    sim_time = Parameter("use_sim_time", value=bool(getattr(args, "use_sim_time", False)))
+    context = rclpy.Context()
+    try:
+        # Python's own handling of Ctrl+C is what this command wants.
+        rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
+        node = rclpy.create_node(
+            name, context=context, start_parameter_services=False,
+            parameter_overrides=[sim_time],
+        )  # fmt: skip
+    except RuntimeError as error:  # rclpy's RCLError is one
+        raise CommandError(f"ROS could not be started: {error}") from None
+    return Graph(node, context, getattr(args, "spin_time", None))
+
+
+def _check_domain() -> None:
+    text = os.environ.get("ROS_DOMAIN_ID", "")
+    if text and not (text.isascii() and text.isdecimal() and int(text) <= 232):
+        raise CommandError(
+            f"ROS_DOMAIN_ID is {text!r}, which is not a domain id.",
+            "It says which processes can see each other, and is a number from 0 to 101 "
+            "(up to 232 on some systems).",
+            "Set another one (export ROS_DOMAIN_ID=0), or remove it (unset ROS_DOMAIN_ID).",
+        )
+
+
+@contextmanager
+def _profile() -> Iterator[None]:
+    """Use the quick discovery profile, unless the user has one."""
+    if PROFILE_VARIABLE in os.environ or "FASTDDS_DEFAULT_PROFILES_FILE" in os.environ:
+        yield
+        return
+    with as_file(files("ros2_command") / "data" / "fastdds.xml") as path:
+        os.environ[PROFILE_VARIABLE] = str(path)
+        try:
+            yield
+        finally:
+            del os.environ[PROFILE_VARIABLE]

@@ -1,0 +1,90 @@
+"""The way into the command: parse, run one verb, turn what happens into an exit code."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from importlib.util import find_spec
+from io import TextIOWrapper
+from typing import NoReturn
+
+from ros2_command.errors import CommandError, UsageError
+from ros2_command.parser import build, words_of
+from ros2_command.registry import COMMANDS, load, what_is_left_out
+
+INTERRUPTED = 2
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run `ros2` and return its exit code.
+
+    A real ros2cli, where there is one, knows more and takes over.
+    """
+    if find_spec("ros2cli") is not None:
+        from ros2cli.cli import main as original
+
+        return int(original(argv=argv) or 0)
+    code = guarded(lambda: _run(list(sys.argv[1:] if argv is None else argv)))
+    if argv is None and "rclpy" in sys.modules:
+        _leave_at_once(code)
+    return code
+
+
+def _leave_at_once(code: int) -> NoReturn:
+    """End the process; the node has left the graph, and unloading the middleware takes 0.15 s."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError):
+            stream.flush()
+    os._exit(code)
+
+
+def guarded(action: Callable[[], int]) -> int:
+    """Run something; errors become a message, Ctrl+C and a closed pipe become silence."""
+    try:
+        code = action()
+        sys.stdout.flush()
+    except CommandError as error:
+        print(error, file=sys.stderr)
+        return error.code
+    except KeyboardInterrupt:
+        return _quietly(INTERRUPTED)
+    except BrokenPipeError:
+        return _quietly(0)
+    except ModuleNotFoundError as error:
+        print(f"Python cannot find '{error.name}'.", file=sys.stderr)
+        print("ROS 2 is not installed in this environment, or not all of it.", file=sys.stderr)
+        return 1
+    except Exception as error:  # a learner cannot do anything with our stack
+        print(f"ros2: unexpected {type(error).__name__}: {error}", file=sys.stderr)
+        return 1
+    return code
+
+
+def _quietly(code: int) -> int:
+    """Whatever is still in the buffer of stdout has no reader any more."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return code
+
+
+def _run(argv: list[str]) -> int:
+    command, verb = words_of(argv)
+    refusal = what_is_left_out(command, verb) if command else None
+    if refusal:
+        raise CommandError(refusal)
+    args = build(argv).parse_args(argv)
+    if not args.use_python_default_buffering and isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)
+    name, verb = args._command, getattr(args, "_verb", None)
+    if name is None or (COMMANDS[name].verbs and verb is None):
+        args._parser.print_help()
+        return 0
+    try:
+        return int(load(name, verb).main(args) or 0)
+    except UsageError as error:
+        args._parser.print_usage(sys.stderr)
+        raise CommandError(f"{args._parser.prog}: error: {error}", code=2) from None

@@ -1,0 +1,93 @@
+"""argparse around the registry; only the verb that was asked for is imported."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Mapping, Sequence
+from typing import NoReturn
+
+from ros2_command.nearest import did_you_mean
+from ros2_command.registry import COMMANDS, LEFT_OUT, WHERE_TO_GET_THE_WHOLE, load
+
+_CHOICE = re.compile(r"invalid choice: '?(?P<word>.*?)'? \(choose from (?P<names>.*)\)")
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that suggests the nearest choice."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the usage, the message and perhaps a suggestion, and end with exit code 2."""
+        if found := _CHOICE.search(message):
+            names = [name.strip(" '") for name in found["names"].split(",")]
+            hint = did_you_mean(found["word"], names)
+            message += f"\n{hint}" if hint else ""
+        super().error(message)
+
+
+def words_of(argv: Sequence[str]) -> tuple[str | None, str | None]:
+    """The first two arguments that are not options: perhaps a command and a verb."""
+    words = [word for word in argv if not word.startswith("-")]
+    return (words[0] if words else None, words[1] if len(words) > 1 else None)
+
+
+def listing(entries: Mapping[str, str]) -> str:
+    """The block below `Commands:`."""
+    width = max(map(len, entries))
+    return "\n".join(f"{name:<{width}}  {about}" for name, about in sorted(entries.items()))
+
+
+def _sub(parser: Parser, call: str, entries: Mapping[str, str], dest: str) -> dict[str, Parser]:
+    metavar = f"Call `{call} -h` for more detailed usage."
+    group = parser.add_subparsers(
+        title="Commands", description=listing(entries), metavar=metavar, dest=dest, required=False
+    )
+    return {
+        name: group.add_parser(
+            name, description=about, formatter_class=argparse.RawDescriptionHelpFormatter
+        )
+        for name, about in sorted(entries.items())
+    }
+
+
+def _fill_command(parser: Parser, command: str, verb: str | None) -> None:
+    about = COMMANDS[command]
+    if not about.verbs:
+        load(command).add_arguments(parser)
+        return
+    if command in ("topic", "service"):
+        name = f"--include-hidden-{command}s"
+        parser.add_argument(
+            name, action="store_true", help=f"Consider hidden {command}s as well"
+        )  # the original has the option in both places
+    if about.left_out:
+        parser.epilog = f"Left out of this subset: {', '.join(about.left_out)}"
+    verbs = _sub(parser, f"ros2 {command} <command>", about.verbs, "_verb")
+    parser.set_defaults(_parser=parser)
+    if verb in verbs:
+        verbs[verb].set_defaults(_parser=verbs[verb])
+        load(command, verb).add_arguments(verbs[verb])
+
+
+def build(argv: Sequence[str]) -> Parser:
+    """A parser for the whole command, with the arguments of the verb that argv names."""
+    command, verb = words_of(argv)
+    parser = Parser(
+        prog="ros2",
+        description="ros2 is an extensible command-line tool for ROS 2.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="This is a subset for ROS 2 installed with pip. Left out:\n"
+        f"  {', '.join(LEFT_OUT)}\n{WHERE_TO_GET_THE_WHOLE}",
+    )
+    parser.add_argument(
+        "--use-python-default-buffering",
+        action="store_true",
+        help="Do not force line buffering in stdout",
+    )
+    about = {name: command.about for name, command in COMMANDS.items()}
+    commands = _sub(parser, "ros2 <command>", about, "_command")
+    parser.set_defaults(_parser=parser)
+    if command in commands:
+        commands[command].set_defaults(_parser=commands[command])
+        _fill_command(commands[command], command, verb)
+    return parser

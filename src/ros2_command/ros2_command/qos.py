@@ -1,0 +1,95 @@
+"""Quality of service: the options, and what follows from the publishers that are known."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
+from typing import Any
+
+from ros2_command.untyped import Untyped
+
+PROFILES = (
+    *("unknown", "default", "system_default", "sensor_data", "services_default", "parameters"),
+    *("parameter_events", "action_status_default", "best_available"),
+)
+_CHOICES = {
+    "history": ["system_default", "keep_last", "keep_all", "unknown"],
+    "reliability": ["system_default", "reliable", "best_effort", "unknown", "best_available"],
+    "durability": ["system_default", "transient_local", "volatile", "unknown", "best_available"],
+    "liveliness": [
+        *("system_default", "automatic", "manual_by_topic", "unknown", "best_available"),
+    ],
+}
+
+
+def add_qos_arguments(parser: ArgumentParser, entity: str, profile: str) -> None:
+    """The options.
+
+    Args:
+        parser: The verb's parser.
+        entity: What the settings are for, for the help.
+        profile: The profile that is used by default.
+    """
+    parser.add_argument(
+        "--qos-profile", choices=PROFILES,
+        help=f"Quality of service preset profile to {entity} with (default: {profile})",
+    )  # fmt: skip
+    parser.add_argument("--qos-depth", metavar="N", type=int, default=-1,
+                        help=f"Queue size setting to {entity} with")  # fmt: skip
+    for name, choices in _CHOICES.items():
+        parser.add_argument(
+            f"--qos-{name}", choices=choices,
+            help=f"Quality of service {name} setting to {entity} with",
+        )  # fmt: skip
+    parser.add_argument(
+        "--qos-liveliness-lease-duration-seconds", type=float,
+        help=f"Quality of service liveliness lease duration setting to {entity} with",
+    )  # fmt: skip
+
+
+def asked_profile(args: Namespace, default: str) -> Untyped:
+    """The profile that the options name, as rclpy has it."""
+    from rclpy import qos
+    from rclpy.duration import Duration
+
+    policies: dict[str, Any] = {
+        "history": qos.HistoryPolicy,
+        "reliability": qos.ReliabilityPolicy,
+        "durability": qos.DurabilityPolicy,
+        "liveliness": qos.LivelinessPolicy,
+    }
+    profile = qos.QoSPresetProfiles.get_from_short_key(args.qos_profile or default)
+    fresh = qos.QoSProfile(
+        **{name.lstrip("_"): getattr(profile, name) for name in profile.__slots__}
+    )
+    for name, policy in policies.items():
+        if text := getattr(args, f"qos_{name}"):
+            setattr(fresh, name, policy.get_from_short_key(text))
+    if args.qos_depth > 0:
+        fresh.depth = args.qos_depth
+    if (seconds := args.qos_liveliness_lease_duration_seconds) is not None:
+        fresh.liveliness_lease_duration = Duration(nanoseconds=int(seconds * 1e9))
+    return fresh
+
+
+def follow_publishers(profile: Untyped, args: Namespace, publishers: Sequence[Any]) -> None:
+    """Set what was not asked for so that all known publishers can be heard."""
+    from rclpy.qos import QoSDurabilityPolicy, QoSReliabilityPolicy
+
+    preferences: dict[str, Any] = {
+        "reliability": (QoSReliabilityPolicy.RELIABLE, QoSReliabilityPolicy.BEST_EFFORT),
+        "durability": (QoSDurabilityPolicy.TRANSIENT_LOCAL, QoSDurabilityPolicy.VOLATILE),
+    }
+    if args.qos_profile is not None or not publishers:
+        return
+    for name, (strong, weak) in preferences.items():
+        if getattr(args, f"qos_{name}") is not None:
+            continue
+        offered = [getattr(one.qos_profile, name) == strong for one in publishers]
+        if any(offered) and not all(offered):
+            kind = type(strong).__name__.replace("QoS", "").replace("Policy", "")
+            print(
+                f"Some, but not all, publishers are offering QoS{kind}Policy.{strong.name}. "
+                f"Falling back to QoS{kind}Policy.{weak.name} as it will connect to all publishers"
+            )
+        setattr(profile, name, strong if all(offered) else weak)

@@ -1,0 +1,129 @@
+"""Every command and verb, in one place. What is not here does not exist.
+
+This module is read before anything else, so it imports nothing of ROS and none of the verbs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from types import MappingProxyType, ModuleType
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command of `ros2`.
+
+    Attributes:
+        about: One line for the list in `--help`.
+        verbs: The one-liner of each verb; empty for a command without verbs.
+        left_out: Verbs that the full ROS 2 has and this subset has not.
+    """
+
+    about: str
+    verbs: Mapping[str, str] = field(default_factory=dict)
+    left_out: tuple[str, ...] = ()
+
+
+COMMANDS: Mapping[str, Command] = MappingProxyType(
+    {
+        "completion": Command("Output what a shell needs to complete this command"),
+        "doctor": Command("Check ROS setup and other potential issues"),
+        "interface": Command(
+            "Show information about ROS interfaces",
+            {
+                "list": "List all interface types available",
+                "package": "Output a list of available interface types within one package",
+                "packages": "Output a list of packages that provide interfaces",
+                "proto": "Output an interface prototype",
+                "show": "Output the interface definition",
+            },
+        ),
+        "node": Command(
+            "Various node related sub-commands",
+            {
+                "info": "Output information about a node",
+                "list": "Output a list of available nodes",
+            },
+        ),
+        "param": Command(
+            "Various param related sub-commands",
+            {
+                "dump": "Show all of the parameters of a node in a YAML file format",
+                "get": "Get parameter",
+                "list": "Output a list of available parameters",
+                "set": "Set parameter",
+            },
+            left_out=("delete", "describe", "load"),
+        ),
+        "pkg": Command(
+            "Various package related sub-commands",
+            {
+                "create": "Create a new ROS 2 package",
+                "executables": "Output a list of package specific executables",
+                "list": "Output a list of available packages",
+                "prefix": "Output the prefix path of a package",
+                "xml": "Output the XML of the package manifest or a specific tag",
+            },
+        ),
+        "run": Command("Run a package specific executable"),
+        "service": Command(
+            "Various service related sub-commands",
+            {
+                "call": "Call a service",
+                "list": "Output a list of available services",
+                "type": "Output a service's type",
+            },
+            left_out=("echo", "find", "info"),
+        ),
+        "topic": Command(
+            "Various topic related sub-commands",
+            {
+                "bw": "Display bandwidth used by topic",
+                "echo": "Output messages from a topic",
+                "find": "Output a list of available topics of a given type",
+                "hz": "Print the average publishing rate to screen",
+                "info": "Print information about a topic",
+                "list": "Output a list of available topics",
+                "pub": "Publish a message to a topic",
+                "type": "Print a topic's type",
+            },
+            left_out=("delay",),
+        ),
+        "wtf": Command("Use `wtf` as alias to `doctor`"),
+    }
+)
+
+#: Commands of the full ROS 2 that are not in this subset.
+LEFT_OUT = (
+    *("action", "bag", "component", "control", "daemon", "extension_points", "extensions"),
+    *("launch", "lifecycle", "multicast", "plugin", "security", "test", "trace"),
+)
+WHERE_TO_GET_THE_WHOLE = (
+    "The full command comes with a full ROS 2 installation:\n"
+    "  on Ubuntu: https://docs.ros.org/en/jazzy/Installation.html\n"
+    "  with conda on Linux, macOS and Windows (RoboStack): https://robostack.github.io"
+)
+_SAME_MODULE = MappingProxyType({"wtf": "doctor"})
+
+
+def load(command: str, verb: str | None = None) -> ModuleType:
+    """Import the module of a command without verbs, or of a verb."""
+    name = _SAME_MODULE.get(command, command)
+    return import_module(".".join(["ros2_command.verbs", name, *([verb] if verb else [])]))
+
+
+def what_is_left_out(command: str, verb: str | None = None) -> str | None:
+    """What to say if a command or verb is one of the full ROS 2 only, else None."""
+    known = COMMANDS.get(command)
+    if known is None and command in LEFT_OUT:
+        name = command
+    elif known is not None and verb in known.left_out:
+        name = f"{command} {verb}"
+    else:
+        return None
+    return (
+        f"'ros2 {name}' is left out here: this `ros2` is a subset for ROS 2 installed with pip.\n"
+        f"{WHERE_TO_GET_THE_WHOLE}"
+    )

@@ -1,0 +1,122 @@
+import re
+import subprocess
+import sys
+
+import pytest
+from ros2_command.main import guarded, main
+from ros2_command.registry import COMMANDS, LEFT_OUT, load
+
+PKG_HELP = """\
+usage: ros2 pkg [-h] Call `ros2 pkg <command> -h` for more detailed usage. ...
+
+Various package related sub-commands
+
+options:
+  -h, --help            show this help message and exit
+
+Commands:
+  create       Create a new ROS 2 package
+  executables  Output a list of package specific executables
+  list         Output a list of available packages
+  prefix       Output the prefix path of a package
+  xml          Output the XML of the package manifest or a specific tag
+
+  Call `ros2 pkg <command> -h` for more detailed usage.
+"""
+TOP_USAGE = """\
+usage: ros2 [-h] [--use-python-default-buffering]
+            Call `ros2 <command> -h` for more detailed usage. ...
+"""
+
+
+def test_a_command_alone_prints_its_help(ros2):
+    assert ros2.out("pkg") == ros2.out("pkg", "--help") == PKG_HELP
+
+
+def test_the_help_says_what_is_left_out(ros2):
+    out = ros2.out()
+    assert out == ros2.out("--help")
+    assert out.startswith(TOP_USAGE)
+    assert "This is a subset" in out
+    assert all(name in out for name in (*COMMANDS, *LEFT_OUT))
+
+
+@pytest.mark.parametrize(
+    "words", [["bag"], ["launch", "a", "b"], ["param", "load"], ["topic", "delay"]]
+)
+def test_what_is_left_out_says_where_to_get_it(capsys, words):
+    assert main(words) == 1
+    error = capsys.readouterr().err
+    assert "is left out here" in error
+    assert "RoboStack" in error
+
+
+def test_surplus_arguments_are_reported_as_the_original_does(ros2):
+    expected = TOP_USAGE + "ros2: error: unrecognized arguments: b\n"
+    assert ros2.error("pkg", "list", "b", code=2) == expected
+
+
+@pytest.mark.parametrize(("words", "name"), [(["tpoic"], "topic"), (["pkg", "lisst"], "list")])
+def test_an_unknown_word_gets_the_nearest(ros2, words, name):
+    error = ros2.error(*words, code=2)
+    assert "invalid choice" in error
+    assert error.endswith(f"Did you mean '{name}'?\n")
+
+
+ALL = [(command, verb) for command, about in COMMANDS.items() for verb in about.verbs or [None]]
+
+
+@pytest.mark.parametrize(("command", "verb"), ALL)
+def test_every_entry_of_the_registry_has_its_module_and_help(capsys, command, verb):
+    assert callable(load(command, verb).main)
+    with pytest.raises(SystemExit) as ended:
+        main([command, *([verb] if verb else []), "--help"])
+    assert ended.value.code == 0
+    assert re.match(rf"usage: ros2 {command}", capsys.readouterr().out)
+
+
+@pytest.mark.parametrize(("command", "verb"), ALL)
+def test_help_and_packages_need_no_rclpy(command, verb):
+    """Importing a verb, and building its parser, is quick."""
+    words = [command, *([verb] if verb else [])]
+    code = f"import sys; from ros2_command.parser import build; build({words!r})"
+    code += "; sys.exit('rclpy' in sys.modules)"
+    path = next(one for one in sys.path if one.endswith("src/ros2_command"))
+    check = f"import sys; sys.path.insert(0, {path!r}); {code}"
+    subprocess.run([sys.executable, "-c", check], check=True)
+
+
+def interrupt():
+    raise KeyboardInterrupt
+
+
+def close_pipe():
+    raise BrokenPipeError
+
+
+def miss():
+    import no_such_module
+
+    return no_such_module
+
+
+def fail():
+    raise RuntimeError("text")
+
+
+def test_whatever_happens_becomes_an_exit_code(capsys):
+    assert guarded(interrupt) == 2
+    assert guarded(close_pipe) == 0
+    assert capsys.readouterr() == ("", "")
+    assert guarded(miss) == 1
+    assert "cannot find 'no_such_module'" in capsys.readouterr().err
+    assert guarded(fail) == 1
+    assert capsys.readouterr().err == "ros2: unexpected RuntimeError: text\n"
+
+
+def test_a_real_ros2cli_takes_over(ros2, tmp_path):
+    (tmp_path / "ros2cli").mkdir()
+    (tmp_path / "ros2cli" / "__init__.py").touch()
+    (tmp_path / "ros2cli" / "cli.py").write_text("def main(argv=None):\n    print('real')\n")
+    path = f"{tmp_path}:{ros2.environment['PYTHONPATH']}"
+    assert ros2.out("pkg", "list", PYTHONPATH=path) == "real\n"

@@ -1,0 +1,102 @@
+import pytest
+from ros2_command.candidates import candidates
+from ros2_command.definitions import nested_type
+from ros2_command.errors import CommandError
+from ros2_command.local_processes import count_participants
+from ros2_command.names import check_name, full_name, is_hidden
+from ros2_command.nearest import nearest
+from ros2_command.parameters import nested
+from ros2_command.verbs.doctor import Finding, report, summarize
+from ros2_command.verbs.node.info import show
+from ros2_command.verbs.topic import bw
+from ros2_command.verbs.topic.hz import Rates
+
+
+def test_the_nearest_name():
+    assert nearest("Temprature", ["/humidity", "Temperature"]) == "Temperature"
+    assert nearest("temperature", ["/robot/left/arm/temperature"]) == "/robot/left/arm/temperature"
+    assert nearest("xyz", ["abc"]) is None
+
+
+def test_names():
+    assert [is_hidden(name) for name in ("/a/b_", "/a/_b/c", "/_x")] == [False, True, True]
+    assert (full_name("a", "/"), full_name("a", "/b")) == ("/a", "/b/a")
+    check_name("topic", "~/a/b_1")
+    for name in ("", "a//b", "a/", "1a", "a b", "/a/2"):
+        with pytest.raises(CommandError):
+            check_name("topic", name)
+
+
+def test_participants_are_counted_by_their_ports():
+    rows = ["  sl  local_address rem_address", " 1: 00000000:75D0 00000000:0000",
+            " 2: 00000000:75D1 00000000:0000", " 3: 00000000:75D2 00000000:0000",
+            " 4: 0100007F:75D2 00000000:0000", " 5: 00000000:1CF2 00000000:0000"]  # fmt: skip
+    assert count_participants(91, "\n".join(rows)) == 2
+    assert count_participants(0, "\n".join(rows)) == 1
+    assert count_participants(5, "") == 0
+
+
+def test_rates():
+    rates = Rates(window=100)
+    assert rates.report() is None
+    for now in (0.0, 1.0, 2.0):
+        rates.arrived(now)
+    text = "average rate: 1.000\n\tmin: 1.000s max: 1.000s std dev: 0.00000s window: 3"
+    assert rates.report() == text
+    assert rates.report() is None
+
+
+def test_bandwidth():
+    assert bw.report([(0.0, 8)], 1.0) is None
+    text = "16 B/s from 2 messages\n\tMessage size mean: 8 B min: 8 B max: 8 B"
+    assert bw.report([(0.0, 8), (0.5, 8)], 1.0) == text
+    assert (
+        bw.report([(0.0, 5080), (0.5, 5080)], 1.0).splitlines()[0] == "10.16 KB/s from 2 messages"
+    )
+
+
+def test_a_section_of_a_node():
+    entries = [("/b", ["x/msg/B"]), ("/a", ["x/msg/A"]), ("/_c", ["x/msg/C"])]
+    assert show("Publishers", entries, False) == "  Publishers:\n    /a: x/msg/A\n    /b: x/msg/B"
+    assert show("Service Clients", [], False) == "  Service Clients:\n"
+
+
+def test_dots_in_names_of_parameters():
+    assert nested({"a.b": 1, "a.c": 2, "d": 3}) == {"a": {"b": 1, "c": 2}, "d": 3}
+    assert nested({"a": 1, "a.b": 2}) == {"a": 1, "a.b": 2}
+
+
+@pytest.mark.parametrize(
+    ("line", "name"),
+    [
+        ("Pose pose", "geometry_msgs/msg/Pose"),
+        ("Header header # x", "std_msgs/msg/Header"),
+        ("builtin_interfaces/Time stamp", "builtin_interfaces/msg/Time"),
+        ("BasicTypes[3] x", "geometry_msgs/msg/BasicTypes"),
+        ("float64 w 1", None),
+        ("string<=10 s", None),
+        ("# Pose pose", None),
+        ("---", None),
+    ],
+)
+def test_fields_that_are_messages(line, name):
+    assert nested_type(line, "geometry_msgs") == name
+
+
+def test_the_verdict_of_the_doctor(capsys):
+    assert summarize({"topic": [], "network": []}, False) == []
+    assert capsys.readouterr().out == "\nAll 2 checks passed\n\n"
+    found = {"topic": [Finding("a"), Finding("b", True)], "network": [Finding("c")]}
+    assert summarize(found, False) == ["topic"]
+    text = "\n1/2 check(s) failed\n\nFailed modules: topic\n"
+    assert capsys.readouterr() == (text, "WARNING: a\nERROR: b\nWARNING: c\n")
+    assert summarize(found, True) == ["topic", "network"]
+    assert report([("A", [("k", "v"), ("key", "w")])]) == "\n   A\nk   : v\nkey : w"
+
+
+def test_completion():
+    assert candidates(["to"]) == ["topic"]
+    assert candidates(["topic", "e"]) == ["echo"]
+    assert candidates(["topic", "echo", "--fi"]) == ["--field", "--filter"]
+    assert candidates(["nosuch", ""]) == []
+    assert candidates(["interface", "show", "std_srvs/srv/Tri"]) == ["std_srvs/srv/Trigger"]

@@ -1,0 +1,106 @@
+import os
+import signal
+import sys
+
+import pytest
+
+NODE = f"""#!{sys.executable}
+import signal, sys
+print("ready", sys.argv[1:], flush=True)
+try:
+    signal.sigtimedwait([signal.SIGUSR1], 60)
+except KeyboardInterrupt:
+    try:
+        signal.sigtimedwait([signal.SIGUSR1], 0.5)
+    except KeyboardInterrupt:
+        print("twice", flush=True)
+    sys.exit(7)
+"""
+
+
+@pytest.fixture
+def demo(ros2, tmp_path, monkeypatch):
+    """Adds an executable to the package `demo`."""
+    index = tmp_path / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    (index / "demo").touch()
+    monkeypatch.setitem(ros2.environment, "AMENT_PREFIX_PATH", str(tmp_path))
+
+    def add(name, text, mode=0o755, folder=""):
+        path = tmp_path / "lib" / "demo" / folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        path.chmod(mode)
+        return path
+
+    return add
+
+
+def test_arguments_and_output_pass(ros2, demo):
+    demo("say", '#!/bin/sh\necho "$@"\n')
+    words = ("--ros-args", "-r", "a:=b", "-h", "--prefix")
+    assert ros2.out("run", "demo", "say", *words) == " ".join(words) + "\n"
+    assert ros2.out("run", "demo", "say", "--", "x") == "x\n"
+    assert ros2.out("run", "--prefix", "env X='a b'", "demo", "say", "y") == "y\n"
+
+
+def test_exit_codes_pass(ros2, demo):
+    demo("bad", "#!/bin/sh\nexit 3\n")
+    demo("shot", "#!/bin/sh\nkill -KILL $$\n")
+    assert ros2.out("run", "demo", "bad", code=3) == "[ros2run]: Process exited with failure 3\n"
+    assert ros2.out("run", "demo", "shot", code=247) == "[ros2run]: Killed\n"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_for_the_parent_alone_reaches_the_child(ros2, demo, number):
+    demo("node", NODE)
+    with ros2.running("run", "demo", "node") as process:
+        assert process.stdout.readline() == "ready []\n"
+        process.send_signal(number)
+        out, error = process.communicate(timeout=30)
+    if number == signal.SIGINT:
+        assert (process.returncode, out) == (7, "[ros2run]: Process exited with failure 7\n")
+    else:
+        assert (process.returncode, out) == (241, "[ros2run]: Terminated\n")
+    assert error == ""
+
+
+def test_ctrl_c_reaches_the_child_once(ros2, demo, monkeypatch):
+    demo("node", NODE)
+    import subprocess
+
+    process = subprocess.Popen(
+        ros2.words("run", "demo", "node"), env=ros2.environment, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, text=True, start_new_session=True,
+    )  # fmt: skip
+    with process:
+        assert process.stdout.readline() == "ready []\n"
+        os.killpg(process.pid, signal.SIGINT)
+        out, _ = process.communicate(timeout=30)
+    assert (process.returncode, out) == (7, "[ros2run]: Process exited with failure 7\n")
+
+
+def test_what_cannot_be_found(ros2, demo):
+    demo("talker", "#!/bin/sh\n")
+    demo("plain", "#!/bin/sh\n", mode=0o644)
+    demo("twin", "", folder="a")
+    demo("twin", "", folder="b")
+    assert "Did you mean 'demo'?" in ros2.error("run", "deemo", "talker")
+    assert ros2.error("run", "demo", "talkr").startswith(
+        "No executable found\nDid you mean 'talker'?\n"
+    )
+    assert "Did you mean 'talker'?" in ros2.error("run", "demo", "talker.py")
+    assert "no execute permission" in ros2.error("run", "demo", "plain")
+    twins = ros2.error("run", "demo", "twin").splitlines()
+    assert twins[0] == "Multiple executables found:"
+    assert [line[:2] for line in twins[1:]] == ["- ", "- "]
+    assert "required: executable_name" in ros2.error("run", "demo", code=2)
+
+
+def test_what_cannot_be_started(ros2, demo):
+    demo("no_line", "print(1)\n")
+    demo("wrong_line", "#!/nowhere/python\n")
+    assert "#!/usr/bin/env python3" in ros2.error("run", "demo", "no_line")
+    assert "#!/nowhere/python" in ros2.error("run", "demo", "wrong_line")
+    assert "Failed to start nosuch" in ros2.error("run", "--prefix", "nosuch", "demo", "no_line")
+    assert "cannot be read" in ros2.error("run", "--prefix", "'", "demo", "no_line")

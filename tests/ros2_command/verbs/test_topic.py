@@ -1,0 +1,145 @@
+import re
+import signal
+
+import pytest
+
+pytestmark = pytest.mark.ros
+
+LIST = ["/ns_two/in", "/one/in", "/parameter_events", "/rosout", "/slow", "/temperature"]
+
+
+def test_list(graph):
+    for _ in range(3):
+        assert graph.out("topic", "list").split() == LIST
+    assert "/slow [std_msgs/msg/Float32]\n" in graph.out("topic", "list", "-t")
+    assert graph.out("topic", "list", "-tc") == "6\n"
+    verbose = graph.out("topic", "list", "-v")
+    assert verbose.startswith("Published topics:\n * /parameter_events ")
+    assert " * /temperature [std_msgs/msg/Float32] 1 publisher\n" in verbose
+    assert "\n\nSubscribed topics:\n * /ns_two/in [std_msgs/msg/Float32] 1 subscriber\n" in verbose
+
+
+def test_type_and_find(graph):
+    assert graph.out("topic", "type", "temperature") == "std_msgs/msg/Float32\n"
+    assert graph.error("topic", "type", "/temprature") == (
+        "Unknown topic '/temprature'\nDid you mean '/temperature'?\n"
+    )
+    found = graph.out("topic", "find", "std_msgs/msg/Float32").split()
+    assert found == ["/ns_two/in", "/one/in", "/slow", "/temperature"]
+    assert graph.out("topic", "find", "-c", "std_msgs/Float32") == "0\n"
+
+
+def test_info(graph):
+    three = "Type: std_msgs/msg/Float32\nPublisher count: 1\nSubscription count: 0\n"
+    assert graph.out("topic", "info", "temperature") == three
+    verbose = graph.out("topic", "info", "-v", "/temperature")
+    pattern = (
+        r"Type: std_msgs/msg/Float32\n\nPublisher count: 1\n\nNode name: one\nNode namespace: /\n"
+        r"Topic type: std_msgs/msg/Float32\nTopic type hash: RIHS01_[0-9a-f]{64}\n"
+        r"Endpoint type: PUBLISHER\nGID: ([0-9a-f]{2}\.){15}[0-9a-f]{2}\nQoS profile:\n"
+        r"  Reliability: RELIABLE\n  History \(Depth\): UNKNOWN\n  Durability: VOLATILE\n"
+        r"  Lifespan: Infinite\n  Deadline: Infinite\n  Liveliness: AUTOMATIC\n"
+        r"  Liveliness lease duration: Infinite\n\nSubscription count: 0\n\n"
+    )
+    assert re.fullmatch(pattern, verbose)
+    assert graph.error("topic", "info", "slw") == "Unknown topic 'slw'\nDid you mean '/slow'?\n"
+
+
+def test_echo(graph):
+    assert graph.out("topic", "echo", "--once", "temperature") == "data: 25.5\n---\n"
+    once = ("topic", "echo", "--once", "/temperature", "std_msgs/msg/Float32")
+    assert graph.out(*once, "--csv") == "25.5\n"
+    assert graph.out(*once, "--field", "data") == "25.5\n---\n"
+    assert graph.out(*once, "--raw") == r"b'\x00\x01\x00\x00\x00\x00\xccA'" + "\n---\n"
+    assert re.match(r"publication_sequence_number: \d+\nreceived_timestamp: \d+\n"
+                    r"reception_sequence_number: null\nsource_timestamp: \d+\n---\ndata: 25.5",
+                    graph.out(*once, "-i"))  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (
+            ("/temprature",),
+            "Could not determine the type for the passed topic\nDid you mean '/temp",
+        ),
+        (("/temperature", "std_msgs/msg/String"), "carries [std_msgs/msg/Float32]"),
+        (("/temperature", "Float32"), "The passed message type is invalid\nDid you mean"),
+        (("/temperature", "--field", "dat"), "object has no attribute 'dat'\nDid you mean 'data'?"),
+        (("/temperature", "--filter", "m.("), "is not a Python expression"),
+        (("/temperature", "--filter", "m.nope"), "has no attribute 'nope'"),
+        (("/one/in", "--timeout", "0.3"), "No message came on '/one/in'"),
+        (("bad name!",), "topic name 'bad name!' is invalid"),
+    ],
+)
+def test_echo_of_what_cannot_be_heard(graph, words, said):
+    assert said in graph.error("topic", "echo", *words)
+
+
+def test_ctrl_c_ends_without_a_word(graph):
+    with graph.running("topic", "echo", "/temperature") as process:
+        assert process.stdout.readline() == "data: 25.5\n"
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=30)
+    assert (process.returncode, error) == (2, "")
+
+
+def test_an_ended_command_leaves_the_graph(graph):
+    with graph.running("topic", "echo", "/temperature") as process:
+        assert process.stdout.readline() == "data: 25.5\n"
+        assert f"/_ros2cli_{process.pid}\n" in graph.out("node", "list", "--all")
+        process.terminate()
+        _, error = process.communicate(timeout=30)
+        assert (process.returncode, error) == (143, "")
+        assert f"/_ros2cli_{process.pid}\n" not in graph.out("node", "list", "--all")
+
+
+@pytest.mark.parametrize(
+    ("verb", "lines"),
+    [
+        ("hz", [r"average rate: \d+\.\d{3}", r"\tmin: .*s max: .*s std dev: .*s window: \d+"]),
+        ("bw", [r"Subscribed to \[temperature\]", r"\d+ B/s from \d+ messages",
+                r"\tMessage size mean: 8 B min: 8 B max: 8 B"]),
+    ],
+)  # fmt: skip
+def test_rates(graph, verb, lines):
+    with graph.running("topic", verb, "temperature") as process:
+        for pattern in lines:
+            assert re.fullmatch(pattern + "\n", process.stdout.readline())
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+    assert process.returncode == 2
+
+
+def test_pub_reaches_the_node(graph):
+    words = ("topic", "pub", "--once", "one/in", "std_msgs/msg/Float32", "{data: 25.5}")
+    out = graph.out(*words)
+    lines = out.replace("Waiting for at least 1 matching subscription(s)...\n", "")
+    expected = "publisher: beginning loop\npublishing #1: std_msgs.msg.Float32(data=25.5)\n\n"
+    assert lines == expected
+    assert graph.out(*words[:2], "-w", "0", *words[2:-1], "--stdin", stdin="data: 25.5") == expected
+
+
+def test_pub_several_times(graph):
+    words = ("pub", "-w", "0", "-r", "50", "-p", "2", "-t", "4", "x", "std_msgs/Float32")
+    out = graph.out("topic", *words)
+    assert re.findall(r"#\d", out) == ["#2", "#4"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said", "code"),
+    [
+        (("/x", "std_msgs/msg/Float32", "25"), "needs to be a dictionary in YAML format", 1),
+        (("/x", "std_msgs/msg/Float32", "{data: ["), "not valid YAML", 1),
+        (("/x", "std_msgs/msg/Flot32"), "The passed message type is invalid\nDid you mean", 1),
+        (("/x", "std_msgs/msg/Float32", "-r", "0"), "-r/--rate: Value must be positive", 2),
+        (("/x", "std_msgs/msg/Float32", "-n", "a b"), "cannot be the name of a node", 1),
+        (("/x y", "std_msgs/msg/Float32"), "topic name '/x y' is invalid", 1),
+        (("/on/in", "std_msgs/msg/Float32", "-1", "--max-wait-time-secs", "1.2"),
+         "Timed out waiting for subscribers: Expected 1 subcribers but only got 0 subscribers", 1),
+        (("/on/in", "std_msgs/msg/Float32", "-1", "--max-wait-time-secs", "1.2"),
+         "Did you mean '/one/in'?", 1),
+    ],
+)  # fmt: skip
+def test_pub_of_what_cannot_be_sent(graph, words, said, code):
+    assert said in graph.error("topic", "pub", *words, code=code)
