@@ -84,8 +84,11 @@ print(len(ear.heard) // 20, len(os.listdir("/proc/self/task")), len(os.listdir("
 """
         counts = [kernel.run(cell).text.split() for _ in range(RERUNS)]
         assert {count[0] for count in counts} == {"1"}
-        # Steady from the second time on, when the first session has been replaced.
-        assert len({tuple(count) for count in counts[2:]}) == 1, counts
+        # From the second time on, when the first session has been replaced, nothing piles up. The
+        # middleware's threads open a file now and then, so a count may be one off; a leak of one
+        # thread or file a run would show as seventeen.
+        for column in list(zip(*counts[2:], strict=True))[1:]:
+            assert max(map(int, column)) - min(map(int, column)) <= 3, counts
         assert kernel.exit() == 0
 
 

@@ -6,8 +6,8 @@ import pytest
 
 NODE = f"""#!{sys.executable}
 import signal, sys
-print("ready", sys.argv[1:], flush=True)
 try:
+    print("ready", sys.argv[1:], flush=True)  # whoever reads this may send a signal at once
     signal.sigtimedwait([signal.SIGUSR1], 60)
 except KeyboardInterrupt:
     try:
