@@ -22,20 +22,21 @@ PACKAGE = ROOT / "src" / "rosbeat"
 MAY_IMPORT = {
     "errors": set(),
     "environment": set(),
+    "domains": {"errors"},
     "records": {"errors"},
     "observations": {"records", "errors"},
     "viz": {"records", "errors"},
     "checks": {"records", "errors"},
-    "runtime": {"errors", "records", "environment"},
-    "exercises": {"runtime", "checks", "records", "errors", "viz", "rosbeat"},
+    "runtime": {"errors", "records", "environment", "domains"},
+    "exercises": {"runtime", "checks", "records", "errors", "viz", "workspace", "rosbeat"},
     "workspace": {"errors", "records", "environment"},
     "grading": {
         *("errors", "records", "observations", "environment", "runtime", "viz", "checks"),
         *("exercises", "workspace", "rosbeat"),
     },
-    "authoring": {"errors"},
+    "authoring": {"errors", "domains"},
     # The package itself hands out names of other rooms.
-    "rosbeat": {"environment", "viz", "runtime", "exercises"},
+    "rosbeat": {"environment", "viz", "runtime", "exercises", "workspace"},
 }
 #: `cli` may import everything, and nobody may import `cli`.
 EVERYWHERE = {"cli", "__main__"}
@@ -45,6 +46,8 @@ THIRD_PARTY = {
     "records": set(),
     "observations": set(),
     "environment": set(),
+    "domains": set(),
+    "workspace": {"IPython", "ptyprocess", "ament_index_python"},
     "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
     "viz": {"matplotlib", "PIL", "numpy"},
     "checks": set(),

@@ -14,6 +14,8 @@
     │   └── ClosedSessionError      the session has ended
     ├── PictureError                a picture cannot be drawn from what it was given
     ├── ExerciseError               a check was asked for an exercise that does not exist
+    ├── WorkspaceError              something in the learner's workspace is not as it is needed
+    ├── TerminalError               a terminal of a page was asked for something it cannot do
     ├── LessonError                 a lesson source breaks a rule of the builder
     ├── RecordError                 saved data that does not follow the schema
     └── CommandError                the command line was used in a way it does not know
@@ -96,6 +98,14 @@ class PictureError(RosbeatError):
 
 class ExerciseError(RosbeatError):
     """A check was asked for an exercise that does not exist."""
+
+
+class WorkspaceError(RosbeatError):
+    """Something in the learner's workspace is not as it is needed."""
+
+
+class TerminalError(RosbeatError):
+    """A terminal of a page was asked for something that it cannot do."""
 
 
 class LessonError(RosbeatError):

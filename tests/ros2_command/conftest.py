@@ -90,7 +90,7 @@ def another_node():
 @pytest.fixture(scope="session")
 def graph():
     """In a domain where `/one` publishes on `/temperature`, and `/ns_two` on `/slow`."""
-    from rosbeat.runtime.domains import lease_domain
+    from rosbeat.domains import lease_domain
 
     lease = lease_domain()
     profile = SOURCE / "ros2_command" / "data" / "fastdds.xml"

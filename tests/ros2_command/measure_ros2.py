@@ -13,7 +13,7 @@ from statistics import median
 
 from conftest import SOURCE, Ros2, demo_node
 
-from rosbeat.runtime.domains import lease_domain
+from rosbeat.domains import lease_domain
 
 NODES = [("n1", "t1", 0.01), ("n2", "t2", 1.0), ("n3", "t3", 1.0), ("n4", "t4", 1.0)]
 NODE_LIST = "/n1\n/n2\n/n3\n/n4\n"

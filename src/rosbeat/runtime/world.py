@@ -10,11 +10,11 @@ from typing import Any
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 
+from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.records import GraphSnapshot
 from rosbeat.runtime.clock import make_clock
 from rosbeat.runtime.console import Console
 from rosbeat.runtime.context import SessionContext
-from rosbeat.runtime.domains import DomainLease, lease_domain
 from rosbeat.runtime.entities import Entry, NodeState
 from rosbeat.runtime.faults import fault_of
 from rosbeat.runtime.live import LiveExecutor

@@ -7,8 +7,8 @@ import sys
 import pytest
 
 from rosbeat import Session
+from rosbeat.domains import PRIVATE_IDS, lease_domain
 from rosbeat.errors import DomainsExhaustedError
-from rosbeat.runtime.domains import PRIVATE_IDS, lease_domain
 
 FEW = range(90, 93)
 

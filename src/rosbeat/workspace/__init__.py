@@ -1,0 +1,1 @@
+"""The learner's workspace: terminals, packages, and the files that cells become. No rclpy here."""
