@@ -47,13 +47,14 @@ def _build_arguments(parser: argparse.ArgumentParser) -> None:
     _page_arguments(parser)
     parser.add_argument("--check", action="store_true", help="compare only, write nothing")
     parser.add_argument("--no-run", action="store_true", help="leave the solution pages alone")
+    parser.add_argument("--fresh", action="store_true", help="new outputs also where none compare")
 
 
 def _build(options: argparse.Namespace) -> int:
     from rosbeat.authoring import builder, layout
 
     course = layout.find_course((options.root or Path.cwd()).resolve())
-    plan = builder.Plan(tuple(options.pages), options.check, not options.no_run)
+    plan = builder.Plan(tuple(options.pages), options.check, not options.no_run, options.fresh)
     found = builder.build(course, plan, lambda line: print(line, flush=True))
     changes = [change for change in found if change.matters]
     if not options.check or not changes:

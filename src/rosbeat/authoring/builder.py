@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from rosbeat.authoring.files import Change, compare, stale_pages, write
 from rosbeat.authoring.keeping import keep_work
 from rosbeat.authoring.layout import Course, choose
 from rosbeat.authoring.lint import check_lessons
+from rosbeat.authoring.package import package_files, stale_files
 from rosbeat.authoring.source import Lesson
 from rosbeat.errors import LessonError
 
@@ -25,11 +26,13 @@ class Plan:
         names: Lessons by number, name or file; none means all.
         check: Compare only; nothing on disk changes.
         run: Build the solution pages too, which means running them.
+        fresh: Store new outputs where outputs are not compared, too.
     """
 
     names: tuple[str, ...] = ()
     check: bool = False
     run: bool = True
+    fresh: bool = False
 
 
 def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> list[Change]:
@@ -47,17 +50,27 @@ def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> li
     chosen = choose(lessons, list(plan.names))
     _refuse_findings(course, lessons, chosen)
     changes = []
+    package = package_files(course, lessons)
+    # The package first: a page that runs may need what an earlier page saves.
+    for path, content in package.items():
+        changes += _derive(course, path, content, plan, tell)
     for path, make in _pages(course, chosen, plan):
-        content = pages.to_bytes(make())
-        change = compare(path, content)
-        tell(_line(course, path, change))
-        if change and not plan.check:
-            _replace(course, path, content, tell)
-        changes += [change] if change else []
-    for change in [] if plan.names else _stale(course, lessons, plan.check):
+        changes += _derive(course, path, pages.to_bytes(make()), plan, tell)
+    for change in [] if plan.names else _all_stale(course, lessons, package, plan.check):
         tell(_line(course, change.path, change))
         changes.append(change)
     return changes
+
+
+def _derive(
+    course: Course, path: Path, content: bytes, plan: Plan, tell: Callable[[str], None]
+) -> list[Change]:
+    change = compare(path, content)
+    if change or path.suffix == ".ipynb":
+        tell(_line(course, path, change))
+    if change and not plan.check:
+        _replace(course, path, content, tell)
+    return [change] if change else []
 
 
 Make = Callable[[], NotebookNode]
@@ -78,15 +91,15 @@ def _pages(course: Course, chosen: list[Lesson], plan: Plan) -> Iterator[tuple[P
         file = f"{lesson.name}.ipynb"
         yield course.notebooks / file, _notebook(lesson)
         if plan.run:
-            yield course.solutions / file, _solution(lesson, course.solutions)
+            yield course.solutions / file, _solution(lesson, course.solutions, plan.fresh)
 
 
 def _notebook(lesson: Lesson) -> Make:
     return lambda: pages.notebook_page(lesson)
 
 
-def _solution(lesson: Lesson, folder: Path) -> Make:
-    return lambda: pages.solution_page(lesson, folder)
+def _solution(lesson: Lesson, folder: Path, fresh: bool) -> Make:
+    return lambda: pages.solution_page(lesson, folder, fresh=fresh)
 
 
 def _replace(course: Course, path: Path, content: bytes, tell: Callable[[str], None]) -> None:
@@ -101,6 +114,13 @@ def _line(course: Course, path: Path, change: Change | None) -> str:
     return f"{change.kind if change else 'same':8} {path.relative_to(course.root)}"
 
 
+def _all_stale(
+    course: Course, lessons: list[Lesson], package: Iterable[Path], check: bool
+) -> Iterator[Change]:
+    yield from _stale(course, lessons, check)
+    yield from _stale_package(course, package, check)
+
+
 def _stale(course: Course, lessons: list[Lesson], check: bool) -> Iterator[Change]:
     names = {lesson.name for lesson in lessons}
     for folder in (course.notebooks, course.solutions):
@@ -110,3 +130,10 @@ def _stale(course: Course, lessons: list[Lesson], check: bool) -> Iterator[Chang
                     keep_work(path)
                 path.unlink()
             yield Change(path, "stale")
+
+
+def _stale_package(course: Course, package: Iterable[Path], check: bool) -> Iterator[Change]:
+    for path in stale_files(course, package):
+        if not check:
+            path.unlink()
+        yield Change(path, "stale")

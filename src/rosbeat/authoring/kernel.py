@@ -16,8 +16,12 @@ from pathlib import Path
 
 from jupyter_client.kernelspec import KernelSpec, KernelSpecManager
 
+from rosbeat.domains import lease_domain
+
 KERNEL_NAME = "python3"
 DISPLAY_NAME = "Python 3 (ipykernel)"
+#: Names the folder of a page's own workspace (`rosbeat.workspace.place` reads it).
+STEADY_HOME = "ROSBEAT_STEADY_HOME"
 # The kernel's address is `<folder>/s-<n>`, and a socket's path ends at 107 bytes.
 _LONGEST_FOLDER = 90
 # pytest's variable makes ipykernel leave file descriptor 2 alone, and what C code logs is lost;
@@ -73,13 +77,37 @@ class KernelPlace:
 
 @contextmanager
 def kernel_place() -> Iterator[KernelPlace]:
-    """Make a place for one kernel, and remove it afterwards."""
-    with tempfile.TemporaryDirectory(prefix="rb-", dir=_short_folder()) as name:
-        folder = Path(name)
-        environment = {k: v for k, v in os.environ.items() if k not in _DROPPED}
-        # A user's own IPython start-up files would run in every page.
-        environment["IPYTHONDIR"] = str(folder / "ipython")
-        yield KernelPlace(folder, environment)
+    """Make a place for one kernel, and remove it afterwards.
+
+    The page gets an empty workspace of its own, and its terminals a ROS domain of their own, so
+    that pages which run at the same time do not meet.
+
+    Raises:
+        DomainsExhaustedError: Every private domain id of this machine is taken.
+    """
+    with _temporary_folder() as name:
+        lease = lease_domain()
+        try:
+            yield KernelPlace(Path(name), _environment(Path(name), lease.domain_id))
+        finally:
+            lease.release()
+
+
+def _temporary_folder() -> tempfile.TemporaryDirectory[str]:
+    # A process that a page's terminal started may write once more while it is being ended.
+    return tempfile.TemporaryDirectory(
+        prefix="rb-", dir=_short_folder(), ignore_cleanup_errors=True
+    )
+
+
+def _environment(folder: Path, domain_id: int) -> dict[str, str]:
+    environment = {k: v for k, v in os.environ.items() if k not in _DROPPED}
+    # A user's own IPython start-up files would run in every page.
+    environment["IPYTHONDIR"] = str(folder / "ipython")
+    (folder / "home").mkdir()
+    environment[STEADY_HOME] = str(folder / "home")
+    environment["ROS_DOMAIN_ID"] = str(domain_id)
+    return environment
 
 
 def _short_folder() -> str | None:

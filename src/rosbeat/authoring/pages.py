@@ -17,6 +17,7 @@ from rosbeat.authoring.transforms.repeatable import refuse_unrepeatable
 from rosbeat.authoring.transforms.run import run_in
 from rosbeat.authoring.transforms.selection import keep_cells_of
 from rosbeat.authoring.transforms.streams import merge_streams
+from rosbeat.authoring.transforms.uncompared import keep_uncompared
 from rosbeat.authoring.transforms.whitelist import keep_known_metadata
 
 _NOTEBOOK: list[Transform] = [keep_cells_of("notebook"), blank_answers]
@@ -48,18 +49,22 @@ def solution_draft(lesson: Lesson) -> NotebookNode:
     return _apply(lesson, [*_SOLUTION, keep_known_metadata])
 
 
-def solution_page(lesson: Lesson, folder: Path, deadlines: Deadlines | None = None) -> NotebookNode:
+def solution_page(
+    lesson: Lesson, folder: Path, deadlines: Deadlines | None = None, *, fresh: bool = False
+) -> NotebookNode:
     """Make the solution page: answers, run from top to bottom, outputs stored.
 
     Args:
         lesson: The lesson source.
-        folder: The kernel's current directory.
+        folder: The kernel's current directory, and where the page is kept.
         deadlines: How long the page may take.
+        fresh: Store new outputs in cells of which the outputs are not compared, too.
 
     Raises:
         LessonError: An answer marker is wrong, a cell fails, or an output is not repeatable.
     """
-    steps = [*_SOLUTION, run_in(folder, deadlines), *_AFTER_RUN, keep_known_metadata]
+    kept = [] if fresh else [keep_uncompared(folder / f"{lesson.name}.ipynb")]
+    steps = [*_SOLUTION, run_in(folder, deadlines), *_AFTER_RUN, *kept, keep_known_metadata]
     return _apply(lesson, steps)
 
 

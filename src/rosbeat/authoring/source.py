@@ -9,13 +9,16 @@ from typing import Any
 
 import jupytext
 
+from rosbeat.authoring.cell_magics import SAVE, read_magic
 from rosbeat.authoring.header import Header, split_header
 from rosbeat.authoring.identity import cell_ids
 from rosbeat.errors import LessonError
 
 _FILE_NAME = re.compile(r"\d\d_[a-z0-9]+(_[a-z0-9]+)*\.py")
 _MARKER = re.compile(r"# ?%%(\s|$)")
-_KNOWN_KEYS = {"exercise", "check", "only", "tags"}
+_KNOWN_KEYS = {"exercise", "check", "only", "tags", "terminal", "save"}
+# jupytext would take `# ls` for a magic, and its comment sign away.
+_FORMAT = {"extension": ".py", "format_name": "percent", "comment_magics": False}
 _TREES = (None, "notebook", "solution")
 # jupytext's note to itself about blank lines; it says nothing about the cell.
 _JUPYTEXT_KEYS = {"lines_to_next_cell", "lines_to_end_of_cell_marker"}
@@ -30,6 +33,7 @@ class SourceCell:
         kind: ``"code"`` or ``"markdown"``.
         source: The text, with answers, blanks and their markers.
         line: The line of the source file on which the text begins.
+        magic: The IPython magic that stands above the text on the page, or an empty text.
         exercise: The id of the exercise that is solved here, such as ``"03a"``.
         check: The id of the exercise that is checked here.
         only: ``"notebook"`` or ``"solution"`` if the cell appears in one tree only.
@@ -44,6 +48,27 @@ class SourceCell:
     check: str | None = None
     only: str | None = None
     tags: tuple[str, ...] = ()
+    magic: str = ""
+
+    @property
+    def page_text(self) -> str:
+        """What the cell holds on a page, answer markers still included."""
+        return f"{self.magic}\n{self.source}".strip("\n") if self.magic else self.source
+
+    @property
+    def saved_as(self) -> str:
+        """The file of the workspace that this cell becomes, or an empty text."""
+        return self.magic.removeprefix(SAVE) if self.magic.startswith(SAVE) else ""
+
+    @property
+    def is_python(self) -> bool:
+        """Whether the text is Python: not commands for a terminal, not a file of another kind."""
+        return self.kind == "code" and (not self.magic or Path(self.saved_as).suffix == ".py")
+
+    @property
+    def runs(self) -> bool:
+        """Whether the kernel runs the text; of a saved file only if it is a module of a package."""
+        return self.is_python and Path(self.saved_as).name != "setup.py"
 
 
 @dataclass(frozen=True)
@@ -85,7 +110,7 @@ def read_lesson(path: Path) -> Lesson:
         raise LessonError(what, "The number orders the pages.", "Rename it, as 03_write_nodes.py.")
     header, body, offset = split_header(path.read_text(encoding="utf-8"), path.name)
     lines = [n for n, text in enumerate(body.splitlines(), offset + 1) if _MARKER.match(text)]
-    raw = jupytext.reads(body, fmt="py:percent").cells
+    raw = jupytext.reads(body, fmt=_FORMAT).cells
     if len(raw) != len(lines) or not _MARKER.match(body):
         raise LessonError(
             f"{path.name}: {len(lines)} lines begin a cell, but jupytext sees {len(raw)} cells.",
@@ -93,7 +118,7 @@ def read_lesson(path: Path) -> Lesson:
             "Begin the text with '# %%', and use that at the start of a line for nothing else.",
         )
     rows = [_row(cell, line, path.name) for cell, line in zip(raw, lines, strict=True)]
-    ids = cell_ids([(row["kind"], row["source"], row["exercise"], row["check"]) for row in rows])
+    ids = cell_ids([_opening(row) for row in rows])
     cells = tuple(SourceCell(id=i, **row) for i, row in zip(ids, rows, strict=True))
     return Lesson(path, header, cells)
 
@@ -102,15 +127,23 @@ def _row(cell: Any, line: int, name: str) -> dict[str, Any]:  # noqa: ANN401 - u
     metadata = {k: v for k, v in cell.metadata.items() if k not in _JUPYTEXT_KEYS}
     _refuse_unknown(cell.cell_type, metadata, f"{name}:{line}")
     blank = len(cell.source) - len(cell.source.lstrip("\n"))
+    text, magic = read_magic(cell.source.strip("\n"), metadata, f"{name}:{line}")
     return {
         "kind": cell.cell_type,
-        "source": cell.source.strip("\n"),
+        "source": text,
+        "magic": magic,
         "line": line + 1 + blank,
         "exercise": metadata.get("exercise"),
         "check": metadata.get("check"),
         "only": metadata.get("only"),
         "tags": tuple(metadata.get("tags", ())),
     }
+
+
+def _opening(row: dict[str, Any]) -> tuple[str, str, str | None, str | None]:
+    # Many cells begin with the same magic; what tells them apart is the line below it.
+    text = f"{row['magic']} {row['source']}" if row["magic"] else row["source"]
+    return row["kind"], text, row["exercise"], row["check"]
 
 
 def _refuse_unknown(kind: str, metadata: dict[str, Any], where: str) -> None:
@@ -121,7 +154,8 @@ def _refuse_unknown(kind: str, metadata: dict[str, Any], where: str) -> None:
         raise LessonError(
             f"{where}: a cell marker does not know {', '.join(map(repr, unknown))}.",
             "Only what a page needs is kept, so that pages stay the same from build to build.",
-            "Use exercise=, check=, only= and tags=; for prose write '# %% [markdown]'.",
+            f"Use {', '.join(f'{key}=' for key in sorted(_KNOWN_KEYS))}; "
+            "for prose write '# %% [markdown]'.",
         )
     if metadata.get("only") not in _TREES:
         what = f"{where}: only= is {metadata['only']!r}."

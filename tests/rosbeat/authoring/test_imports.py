@@ -11,7 +11,7 @@ import pytest
 PACKAGE = Path(__file__).parents[3] / "src" / "rosbeat"
 AUTHORING = PACKAGE / "authoring"
 THIRD_PARTY = {"jupytext", "nbformat", "nbclient", "jupyter_client"}
-ALLOWED = ("rosbeat.errors", "rosbeat.authoring")
+ALLOWED = ("rosbeat.errors", "rosbeat.domains", "rosbeat.authoring")
 
 
 def imports(path):
@@ -23,7 +23,7 @@ def imports(path):
 
 
 @pytest.mark.parametrize("path", sorted(AUTHORING.rglob("*.py")), ids=lambda path: path.stem)
-def test_authoring_imports_errors_and_jupyter_only(path):
+def test_authoring_imports_errors_domains_and_jupyter_only(path):
     for name in imports(path):
         root = name.split(".")[0]
         is_ours = name.startswith(ALLOWED)

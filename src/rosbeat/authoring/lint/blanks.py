@@ -13,7 +13,7 @@ _Function = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 
 def syntax(desk: Desk) -> Iterator[Finding]:
     """Code is Python on both pages, with blanks and with answers."""
-    for cell in desk.code:
+    for cell in desk.python:
         for text, page in ((learner_text(cell), "learner's"), (solution(cell.source), "solution")):
             if tree_of(text) is None:
                 what = f"this cell is not Python on the {page} page."
@@ -24,7 +24,7 @@ def syntax(desk: Desk) -> Iterator[Finding]:
 
 def blank_outside_function(desk: Desk) -> Iterator[Finding]:
     """A blank that runs while the cell runs would end the untouched page."""
-    for cell in desk.code:
+    for cell in (cell for cell in desk.python if cell.runs):
         tree = tree_of(learner_text(cell))
         for node in eager(tree) if tree else ():
             if _is_blank(node):

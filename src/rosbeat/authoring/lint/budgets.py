@@ -20,7 +20,7 @@ class Budgets:
 
     Attributes:
         code_lines: Lines of a code cell, empty ones not counted.
-        exercise_lines: Lines of an exercise, which may hold a whole node class.
+        exercise_lines: Lines of an exercise or of a saved file, which may hold a whole program.
         cell_words: Words of a markdown cell, code and tables not counted.
         page_cells: The fewest and the most cells of a page.
         page_words: The fewest and the most words of a page.
@@ -56,7 +56,8 @@ def cell_budget(desk: Desk) -> Iterator[Finding]:
         if cell.kind == "markdown":
             count, limit, unit = _words(cell), budgets.cell_words, "words"
         else:
-            limit = budgets.exercise_lines if cell.exercise else budgets.code_lines
+            long = cell.exercise or cell.saved_as
+            limit = budgets.exercise_lines if long else budgets.code_lines
             count, unit = _code_lines(cell), "lines"
         if count > limit:
             what = f"the cell has {count} {unit}, and {limit} is the limit."

@@ -64,6 +64,11 @@ class Desk:
         return [cell for cell in self.learner_cells if cell.kind == "code"]
 
     @cached_property
+    def python(self) -> list[SourceCell]:
+        """The code cells that hold Python; the others are for a terminal, or a file of text."""
+        return [cell for cell in self.code if cell.is_python]
+
+    @cached_property
     def markdown(self) -> list[SourceCell]:
         """The markdown cells of the learner's page."""
         return [cell for cell in self.learner_cells if cell.kind == "markdown"]

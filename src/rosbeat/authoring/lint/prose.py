@@ -18,7 +18,7 @@ _LOOKS_LIKE_CODE = re.compile(
 
 def prose_as_code(desk: Desk) -> Iterator[Finding]:
     """A code cell holds code, not sentences behind comment signs."""
-    for cell in desk.code:
+    for cell in (cell for cell in desk.code if not cell.magic):
         lines = [line.strip() for line in learner_text(cell).split("\n") if line.strip()]
         comments = [line for line in lines if line.startswith("#")]
         words = sum(len(re.findall(r"[^\W\d_]{2,}", line)) for line in comments)

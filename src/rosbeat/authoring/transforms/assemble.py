@@ -32,7 +32,7 @@ def assemble(lesson: Lesson) -> NotebookNode:
 
 def _cell(cell: SourceCell) -> Any:  # noqa: ANN401 - untyped library
     make = v4.new_code_cell if cell.kind == "code" else v4.new_markdown_cell
-    made = make(cell.source)
+    made = make(cell.page_text)
     made.id = cell.id
     made.metadata.update({"line": cell.line, "only": cell.only})
     if cell.tags:

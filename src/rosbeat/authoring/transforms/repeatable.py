@@ -11,11 +11,11 @@ from typing import Any
 
 from nbformat import NotebookNode
 
+from rosbeat.authoring.transforms.uncompared import UNCOMPARED
 from rosbeat.errors import LessonError
 
 _ADDRESS = re.compile(r"\b0x[0-9a-f]{6,}\b")
 _COLOUR = re.compile(r"\x1b\[")
-_IGNORED = "nbval-ignore-output"
 
 
 def refuse_unrepeatable(page: NotebookNode) -> NotebookNode:
@@ -25,7 +25,7 @@ def refuse_unrepeatable(page: NotebookNode) -> NotebookNode:
         LessonError: A text output holds one of them.
     """
     for cell in page.cells:
-        if cell.cell_type == "code" and _IGNORED not in cell.metadata.get("tags", ()):
+        if cell.cell_type == "code" and UNCOMPARED not in cell.metadata.get("tags", ()):
             for text in output_texts(cell):
                 _refuse(page, cell, text)
     return page
