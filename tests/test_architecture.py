@@ -73,6 +73,8 @@ def package():
     """Every module of the helper package with its source, by dotted name."""
     found = {}
     for path in sorted(PACKAGE.rglob("*.py")):
+        if "finished" in path.parts:  # a package for learners, and not a part of ours
+            continue
         parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
         found[".".join(parts).removesuffix(".__init__")] = path.read_text(encoding="utf-8")
     return found

@@ -21,17 +21,17 @@ _ENOUGH_SHARED_MEMORY = 64 * 10**6
 
 
 def findings(layout: Layout, clean: Surroundings) -> list[Finding]:
-    """Look at the machine and at `.venv`."""
+    """Look at the machine and at `.venv`; what is inside counts only if `.venv` can be used."""
+    made = venv(layout, clean)
     return [
         python(),
         disk(shutil.disk_usage(layout.root).free, layout.stamp.exists()),
         shared_memory(Path("/dev/shm")),
         clock(time.time()),
         foreign_ros(clean),
-        venv(layout, clean),
-        lock(layout),
-        kernel(layout),
         isolation(shutil.which("bwrap")),
+        made,
+        *([lock(layout), kernel(layout)] if made.state == "ok" else []),
     ]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,12 +12,12 @@ from course_tool.layout import Layout
 from course_tool.messages import Problem
 
 LAB = "./environment/course lab"
+_PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
+_OUR_PROFILE = os.path.join("ros2_command", "data", "fastdds.xml")
 
 
 def findings(layout: Layout, clean: surroundings.Surroundings) -> list[Finding]:
     """Ask ROS itself, once, and judge its answers."""
-    if not layout.python.exists():
-        return [problem("ROS", "cannot be asked without .venv", f"{LAB}  makes it")]
     environ = surroundings.inside(clean.environ, layout)
     try:
         facts = proof.ask_ros(layout, environ)
@@ -41,6 +42,7 @@ def judge(facts: Mapping[str, Any], environ: Mapping[str, str], venv: str) -> li
         ok("middleware", facts["rmw"]),
         domain(seen.get("ROS_DOMAIN_ID"), environ.get("ROS_DOMAIN_ID")),
         reach(seen.get("ROS_AUTOMATIC_DISCOVERY_RANGE")),
+        profile(seen, environ),
         field_checks(facts["field_checks"], environ.get("ROS_PYTHON_CHECK_FIELDS")),
     ]
 
@@ -67,6 +69,18 @@ def reach(discovery_range: str | None) -> Finding:
     if name == "LOCALHOST":
         return ok("discovery range", "LOCALHOST: nodes meet on this machine only")
     return note("discovery range", f"{name}, from your environment; the pages expect LOCALHOST")
+
+
+def profile(seen: Mapping[str, str], environ: Mapping[str, str]) -> Finding:
+    """Look whether two processes find each other quickly, and by whose settings."""
+    name = next((name for name in _PROFILES if seen.get(name)), None)
+    if name is None:
+        return note("discovery profile", "none: two programs may need 3 s to find each other")
+    if not os.path.exists(seen[name]):
+        return problem("discovery profile", f"{name} names {seen[name]}: no file", f"unset {name}")
+    if environ.get(name) and not seen[name].endswith(_OUR_PROFILE):
+        return note("discovery profile", f"{seen[name]}, from {name} in your environment")
+    return ok("discovery profile", "the course's: two programs find each other at once")
 
 
 def field_checks(works: bool, set_by_user: str | None) -> Finding:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from course_tool import diagnosis_machine, diagnosis_ros, surroundings
+from course_tool import diagnosis_commands, diagnosis_machine, diagnosis_ros, surroundings
 from course_tool.findings import Finding
 from course_tool.layout import Layout
 from course_tool.messages import say
@@ -14,12 +14,21 @@ from course_tool.messages import say
 def doctor(layout: Layout, arguments: Sequence[str]) -> int:
     """Print every finding; return 1 when something needs a cure."""
     clean = surroundings.cleaned(os.environ, layout)
-    findings = diagnosis_machine.findings(layout, clean) + diagnosis_ros.findings(layout, clean)
+    findings = look(layout, clean)
     for finding in findings:
         say(line(finding))
     problems = sum(finding.state == "problem" for finding in findings)
     say(closing(problems))
     return 1 if problems else 0
+
+
+def look(layout: Layout, clean: surroundings.Surroundings) -> list[Finding]:
+    """Look at everything; at ROS and its commands only in a `.venv` that can be used."""
+    findings = diagnosis_machine.findings(layout, clean)
+    if all(finding.state == "ok" for finding in findings if finding.subject == ".venv"):
+        findings += diagnosis_ros.findings(layout, clean)
+        findings += diagnosis_commands.findings(layout, clean)
+    return [*findings, diagnosis_commands.workspace(layout, clean.environ)]
 
 
 def line(finding: Finding) -> str:

@@ -1,4 +1,4 @@
-"""Fills `.venv` from a lock: uv (through pip), everything else (through uv), and rosbeat itself."""
+"""Fills `.venv` from a lock: uv (through pip), everything else (through uv), and what is ours."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import shutil
 from collections.abc import Mapping
 from pathlib import Path
 
-from course_tool import failures, pip_settings, running
+from course_tool import failures, pip_settings, running, underlay
 from course_tool.layout import Layout
 from course_tool.messages import say
 
@@ -35,7 +35,7 @@ _LAB_DEFAULTS = {
 
 
 def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
-    """Install what a level's lock says, and rosbeat itself."""
+    """Install what a level's lock says, and the course's own packages."""
     env = _for_installers(layout, environ)
     if not _uv_is_current(layout):
         say("  2/4  fetching uv, the installer")
@@ -45,9 +45,10 @@ def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     count = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
     say(f"  3/4  installing what {lock.name} lists ({count} packages at most)")
     _run(layout, lock_command(layout, level), env)
-    _run(layout, rosbeat_command(layout), env)
+    _run(layout, own_command(layout), env)
     write_start_hook(layout)
     write_lab_defaults(layout)
+    underlay.write(layout, environ)
 
 
 def lock_command(layout: Layout, level: str) -> list[str | Path]:
@@ -66,11 +67,12 @@ def lock_command(layout: Layout, level: str) -> list[str | Path]:
     ]
 
 
-def rosbeat_command(layout: Layout) -> list[str | Path]:
-    """Return the command that installs the course's own package, to be edited in place."""
+def own_command(layout: Layout) -> list[str | Path]:
+    """Return the command that installs the course's own packages, to be edited in place."""
     return [
         *(layout.uv, "pip", "install", "--python", layout.python, "--offline"),
-        *("--no-deps", "--no-build-isolation", "--editable", layout.root),
+        *("--no-deps", "--no-build-isolation"),
+        *(part for folder in layout.own_packages for part in ("--editable", folder)),
     ]
 
 

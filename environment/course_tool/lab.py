@@ -7,16 +7,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from course_tool import prepare
+from course_tool import prepare, shell
 from course_tool.layout import Layout
 from course_tool.messages import say
 
+_TERMINALS = "--ServerApp.terminado_settings"
 FIRST_PAGE = Path("notebooks") / "00_hear_the_heartbeat.ipynb"
 
 
 def lab(layout: Layout, options: Sequence[str]) -> NoReturn:
     """Become JupyterLab, with a person's options passed through."""
-    environ = prepare.ready(layout, "course")
+    environ = shell.for_shells(prepare.ready(layout, "course"), layout)
     command = lab_command(layout, options, root_user=os.geteuid() == 0)
     os.chdir(layout.root)
     os.execve(layout.python, command, environ)
@@ -33,7 +34,18 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
     command = [str(layout.python), "-m", "jupyterlab", f"--ServerApp.root_dir={layout.root}"]
     if root_user and "--allow-root" not in options:
         command.append("--allow-root")
-    return [*command, *_page(layout, options), *options]
+    return [*command, *_terminals(options), *_page(layout, options), *options]
+
+
+def _terminals(options: Sequence[str]) -> list[str]:
+    """Return the option that makes JupyterLab's terminals the same as `course shell`.
+
+    A person's own start file may put another Python first, or another ROS.
+    """
+    if any(option.startswith(_TERMINALS) for option in options):
+        return []
+    settings = {"shell_command": shell.interactive()}
+    return [f"{_TERMINALS}={settings!r}"]
 
 
 def _page(layout: Layout, options: Sequence[str]) -> list[str]:

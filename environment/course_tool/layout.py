@@ -52,6 +52,16 @@ class Layout:
         version = "{}.{}".format(*sys.version_info[:2])
         return self.venv / "lib" / f"python{version}" / "site-packages"
 
+    @property
+    def own_packages(self) -> tuple[Path, ...]:
+        """What is installed from the checkout itself: rosbeat, and the command `ros2`."""
+        return (self.root, self.root / "src" / "ros2_command")
+
+    @property
+    def completions(self) -> Path:
+        """Where bash finds how to complete the commands of the environment."""
+        return self.venv / "share" / "bash-completion" / "completions"
+
     def lock(self, level: str) -> Path:
         """The locked versions of a level, or another lock (`bootstrap`, `build`) by name."""
         return self.environment / f"{level}.lock"

@@ -27,7 +27,7 @@ def facts() -> dict[str, object]:
         "environ": {
             name: value
             for name, value in os.environ.items()
-            if name.startswith(("ROS_", "RMW_", "AMENT_"))
+            if name.startswith(("ROS_", "RMW_", "AMENT_", "FASTRTPS_", "FASTDDS_"))
         },
         "field_checks": field_checks(),
         "milliseconds": hear(),

@@ -17,9 +17,18 @@ _START_FILE = Path(__file__).with_name("shellrc.bash")
 def shell(layout: Layout, arguments: Sequence[str]) -> NoReturn:
     """Become a bash with the environment active; arguments are bash's own (`-c "command"`)."""
     environ = surroundings.with_ros(prepare.ready(layout, "course"), layout)
-    environ["ROSBEAT_COURSE"] = str(layout.environment / "course")
-    command = ["bash", *([] if arguments else ["--rcfile", str(_START_FILE)]), *arguments]
-    os.execvpe("bash", command, environ)
+    command = ["bash", *arguments] if arguments else interactive()
+    os.execvpe("bash", command, for_shells(environ, layout))
+
+
+def interactive() -> list[str]:
+    """Return the command of a bash to type in; its environment comes from `for_shells`."""
+    return ["bash", "--rcfile", str(_START_FILE)]
+
+
+def for_shells(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
+    """Return an environment in which the start file of our shells finds this tool."""
+    return {**environ, "ROSBEAT_COURSE": str(layout.environment / "course")}
 
 
 def variables(layout: Layout) -> str:

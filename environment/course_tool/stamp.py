@@ -9,9 +9,10 @@ import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from course_tool import underlay
 from course_tool.layout import LEVELS, Layout
 
-_REVISION = "1"
+_REVISION = "2"
 """To be raised when this tool lays out an environment in another way."""
 
 
@@ -32,9 +33,14 @@ def fingerprint(layout: Layout, level: str) -> str:
     version = "{}.{}".format(*sys.version_info[:2])
     for text in (_REVISION, level, version, str(layout.venv)):
         digest.update(text.encode("utf-8", "surrogateescape") + b"\0")
-    for path in (layout.lock(level), layout.lock("build"), layout.root / "pyproject.toml"):
+    for path in _sources(layout, level):
         digest.update(_content(path) + b"\0")
     return digest.hexdigest()
+
+
+def _sources(layout: Layout, level: str) -> list[Path]:
+    projects = [folder / "pyproject.toml" for folder in layout.own_packages]
+    return [layout.lock(level), layout.lock("build"), *projects, *underlay.templates()]
 
 
 def read(layout: Layout) -> Stamp | None:

@@ -58,6 +58,8 @@ def inside(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
     active["VIRTUAL_ENV"] = str(layout.venv)
     # A kernel "python3" in the user's home would otherwise win over the course's.
     active.setdefault("JUPYTER_PREFER_ENV_PATH", "1")
+    # colcon would show a warning for each package that it builds.
+    active.pop("PYTHONDONTWRITEBYTECODE", None)
     return active
 
 

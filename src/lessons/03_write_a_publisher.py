@@ -1,7 +1,7 @@
 # ---
 # title: Write a publisher
 # minutes: 40
-# needs: ["00"]
+# needs: ["00", "02"]
 # summary: Build the temperature sensor line by line: imports, node, publisher, timer, random walk, clamp, log and the script entry point.
 # ---
 
@@ -9,9 +9,10 @@
 # # Write a publisher
 #
 # **Goal:** you write a node that plays a temperature sensor and publishes a new reading every
-# second.
+# second, and save it in your package.
 #
-# **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
+# **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb); a package
+# to put the node into comes from [create a package](02_create_a_package.ipynb).
 #
 # On the way you meet every line of a real sensor node, from the imports to the last line that starts
 # the program.
@@ -25,6 +26,9 @@
 # - `Node` is the class that every node builds on;
 # - `Float32` is the message type: it carries one decimal number;
 # - `random` comes with Python and will make the temperature wander.
+#
+# The last line brings the session, the pictures and the checks of this course, and the workspace, into
+# which the node goes at the end. The file on a robot does not need them.
 
 # %%
 import random
@@ -33,12 +37,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32
 
-# %% [markdown]
-# On this page you also use the session, the pictures and the checks of this course. The file on a
-# robot does not need them.
-
-# %%
-from rosbeat import Session, check, viz
+from rosbeat import Session, check, viz, workspace
 
 # %% [markdown]
 # ## Name the node
@@ -183,47 +182,83 @@ viz.graph(ros.graph())
 # %% [markdown]
 # ## Turn the class into a program
 #
-# On a robot, the class lives in a file of its own. A function `main` starts the node, keeps it
-# running and cleans up:
+# On a robot, the class lives in a file of its own, with a function `main` around it:
 #
 # - `rclpy.init()` starts ROS in this process; it must come before the first node. `args` may hold
 #   arguments from the command line;
 # - `TemperatureSensor()` makes the node: it runs `__init__`;
 # - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until somebody stops it;
-# - `Ctrl` + `C` in the terminal raises `KeyboardInterrupt`. `main` catches it, and `pass` does nothing;
+# - `Ctrl` + `C` in the terminal raises `KeyboardInterrupt`, and any other request to end raises
+#   `ExternalShutdownException`. `main` catches both, and `pass` does nothing;
 # - at the end the node is destroyed and ROS is shut down.
+#
+# The next cell is the whole file. `%%save` writes it into your package and then runs it here.
 
-# %%
+# %% save="src/sensor_simulator/sensor_simulator/temperature_publisher.py"
+#!/usr/bin/env python3
+import random
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+
+class TemperatureSensor(Node):
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.publisher_ = self.create_publisher(Float32, "temperature", 10)
+        self.timer = self.create_timer(1.0, self.publish_temperature)
+        self.temperature = 22.0
+        self.get_logger().info("Temperature Sensor Node Started")
+
+    def publish_temperature(self):
+        self.temperature += random.uniform(-0.5, 0.5)
+        self.temperature = max(10.2, min(28.0, self.temperature))
+
+        msg = Float32()
+        msg.data = self.temperature
+        self.publisher_.publish(msg)
+        self.get_logger().info(f"Publishing: {self.temperature:.2f}C")
+
+
 def main(args=None):
     rclpy.init(args=args)
     node = TemperatureSensor()
     try:
         rclpy.spin(node)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ExternalShutdownException):
         pass
     node.destroy_node()
     rclpy.try_shutdown()
 
-# %% [markdown]
-# The tutorial's `main` differs in two places, and you can learn from both. It ends with
-# `rclpy.shutdown()`. In the ROS version used here, `Ctrl` + `C` has shut ROS down already when that
-# line runs, and a second time is an error. `try_shutdown` does it only if it is still needed. And the
-# tutorial spells its class in two ways, `TemperatureSensor` and `TemperaturSensor`. One in the class
-# line and the other in `main` end in a `NameError`: Python compares names letter by letter, as ROS
-# does with topics.
+
+if __name__ == "__main__":
+    main()
 
 # %% [markdown]
-# Three more lines complete the file. The very first, `#!/usr/bin/env python3`, tells the system to run
-# it with Python 3. The last two are the **script entry point**:
+# The very first line tells the system to run the file with Python 3. The last two are the **script
+# entry point**: they call `main` if the file is run as a program, and not if it is imported, nor here:
+# `main` would spin until you interrupt it. On a page, `ros.run(...)` does its work.
 #
-# ```python
-# if __name__ == "__main__":
-#     main()
-# ```
+# The class on the page is now the class in the file. **Predict:** with the seed of before, what does
+# it say?
+
+# %%
+with Session(seed=8) as saved:
+    saved.add(TemperatureSensor)
+    saved.run(seconds=3)
+
+# %% [markdown]
+# The same numbers. What you tried is what you will build.
 #
-# They call `main` if the file is run as a program, and not if it is imported. On a page you do not
-# call `main`: it would spin until you interrupt it. `ros.run(...)` does its work here.
-#
+# The tutorial's `main` differs, and you can learn from it. It ends with `rclpy.shutdown()`. In the ROS
+# version used here, `Ctrl` + `C` has shut ROS down already when that line runs, and a second time is an
+# error. `try_shutdown` does it only if it is still needed. And the tutorial spells its class in two
+# ways, `TemperatureSensor` and `TemperaturSensor`. One in the class line and the other in `main` end
+# in a `NameError`: Python compares names letter by letter, as ROS does with topics.
+
+# %% [markdown]
 # **How the data flows:** `main` starts ROS and makes the node. The node makes its publisher and its
 # timer. Every second the timer calls `publish_temperature`, which takes a step, clamps it, publishes
 # a message and logs a line. This goes on until `Ctrl` + `C`.
@@ -310,6 +345,6 @@ with Session() as ros:
 # - `create_timer(period, method)` calls the method once a period, first after one period.
 # - `rclpy.init`, `rclpy.spin` and `try_shutdown` belong to the program around the node.
 #
-# On a robot this class is in the file `temperature_publisher.py`, unchanged.
+# The file `temperature_publisher.py` in your package holds this class, unchanged.
 #
 # **Next:** [write a subscriber](04_write_a_subscriber.ipynb) that listens to this sensor.

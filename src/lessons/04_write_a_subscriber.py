@@ -20,7 +20,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, viz
+from rosbeat import Session, check, viz, workspace
 from rosbeat.records import queue_steps
 
 # %% [markdown]
@@ -213,24 +213,52 @@ viz.queue(queue_steps(arrivals, takes, depth=10), depth=10)
 #
 # The monitor's `main` is the sensor's, with another class in it. `rclpy.init` starts ROS,
 # `TemperatureMonitor()` makes the node, and `rclpy.spin` keeps the program alive and calls the
-# callback whenever a message has arrived.
+# callback whenever a message has arrived. The whole file goes into your package:
 
-# %%
+# %% save="src/sensor_simulator/sensor_simulator/temperature_subscriber.py"
+#!/usr/bin/env python3
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+
+class TemperatureMonitor(Node):
+    def __init__(self):
+        super().__init__("temperature_monitor")
+        self.subscription = self.create_subscription(
+            Float32, "temperature", self.temperature_callback, 10
+        )
+        self.get_logger().info("Temperature Monitor Node Started")
+
+    def temperature_callback(self, msg):
+        temp = msg.data
+        if temp > 26.0:
+            status = "High"
+        elif temp < 20.0:
+            status = "Low"
+        else:
+            status = "Normal"
+        self.get_logger().info(f"Temperature: {temp:.2f}C - Status:{status}")
+
+
 def main(args=None):
     rclpy.init(args=args)
     node = TemperatureMonitor()
     try:
         rclpy.spin(node)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ExternalShutdownException):
         pass
     node.destroy_node()
     rclpy.try_shutdown()
 
+
+if __name__ == "__main__":
+    main()
+
 # %% [markdown]
-# The tutorial's monitor leaves out the last two lines. The program ends anyway, and the system takes
-# back what it held. But if you tidy up every time, you do not have to think about when it matters.
-# Around `main` the file has the same first and last lines as the sensor's: `#!/usr/bin/env python3`,
-# and the script entry point that calls `main()`.
+# The tutorial's monitor leaves out the last two lines of `main`. The program ends anyway, and the system
+# takes back what it held. But if you tidy up every time, you do not have to think about when it matters.
 #
 # **How the data flows:** `main` makes the node, and the node its subscription. `rclpy.spin` waits.
 # A message arrives, the callback takes the number out, finds the status and logs it, and the waiting
@@ -341,6 +369,7 @@ with Session() as ros:
 # - A queue keeps the newest messages of a slow subscriber, as many as its depth.
 # - A publisher acts, a subscriber reacts, and a node may do both.
 #
-# On a robot this class is in the file `temperature_subscriber.py`, unchanged.
+# The file `temperature_subscriber.py` in your package holds this class, unchanged. You have both
+# halves of a system now: one node speaks, one listens, and neither knows the other.
 #
-# You have both halves of a system now: one node speaks, one listens, and neither knows the other.
+# **Next:** [set the entry points](05_set_the_entry_points.ipynb), so that `ros2 run` finds them.

@@ -1,9 +1,9 @@
 """rosbeat: learn how robots talk.
 
-A learner needs three names from here: `Session` runs nodes, `viz` draws what a session recorded,
-`check` looks at the answer to an exercise. Importing the package is quick and does not import ROS:
-names load when they are first used (PEP 562), so that tools which only build or check pages work
-where ROS is not installed.
+A learner needs four names from here: `Session` runs nodes, `viz` draws what a session recorded,
+`check` looks at the answer to an exercise, `workspace` is where packages are built. Importing
+the package is quick and does not import ROS: names load when they are first used (PEP 562), so that
+tools which only build or check pages work where ROS is not installed.
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ from rosbeat import environment
 
 if TYPE_CHECKING:
     from rosbeat import viz as viz
+    from rosbeat import workspace as workspace
     from rosbeat.exercises.checking import check as check
     from rosbeat.runtime.session import Session as Session
 
 __version__ = "0.1.0"
-__all__ = ["Session", "check", "viz"]
+__all__ = ["Session", "check", "viz", "workspace"]
 
 # Before any message class is imported: the field checks are read at that moment.
 environment.apply()
@@ -28,6 +29,7 @@ _HOMES = {
     "Session": ("rosbeat.runtime.session", "Session"),
     "check": ("rosbeat.exercises.checking", "check"),
     "viz": ("rosbeat.viz", None),
+    "workspace": ("rosbeat.workspace", None),
 }
 
 
@@ -38,3 +40,12 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the nam
     module_name, attribute = _HOMES[name]
     module = import_module(module_name)
     return module if attribute is None else getattr(module, attribute)
+
+
+def load_ipython_extension(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
+    """Make the commands of a page known: `%load_ext rosbeat`.
+
+    Args:
+        shell: The shell that loads the extension.
+    """
+    import_module("rosbeat.workspace").register(shell)

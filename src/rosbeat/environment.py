@@ -6,6 +6,8 @@ come first), and ``import rosbeat`` does it for installations made another way, 
 
 A value that is already there is somebody's decision and stays. Because this runs at the start of
 every Python, it imports almost nothing.
+
+Run as a program, with an installation as its argument, it prints the same for a shell to evaluate.
 """
 
 from __future__ import annotations
@@ -18,12 +20,22 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:  # `typing` itself would cost more than everything below together
     from collections.abc import Mapping, MutableMapping
 
-__all__ = ["SHARED_DOMAINS", "apply", "defaults", "domain_id", "other_ros"]
+__all__ = [
+    "SHARED_DOMAINS",
+    "apply",
+    "defaults",
+    "discovery_profile",
+    "domain_id",
+    "other_ros",
+    "shell_lines",
+]
 
 SHARED_DOMAINS = range(1, 51)
 """Domain ids for people and their checkouts; 0 is ROS's own, 51 to 101 are for private sessions."""
 
 _PATH = "AMENT_PREFIX_PATH"
+_PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
+_COLCON = "COLCON_DEFAULTS_FILE"
 _INSTALLATION = ("RMW_IMPLEMENTATION", "ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION")
 
 
@@ -37,6 +49,15 @@ def domain_id(prefix: str | None = None, user: str | None = None) -> int:
     place = os.path.realpath(prefix or sys.prefix)
     text = f"{user or _user()}\n{place}"
     return SHARED_DOMAINS[binascii.crc32(text.encode("utf-8", "surrogateescape")) % 50]
+
+
+def discovery_profile() -> str:
+    """Return the settings of Fast DDS that let two processes find each other at once.
+
+    Returns:
+        The file, which comes with the `ros2` command in the same checkout; nothing without it.
+    """
+    return _in_checkout("src", "ros2_command", "ros2_command", "data", "fastdds.xml")
 
 
 def defaults(prefix: str | None = None) -> dict[str, str]:
@@ -56,6 +77,7 @@ def defaults(prefix: str | None = None) -> dict[str, str]:
         "ROS_VERSION": "2",
         "ROS_PYTHON_VERSION": "3",
         "ROS_DOMAIN_ID": str(domain_id(prefix)),
+        **_files(),
     }
 
 
@@ -77,19 +99,58 @@ def apply(
 ) -> dict[str, str]:
     """Set what is missing or empty and return what was set.
 
-    When a ROS of the user's own is sourced, its middleware and distribution stay as they are.
+    When a ROS of the user's own is sourced, its middleware and distribution stay as they are, and
+    so does what colcon is told in the user's home.
 
     Args:
         environ: The environment to complete, by default that of this process.
         prefix: The installation that brings ROS, by default that of the running Python.
     """
     target = os.environ if environ is None else environ
-    missing = {name: value for name, value in defaults(prefix).items() if not target.get(name)}
-    if other_ros(target, prefix):
-        missing = {name: value for name, value in missing.items() if name not in _INSTALLATION}
+    settled = _settled(target, prefix)
+    missing = {
+        name: value
+        for name, value in defaults(prefix).items()
+        if not target.get(name) and name not in settled
+    }
     missing.update(_longer_path(target, prefix or sys.prefix))
     target.update(missing)
     return missing
+
+
+def shell_lines(prefix: str, environ: MutableMapping[str, str] | None = None) -> str:
+    """Set what is missing and return the lines that do the same in a POSIX shell.
+
+    Args:
+        prefix: The installation that brings ROS.
+        environ: The environment to complete, by default that of this process.
+    """
+    changes = apply(environ, prefix).items()
+    return "\n".join(f"export {name}={_quoted(value)}" for name, value in changes)
+
+
+def _files() -> dict[str, str]:
+    """Return the settings that are files of the checkout, as far as they are there."""
+    files = {_PROFILE: discovery_profile(), _COLCON: _in_checkout("environment", "colcon.yaml")}
+    return {name: path for name, path in files.items() if path}
+
+
+def _in_checkout(*parts: str) -> str:
+    # The link to this file in site-packages leads back to the checkout.
+    root = os.path.realpath(__file__).rsplit(os.sep, 3)[0]
+    path = os.path.join(root, *parts)
+    return path if os.path.exists(path) else ""
+
+
+def _settled(environ: Mapping[str, str], prefix: str | None) -> list[str]:
+    """Return the variables in whose place something else of the person's stands."""
+    home = environ.get("COLCON_HOME") or os.path.join(os.path.expanduser("~"), ".colcon")
+    settled = list(_INSTALLATION) if other_ros(environ, prefix) else []
+    if environ.get("FASTDDS_DEFAULT_PROFILES_FILE"):
+        settled.append(_PROFILE)
+    if os.path.exists(os.path.join(home, "defaults.yaml")):
+        settled.append(_COLCON)
+    return settled
 
 
 def _longer_path(environ: Mapping[str, str], prefix: str) -> dict[str, str]:
@@ -113,3 +174,12 @@ def _has_rclpy(prefix: str) -> bool:
 def _user() -> str:
     getuid = getattr(os, "getuid", None)  # Windows has none
     return str(getuid()) if getuid else os.environ.get("USERNAME", "")
+
+
+def _quoted(value: str) -> str:
+    """Return a shell word; `shlex` would cost more than everything else here."""
+    return "'" + value.replace("'", "'\\''") + "'"
+
+
+if __name__ == "__main__":
+    print(shell_lines(sys.argv[1]))

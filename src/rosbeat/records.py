@@ -20,6 +20,14 @@ NANOSECONDS = 1_000_000_000
 INFRASTRUCTURE_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
 
 
+def is_hidden(name: str) -> bool:
+    """Whether a ROS name is hidden: a part of it begins with an underscore.
+
+    Source: ROS 2 design, "Topic and Service name mapping to DDS", hidden names.
+    """
+    return any(part.startswith("_") for part in name.split("/"))
+
+
 class Timed:
     """Adds `time`, in seconds, to a record that has `time_ns`."""
 
@@ -37,10 +45,12 @@ class Sample(Timed):
     """One message as it was published.
 
     Attributes:
-        time_ns: When it was published, in nanoseconds of virtual time.
+        time_ns: When it was published, in nanoseconds of virtual time. What another process
+            published has the time at which a node of this session got it.
         topic: The topic's full name, such as `/temperature`.
         type_name: The message type, such as `std_msgs/msg/Float32`.
-        node: Full name of the node that published it.
+        node: Full name of the node that published it; `?` if it was in another process and cannot
+            be told from others there.
         data: The message as plain data: a dict from field name to value, nested where the
             message is nested, arrays as lists. A `float32` field holds what was sent, rounded to
             32 bits, as a subscriber receives it.
@@ -128,8 +138,8 @@ class QoS:
     Attributes:
         reliability: `RELIABLE` or `BEST_EFFORT`.
         durability: `VOLATILE` or `TRANSIENT_LOCAL`.
-        history: `KEEP_LAST` or `KEEP_ALL`.
-        depth: Queue length for `KEEP_LAST`, in messages.
+        history: `KEEP_LAST` or `KEEP_ALL`; `UNKNOWN` in another process, which does not tell.
+        depth: Queue length for `KEEP_LAST`, in messages; 0 if unknown.
     """
 
     reliability: str = "RELIABLE"
@@ -181,8 +191,9 @@ class GraphSnapshot:
     """The ROS graph at one moment.
 
     Attributes:
-        nodes: Full names of the nodes, in order of creation.
-        endpoints: Their endpoints, in order of creation, those that every node has included.
+        nodes: Full names of the nodes, in order of creation; then those of other processes, if the
+            session has joined their domain, sorted.
+        endpoints: Their endpoints, in the same order, those that every node has included.
         timers: Their timers, in order of creation.
     """
 

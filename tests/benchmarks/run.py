@@ -11,6 +11,8 @@ import os
 import platform
 import time
 
+import commands
+import endings
 import live_mode
 import memory
 import scaling
@@ -24,6 +26,8 @@ BENCHMARKS = {
     "live": live_mode.measure,
     "memory": memory.measure,
     "scaling": scaling.measure,
+    "commands": commands.measure,
+    "endings": endings.measure,
 }
 
 

@@ -21,7 +21,9 @@ def layout(tmp_path: Path) -> Layout:
     for name in ("course", "test", "build"):
         found.lock(name).write_text(f"# {name}\n")
     found.lock("bootstrap").write_text("uv==1.2.3 \\\n    --hash=sha256:00\n")
-    (found.root / "pyproject.toml").write_text("[project]\n")
+    for folder in found.own_packages:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "pyproject.toml").write_text("[project]\n")
     return found
 
 

@@ -1,3 +1,5 @@
+import ast
+
 import pytest
 
 from course_tool import bench, lab, prepare, relock, running, shell, testing
@@ -17,18 +19,30 @@ def test_lab_opens_the_first_page(layout):
     assert command[1:3] == ["-m", "jupyterlab"]
     assert command[3] == f"--ServerApp.root_dir={layout.root}"
     page_address = "--LabApp.default_url=/lab/tree/notebooks/00_hear_the_heartbeat.ipynb"
-    assert command[4:] == [page_address, "--no-browser", "--port", "9000"]
+    assert command[5:] == [page_address, "--no-browser", "--port", "9000"]
 
 
 def test_lab_opens_the_folder_when_the_page_is_not_there(layout, capsys):
     command = lab.lab_command(layout, [], root_user=False)
-    assert len(command) == 4
+    assert len(command) == 5
     assert "is not there" in capsys.readouterr().out
 
 
 def test_lab_opens_another_page_when_asked(layout):
     command = lab.lab_command(layout, ["notebooks/03.ipynb"], root_user=False)
-    assert command[4:] == ["notebooks/03.ipynb"]
+    assert command[5:] == ["notebooks/03.ipynb"]
+
+
+def test_labs_terminals_are_the_courses_shell(layout):
+    option, value = lab.lab_command(layout, ["x.ipynb"], root_user=False)[4].split("=", 1)
+    assert option == "--ServerApp.terminado_settings"
+    assert ast.literal_eval(value) == {"shell_command": shell.interactive()}
+
+
+def test_labs_terminals_are_the_persons_choice(layout):
+    choice = "--ServerApp.terminado_settings={'shell_command': ['zsh']}"
+    command = lab.lab_command(layout, ["x.ipynb", choice], root_user=False)
+    assert command[4:] == ["x.ipynb", choice]
 
 
 def test_lab_allows_the_root_user_once(layout):

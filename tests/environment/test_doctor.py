@@ -1,22 +1,36 @@
 import json
+import shutil
+from pathlib import Path
 
 import pytest
 
+from course_tool import diagnosis_commands as commands
 from course_tool import diagnosis_machine as machine
 from course_tool import diagnosis_ros as ros
 from course_tool import doctor, proof, stamp
 from course_tool.findings import note, ok, problem
+from course_tool.layout import Layout
 from course_tool.surroundings import Surroundings
+from rosbeat.workspace import place
 
 CLEAN = Surroundings({"PATH": "/usr/bin:/bin"}, (), ())
 FACTS = {
     "rclpy": "7.1.6",
     "rclpy_file": "/c/.venv/lib/python3.11/site-packages/rclpy/__init__.py",
     "rmw": "rmw_fastrtps_cpp",
-    "environ": {"ROS_DOMAIN_ID": "12", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
+    "environ": {
+        "ROS_DOMAIN_ID": "12",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "FASTRTPS_DEFAULT_PROFILES_FILE": __file__,
+    },
     "field_checks": True,
     "milliseconds": 210.4,
 }
+
+
+def program(path, body):
+    path.write_text(f"#!/bin/sh\n{body}\n")
+    path.chmod(0o755)
 
 
 def by_subject(findings):
@@ -34,6 +48,7 @@ def test_a_finding_is_a_line_and_a_cure_another():
 def test_the_exit_code_says_whether_something_needs_a_cure(layout, monkeypatch, findings, code):
     monkeypatch.setattr(machine, "findings", lambda layout, clean: findings)
     monkeypatch.setattr(ros, "findings", lambda layout, clean: [])
+    monkeypatch.setattr(commands, "findings", lambda layout, clean: [])
     assert doctor.doctor(layout, []) == code
 
 
@@ -141,9 +156,84 @@ def test_a_ros_that_cannot_be_asked(made, monkeypatch):
     assert found.state == "problem"
 
 
-def test_no_ros_without_an_environment(layout):
-    (found,) = ros.findings(layout, CLEAN)
-    assert "makes it" in found.cure
+def test_without_an_environment_nothing_in_it_is_judged(layout):
+    found = by_subject(doctor.look(layout, CLEAN))
+    assert "makes it" in found[".venv"].cure
+    assert not {"versions", "Jupyter kernel", "rclpy", "ros2", "underlay"} & set(found)
+
+
+def test_a_moved_checkout_is_told_once(made, tmp_path):
+    stamp.write(made, "course")
+    moved = Layout(tmp_path / "elsewhere")
+    shutil.move(made.root, moved.root)
+    lines = [doctor.line(finding) for finding in doctor.look(moved, CLEAN)]
+    assert sum("was made in another place" in line for line in lines) == 1
+    assert not any(str(made.root) in line for line in lines)
+
+
+PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
+
+
+@pytest.mark.parametrize(
+    ("seen", "environ", "state", "words"),
+    [
+        ({}, {}, "note", "3 s"),
+        ({PROFILE: __file__}, {}, "ok", "the course's"),
+        ({PROFILE: __file__}, {PROFILE: __file__}, "note", "your environment"),
+        ({PROFILE: "/nowhere.xml"}, {PROFILE: "/nowhere.xml"}, "problem", "no file"),
+        ({"FASTDDS_DEFAULT_PROFILES_FILE": "/nowhere.xml"}, {}, "problem", "no file"),
+    ],
+)
+def test_the_discovery_profile(seen, environ, state, words):
+    found = ros.profile(seen, environ)
+    assert found.state == state
+    assert words in found.text
+
+
+def test_commands_that_start_and_that_do_not(made):
+    program(made.venv / "bin" / "ros2", "exit 0")
+    program(made.venv / "bin" / "colcon", "echo no such module; exit 1")
+    assert commands.command(made, "ros2", {}).state == "ok"
+    found = commands.command(made, "colcon", {})
+    assert found.state == "problem"
+    assert "no such module" in found.text
+
+
+def test_a_place_with_a_space_is_no_place_for_a_workspace(layout):
+    assert commands.place(layout).state == "problem"
+    assert commands.place(Layout(Path("/home/ada/course"))).state == "ok"
+
+
+def test_an_underlay_that_works(made):
+    (made.venv / "setup.bash").write_text(f"AMENT_PREFIX_PATH='/other:{made.venv}'\n")
+    assert commands.underlay(made, CLEAN).state == "ok"
+
+
+@pytest.mark.parametrize("text", [None, "return 1\n", "AMENT_PREFIX_PATH=/other\n"])
+def test_an_underlay_that_does_not(made, text):
+    if text is not None:
+        (made.venv / "setup.bash").write_text(text)
+    found = commands.underlay(made, CLEAN)
+    assert found.state == "problem"
+    assert "repairs .venv" in found.cure
+
+
+def test_where_the_workspace_lies(layout, tmp_path):
+    found = commands.workspace(layout, {})
+    assert found.text == f"{layout.root}/ROS2_and_RL_Tutorials (page 01 makes it)"
+    (tmp_path / "ROS2_and_RL_Tutorials").mkdir()
+    found = commands.workspace(layout, {"ROSBEAT_WORKSPACE_IN": str(tmp_path)})
+    assert found.text == f"{tmp_path}/ROS2_and_RL_Tutorials, by ROSBEAT_WORKSPACE_IN"
+
+
+def test_a_workspace_that_cannot_be(layout, tmp_path):
+    found = commands.workspace(layout, {"ROSBEAT_WORKSPACE_IN": str(tmp_path / "gone")})
+    assert (found.state, found.cure) == ("problem", f"mkdir -p {tmp_path / 'gone'}")
+
+
+def test_the_name_of_the_workspace_is_the_packages():
+    assert commands.WORKSPACE == place.NAME
+    assert commands.SETTING == place.SETTING
 
 
 def test_a_middleware_that_was_replaced_is_told():

@@ -23,15 +23,16 @@ def test_everything_is_installed_by_hash_and_without_a_compiler(layout):
     assert command.endswith(f"-r {layout.lock('test')}")
 
 
-def test_rosbeat_is_installed_in_place_without_a_network(layout):
-    command = flat(installing.rosbeat_command(layout))
-    assert "--offline --no-deps --no-build-isolation --editable" in command
+def test_our_own_packages_are_installed_in_place_without_a_network(layout):
+    command = flat(installing.own_command(layout))
+    assert "--offline --no-deps --no-build-isolation" in command
+    assert f"--editable {layout.root} --editable {layout.root}/src/ros2_command" in command
 
 
 def test_uv_is_fetched_once(made, monkeypatch):
     runs = []
 
-    def quiet(command, env):
+    def quiet(command, env, timeout=None):
         runs.append(flat(command))
         if "--target" in map(str, command):
             made.uv.parent.mkdir(parents=True)
@@ -73,7 +74,7 @@ def test_installers_never_bring_a_python_and_ignore_other_environments(made, mon
         seen.update(env)
         return running.Result(0, "")
 
-    monkeypatch.setattr(running, "quiet", lambda command, env: running.Result(0, ""))
+    monkeypatch.setattr(running, "quiet", lambda command, env, **_: running.Result(0, ""))
     monkeypatch.setattr(running, "stream", stream)
     installing.fill(
         made, "course", {"UV_PYTHON": "3.9", "VIRTUAL_ENV": "/other", "UV_INDEX": "mine"}

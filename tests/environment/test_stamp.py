@@ -2,7 +2,7 @@ import shutil
 
 import pytest
 
-from course_tool import stamp
+from course_tool import stamp, underlay
 from course_tool.layout import Layout
 
 
@@ -23,11 +23,24 @@ def test_a_stamp_that_cannot_be_read_is_none(made, text):
 
 
 @pytest.mark.parametrize(
-    "name", ["environment/course.lock", "environment/build.lock", "pyproject.toml"]
+    "name",
+    [
+        "environment/course.lock",
+        "environment/build.lock",
+        "pyproject.toml",
+        "src/ros2_command/pyproject.toml",
+    ],
 )
 def test_whatever_it_was_made_from_makes_it_stale(made, name):
     stamp.write(made, "course")
     (made.root / name).write_text("another version\n")
+    assert not stamp.satisfied(made, "course")
+
+
+def test_another_underlay_makes_it_stale(made, tmp_path, monkeypatch):
+    stamp.write(made, "course")
+    (tmp_path / "local_setup.sh").write_text("another version\n")
+    monkeypatch.setattr(underlay, "templates", lambda: [tmp_path / "local_setup.sh"])
     assert not stamp.satisfied(made, "course")
 
 

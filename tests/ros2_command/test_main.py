@@ -120,3 +120,25 @@ def test_a_real_ros2cli_takes_over(ros2, tmp_path):
     (tmp_path / "ros2cli" / "cli.py").write_text("def main(argv=None):\n    print('real')\n")
     path = f"{tmp_path}:{ros2.environment['PYTHONPATH']}"
     assert ros2.out("pkg", "list", PYTHONPATH=path) == "real\n"
+
+
+@pytest.mark.parametrize(
+    ("tail", "code", "said"),
+    [
+        ("pkg list >&-", 0, ""),
+        ("nosuch 2>&-", 2, ""),
+        ("pkg list >/dev/full", 1, "ros2: No space left on device\n"),
+        ("pkg create --build-type ament_python p", 1, "The folder that this terminal is in"),
+    ],
+)
+def test_streams_and_folders_that_are_gone(ros2, tmp_path, tail, code, said):
+    command = " ".join(ros2.words())
+    gone = f"mkdir gone; cd gone; rmdir ../gone; {command} {tail}"
+    done = subprocess.run(
+        ["bash", "-c", gone], env=ros2.environment, cwd=tmp_path,
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == code
+    assert done.stderr.startswith(said)
+    assert "unexpected" not in done.stderr
+    assert "Traceback" not in done.stderr

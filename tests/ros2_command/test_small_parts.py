@@ -1,7 +1,10 @@
+import time
+
 import pytest
 from ros2_command.candidates import candidates
 from ros2_command.definitions import nested_type
 from ros2_command.errors import CommandError
+from ros2_command.graph import SAME_LOOKS, Graph
 from ros2_command.local_processes import count_participants
 from ros2_command.names import check_name, full_name, is_hidden
 from ros2_command.nearest import nearest
@@ -100,3 +103,36 @@ def test_completion():
     assert candidates(["topic", "echo", "--fi"]) == ["--field", "--filter"]
     assert candidates(["nosuch", ""]) == []
     assert candidates(["interface", "show", "std_srvs/srv/Tri"]) == ["std_srvs/srv/Trigger"]
+
+
+class ToldGraph(Graph):
+    """Sees what it is told to see, one after the other, and then the last for ever."""
+
+    def __init__(self, looks, complete):
+        self._looks, self._complete = list(looks), complete
+        self._spin_time, self._born = None, time.monotonic()
+        self.count = 0
+
+    def _look(self):
+        self.count += 1
+        return self._looks.pop(0) if len(self._looks) > 1 else self._looks[0]
+
+    def _is_complete(self):
+        return self._complete
+
+
+def test_a_graph_is_believed_when_it_stays_the_same(monkeypatch):
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    assert ToldGraph([0], True).settle().count == SAME_LOOKS
+    assert ToldGraph([0, 1, 1, 2, 3], True).settle().count == 4 + SAME_LOOKS
+    assert ToldGraph([0], False).settle(lambda: True).count == 0
+
+
+def test_a_missing_process_is_waited_for_while_there_is_news(monkeypatch):
+    monkeypatch.setattr("ros2_command.graph.NO_NEWS", 0.3)
+    monkeypatch.setattr("ros2_command.graph.AT_MOST", 60.0)
+    graph = ToldGraph([*range(40)], False)
+    graph.settle()
+    assert graph.age > 40 * 0.02 + 0.3
+    monkeypatch.setattr("ros2_command.graph.AT_MOST", 0.1)
+    assert ToldGraph([*range(1000)], False).settle().count < 1000

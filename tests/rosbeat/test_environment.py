@@ -1,5 +1,6 @@
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,15 @@ from rosbeat import environment
 
 MODULE = Path(environment.__file__)
 PREFIX = "/home/ada/course/.venv"
+PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path_factory, monkeypatch):
+    """A home in which nothing is set for colcon."""
+    folder = tmp_path_factory.mktemp("home")
+    monkeypatch.setenv("HOME", str(folder))
+    return folder
 
 
 @pytest.fixture
@@ -84,6 +94,57 @@ def test_a_ros_of_ones_own_keeps_its_middleware_and_distribution(robot):
 def test_the_courses_own_ros_is_not_another_one(robot):
     assert environment.other_ros({"AMENT_PREFIX_PATH": robot}, robot) == []
     assert environment.other_ros({"AMENT_PREFIX_PATH": robot}, PREFIX) == [robot]
+
+
+def test_every_node_finds_the_others_quickly():
+    profile = Path(environment.defaults(PREFIX)[PROFILE])
+    assert profile == Path(environment.discovery_profile())
+    assert "leaseAnnouncement" in profile.read_text()
+
+
+def test_a_profile_under_fast_dds_newer_name_counts_too():
+    environ = {"FASTDDS_DEFAULT_PROFILES_FILE": "/home/ada/fastdds.xml"}
+    environment.apply(environ, PREFIX)
+    assert PROFILE not in environ
+
+
+def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
+    alone = tmp_path / "site-packages" / "rosbeat" / "environment.py"
+    alone.parent.mkdir(parents=True)
+    shutil.copy(MODULE, alone)
+    spec = importlib.util.spec_from_file_location("alone", alone)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    assert module.discovery_profile() == ""
+    assert set(environment.defaults(PREFIX)) - set(module.defaults(PREFIX)) == {
+        PROFILE,
+        "COLCON_DEFAULTS_FILE",
+    }
+
+
+@pytest.mark.parametrize("variable", [None, "COLCON_HOME"])
+def test_what_colcon_is_told_at_home_stays(home, tmp_path, variable):
+    own = tmp_path / "colcon" if variable else home / ".colcon"
+    environ = {variable: str(own)} if variable else {}
+    environment.apply(environ, PREFIX)
+    assert Path(environ.pop("COLCON_DEFAULTS_FILE")).name == "colcon.yaml"
+    own.mkdir()
+    (own / "defaults.yaml").touch()
+    environment.apply(environ, PREFIX)
+    assert "COLCON_DEFAULTS_FILE" not in environ
+
+
+def test_a_shell_gets_the_same_values(tmp_path):
+    awkward = str(tmp_path / "it's here")
+    done = subprocess.run(
+        ["sh", "-c", f"{environment.shell_lines(awkward, {})}; env -0"],
+        env={"PATH": os.defpath},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    found = dict(entry.split("=", 1) for entry in done.stdout.split("\0") if "=" in entry)
+    assert environment.defaults(awkward).items() <= found.items()
 
 
 def test_a_domain_is_stable_and_shared_ones_are_from_1_to_50():

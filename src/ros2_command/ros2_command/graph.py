@@ -18,13 +18,16 @@ from ros2_command.untyped import Untyped
 
 PROFILE_VARIABLE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 UNKNOWN = "_NODE_NAME_UNKNOWN_"
-#: The graph is believed if it has not changed for this long, in seconds ...
-QUIET = 0.1
+#: The graph is believed if it was the same this many times in a row. Not a time: on a busy machine
+#: time passes in which no news could have come in ...
+SAME_LOOKS = 6
 #: ... and every process of this machine is in it. Those of other machines announce themselves
 #: each 0.1 s, and cannot be counted, so they are given two chances.
 OTHER_MACHINES = 0.25
-#: A process without the discovery profile announces itself each 3 s. After that it has stopped.
-AT_MOST = 3.5
+#: A process without the discovery profile announces itself each 3 s. If there is no news for
+#: longer, whoever is missing has stopped. While there is news, a busy machine is waited for.
+NO_NEWS = 4.0
+AT_MOST = 20.0
 _LOOK_EVERY = 0.02
 
 
@@ -114,13 +117,13 @@ class Graph:
             time.sleep(max(0.0, self._spin_time - self.age))
             return self
         at_least = 0.0 if only_this_machine() else OTHER_MACHINES
-        last, since = None, self._born
-        while self.age < AT_MOST and not enough():
+        last, since, same = None, self._born, 0
+        while self.age < AT_MOST and time.monotonic() - since < NO_NEWS and not enough():
             now = self._look()
             if now != last:
-                last, since = now, time.monotonic()
-            quiet = time.monotonic() - since >= QUIET
-            if quiet and self.age >= at_least and self._is_complete():
+                last, since, same = now, time.monotonic(), 0
+            same += 1
+            if same >= SAME_LOOKS and self.age >= at_least and self._is_complete():
                 break
             time.sleep(_LOOK_EVERY)
         return self

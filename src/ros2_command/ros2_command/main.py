@@ -26,10 +26,18 @@ def main(argv: Sequence[str] | None = None) -> int:
         from ros2cli.cli import main as original
 
         return int(original(argv=argv) or 0)
+    _open_closed_streams()
     code = guarded(lambda: _run(list(sys.argv[1:] if argv is None else argv)))
     if argv is None and "rclpy" in sys.modules:
         _leave_at_once(code)
     return code
+
+
+def _open_closed_streams() -> None:
+    """Python has None for a stream that was closed before it started (`ros2 pkg list >&-`)."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
 
 
 def _leave_at_once(code: int) -> NoReturn:
@@ -56,10 +64,27 @@ def guarded(action: Callable[[], int]) -> int:
         print(f"Python cannot find '{error.name}'.", file=sys.stderr)
         print("ROS 2 is not installed in this environment, or not all of it.", file=sys.stderr)
         return 1
+    except OSError as error:
+        print(_what_the_system_says(error), file=sys.stderr)
+        return 1
     except Exception as error:  # a learner cannot do anything with our stack
         print(f"ros2: unexpected {type(error).__name__}: {error}", file=sys.stderr)
         return 1
     return code
+
+
+def _what_the_system_says(error: OSError) -> str:
+    if isinstance(error, FileNotFoundError) and not _has_folder():
+        return "The folder that this terminal is in does not exist any more.\nGo to another:  cd ~"
+    return f"ros2: {error.strerror or error}" + (f": {error.filename}" if error.filename else "")
+
+
+def _has_folder() -> bool:
+    try:
+        os.getcwd()
+    except OSError:
+        return False
+    return True
 
 
 def _quietly(code: int) -> int:

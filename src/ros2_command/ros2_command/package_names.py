@@ -5,6 +5,9 @@ from __future__ import annotations
 import keyword
 import re
 import sys
+import sysconfig
+from importlib.machinery import PathFinder
+from pathlib import Path
 
 from ros2_command.errors import CommandError
 
@@ -13,6 +16,11 @@ _DEPENDENCY = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 _EMAIL = re.compile(
     r"[-\w%+]+(\.[-\w%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}", re.ASCII
 )
+
+
+# XML 1.0 cannot hold these, and neither can a file in UTF-8 hold halves of characters.
+_UNWRITABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_INDEX = "share/ament_index/resource_index/packages"
 
 
 def _not_importable(name: str) -> str:
@@ -52,7 +60,16 @@ def check_package_name(name: str) -> None:
         reason = "a package's name begins with a letter"
     if not reason and name in sys.stdlib_module_names:
         reason = f"Python has a module '{name}' of its own, and one would hide the other"
+    if not reason and _comes_with_ros(name):
+        reason = f"'{name}' is installed with ROS 2 already, and one would hide the other"
     _refuse("a package", name, reason)
+
+
+def _comes_with_ros(name: str) -> bool:
+    """Whether this installation has a package or module of that name; workspaces do not count."""
+    if (Path(sys.prefix) / _INDEX / name).exists():
+        return True
+    return PathFinder.find_spec(name, [sysconfig.get_path("purelib")]) is not None
 
 
 def check_module_name(kind: str, name: str) -> None:
@@ -98,4 +115,16 @@ def check_email(email: str) -> None:
         raise CommandError(
             f"Aborted! '{email}' is not an email address, and package.xml needs one.",
             "Give one:  --maintainer-email you@example.com",
+        )
+
+
+def check_text(option: str, text: str) -> None:
+    """Refuse a text that package.xml cannot hold.
+
+    Raises:
+        CommandError: If it has control characters, or bytes that are no text.
+    """
+    if _UNWRITABLE.search(text):
+        raise CommandError(
+            f"Aborted! The text of --{option} has characters that package.xml cannot hold: {text!a}"
         )

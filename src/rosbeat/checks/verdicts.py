@@ -9,6 +9,8 @@ PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
 #: What a learner replaces; the name is never defined, so running it raises a NameError.
 BLANK = "____"
 
+_STILL_BLANK = f"There is still a blank, {BLANK}, in the cell above."
+
 #: Signs in an error, and what it means in an answer of a page.
 _HINTS = (
     (
@@ -42,9 +44,9 @@ def failed(exercise: str, evidence: str, hint: str) -> Outcome:
     return Outcome(exercise, FAILED, evidence, hint)
 
 
-def not_attempted(exercise: str) -> Outcome:
-    """A blank is still a blank."""
-    return Outcome(exercise, NOT_ATTEMPTED, f"There is still a blank, {BLANK}, in the cell above.")
+def not_attempted(exercise: str, evidence: str = _STILL_BLANK) -> Outcome:
+    """Nothing was tried yet: a blank is still a blank, or what was asked for is not there."""
+    return Outcome(exercise, NOT_ATTEMPTED, evidence)
 
 
 def is_blank(fault: Fault) -> bool:

@@ -7,22 +7,23 @@ from typing import Any
 
 from rosbeat.checks.display import Shown
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises import page_00, page_03, page_04
+from rosbeat.exercises import page_00, page_01, page_02, page_03, page_04, page_05, page_06
 from rosbeat.exercises.exercise import Exercise
 
-EXERCISES: dict[str, Exercise] = {
-    exercise.id: exercise for page in (page_00, page_03, page_04) for exercise in page.EXERCISES
+_PAGES = (page_00, page_01, page_02, page_03, page_04, page_05, page_06)
+EXERCISES: dict[str, Exercise[Any]] = {
+    exercise.id: exercise for page in _PAGES for exercise in page.EXERCISES
 }
 
 
 def check(exercise: str, answer: Any) -> Shown:  # noqa: ANN401 - whatever a learner hands over
     """Run the answer to an exercise and say what is right or what is missing.
 
-    The answer runs in a session of its own, in virtual time; nothing on the page changes.
+    A node runs in a session of its own, in virtual time; nothing on the page changes.
 
     Args:
         exercise: The exercise's id, such as `"03a"`.
-        answer: The node class written in the cell above.
+        answer: What the cell above made: a node class, the workspace or a terminal.
 
     Returns:
         The outcome, which Jupyter shows.

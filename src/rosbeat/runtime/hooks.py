@@ -57,8 +57,14 @@ class Watcher(Protocol):
         """The learner called `rclpy.shutdown()`."""
 
 
+class Unwatched:
+    """Mixed into a node that is part of the session itself, so that its watcher is not told."""
+
+
 def watcher_of(node: Node) -> Watcher | None:
     """The watcher of a node's session, or None if it is in no session or not yet a node."""
+    if isinstance(node, Unwatched):
+        return None
     # Not `node.context`: a class that forgot super().__init__() must fail with rclpy's own error.
     return getattr(node.__dict__.get("_context"), "watcher", None)
 
@@ -69,7 +75,7 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
         context: Context | None = kwargs.get("context")
         watcher = getattr(context or _default_context(), "watcher", None)
         name = kwargs.get("node_name", args[0] if args else None)
-        if watcher is None or not isinstance(name, str):
+        if watcher is None or not isinstance(name, str) or isinstance(node, Unwatched):
             _make_alone(partial(original, node, *args, **kwargs))
             return
         watcher.node_begins(name, kwargs.get("namespace") or "/")

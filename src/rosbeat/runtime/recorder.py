@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from threading import Lock
 from typing import Any
 
@@ -75,6 +75,11 @@ class Recorder:
         """Register a publisher."""
         made = Channel(len(self._channels), topic, type_name, node, memory)
         self._channels.append(made)
+        return made
+
+    def rename(self, channel: Channel, node: str) -> Channel:
+        """Put right who publishes there, for what has been recorded, too."""
+        made = self._channels[channel.number] = replace(channel, node=node)
         return made
 
     def label(self, node: str, kind: str, name: str, source: str) -> CallbackLabel:

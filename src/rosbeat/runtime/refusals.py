@@ -15,7 +15,7 @@ from rosbeat.errors import (
     SessionError,
     UnknownTopicError,
 )
-from rosbeat.records import GraphSnapshot
+from rosbeat.records import INFRASTRUCTURE_TOPICS, GraphSnapshot
 
 #: The last instant of ROS time, in nanoseconds: it is a signed 64-bit number.
 END_OF_TIME = 2**63 - 1
@@ -121,8 +121,42 @@ def no_such_node(name: str, names: list[str]) -> SessionError:
     )
 
 
+def nodes_did_not_come(
+    missing: list[str], seen: tuple[str, ...], seconds: float, domain_id: int
+) -> SessionError:
+    """`wait_for_nodes`, in vain."""
+    verb = "is" if len(missing) == 1 else "are"
+    return SessionError(
+        f"{', '.join(missing)} {verb} not there after {seconds:g} s.",
+        f"In domain {domain_id} the session sees: {', '.join(seen) or 'no node at all'}.",
+        _nearest(
+            missing[0],
+            [name for name in seen if name not in missing],
+            "Start it in a terminal, and look whether it goes on running. Both sides need the same "
+            "ROS_DOMAIN_ID.",
+        ),
+    )
+
+
+def nobody_else_here() -> SessionError:
+    """`wait_for_nodes` in a private domain."""
+    return SessionError(
+        "This session does not see nodes of other processes.",
+        "It has a domain to itself, and the nodes of a terminal are in another one.",
+        'Join theirs: `Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))`.',
+    )
+
+
 def unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTopicError:
     """A topic without messages because it has no publisher."""
+    outside = [end.node for end in graph.on(name, "publisher")]
+    if outside and name not in INFRASTRUCTURE_TOPICS:  # there, own nodes publish as well
+        return UnknownTopicError(
+            f"No node of this session listens on {name}.",
+            f"{', '.join(outside)} publishes there, in another process; what comes from others is "
+            "recorded when a node of the session gets it.",
+            "Add a node that subscribes there, with `ros.add(...)`.",
+        )
     listening = [end.node for end in graph.on(name, "subscription")]
     means = f"{', '.join(listening)} listens there, but no node" if listening else "No node"
     topics = sorted(known) or ["none yet"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from threading import Event
 from typing import Any, TypeVar, overload
 from weakref import finalize
 
@@ -13,7 +12,7 @@ from rclpy.node import Node
 
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.runtime import hooks as _hooks  # noqa: F401 - makes nodes watchable
-from rosbeat.runtime import learner_calls, refusals
+from rosbeat.runtime import learner_calls, refusals, waiting
 from rosbeat.runtime.construction import build_node
 from rosbeat.runtime.durations import duration_ns
 from rosbeat.runtime.entities import NodeState
@@ -47,8 +46,9 @@ class Session:
     Args:
         seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
             global generator. The same seed gives the same run.
-        domain_id: The ROS domain to join, 0 to 101. By default the session has one to itself, and
-            neither another session nor a terminal hears it.
+        domain_id: The ROS domain to join, 0 to 101; the session then sees the nodes of other
+            processes there, too. By default it has a domain to itself, and neither another session
+            nor a terminal hears it.
 
     Raises:
         SessionError: If the seed or the domain id is not a whole number in its range.
@@ -240,7 +240,7 @@ class Session:
         deadline = None if span is None else time.monotonic() + span
         self._world.console.begin()
         try:
-            return self._wait(deadline, until or bool)
+            return waiting.poll(until or bool, deadline, self._world.show_news)
         except KeyboardInterrupt as interrupt:
             show_briefly(interrupt, "you stopped waiting; the session is still live.")
             self._world.hurry()
@@ -248,6 +248,30 @@ class Session:
         finally:
             self._world.show_news()
             self._world.console.end()
+
+    def wait_for_nodes(self, *names: str, timeout: float = 10.0) -> None:
+        """Wait until nodes are in the graph, those of other processes too, as a terminal's.
+
+        Processes need up to some seconds to find each other. The session need not be live.
+
+        Args:
+            names: Names of the nodes; `sensor` and `/sensor` are the same.
+            timeout: Wall-clock seconds at most.
+
+        Raises:
+            DurationError: If `timeout` is not a number from 0 up.
+            SessionError: If they do not come, the session has no `domain_id`, a name is not a text,
+                or `wait_for_nodes` is called from a callback.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.wait_for_nodes")
+        wanted = ["/" + refusals.check_name("wait_for_nodes", name).lstrip("/") for name in names]
+        seconds = duration_ns(timeout, "wait_for_nodes(timeout=...)") / 1e9
+        try:
+            waiting.wait_for_nodes(self._world, wanted, seconds)
+        except KeyboardInterrupt as interrupt:
+            show_briefly(interrupt, "you stopped waiting; the session goes on.")
+            raise
 
     def stop(self) -> None:
         """End live mode; virtual time goes on from here. Does nothing if the session is not live.
@@ -272,6 +296,9 @@ class Session:
     def messages(self, topic: str) -> tuple[Sample, ...]:
         """What was published on a topic, in order.
 
+        In a domain that was joined with `domain_id`, what other processes publish is included from
+        the moment at which a node of this session subscribes.
+
         Args:
             topic: The topic's name; `temperature` and `/temperature` are the same.
 
@@ -281,7 +308,7 @@ class Session:
         """
         self._world.show_faults()
         name = "/" + refusals.check_name("messages", topic).lstrip("/")
-        known = self._world.recorder.topics()
+        known = self._world.known_topics()
         if name not in known:
             raise refusals.unknown_topic(name, known, self._world.graph())
         return tuple(self._world.recorder.samples(name))
@@ -303,8 +330,12 @@ class Session:
         return tuple(record for record in records if record.name == wanted)
 
     def graph(self) -> GraphSnapshot:
-        """The nodes, topics, services and timers as they are now."""
-        self._check_open()
+        """The nodes, topics, services and timers as they are now, or were when the session ended.
+
+        In a domain that was joined with `domain_id`, the nodes of other processes are included as
+        far as they are known yet; see `wait_for_nodes`.
+        """
+        self._world.show_faults()
         return self._world.graph()
 
     def observation(self) -> Observation:
@@ -333,17 +364,6 @@ class Session:
         self._world.refuse_in_callback(f"ros.{what}")
         with self._world.running():
             yield
-
-    def _wait(self, deadline: float | None, until: Callable[[], object]) -> bool:
-        pulse = Event()  # nobody sets it: it is a sleep that an Interrupt ends at once
-        while True:
-            self._world.show_news()
-            if until():
-                return True
-            left = 0.05 if deadline is None else min(0.05, deadline - time.monotonic())
-            if left <= 0:
-                return False
-            pulse.wait(left)
 
     def _check_open(self) -> None:
         if self._world.closed:

@@ -13,6 +13,7 @@ from rclpy.node import Node
 
 from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, GraphSnapshot, LogRecord
+from rosbeat.runtime.arrivals import Arrivals
 from rosbeat.runtime.clock import SessionClock
 from rosbeat.runtime.console import note
 from rosbeat.runtime.direct import TAKERS
@@ -33,12 +34,14 @@ class Watching:
     Attributes:
         clock: The one clock of all nodes.
         recorder: What happened so far.
+        arrivals: Records what comes from outside; None in a private domain.
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
     """
 
     clock: SessionClock
     recorder: Recorder
+    arrivals: Arrivals | None
     virtual: VirtualTimeExecutor
     live: LiveExecutor | None
 
@@ -235,6 +238,8 @@ class Watching:
         taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
         stored = sum(tap.stored_for(qos) for tap in taps)
         entry.owed = min(stored, qos.depth or stored)
+        if self.arrivals is not None:
+            self.arrivals.watch_subscription(entry.entity)
 
     def _tap_publisher(self, state: NodeState, publisher: Any) -> None:  # noqa: ANN401
         topic = publisher.topic_name
@@ -248,6 +253,8 @@ class Watching:
         channel = self.recorder.channel(topic, kind, state.name, memory)
         heard = self._published(happened, self.recorder.sampler(channel))
         state.taps.append(PublisherTap(publisher, memory, heard))
+        if self.arrivals is not None:
+            self.arrivals.watch_publisher(publisher)
 
     def _published(
         self, happened: Callable[[], None], add: Callable[[int, Any], None]

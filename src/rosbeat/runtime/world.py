@@ -12,12 +12,15 @@ from rclpy.node import Node
 
 from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.records import GraphSnapshot
+from rosbeat.runtime.arrivals import Arrivals
 from rosbeat.runtime.clock import make_clock
 from rosbeat.runtime.console import Console
 from rosbeat.runtime.context import SessionContext
 from rosbeat.runtime.entities import Entry, NodeState
 from rosbeat.runtime.faults import fault_of
 from rosbeat.runtime.live import LiveExecutor
+from rosbeat.runtime.lookout import Lookout
+from rosbeat.runtime.outside import with_outside
 from rosbeat.runtime.randomness import SeededRandom
 from rosbeat.runtime.recorder import Recorder
 from rosbeat.runtime.sim_time import show_sim_time
@@ -43,6 +46,7 @@ class World(Watching):
     Attributes:
         console: Where log lines are printed.
         context: The ROS context.
+        lookout: Sees the other processes; None in a private domain, where there are none.
         closed: Whether `close` was called.
     """
 
@@ -62,6 +66,8 @@ class World(Watching):
         self._shown_logs = 0
         self._shown_faults = 0
         self._last_graph: GraphSnapshot | None = None
+        self.lookout = None if domain_id is None else Lookout(self.context)
+        self.arrivals = self.lookout and Arrivals(self.lookout, self.recorder, self.now)
         self.context.install()
 
     # Time.
@@ -179,7 +185,14 @@ class World(Watching):
 
     def graph(self) -> GraphSnapshot:
         """The graph as it is now, or as it was when the session ended."""
-        return self._last_graph or super().graph()
+        if self._last_graph is not None:
+            return self._last_graph
+        own = super().graph()
+        return own if self.lookout is None else with_outside(own, self.lookout)
+
+    def known_topics(self) -> set[str]:
+        """Every topic of which it is known what was published."""
+        return self.recorder.topics() | (self.arrivals.topics() if self.arrivals else set())
 
     def hurry(self) -> None:
         """Interrupt was pressed while the nodes run live; a callback that hangs ends, too."""
@@ -195,6 +208,8 @@ class World(Watching):
         self._last_graph = self.graph()
         for state in reversed(self.states()):
             self.destroy(state)
+        if self.lookout is not None:
+            self.lookout.destroy_node()
         self.virtual.shutdown()
         self.context.end()
         if self._lease:

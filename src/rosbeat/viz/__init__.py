@@ -6,7 +6,8 @@ import matplotlib; that happens when a picture is asked for the first time (PEP 
 - `graph` shows the nodes, the topics and who talks to whom;
 - `timeline` shows when callbacks ran and which message caused which;
 - `values` shows a topic's numbers over virtual time;
-- `queue` shows a subscription's queue filling, emptying and dropping.
+- `queue` shows a subscription's queue filling, emptying and dropping;
+- `crossing` shows which messages went from one process to another, and which were lost.
 """
 
 from __future__ import annotations
@@ -20,11 +21,13 @@ if TYPE_CHECKING:
     from rosbeat.viz.queue_columns import queue as queue
     from rosbeat.viz.time_lanes import timeline as timeline
     from rosbeat.viz.topic_values import values as values
+    from rosbeat.viz.two_lanes import crossing as crossing
 
-__all__ = ["Picture", "graph", "queue", "timeline", "values"]
+__all__ = ["Picture", "crossing", "graph", "queue", "timeline", "values"]
 
 _HOMES = {
     "Picture": "picture",
+    "crossing": "two_lanes",
     "graph": "node_graph",
     "queue": "queue_columns",
     "timeline": "time_lanes",

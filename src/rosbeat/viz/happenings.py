@@ -14,8 +14,8 @@ from rosbeat.records import (
     LogRecord,
     Observation,
     Sample,
+    is_hidden,
 )
-from rosbeat.viz.wiring import is_hidden
 
 #: More messages and callbacks than this cannot be told apart in one picture.
 MOST_EVENTS = 60

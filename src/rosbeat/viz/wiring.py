@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from rosbeat.records import INFRASTRUCTURE_TOPICS, Endpoint, GraphSnapshot
+from rosbeat.records import INFRASTRUCTURE_TOPICS, Endpoint, GraphSnapshot, is_hidden
 from rosbeat.viz.words import count, listing, sentence_case
 
 _OTHER = {"publisher": "subscription", "subscription": "publisher"}
@@ -66,14 +66,6 @@ def node_key(name: str) -> str:
 def topic_key(name: str) -> str:
     """The key of a topic among edges."""
     return f"topic {name}"
-
-
-def is_hidden(name: str) -> bool:
-    """Whether a ROS name is hidden: a part of it begins with an underscore.
-
-    Source: ROS 2 design, "Topic and Service name mapping to DDS", hidden names.
-    """
-    return any(part.startswith("_") for part in name.split("/"))
 
 
 def wiring(graph: GraphSnapshot, infrastructure: bool = False) -> Wiring:

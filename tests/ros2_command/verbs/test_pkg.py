@@ -83,6 +83,18 @@ def test_create_elsewhere_with_a_license(ros2, tmp_path):
     assert (tmp_path / "a/b/p/LICENSE").read_text().startswith("Permission is hereby granted")
 
 
+def test_a_linter_that_is_missing_skips_its_test(ros2, tmp_path):
+    """ament_copyright is on no registry, so the generated tests must do without it."""
+    ros2(*CREATE, "p", "--node-name", "n1", cwd=tmp_path)
+    ran = subprocess.run(
+        [sys.executable, "-m", "pytest", "-rs", "-p", "no:cacheprovider", "test/test_copyright.py"],
+        cwd=tmp_path / "p", env=ros2.environment | {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert "could not import 'ament_copyright.main'" in ran.stdout, ran.stderr
+    assert ran.returncode == 5, ran.stdout  # no test is left, and none has failed
+
+
 def test_texts_are_escaped(ros2, tmp_path):
     strange = 'it\'s <b> & "c"'
     ros2(*CREATE, "p", "--description", strange, "--maintainer-name", strange,
@@ -117,6 +129,10 @@ def test_a_second_time_is_refused(ros2, tmp_path):
         (("_pkg",), "begins with a letter"),
         (("päckage",), "letters a to z"),
         (("random",), "a module 'random' of its own"),
+        (("rclpy",), "is installed with ROS 2 already"),
+        (("yaml",), "is installed with ROS 2 already"),
+        (("p", "--description", "a\x01b"), "--description has characters"),
+        (("p", "--maintainer-name", os.fsdecode(b"\xff")), "--maintainer-name has characters"),
         (("test",), "can't be named 'test'"),
         (("p", "--node-name", "__init__"), "two underscores"),
         (("p", "--node-name", "talk.py"), "Try 'talk'."),

@@ -1,6 +1,7 @@
 import os
 import signal
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -65,18 +66,12 @@ def test_a_signal_for_the_parent_alone_reaches_the_child(ros2, demo, number):
     assert error == ""
 
 
-def test_ctrl_c_reaches_the_child_once(ros2, demo, monkeypatch):
+def test_ctrl_c_reaches_the_child_once(ros2, demo):
     demo("node", NODE)
-    import subprocess
-
-    process = subprocess.Popen(
-        ros2.words("run", "demo", "node"), env=ros2.environment, stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, text=True, start_new_session=True,
-    )  # fmt: skip
-    with process:
+    with ros2.running("run", "demo", "node") as process:
         assert process.stdout.readline() == "ready []\n"
         os.killpg(process.pid, signal.SIGINT)
-        out, _ = process.communicate(timeout=30)
+        out, _ = process.communicate(timeout=60)
     assert (process.returncode, out) == (7, "[ros2run]: Process exited with failure 7\n")
 
 
@@ -104,3 +99,34 @@ def test_what_cannot_be_started(ros2, demo):
     assert "#!/nowhere/python" in ros2.error("run", "demo", "wrong_line")
     assert "Failed to start nosuch" in ros2.error("run", "--prefix", "nosuch", "demo", "no_line")
     assert "cannot be read" in ros2.error("run", "--prefix", "'", "demo", "no_line")
+
+
+def node_of(process):
+    """The node that a `ros2 run` has started; its other child has the command line of `ros2`."""
+    own = Path(f"/proc/{process.pid}/cmdline").read_bytes()
+    children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+    (node,) = (one for one in children if Path(f"/proc/{one}/cmdline").read_bytes() != own)
+    return int(node)
+
+
+SENDERS = {
+    "ros2": lambda process, number: process.send_signal(number),
+    "node": lambda process, number: os.kill(node_of(process), number),
+    "both": lambda process, number: os.killpg(process.pid, number),
+}
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("to", SENDERS)
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_finished_node_ends_well(ros2, graph, demo, monkeypatch, number, to):
+    """As a terminal's Ctrl+C does (both), and as others may who know one process only."""
+    monkeypatch.setitem(ros2.environment, "ROS_DOMAIN_ID", graph.environment["ROS_DOMAIN_ID"])
+    source = Path(__file__).parents[1] / "finished_node.py"
+    demo("node", f"#!{sys.executable}\n{source.read_text()}")
+    with ros2.running("run", "demo", "node") as process:
+        assert process.stdout.readline() == "published\n"
+        SENDERS[to](process, number)
+        out, error = process.communicate(timeout=60)
+    assert (process.returncode, error) == (0, "")
+    assert set(out.splitlines()) <= {"published"}

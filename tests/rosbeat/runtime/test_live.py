@@ -301,9 +301,21 @@ def test_two_sessions_in_one_domain_hear_each_other(ros):
         ros.start()
         other.start()
         assert other.wait(20, until=lambda: len(listener.heard) >= 3)
-        topic = next(end.name for end in other.graph().endpoints if end.kind == "subscription")
+        other.stop()
+        samples = other.messages("count")
+        assert [sample.value for sample in samples] == listener.heard
+        assert {sample.node for sample in samples} == {"/talker"}
+
+
+def test_a_private_session_says_that_it_does_not_record_others(ros):
+    with Session(domain_id=ros.domain_id) as other:
+        other.add(partial(Talker, period=0.02))
+        listener = ros.add(Listener)
+        other.start()
+        ros.start()
+        assert ros.wait(20, until=lambda: listener.heard)
         with pytest.raises(UnknownTopicError, match="No node of this session") as caught:
-            other.messages(topic)
+            ros.messages("count")
         assert "Another process publishes there" in caught.value.means
 
 

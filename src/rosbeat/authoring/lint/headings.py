@@ -22,7 +22,7 @@ def title(desk: Desk) -> Iterator[Finding]:
     elif tops[0][1] != wanted:
         what = f"the heading {tops[0][1]!r} is not the title of the header, {wanted!r}."
         yield desk.finding("title", tops[0][0], what)
-    if wanted.split(" ")[0].lower() not in VERBS:
+    if wanted.split(" ")[0].rstrip(",").lower() not in VERBS:
         what = f"the title {wanted!r} does not begin with a verb."
         yield desk.finding("title", 1, what, "Say what the learner does; verbs.py lists the verbs.")
 

@@ -14,6 +14,7 @@ VERBS = frozenset(
         "configure",
         "connect",
         "count",
+        "create",
         "debug",
         "decide",
         "declare",

@@ -18,6 +18,7 @@ from ros2_command.package_names import (
     check_email,
     check_module_name,
     check_package_name,
+    check_text,
 )
 from ros2_command.package_templates import LICENSES, NewPackage
 
@@ -98,6 +99,8 @@ def _asked_for(args: Namespace) -> NewPackage:
     for kind, one in (("a node", args.node_name), ("a library", args.library_name)):
         if one is not None:
             check_module_name(kind, one)
+    for option in ("description", "license", "maintainer_name"):
+        check_text(option.replace("_", "-"), getattr(args, option) or "")
     maintainer = args.maintainer_name or getpass.getuser()
     email = args.maintainer_email or _default_email(maintainer)
     check_email(email)

@@ -105,7 +105,7 @@ def wait_for_subscriptions(graph: Graph, publisher: Untyped, args: Namespace, ne
             )
         print(f"Waiting for at least {needed} matching subscription(s)...")
         graph.spin_until(enough, 1.0 if left is None else min(1.0, left))
-        if not hinted and not enough():
+        if not hinted and not graph.settle(enough).spin_until(enough, 0):
             hinted = True
             _hint(graph, args)
 

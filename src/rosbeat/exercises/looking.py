@@ -1,0 +1,111 @@
+"""Scenarios that look: at a workspace, or at a terminal. Nothing of a learner's is run here."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from rosbeat.errors import ExerciseError
+from rosbeat.workspace.packages import Package, find_packages, read_package
+
+#: What colcon makes; it belongs to no exercise.
+_BUILT = {"build", "install", "log", "kept"}
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """What is in a workspace.
+
+    Attributes:
+        folders: Every folder, relative to the workspace, without what colcon makes.
+        packages: Every package, wherever it lies.
+    """
+
+    folders: tuple[str, ...]
+    packages: dict[str, Package]
+
+    def place_of(self, name: str, root: str = "src") -> str:
+        """Where a package lies that is not in `root`, or an empty text."""
+        package = self.packages.get(name)
+        parent = package.folder.parent.as_posix() if package else root
+        return "" if parent == root else parent.replace(".", "the workspace itself")
+
+
+@dataclass(frozen=True)
+class TypedIn:
+    """What was typed in a terminal, and where that led.
+
+    Attributes:
+        folder: The folder it is in, relative to the workspace; absolute if that is outside.
+        commands: Each line that was typed, with the folder it was typed in, as the prompt said it.
+        exit_code: Of the last command that ended.
+        log_names: The names of the nodes whose log lines it shows.
+        text: All that it shows.
+    """
+
+    folder: str
+    commands: tuple[tuple[str, str], ...]
+    exit_code: int | None
+    log_names: frozenset[str]
+    text: str
+
+
+def look_at_workspace(answer: Any) -> Workspace:  # noqa: ANN401 - whatever a learner hands over
+    """Look at a workspace.
+
+    Args:
+        answer: Its folder; `workspace.folder()` on a page.
+
+    Raises:
+        ExerciseError: If that is no folder.
+    """
+    root = Path(answer) if isinstance(answer, (str, Path)) else None
+    if root is None or not root.is_dir():
+        raise ExerciseError(
+            f"There is no workspace at {answer!r}.",
+            "This check looks at the folders of your workspace.",
+            "Write workspace.folder(), and run the cells above first: they make it.",
+        )
+    packages = [_relative(read_package(folder, root), root) for folder in find_packages(root)]
+    return Workspace(_folders(root), {package.name: package for package in packages})
+
+
+def look_at_terminal(answer: Any, root: Path) -> TypedIn:  # noqa: ANN401
+    """Look at a terminal of the page.
+
+    Args:
+        answer: The terminal; `workspace.terminal("one")` on a page.
+        root: The workspace.
+
+    Raises:
+        ExerciseError: If that is no terminal.
+    """
+    if not all(hasattr(answer, name) for name in ("folder", "text", "exit_code", "logs")):
+        raise ExerciseError(
+            f"{answer!r} is no terminal.",
+            "This check looks at a terminal of the page.",
+            'Write workspace.terminal("...") with the name of the terminal in the cell above.',
+        )
+    return TypedIn(
+        _inside(Path(answer.folder), root),
+        tuple(re.findall(r"^(\S+)\$ (.+)$", answer.text, re.MULTILINE)),
+        answer.exit_code,
+        frozenset(record.name for record in answer.logs()),
+        answer.text,
+    )
+
+
+def _folders(root: Path) -> tuple[str, ...]:
+    found = (path.relative_to(root) for path in root.rglob("*") if path.is_dir())
+    return tuple(sorted(path.as_posix() for path in found if path.parts[0] not in _BUILT))
+
+
+def _relative(package: Package, root: Path) -> Package:
+    return replace(package, folder=package.folder.relative_to(root))
+
+
+def _inside(folder: Path, root: Path) -> str:
+    folder, root = folder.resolve(), root.resolve()
+    return folder.relative_to(root).as_posix() if root in (folder, *folder.parents) else str(folder)

@@ -1,0 +1,56 @@
+"""Page 06, build, source, run: a second monitor by another name, and links instead of copies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosbeat.checks.verdicts import failed, not_attempted, passed
+from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.looking import TypedIn, Workspace, look_at_terminal, look_at_workspace
+from rosbeat.records import Outcome
+from rosbeat.workspace.place import workspace
+
+_NAME = "second_monitor"
+_PACKAGE = "sensor_simulator"
+
+
+def _in_terminal(answer: Any) -> TypedIn:  # noqa: ANN401 - whatever a learner hands over
+    return look_at_terminal(answer, workspace())
+
+
+def _judge_monitor(seen: TypedIn) -> Outcome:
+    runs = [text for _, text in seen.commands if text.startswith("ros2 run")]
+    if not runs:
+        return not_attempted("06a", "Nothing was run in this terminal yet.")
+    if _NAME in seen.log_names and f"[{_NAME}]: Temperature:" in seen.text:
+        return passed("06a", f"{_NAME} hears what the first monitor hears.")
+    if _NAME in seen.log_names:
+        return failed("06a", f"{_NAME} runs and has heard nothing.", _IS_THE_SENSOR_THERE)
+    if seen.log_names:
+        found = ", ".join(sorted(seen.log_names))
+        return failed("06a", f"The node that runs here is called {found}.", _RENAME)
+    return failed("06a", f"No node has started here. The last line typed: {runs[-1]}", _WHICH)
+
+
+_IS_THE_SENSOR_THERE = (
+    "Is it the temperature_subscriber, and is the sensor still running in its own terminal? "
+    "Look there with %terminal sensor."
+)
+_RENAME = f"After `--ros-args` comes `-r __node:={_NAME}`, with two underscores before `node`."
+_WHICH = "After ros2 run come two names: the package, and the executable from setup.py."
+
+
+def _judge_links(seen: Workspace) -> Outcome:
+    package = seen.packages.get(_PACKAGE)
+    installed = package.installed if package else None
+    if installed is None:
+        return not_attempted("06b", f"{_PACKAGE} is not built yet.")
+    if not installed.linked:
+        return not_attempted("06b", f"{_PACKAGE} is installed as a copy so far.")
+    return passed("06b", f"{_PACKAGE} is installed as a link to src.")
+
+
+EXERCISES: tuple[Exercise[Any], ...] = (
+    Exercise("06a", _in_terminal, _judge_monitor),
+    Exercise("06b", look_at_workspace, _judge_links),
+)

@@ -1,0 +1,91 @@
+"""Mistakes at `ros2 pkg create`."""
+
+from __future__ import annotations
+
+import re
+
+from rosbeat.workspace.meanings.situation import Call, Situation
+
+_EXISTS = re.compile(r"The directory already exists: (?P<path>\S+)")
+_REST = "the rest of the command stays as it is"
+
+
+def exists_already(seen: Situation) -> str | None:
+    """A package of this name is there (mistake 26)."""
+    found = _EXISTS.search(seen.text)
+    if not found or not seen.call("ros2", "pkg", "create"):
+        return None
+    name = found["path"].rsplit("/", 1)[-1]
+    return (
+        f"A folder {name} is there already, most likely from the first time you ran this command. "
+        "Nothing was changed. If it is your package, go on with it; if not, rename it first."
+    )
+
+
+def without_build_type(seen: Situation) -> str | None:
+    """`--build-type ament_python` was forgotten (mistake 25)."""
+    call = seen.call("ros2", "pkg", "create")
+    if not call or any(word.startswith("--build-type") for word in call.words):
+        return None
+    if "is left out here" in seen.text:
+        return (
+            "Without `--build-type ament_python`, `ros2 pkg create` makes a package for C++, and "
+            f"that is not what your node needs. Add it; {_REST}."
+        )
+    name = next(
+        (
+            one.name
+            for one in seen.packages
+            if one.name in call.words[3:] and one.manifest.build_type.endswith("cmake")
+        ),
+        None,
+    )
+    if seen.code == 0 and name:
+        return (
+            f"{name} has become a package for C++: it has a CMakeLists.txt and no setup.py, "
+            f"because `--build-type ament_python` was left out. Rename the folder {name} or move "
+            "it away, then make the package again with that option."
+        )
+    return None
+
+
+def in_the_wrong_folder(seen: Situation) -> str | None:
+    """A package was made outside of `src` (mistake 26)."""
+    call = seen.call("ros2", "pkg", "create")
+    if not call or seen.code or "--destination-directory" in call.words:
+        return None
+    source = (seen.workspace / "src").resolve()
+    name = _made(call)
+    if not name or call.place.resolve() == source:
+        return None
+    return (
+        f"The package {name} was made in {call.place.name or '/'}, where this terminal is. "
+        "Packages belong into the folder src of the workspace. "
+        f"Move it there: mv {name} {_way(call, seen)}"
+    )
+
+
+def _made(call: Call) -> str | None:
+    """The name among the words whose folder is a package now."""
+    return next(
+        (
+            word
+            for word in call.words[3:]
+            if not word.startswith("-") and (call.place / word / "package.xml").is_file()
+        ),
+        None,
+    )
+
+
+def _way(call: Call, seen: Situation) -> str:
+    return "src/" if call.place.resolve() == seen.workspace.resolve() else f"{seen.workspace}/src/"
+
+
+def bad_name(seen: Situation) -> str | None:
+    """A name that cannot be a package's."""
+    if not seen.call("ros2", "pkg", "create") or "cannot be the name of a package" not in seen.text:
+        return None
+    return (
+        "A package for Python is imported under its name, so the name follows Python's rule: "
+        "small letters, digits and `_`, and a letter first."
+    )

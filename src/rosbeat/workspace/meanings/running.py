@@ -1,0 +1,181 @@
+"""Mistakes at `ros2 run`."""
+
+from __future__ import annotations
+
+import re
+
+from rosbeat.workspace.locating import nearest
+from rosbeat.workspace.meanings.building import missing_part
+from rosbeat.workspace.meanings.flaws import flaw_in_words, syntax_error_in_words
+from rosbeat.workspace.meanings.situation import Situation
+from rosbeat.workspace.packages import Package
+
+_NOT_FOUND = re.compile(r"Package '(?P<name>[^']+)' not found")
+_AGAIN = "Build again with `colcon build` in the workspace."
+
+
+def _asked_for(seen: Situation) -> tuple[str, str] | None:
+    """The package and the executable of the last `ros2 run`."""
+    call = seen.call("ros2", "run")
+    words = [word for word in call.words[2:] if not word.startswith("-")] if call else []
+    return (words[0], words[1]) if len(words) > 1 else None
+
+
+def _package(seen: Situation) -> tuple[Package, str] | None:
+    asked = _asked_for(seen)
+    package = seen.package(asked[0]) if asked else None
+    return (package, asked[1]) if asked and package else None
+
+
+def package_not_found(seen: Situation) -> str | None:
+    """Not sourced, not built, or misspelt (mistakes 23 and 13)."""
+    found = _NOT_FOUND.search(seen.text)
+    if not found:
+        return None
+    package = seen.package(found["name"])
+    if package is None:
+        meant = nearest(found["name"], [one.name for one in seen.packages])
+        return (
+            f"There is no package {found['name']} in your workspace. Did you mean {meant}?"
+            if meant
+            else None
+        )
+    if package.installed is None:
+        return (
+            f"The package {package.name} is in src and has not been built yet. In the workspace, "
+            "run `colcon build` and then `source install/setup.bash`."
+        )
+    return (
+        f"The package {package.name} is built, and this terminal does not know it yet. Every new "
+        "terminal has to be told: run `source install/setup.bash` in the workspace, "
+        "then try again."
+    )
+
+
+def no_executable(seen: Situation) -> str | None:
+    """The entry point is not there, or is called otherwise (mistakes 20, 24 and 27)."""
+    found = _package(seen)
+    if not found or "No executable found" not in seen.text:
+        return None
+    package, name = found
+    part = missing_part(package)
+    if part:
+        return part
+    flaw = next((one for one in package.flaws if one.kind in ("missing-comma", "slash")), None)
+    if flaw:
+        return flaw_in_words(flaw)
+    known = [one.executable for one in package.setup.entry_points]
+    if name in known:
+        return (
+            f"setup.py has the entry point {name}, and the build in install is older than that. "
+            f"{_AGAIN}"
+        )
+    return _not_an_entry_point(package, name, known)
+
+
+def _not_an_entry_point(package: Package, name: str, known: list[str]) -> str:
+    stem = name.removesuffix(".py")
+    if stem in package.modules and stem not in known:
+        return (
+            f"{stem}.py is in the package, and setup.py has no entry point for it, so there is "
+            "nothing that `ros2 run` could start. Add one, 'executable = package.module:function', "
+            "and build again."
+        )
+    meant = stem if stem in known else nearest(name, known)
+    if meant:
+        return (
+            f"The package {package.name} has no executable {name}. Did you mean {meant}? "
+            "The name is the one before the `=` in setup.py."
+        )
+    listed = (
+        f"It has: {', '.join(known)}." if known else "It has no entry point at all in setup.py."
+    )
+    return f"The package {package.name} has no executable {name}. {listed}"
+
+
+def wrong_target(seen: Situation) -> str | None:
+    """The executable starts and finds no module or no function (mistakes 21, 27 and 28)."""
+    found = _package(seen)
+    if not found or "Traceback" not in seen.text:
+        return None
+    package, name = found
+    last = last_error(seen.text)
+    if last.startswith(("ModuleNotFoundError", "ImportError")) and package.name in last:
+        part = missing_part(package)
+        if part:
+            return part
+    if not _is_about_loading(last):
+        return None
+    flaw = next((one for one in package.flaws if one.entry.executable == name), None)
+    if flaw:
+        return flaw_in_words(flaw)
+    return _syntax(package, last)
+
+
+def _is_about_loading(last: str) -> bool:
+    return (
+        last.startswith(
+            ("ModuleNotFoundError", "ImportError", "SyntaxError", "IndentationError", "TabError")
+        )
+        or ("has no attribute" in last and last.startswith("AttributeError: module"))
+        or "'module' object is not callable" in last
+    )
+
+
+def _syntax(package: Package, last: str) -> str | None:
+    broken = package.module_with_syntax_error()
+    if not broken or not last.startswith(("SyntaxError", "IndentationError", "TabError")):
+        return None
+    return syntax_error_in_words(f"{package.name}/{broken[0]}.py", broken[1])
+
+
+def the_build_before(seen: Situation) -> str | None:
+    """A build of this source fails, so an older one runs (mistake 22)."""
+    found = _package(seen)
+    if not found or not found[0].installed or seen.call("colcon", "build"):
+        return None
+    package = found[0]
+    flaw = next((one for one in package.flaws if one.kind in ("missing-comma", "slash")), None)
+    if package.setup.line:
+        why = f"Python cannot read setup.py: {package.setup.problem}, at line {package.setup.line}."
+    elif flaw:
+        why = flaw_in_words(flaw)
+    else:
+        return None
+    return f"{why} A build fails because of that, so what ran here is the build before."
+
+
+def not_rebuilt(seen: Situation) -> str | None:
+    """What runs is older than what is written (mistake 24)."""
+    found = _package(seen)
+    if not found or not found[0].installed or seen.call("colcon", "build"):
+        return None
+    package, name = found
+    modules = [one.module for one in package.setup.entry_points if one.executable == name]
+    files = [module.replace(".", "/") + ".py" for module in modules]
+    edited = [one for one in files if one in found[0].installed.changed]
+    if not edited:
+        return None
+    return (
+        f"{edited[0]} has been edited since the last build, and `ros2 run` starts the copy in "
+        f"install: what you see is the old version. {_AGAIN} "
+        "With `--symlink-install`, edits count without a build."
+    )
+
+
+def last_error(text: str) -> str:
+    """Return the last line of a traceback: the error's name and text.
+
+    Args:
+        text: The output of a program.
+    """
+    lines = [
+        line
+        for line in text.splitlines()
+        if re.match(
+            r"[A-Za-z_][\w.]*(Error|Exception|"
+            r"Interrupt|Exit)\b",
+            line,
+        )
+    ]
+    return lines[-1] if lines else ""

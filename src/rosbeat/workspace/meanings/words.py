@@ -1,0 +1,71 @@
+"""Words that `colcon` or `ros2` do not know."""
+
+from __future__ import annotations
+
+import re
+
+from rosbeat.workspace.locating import nearest
+from rosbeat.workspace.meanings.situation import Situation
+
+_CHOICE = re.compile(
+    r"^(?P<program>\w+).*: error: .*invalid choice: '?(?P<word>[^'\s]+)'? "
+    r"\(choose from (?P<names>[^)]*)\)",
+    re.MULTILINE,
+)
+_UNKNOWN = re.compile(
+    r"^(?P<program>colcon|ros2).*: error: unrecognized arguments: (?P<rest>.+)$", re.MULTILINE
+)
+_MISSING = re.compile(
+    r"^(?P<program>ros2 .*): error: the following arguments are required: "
+    r"(?P<names>.+)$",
+    re.MULTILINE,
+)
+_OPTIONS = (
+    "--packages-select",
+    "--symlink-install",
+    "--packages-up-to",
+    "--event-handlers",
+    "--build-type",
+    "--dependencies",
+    "--node-name",
+    "--once",
+    "--show-types",
+)
+
+
+def unknown_word(seen: Situation) -> str | None:
+    """A verb that does not exist, with the nearest that does."""
+    found = _CHOICE.search(seen.text)
+    if not found:
+        return None
+    names = re.findall(r"[\w-]+", found["names"])
+    meant = nearest(found["word"], names)
+    hint = f"Did you mean `{meant}`?" if meant else f"It knows: {', '.join(names)}."
+    return f"`{found['program']}` does not know the word `{found['word']}`. {hint}"
+
+
+def unknown_option(seen: Situation) -> str | None:
+    """An option that does not exist, with the nearest that does."""
+    found = _UNKNOWN.search(seen.text)
+    if not found:
+        return None
+    word = found["rest"].split()[0]
+    meant = nearest(word.split("=")[0], list(_OPTIONS)) if word.startswith("-") else None
+    hint = (
+        f"Did you mean `{meant}`?" if meant else f"`{found['program']} --help` lists what it takes."
+    )
+    return f"`{found['program']}` cannot do anything with `{word}`. {hint}"
+
+
+def missing_word(seen: Situation) -> str | None:
+    """Something that `ros2` needs was left out."""
+    found = _MISSING.search(seen.text)
+    if not found:
+        return None
+    if found["program"] == "ros2 pkg create":
+        return (
+            "The name of the package is missing, or an option before it has taken it: "
+            "`--dependencies` takes every word behind it. Put the name first."
+        )
+    names = found["names"].removesuffix(", argv").replace("_", " ")
+    return f"`{found['program']}` needs something more behind it: {names}."

@@ -1,0 +1,224 @@
+"""What each page leaves in the workspace, and how it is made if it is missing.
+
+A stage returns what it made, or an empty text. It never changes what a learner has made; where that
+stands in the way it raises `InTheWay`, which says what to do.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from importlib.resources import files
+from pathlib import Path
+
+from rosbeat.workspace.commands import run_command
+from rosbeat.workspace.manifest import parse_manifest
+from rosbeat.workspace.packages import find_packages, read_package
+from rosbeat.workspace.saving import save
+
+PACKAGE = "sensor_simulator"
+FOLDERS = ("src", "docs", "scripts", "resources/images")
+NODES = ("temperature_publisher", "temperature_subscriber")
+_CREATE = (
+    *("ros2", "pkg", "create", "--build-type", "ament_python", PACKAGE),
+    *("--dependencies", "rclpy", "std_msgs"),
+)
+_MAKING, _BUILDING = 120.0, 300.0
+
+
+class InTheWay(Exception):  # noqa: N818 - not an error: something to tell
+    """Something of the learner's stands where a stage would make something."""
+
+
+def finished(path: str) -> str:
+    """Return a file of the finished package.
+
+    Args:
+        path: Its path in the package.
+    """
+    return (files("rosbeat.workspace") / "finished" / path).read_text(encoding="utf-8")
+
+
+def folders(root: Path) -> str:
+    """Make the folders of page 01."""
+    missing = [one for one in FOLDERS if not (root / one).is_dir()]
+    for one in missing:
+        if (root / one).exists():
+            raise InTheWay(f"{one} is a file, and it has to be a folder. Rename the file.")
+        (root / one).mkdir(parents=True)
+    plural = "s" if len(missing) > 1 else ""
+    return f"the folder{plural} {_listed(missing)} (page 01)" if missing else ""
+
+
+def package(root: Path) -> str:
+    """Make the package of page 02 with `ros2 pkg create`, in one step."""
+    folder = root / "src" / PACKAGE
+    _check_place(folder, root)
+    if (folder / "package.xml").is_file():
+        return ""
+    with tempfile.TemporaryDirectory(prefix=".making-", dir=root) as name:
+        code, output = run_command(_CREATE, Path(name), _MAKING)
+        if code:
+            raise InTheWay(f"`ros2 pkg create` did not work: {_last_line(output)}")
+        _fill_in(Path(name) / PACKAGE)
+        (Path(name) / PACKAGE).rename(folder)
+    return f"the package {PACKAGE} (page 02)"
+
+
+def _check_place(folder: Path, root: Path) -> None:
+    """Say what is wrong with a package that is half made, or lies elsewhere."""
+    others = [
+        one
+        for one in find_packages(root)
+        if one != folder and read_package(one, root).name == PACKAGE
+    ]
+    nested = folder / PACKAGE
+    if (nested / "package.xml").is_file():
+        others.append(nested)
+    if others:
+        place = others[0].relative_to(root)
+        raise InTheWay(_elsewhere(place.as_posix(), folder.exists()))
+    if folder.is_dir() and not (folder / "package.xml").is_file():
+        raise InTheWay(_half_made(folder))
+    if folder.exists() and not folder.is_dir():
+        raise InTheWay(f"src/{PACKAGE} is a file where the package would be. Rename it.")
+    _check_kind(folder, root)
+
+
+def _check_kind(folder: Path, root: Path) -> None:
+    """Say so if the package is not one for Python, or its manifest cannot be read."""
+    if not folder.is_dir():
+        return
+    manifest = read_package(folder, root).manifest
+    if manifest.problem:
+        raise InTheWay(f"src/{PACKAGE}/package.xml cannot be read: {manifest.problem}.")
+    if manifest.build_type != "ament_python":
+        raise InTheWay(
+            f"the package {PACKAGE} has the build type {manifest.build_type or '(none)'}: it was "
+            f"made without `--build-type ament_python`. Move it out of the workspace with "
+            f"`mv src/{PACKAGE} ~/{PACKAGE}-old`, then make it again with the whole command."
+        )
+
+
+def _elsewhere(place: str, twice: bool) -> str:
+    if twice:
+        return (
+            f"there is a second package {PACKAGE} in {place}, and colcon builds neither of two. "
+            f"Keep one, in src, and move the other one out of the workspace."
+        )
+    return (
+        f"the package {PACKAGE} lies in {place}, and it belongs into src. "
+        f"Move it there: `mv {place} src/` in the workspace."
+    )
+
+
+def _half_made(folder: Path) -> str:
+    if any(folder.iterdir()):
+        return (
+            f"the folder src/{PACKAGE} has no package.xml, so it is no package. Rename it, "
+            f"then run this cell again and move your files over."
+        )
+    return (
+        f"the folder src/{PACKAGE} is there and empty, so `ros2 pkg create` would refuse. "
+        f"Remove it with `rmdir src/{PACKAGE}`, then run this cell again."
+    )
+
+
+def _fill_in(folder: Path) -> None:
+    """Put description and license in place of the two TODOs."""
+    manifest = read_package(folder, folder.parent).manifest
+    wanted = _finished_manifest_texts()
+    for name in ("package.xml", "setup.py"):
+        path = folder / name
+        text = path.read_text(encoding="utf-8")
+        for old, new in zip((manifest.description, manifest.license), wanted, strict=True):
+            text = text.replace(old, new)
+        path.write_text(text, encoding="utf-8")
+
+
+def _finished_manifest_texts() -> tuple[str, str]:
+    manifest = parse_manifest(finished("package.xml").encode())
+    return manifest.description, manifest.license
+
+
+def node(name: str, page: str) -> Callable[[Path], str]:
+    """Return the stage that makes the file of one node."""
+
+    def stage(root: Path) -> str:
+        path = f"src/{PACKAGE}/{PACKAGE}/{name}.py"
+        if (root / path).exists():
+            return ""
+        save(path, finished(f"{PACKAGE}/{name}.py"), root)
+        return f"{PACKAGE}/{name}.py (page {page})"
+
+    return stage
+
+
+def entry_points(root: Path) -> str:
+    """Put the entry points of page 05 into a `setup.py` that has none yet."""
+    setup = read_package(root / "src" / PACKAGE, root).setup
+    if setup.problem:
+        raise InTheWay(
+            f"src/{PACKAGE}/setup.py cannot be read: {setup.problem} "
+            f"(line {setup.line}). Page 05 goes through it line by line."
+        )
+    missing = sorted(set(NODES) - {one.executable for one in setup.entry_points})
+    if not missing:
+        return ""
+    if setup.entry_points or not setup.end_of_scripts:
+        raise InTheWay(
+            f"src/{PACKAGE}/setup.py has no entry point for {_listed(missing)}. "
+            "The file is yours, so it stays as it is; page 05 shows the line."
+        )
+    path = f"src/{PACKAGE}/setup.py"
+    save(path, _with_scripts((root / path).read_text(encoding="utf-8"), setup.end_of_scripts), root)
+    return "the entry points in setup.py (page 05)"
+
+
+def _with_scripts(text: str, end: int) -> str:
+    """A build script with both entry points before the bracket that closes their empty list."""
+    lines = text.splitlines(keepends=True)
+    before, bracket, after = lines[end - 1].rpartition("]")
+    scripts = "".join(f"            '{one} = {PACKAGE}.{one}:main',\n" for one in NODES)
+    opened = before if before.rstrip().endswith("[") else ""
+    start = f"{opened.rstrip()}\n" if opened else ""
+    indent = " " * 8
+    return "".join([*lines[: end - 1], start, scripts, indent, bracket, after, *lines[end:]])
+
+
+def build(root: Path) -> str:
+    """Build the package, as page 06 does, if it never was built with both nodes."""
+    installed = read_package(root / "src" / PACKAGE, root).installed
+    if installed and set(NODES) <= set(installed.executables):
+        return ""
+    print("Building the package with colcon; this takes some seconds ...", flush=True)
+    command = ("colcon", "build", "--packages-select", PACKAGE)
+    code, output = run_command(command, root, _BUILDING)
+    if code:
+        raise InTheWay(
+            f"`colcon build` did not work: {_last_line(output)}. "
+            "Run it in a terminal to see everything that it says."
+        )
+    return "the build (page 06)"
+
+
+def _last_line(output: str) -> str:
+    """The line that says most: the last one that names an error, or the last one."""
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    errors = [line for line in lines if "rror" in line and len(line) < 300]
+    return next(reversed(errors or lines), "it said nothing").rstrip(".")
+
+
+def _listed(names: list[str]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+#: The page that makes something, and the stage that makes it, in order.
+STAGES: tuple[tuple[str, Callable[[Path], str]], ...] = (
+    ("01", folders),
+    ("02", package),
+    ("03", node(NODES[0], "03")),
+    ("04", node(NODES[1], "04")),
+    ("05", entry_points),
+    ("06", build),
+)

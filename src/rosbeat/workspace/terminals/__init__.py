@@ -1,0 +1,6 @@
+"""Terminals in a page: a real bash on a pseudo-terminal, typed into by cells."""
+
+from rosbeat.workspace.terminals.registry import Terminals, terminal, terminals_of
+from rosbeat.workspace.terminals.terminal import Terminal
+
+__all__ = ["Terminal", "Terminals", "terminal", "terminals_of"]

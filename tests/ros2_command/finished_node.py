@@ -1,0 +1,40 @@
+"""A node with an ending that holds at any moment, for tests of signals.
+
+Publishes on `temperature` each tenth of a second, and says so.
+"""
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+
+class TemperatureSensor(Node):
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.publisher = self.create_publisher(Float32, "temperature", 10)
+        self.timer = self.create_timer(0.1, self.publish_temperature)
+
+    def publish_temperature(self):
+        self.publisher.publish(Float32(data=22.0))
+        print("published", flush=True)
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = TemperatureSensor()
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    except RuntimeError:
+        # SIGTERM shuts ROS down in a thread of its own. What a callback or `spin` does just then,
+        # such as publish, fails with an RCLError, which is a RuntimeError.
+        if rclpy.ok():
+            raise
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,82 @@
+"""Page 01: right, differently right and wrong; each judge is a pure function of what was seen."""
+
+import pytest
+
+from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.looking import TypedIn, Workspace
+from rosbeat.exercises.page_01 import EXERCISES
+
+FOLDERS = ("docs", "resources", "resources/images", "scripts", "src")
+folder_01a, way_01b = EXERCISES
+
+
+def judged_folders(*more):
+    return folder_01a.judged(Workspace(tuple(sorted((*FOLDERS, *more))), {}))
+
+
+def judged_way(folder, *typed):
+    place = "ROS2_and_RL_Tutorials/resources/images"
+    commands = tuple((place, command) for command in typed)
+    return way_01b.judged(TypedIn(folder, commands, 0, frozenset(), ""))
+
+
+@pytest.mark.parametrize("more", [(), ("resources/sounds",), ("src/other", "resources/sounds")])
+def test_the_folder_is_there_however_it_was_made(more):
+    assert judged_folders("resources/sounds/alarm", *more).status == PASSED
+
+
+def test_nothing_of_the_folder_is_nothing_tried():
+    assert judged_folders().status == NOT_ATTEMPTED
+
+
+@pytest.mark.parametrize(
+    ("made", "hint"),
+    [
+        ("resources/sounds", "outer/inner"),
+        ("sounds/alarm", "pwd"),
+        ("alarm", "pwd"),
+        ("resources/Sounds/Alarm", "capital"),
+        ("src/resources/sounds/alarm", "pwd"),
+    ],
+)
+def test_a_folder_near_by_says_what_is_missing(made, hint):
+    outcome = judged_folders(made)
+    assert outcome.status == FAILED
+    assert made in outcome.evidence
+    assert hint in outcome.hint
+
+
+@pytest.mark.parametrize(
+    "typed", ["cd ../../src", "cd ../..//src", "cd ../../src/", "pushd ../../src"]
+)
+def test_the_way_is_relative(typed):
+    assert judged_way("src", typed).status == PASSED
+
+
+@pytest.mark.parametrize(
+    "typed", ["cd ~/ROS2_and_RL_Tutorials/src", "cd /home/you/ROS2_and_RL_Tutorials/src"]
+)
+def test_an_absolute_path_is_not_what_was_asked(typed):
+    outcome = judged_way("src", typed)
+    assert outcome.status == FAILED
+    assert "absolute" in outcome.evidence
+
+
+def test_who_has_not_moved_has_not_tried():
+    assert judged_way("resources/images").status == NOT_ATTEMPTED
+    assert judged_way("resources/images", "pwd").status == NOT_ATTEMPTED
+
+
+@pytest.mark.parametrize(
+    ("folder", "typed"),
+    [
+        ("resources/images", "cd src"),
+        ("resources", "cd .."),
+        ("/", "cd /"),
+        ("docs", "cd ../../docs"),
+    ],
+)
+def test_another_place_is_named(folder, typed):
+    outcome = judged_way(folder, typed)
+    assert outcome.status == FAILED
+    assert folder in outcome.evidence

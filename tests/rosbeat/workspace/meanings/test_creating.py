@@ -1,0 +1,58 @@
+import shutil
+
+CREATE = "ros2 pkg create --build-type ament_python sensor_simulator --dependencies rclpy std_msgs"
+EXISTS = """
+Aborted!
+The directory already exists: ./sensor_simulator
+Either remove the directory or choose a different destination directory or package name
+"""
+LEFT_OUT = """Build type 'ament_cmake' is left out here: this `ros2` makes Python packages.
+Try:  ros2 pkg create --build-type ament_python sensor_simulator
+"""
+
+
+def cmake(package):
+    path = package / "package.xml"
+    path.write_text(path.read_text().replace("ament_python", "ament_cmake"))
+
+
+def test_it_is_there_already(meaning, root, package):
+    assert "Nothing was changed" in meaning(CREATE, EXISTS, 1, root / "src")
+    assert meaning("cat log.txt", EXISTS, 0) is None
+
+
+def test_the_build_type_is_forgotten(meaning, root):
+    said = meaning("ros2 pkg create sensor_simulator", LEFT_OUT, 1, root / "src")
+    assert "--build-type ament_python" in said
+
+
+def test_the_build_type_is_forgotten_and_a_package_for_cpp_was_made(meaning, root, package):
+    cmake(package)
+    said = meaning("ros2 pkg create sensor_simulator", "going to create ...", 0, root / "src")
+    assert "CMakeLists.txt" in said
+
+
+def test_a_package_for_cpp_on_purpose(meaning, root, package):
+    cmake(package)
+    command = "ros2 pkg create --build-type ament_cmake sensor_simulator"
+    assert meaning(command, "going to create ...", 0, root / "src") is None
+
+
+def test_the_right_folder(meaning, root, package):
+    assert meaning(CREATE, "going to create ...", 0, root / "src") is None
+    assert meaning(f"cd src && {CREATE}", "going to create ...", 0, root) is None
+    assert meaning(f"cd src\n{CREATE}", "going to create ...", 0, root / "src") is None
+
+
+def test_the_wrong_folder(meaning, root, package):
+    shutil.move(package, root)
+    said = meaning(CREATE, "going to create ...", 0, root)
+    assert "mv sensor_simulator src/" in said
+
+
+def test_a_name_that_python_cannot_import(meaning, root):
+    output = (
+        "Aborted! 'sensor-simulator' cannot be the name of a package: Python reads '-' as minus."
+    )
+    command = "ros2 pkg create --build-type ament_python sensor-simulator"
+    assert "small letters" in meaning(command, output, 1, root / "src")

@@ -1,0 +1,52 @@
+import pytest
+
+RUN = "ros2 run sensor_simulator temperature_publisher"
+
+
+@pytest.mark.parametrize(
+    ("last", "text"),
+    [
+        ("AssertionError: The 'data' field must be of type 'float'", "a float"),
+        ("TypeError: Expected <class 'std_msgs.msg._float32.Float32'>, got <class 'float'>",
+         "msg = Float32()"),
+        ("TypeError: Expected <class 'std_msgs.msg._float32.Float32'>, got "
+         "<class 'std_msgs.msg._float32.Metaclass_Float32'>", "Float32()"),
+        ("AttributeError: 'Float32' object has no attribute 'value'", "value"),
+        ("TypeError: Node.create_publisher() missing 1 required positional argument: "
+         "'qos_profile'", "queue depth"),
+        ("TypeError: rclpy_resolve_name(): incompatible function arguments. The ...", "order"),
+        ("AttributeError: type object 'type' has no attribute '_TYPE_SUPPORT' This might be a "
+         "ROS 1 message type", "Import the class"),
+        ("RuntimeError: Subscription.__init__(): callback should be either be callable with one "
+         "argument", "without brackets"),
+        ("AttributeError: 'TemperatureSensor' object has no attribute '_default_callback_group'",
+         "first line"),
+        ("TypeError: Node.__init__() missing 1 required positional argument: 'node_name'", "name"),
+        ("rclpy.exceptions.InvalidNodeNameException: Invalid node name: ...", "digits"),
+        ("rclpy.exceptions.NotInitializedException: ('rclpy.init() has not been called', ...)",
+         "first node"),
+        ("RuntimeError: Context.init() must only be called once", "twice"),
+        ("TypeError: 'NoneType' object does not support the context manager protocol", "`with`"),
+        ("NameError: name 'TemperaturSensor' is not defined. Did you mean: 'TemperatureSensor'?",
+         "Nothing is called TemperaturSensor"),
+    ],
+)  # fmt: skip
+def test_the_texts_of_rclpy(meaning, last, text):
+    output = f"Traceback (most recent call last):\n  File x\n{last}\n[ros2run]: Process exited\n"
+    assert text in meaning(RUN, output)
+
+
+def test_the_wrong_python(meaning):
+    output = "Traceback (most recent call last):\nModuleNotFoundError: No module named 'rclpy'\n"
+    assert "which python3" in meaning("python3 a.py", output)
+
+
+@pytest.mark.parametrize(
+    "last", ["ValueError: invalid literal", "TypeError: 'NoneType' object is not iterable", ""]
+)
+def test_others_are_left_alone(meaning, last):
+    assert meaning(RUN, f"Traceback (most recent call last):\n{last}\n") is None
+
+
+def test_without_a_traceback_nothing_is_meant(meaning):
+    assert meaning(RUN, "[INFO] [a]: NameError: name 'x' is not defined\n", 0) is None

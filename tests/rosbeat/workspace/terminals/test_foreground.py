@@ -1,0 +1,30 @@
+import os
+import subprocess
+
+import pytest
+
+from rosbeat.workspace.terminals.foreground import group, would_have_ended
+
+
+@pytest.mark.parametrize(
+    ("trap", "ends"), [("true", True), ("trap 'echo' INT", False), ("trap '' INT", False)]
+)
+def test_a_program_that_handles_interrupts_is_known(trap, ends):
+    command = ["bash", "-c", f"{trap}; echo ready; read"]
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True
+    ) as process:
+        assert process.stdout.readline() == b"ready\n"
+        assert would_have_ended(process.pid) == ends
+        process.kill()
+
+
+def test_a_program_that_is_gone_is_not_known():
+    assert not would_have_ended(2**22 + 1)
+
+
+def test_a_file_has_no_foreground():
+    reading, writing = os.pipe()
+    assert group(reading) == 0
+    os.close(reading)
+    os.close(writing)

@@ -1,0 +1,83 @@
+import pytest
+
+from rosbeat.workspace.setup_script import SetupScript, read_setup
+from rosbeat.workspace.stages import finished
+
+HEAD = "from setuptools import setup\npackage_name = 'p'\nsetup(name=package_name, entry_points={\n"
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read(text):
+        path = tmp_path / "setup.py"
+        path.write_text(text)
+        return read_setup(path)
+
+    return read
+
+
+def scripts(*lines):
+    return HEAD + "'console_scripts': [\n" + "\n".join(lines) + "\n]})\n"
+
+
+def test_the_finished_one(read):
+    setup = read(finished("setup.py"))
+    assert setup.package_name == "sensor_simulator"
+    names = [one.executable for one in setup.entry_points]
+    assert names == ["temperature_publisher", "temperature_subscriber"]
+    first = setup.entry_points[0]
+    assert (first.module, first.function) == ("sensor_simulator.temperature_publisher", "main")
+    line = finished("setup.py").splitlines()[first.line - 1]
+    assert first.text in line
+    assert "]" in finished("setup.py").splitlines()[setup.end_of_scripts - 1]
+
+
+def test_a_missing_comma_joins_two(read):
+    setup = read(scripts("'a = p.a:main'", "'b = p.b:main',"))
+    (joined,) = setup.entry_points
+    assert joined.joined
+    assert joined.line == 5
+
+
+def test_one_text_in_two_parts_is_no_missing_comma(read):
+    (one,) = read(scripts("'a = '", "'p.a:main',")).entry_points
+    assert not one.joined
+    assert one.module == "p.a"
+
+
+@pytest.mark.parametrize(
+    "text", ["f'a = {package_name}.a:main'", "'a = ' + package_name + '.a:main'"]
+)
+def test_texts_that_are_put_together(read, text):
+    assert read(scripts(text)).entry_points[0].module == "p.a"
+
+
+def test_a_part_is_absent(read):
+    (one, two) = read(scripts("'a = p.a',", "'b',")).entry_points
+    assert (one.module, one.function) == ("p.a", "")
+    assert (two.executable, two.module) == ("b", "")
+
+
+@pytest.mark.parametrize(
+    "rest", ["})", "'other': []})", "'console_scripts': names()})", "**more})"]
+)
+def test_no_list_of_scripts(read, rest):
+    setup = read(HEAD + rest)
+    assert setup.entry_points == ()
+    assert setup.end_of_scripts == 0
+    assert setup.problem == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [(HEAD, 3), ("x = 'a\n", 1), ("x = 1\n", 0), ("", 0), ("\0", 0), ("(" * 500, 1)],
+)
+def test_a_bad_one_has_a_problem(read, text, line):
+    setup = read(text)
+    assert setup.problem
+    assert setup.line in (line, 0) or text.startswith("(")
+    assert setup == SetupScript(problem=setup.problem, line=setup.line)
+
+
+def test_it_is_never_run(read):
+    assert read("raise SystemExit(3)\n" + scripts("'a = p.a:main'")).entry_points
