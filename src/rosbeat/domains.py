@@ -8,7 +8,9 @@ above 101 the ports of DDS reach into those that Linux hands out by itself
 Whoever holds an id also holds the TCP port with the number of that domain's UDP discovery port,
 7400 + 250 * id (RTPS specification, section 9.6.1). The operating system gives a port to one
 process only, in the same network namespace that DDS traffic stays in, and takes it back when the
-process ends, however it ends.
+process ends, however it ends. A node that outlives the process that held the id still speaks in
+that domain, so an id is given out only while the UDP port of a domain's first participant, 7410 +
+250 * id, is free.
 """
 
 from __future__ import annotations
@@ -42,10 +44,16 @@ def _try_lock(domain_id: int) -> socket.socket | None:
     lock = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
         lock.bind(("127.0.0.1", 7400 + 250 * domain_id))
+        _require_silence(domain_id)
     except OSError:
         lock.close()
         return None
     return lock
+
+
+def _require_silence(domain_id: int) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("", 7410 + 250 * domain_id))
 
 
 def lease_domain(ids: range = PRIVATE_IDS) -> DomainLease:

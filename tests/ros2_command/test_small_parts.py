@@ -8,6 +8,7 @@ from ros2_command.graph import SAME_LOOKS, Graph
 from ros2_command.local_processes import count_participants
 from ros2_command.names import check_name, full_name, is_hidden
 from ros2_command.nearest import nearest
+from ros2_command.numbering import has_gaps
 from ros2_command.parameters import nested
 from ros2_command.verbs.doctor import Finding, report, summarize
 from ros2_command.verbs.node.info import show
@@ -120,6 +121,9 @@ class ToldGraph(Graph):
     def _is_complete(self):
         return self._complete
 
+    def _has_no_gaps(self, since):
+        return True
+
 
 def test_a_graph_is_believed_when_it_stays_the_same(monkeypatch):
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
@@ -136,3 +140,14 @@ def test_a_missing_process_is_waited_for_while_there_is_news(monkeypatch):
     assert graph.age > 40 * 0.02 + 0.3
     monkeypatch.setattr("ros2_command.graph.AT_MOST", 0.1)
     assert ToldGraph([*range(1000)], False).settle().count < 1000
+
+
+def test_gaps_in_the_numbers_of_endpoints():
+    def address(process, number, kind=3):
+        return bytes([process] * 12) + number.to_bytes(3, "big") + bytes([kind])
+
+    whole = [address(1, 1), address(1, 2, 4), address(1, 3), address(2, 1)]
+    assert not has_gaps(whole)
+    assert has_gaps(whole[1:])
+    assert has_gaps([*whole, address(2, 3)])
+    assert not has_gaps([])

@@ -94,3 +94,12 @@ def test_a_process_that_crashes_gives_its_id_back(eventually):
 def test_a_chosen_domain_needs_no_lease():
     with Session(domain_id=49) as one, Session(domain_id=49) as two:
         assert one.domain_id == two.domain_id == 49
+
+
+def test_an_id_in_which_somebody_still_speaks_is_not_given_out():
+    lease = lease_domain()
+    number = lease.domain_id
+    lease.release()
+    with Session(domain_id=number), pytest.raises(DomainsExhaustedError):
+        lease_domain(range(number, number + 1))
+    lease_domain(range(number, number + 1)).release()

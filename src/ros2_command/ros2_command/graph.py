@@ -14,6 +14,7 @@ from typing import Any, NoReturn
 from ros2_command.errors import CommandError
 from ros2_command.local_processes import count_participants, domain_id, only_this_machine
 from ros2_command.names import full_name, is_hidden
+from ros2_command.numbering import PROCESS, has_gaps
 from ros2_command.untyped import Untyped
 
 PROFILE_VARIABLE = "FASTRTPS_DEFAULT_PROFILES_FILE"
@@ -28,6 +29,8 @@ OTHER_MACHINES = 0.25
 #: longer, whoever is missing has stopped. While there is news, a busy machine is waited for.
 NO_NEWS = 4.0
 AT_MOST = 20.0
+#: Endpoints whose numbers are missing may be late, or were destroyed; this is how late they may be.
+GAPS_FOR = 1.0
 _LOOK_EVERY = 0.02
 
 
@@ -123,7 +126,8 @@ class Graph:
             if now != last:
                 last, since, same = now, time.monotonic(), 0
             same += 1
-            if same >= SAME_LOOKS and self.age >= at_least and self._is_complete():
+            enough_looks = same >= SAME_LOOKS and self.age >= at_least
+            if enough_looks and self._is_complete() and self._has_no_gaps(since):
                 break
             time.sleep(_LOOK_EVERY)
         return self
@@ -155,6 +159,18 @@ class Graph:
                 named.add(_process(one))
         return seen <= named
 
+    def _has_no_gaps(self, since: float) -> bool:
+        """Whether no endpoint is known to be missing, or was missing for too long to come."""
+        return time.monotonic() - since >= GAPS_FOR or not has_gaps(
+            bytes(one.endpoint_gid)
+            for name, _ in self.node.get_topic_names_and_types(no_demangle=True)
+            for ask in (
+                self.node.get_publishers_info_by_topic,
+                self.node.get_subscriptions_info_by_topic,
+            )
+            for one in ask(name, True)
+        )
+
     def topics(self) -> list[tuple[str, list[str]]]:
         """Every topic with its types, sorted."""
         return sorted(self.node.get_topic_names_and_types())
@@ -184,7 +200,7 @@ class Graph:
 
 def _process(endpoint: Untyped) -> bytes:
     """The part of an endpoint's address that all endpoints of a process have in common."""
-    return bytes(endpoint.endpoint_gid[:12])
+    return bytes(endpoint.endpoint_gid[PROCESS])
 
 
 @contextmanager

@@ -41,6 +41,7 @@ _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 _TOUCHES_PROMPT = re.compile(r"PS[12]|PROMPT_COMMAND|\b(exec|source|eval|unset)\b|(^|[;&|\s])\.\s")
 _TOUCHES_ECHO = re.compile(r"\b(stty|reset|tset)\b")
 _LONGEST_LINE = 4095
+_BLANK = re.compile(r"(?<!\w)____(?!\w)")
 
 
 class Commands:
@@ -77,6 +78,10 @@ class Commands:
     def run(self, cell: str, goal: Goal, show: Show) -> None:
         """Type the lines of a cell; see `Terminal.type`."""
         lines = _lines(cell)
+        blank = _line_with_blank(lines)
+        if blank:
+            show(f"(nothing was typed: there is still a blank, ____, in line {blank})")
+            return
         self._make_way(cell, show)
         self._cell = cell
         with told(self._interrupted):
@@ -101,9 +106,18 @@ class Commands:
             ending = self._follow(goal, Display(show), self._place)
             self._conclude(ending, goal, show, looking=True)
 
-    def press(self, key: str, shown: str, timeout: float, show: Show) -> int | None:
-        """Press a key that ends the program; see `Terminal.ctrl_c`."""
-        return self._end_program(lambda: self._shell.answer(key, shown), shown, timeout, show)
+    def ctrl_c(self, timeout: float, show: Show) -> int | None:
+        """Press Ctrl+C; see `Terminal.ctrl_c`."""
+
+        def act() -> None:
+            self._shell.note("^C")
+            self._shell.interrupt()
+
+        return self._end_program(act, "^C", timeout, show)
+
+    def ctrl_d(self, timeout: float, show: Show) -> int | None:
+        """Press Ctrl+D; see `Terminal.ctrl_d`."""
+        return self._end_program(lambda: self._shell.answer("\x04", "^D"), "^D", timeout, show)
 
     def kill(self, timeout: float, show: Show) -> int | None:
         """Kill the program; see `Terminal.kill`."""
@@ -124,7 +138,7 @@ class Commands:
         if not again:
             raise refusals.busy(self._name, self.command)
         show(f"(`{refusals.short(self.command)}` of this cell still runs, and is stopped first)")
-        self.press("\x03", "^C", _STOPS_WITHIN, lambda _: None)
+        self.ctrl_c(_STOPS_WITHIN, lambda _: None)
 
     def _run_lines(self, lines: list[str], goal: Goal, show: Show) -> None:
         display = Display(show)
@@ -171,7 +185,9 @@ class Commands:
         """Say how the command ended, or that it did not."""
         if ending == FINISHED:
             self._finish(show)
-            if goal.until is not None and self._shell.state != UNFINISHED:
+            # A command that failed has said so; who waits for more of it is told as well.
+            said_so = bool(self._shell.code) and not looking
+            if goal.until is not None and self._shell.state != UNFINISHED and not said_so:
                 raise self.not_seen(goal, None)
             return
         partial = self._shell.glance(self._shell.end).partial
@@ -244,9 +260,11 @@ class Commands:
                 return True
             if left <= 0:
                 return False
-            if key == "^C" and self._shell.missed(before):
+            if not self._shell.begun:
+                self._shell.nudge()
+            elif key == "^C" and self._shell.missed(before):
                 before = self._shell.in_front()
-                self._shell.write("\x03")
+                self._shell.interrupt()
 
     def _drop(self) -> None:
         """Leave an unfinished command."""
@@ -284,6 +302,11 @@ class Commands:
         if goal.timeout is not None:
             return goal.timeout
         return BUILD_PATIENCE if self.command.split()[:1] == ["colcon"] else PATIENCE
+
+
+def _line_with_blank(lines: list[str]) -> int:
+    """Return the line of a cell, its magic counted, in which something is to be filled in; or 0."""
+    return next((number for number, line in enumerate(lines, 2) if _BLANK.search(line)), 0)
 
 
 def _lines(cell: str) -> list[str]:

@@ -29,6 +29,7 @@ _STARTS_WITHIN = 20.0
 _TAKES_WITHIN = 20.0
 # Seconds between two looks whether the shell still lives.
 _LOOK_EVERY = 0.25
+_NUDGE_AFTER = 0.2
 # A program that prints without end is slowed down, so that it leaves the page some of the machine.
 _FLOOD, _PAUSE = 65_536, 0.01
 
@@ -150,15 +151,31 @@ class Shell:
 
     def answer(self, keys: str, shown: str) -> None:
         """Type into the running program; what it asks is completed by what is typed."""
+        self.note(shown)
+        self.write(keys)
+
+    def note(self, shown: str) -> None:
+        """Show what is typed into the running program, behind what it asks."""
         with self._changed:
             line = (self._builder.finish() or self._question()) + shown
             self._history.add(self._polish(line), time.time_ns(), typed=True)
-        self.write(keys)
 
     def leave_unfinished(self) -> None:
         """Press Ctrl+C in the middle of a command."""
-        self.write("\x03")
-        self.wait(lambda: self.state in (READY, ENDED), _TAKES_WITHIN)
+        self.interrupt()
+        deadline = time.monotonic() + _TAKES_WITHIN
+        while not self.wait(lambda: self.state in (READY, ENDED), _NUDGE_AFTER):
+            if time.monotonic() > deadline:
+                return
+            self.nudge()
+
+    def nudge(self) -> None:
+        """Wake a prompt that has overheard Ctrl+C.
+
+        Once in about a thousand times the signal comes just before readline begins to read, and is
+        noticed when the next letter is typed. Ctrl+U takes the letter away if there was no signal.
+        """
+        self.write("x\x15")
 
     def break_line(self) -> None:
         """Take the beginning of a line for a line of its own."""
@@ -218,11 +235,25 @@ class Shell:
         now = self.in_front()
         return self.state == BUSY and now > 0 and (now != before or would_have_ended(now))
 
+    def interrupt(self) -> None:
+        """Do what Ctrl+C does.
+
+        The key itself makes the terminal throw away what is on its way, after the signal: output
+        would be lost now and then, our mark among it. Only a program that wants keys gets the key.
+        """
+        if self._local_modes() & termios.ISIG:
+            self._signal(signal.SIGINT)
+        else:
+            self.write("\x03")
+
     def kill(self) -> None:
         """Kill the program in the foreground; the shell itself if it is that."""
+        self._signal(signal.SIGKILL)
+
+    def _signal(self, number: int) -> None:
         with self._changed, suppress(OSError):
             if self.state != ENDED:
-                os.killpg(os.tcgetpgrp(self._process.fd), signal.SIGKILL)
+                os.killpg(os.tcgetpgrp(self._process.fd), number)
 
     def hang_up(self) -> None:
         """Kill the shell, whose programs are expected to be gone, and wait for its end."""

@@ -157,7 +157,7 @@ class Terminal:
         Raises:
             TerminalError: If the program still runs then.
         """
-        return self._commands.press("\x03", "^C", timeout, show)
+        return self._commands.ctrl_c(timeout, show)
 
     def ctrl_d(self, *, timeout: float = 10.0, show: Show = print) -> int | None:
         """Press Ctrl+D, which tells the program that its input is over; as `ctrl_c`.
@@ -169,7 +169,7 @@ class Terminal:
         Raises:
             TerminalError: If the program still runs then.
         """
-        return self._commands.press("\x04", "^D", timeout, show)
+        return self._commands.ctrl_d(timeout, show)
 
     def kill(self, *, timeout: float = 10.0, show: Show = print) -> int | None:
         """Kill the program that runs, show that it ended, and return its exit code.

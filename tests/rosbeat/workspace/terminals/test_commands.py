@@ -207,3 +207,23 @@ def test_a_loop_that_outlives_its_killed_program_can_be_closed(terminal, says):
     with pytest.raises(TerminalError) as caught:
         terminal.kill(timeout=0.3, show=str)
     says(caught.value, "after it was killed", "--close")
+
+
+def test_a_cell_with_a_blank_is_not_typed_at_all(terminal, tmp_path):
+    shown = []
+    terminal.type("mkdir made\nmkdir ____", show=shown.append)
+    assert shown == ["(nothing was typed: there is still a blank, ____, in line 3)"]
+    assert not list(tmp_path.rglob("made"))
+    terminal.type("echo a____b", show=shown.append)
+    assert shown[-1] == "a____b"
+
+
+def test_a_command_that_fails_before_the_text_comes_has_said_so(terminal, says):
+    shown = []
+    terminal.type("ls nowhere", until="somewhere", show=shown.append)
+    assert "exit code 2" in shown
+    with pytest.raises(TerminalError) as caught:
+        terminal.type("echo nothing", until="somewhere", show=str)
+    says(caught.value, "before the command ended")
+    with pytest.raises(TerminalError):
+        terminal.look(until="somewhere", show=str)
