@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from course_tool import running, surroundings
-from course_tool.findings import Finding, ok, problem
+from course_tool.findings import Finding, note, ok, problem
 from course_tool.layout import Layout
 
 WORKSPACE = "ROS2_and_RL_Tutorials"
@@ -25,17 +25,16 @@ def findings(layout: Layout, clean: surroundings.Surroundings) -> list[Finding]:
 
 
 def place(layout: Layout) -> Finding:
-    """Look whether what colcon builds can start a Python in this place.
+    """Look whether what colcon builds can be started by its own name in this place.
 
-    The first line of a program cannot name an interpreter with a space in its path, and colcon's
-    own setup.bash does not quote it.
+    The first line of a program cannot name an interpreter with a space in its path. `ros2 run`
+    reads that line itself.
     """
     if len(str(layout.venv).split()) == 1:
         return ok("place", str(layout.root))
-    return problem(
+    return note(
         "place",
-        f"'{layout.root}' has a space: what colcon builds does not start here",
-        "move the checkout to a folder without one; pages that build nothing run here too",
+        f"'{layout.root}' has a space: start what colcon builds with ros2 run, not by its path",
     )
 
 

@@ -78,6 +78,7 @@ def defaults(prefix: str | None = None) -> dict[str, str]:
         "ROS_PYTHON_VERSION": "3",
         "ROS_DOMAIN_ID": str(domain_id(prefix)),
         **_files(),
+        **_plain_python(prefix or sys.prefix),
     }
 
 
@@ -133,6 +134,17 @@ def _files() -> dict[str, str]:
     """Return the settings that are files of the checkout, as far as they are there."""
     files = {_PROFILE: discovery_profile(), _COLCON: _in_checkout("environment", "colcon.yaml")}
     return {name: path for name, path in files.items() if path}
+
+
+def _plain_python(prefix: str) -> dict[str, str]:
+    """Return the Python that a workspace's setup.bash starts, if ours lies in a path with a space.
+
+    colcon writes that path into the script without quotes; any Python does for what it is to do.
+    """
+    base = str(getattr(sys, "_base_executable", "") or "")
+    if len(prefix.split()) < 2 or len(base.split()) != 1:
+        return {}
+    return {"COLCON_PYTHON_EXECUTABLE": base}
 
 
 def _in_checkout(*parts: str) -> str:

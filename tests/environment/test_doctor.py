@@ -199,8 +199,8 @@ def test_commands_that_start_and_that_do_not(made):
     assert "no such module" in found.text
 
 
-def test_a_place_with_a_space_is_no_place_for_a_workspace(layout):
-    assert commands.place(layout).state == "problem"
+def test_a_place_with_a_space_is_told(layout):
+    assert commands.place(layout).state == "note"
     assert commands.place(Layout(Path("/home/ada/course"))).state == "ok"
 
 

@@ -200,3 +200,9 @@ def test_it_can_be_loaded_from_its_file_alone():
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     assert module.defaults(PREFIX) == environment.defaults(PREFIX)
+
+
+@pytest.mark.parametrize(("prefix", "named"), [("/a b/.venv", True), ("/a/.venv", False)])
+def test_a_python_without_a_space_for_what_colcon_writes_without_quotes(prefix, named):
+    assert ("COLCON_PYTHON_EXECUTABLE" in environment.defaults(prefix)) is named
+    assert " " not in environment.defaults(prefix).get("COLCON_PYTHON_EXECUTABLE", "")

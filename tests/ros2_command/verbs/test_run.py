@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from ros2_command.verbs.run import startable
 
 NODE = f"""#!{sys.executable}
 import signal, sys
@@ -130,3 +131,19 @@ def test_a_finished_node_ends_well(ros2, graph, demo, monkeypatch, number, to):
         out, error = process.communicate(timeout=60)
     assert (process.returncode, error) == (0, "")
     assert set(out.splitlines()) <= {"published"}
+
+
+@pytest.mark.parametrize(
+    ("first_line", "words"),
+    [
+        ('#!"/a b/bin/python"', ["/a b/bin/python"]),
+        ("#!/usr/bin/env python3", []),
+        ('#!"/a b/bin/python" -E', []),
+        ('#!""', []),
+        ("", []),
+    ],
+)
+def test_a_python_in_a_folder_with_a_space_is_started_by_name(tmp_path, first_line, words):
+    script = tmp_path / "program"
+    script.write_text(f"{first_line}\nprint()\n")
+    assert startable(script) == [*words, str(script)]

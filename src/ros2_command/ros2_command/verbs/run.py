@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 from argparse import REMAINDER, ArgumentParser, Namespace
 from pathlib import Path
@@ -11,6 +12,8 @@ from ros2_command.children import run_child
 from ros2_command.errors import CommandError
 from ros2_command.nearest import did_you_mean
 from ros2_command.packages import executables, package_prefix
+
+_QUOTED_PYTHON = re.compile(rb'#!"([^"]+)"\s*$')
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -34,7 +37,18 @@ def main(args: Namespace) -> int:
         prefix = shlex.split(args.prefix or "")
     except ValueError as error:
         raise CommandError(f"--prefix {args.prefix!r} cannot be read: {error}") from None
-    return run_child([*prefix, str(path), *rest])
+    return run_child([*prefix, *startable(path), *rest])
+
+
+def startable(path: Path) -> list[str]:
+    """The words that start an executable.
+
+    A Python in a folder with a space stands in quotes on a script's first line, as setuptools
+    writes it, and Linux does not understand that.
+    """
+    with path.open("rb") as file:
+        quoted = _QUOTED_PYTHON.match(file.readline())
+    return [os.fsdecode(quoted[1]), str(path)] if quoted else [str(path)]
 
 
 def find_executable(package: str, name: str) -> Path:

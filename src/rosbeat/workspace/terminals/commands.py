@@ -110,6 +110,7 @@ class Commands:
         """Press Ctrl+C; see `Terminal.ctrl_c`."""
 
         def act() -> None:
+            self._shell.wait(lambda: self._shell.begun, _BEGINS_WITHIN)
             self._shell.note("^C")
             self._shell.interrupt()
 
@@ -260,9 +261,7 @@ class Commands:
                 return True
             if left <= 0:
                 return False
-            if not self._shell.begun:
-                self._shell.nudge()
-            elif key == "^C" and self._shell.missed(before):
+            if key == "^C" and self._shell.missed(before):
                 before = self._shell.in_front()
                 self._shell.interrupt()
 

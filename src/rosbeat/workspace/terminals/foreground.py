@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import signal
+import time
 from contextlib import suppress
 from pathlib import Path
 
@@ -27,9 +28,30 @@ def would_have_ended(pid: int) -> bool:
     Args:
         pid: The process; one that cannot be looked at may handle it.
     """
+    facts = _facts(pid)
+    masks = [facts.get(name, "") for name in ("SigCgt", "SigIgn")]
+    return all(masks) and not any(int(mask, 16) & _BIT for mask in masks)
+
+
+def sleeps_within(pid: int, seconds: float) -> bool:
+    """Wait until a process sleeps; return whether it does.
+
+    Args:
+        pid: The process; one that cannot be looked at is taken to sleep.
+        seconds: How long to wait.
+    """
+    deadline = time.monotonic() + seconds
+    while not _facts(pid).get("State", "S").startswith("S"):
+        if time.monotonic() > deadline:
+            return False
+        time.sleep(0.001)
+    return True
+
+
+def _facts(pid: int) -> dict[str, str]:
+    """Return what Linux says about a process; nothing elsewhere, or if it is gone."""
     try:
         status = Path(f"/proc/{pid}/status").read_text()
-        masks = dict(line.split(":\t", 1) for line in status.splitlines() if ":\t" in line)
-        return not any(int(masks[name], 16) & _BIT for name in ("SigCgt", "SigIgn"))
-    except (OSError, KeyError, ValueError):
-        return False
+    except OSError:
+        return {}
+    return dict(line.split(":\t", 1) for line in status.splitlines() if ":\t" in line)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rosbeat.errors import TerminalError
-from rosbeat.workspace.terminals.foreground import group, would_have_ended
+from rosbeat.workspace.terminals.foreground import group, sleeps_within, would_have_ended
 from rosbeat.workspace.terminals.history import History, Line
 from rosbeat.workspace.terminals.lines import LineBuilder
 from rosbeat.workspace.terminals.marks import PROMPT, RUN, Mark, MarkScanner
@@ -29,7 +29,7 @@ _STARTS_WITHIN = 20.0
 _TAKES_WITHIN = 20.0
 # Seconds between two looks whether the shell still lives.
 _LOOK_EVERY = 0.25
-_NUDGE_AFTER = 0.2
+_ASLEEP_WITHIN, _AGAIN_AFTER = 2.0, 5.0
 # A program that prints without end is slowed down, so that it leaves the page some of the machine.
 _FLOOD, _PAUSE = 65_536, 0.01
 
@@ -161,21 +161,16 @@ class Shell:
             self._history.add(self._polish(line), time.time_ns(), typed=True)
 
     def leave_unfinished(self) -> None:
-        """Press Ctrl+C in the middle of a command."""
-        self.interrupt()
-        deadline = time.monotonic() + _TAKES_WITHIN
-        while not self.wait(lambda: self.state in (READY, ENDED), _NUDGE_AFTER):
-            if time.monotonic() > deadline:
-                return
-            self.nudge()
+        """Press Ctrl+C in the middle of a command.
 
-    def nudge(self) -> None:
-        """Wake a prompt that has overheard Ctrl+C.
-
-        Once in about a thousand times the signal comes just before readline begins to read, and is
-        noticed when the next letter is typed. Ctrl+U takes the letter away if there was no signal.
+        A signal that comes between bash's prompt and its first look at the keyboard is noted and
+        then forgotten until the next one, so bash has to be asleep before, waiting for a key.
         """
-        self.write("x\x15")
+        deadline = time.monotonic() + _TAKES_WITHIN
+        while self.state == UNFINISHED and time.monotonic() < deadline:
+            sleeps_within(self._process.pid, _ASLEEP_WITHIN)
+            self.interrupt()
+            self.wait(lambda: self.state != UNFINISHED, _AGAIN_AFTER)
 
     def break_line(self) -> None:
         """Take the beginning of a line for a line of its own."""

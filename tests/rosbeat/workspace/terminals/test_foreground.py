@@ -3,7 +3,7 @@ import subprocess
 
 import pytest
 
-from rosbeat.workspace.terminals.foreground import group, would_have_ended
+from rosbeat.workspace.terminals.foreground import group, sleeps_within, would_have_ended
 
 
 @pytest.mark.parametrize(
@@ -28,3 +28,15 @@ def test_a_file_has_no_foreground():
     assert group(reading) == 0
     os.close(reading)
     os.close(writing)
+
+
+def test_a_process_that_waits_sleeps():
+    with subprocess.Popen(["cat"], stdin=subprocess.PIPE) as process:
+        assert sleeps_within(process.pid, 10)
+        process.stdin.close()
+
+
+def test_a_process_that_works_does_not_sleep():
+    with subprocess.Popen(["bash", "-c", "while :; do :; done"]) as process:
+        assert not sleeps_within(process.pid, 0.05)
+        process.kill()
