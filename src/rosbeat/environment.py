@@ -78,6 +78,7 @@ def defaults(prefix: str | None = None) -> dict[str, str]:
         "ROS_PYTHON_VERSION": "3",
         "ROS_DOMAIN_ID": str(domain_id(prefix)),
         **_files(),
+        **_workspace(),
         **_plain_python(prefix or sys.prefix),
     }
 
@@ -134,6 +135,13 @@ def _files() -> dict[str, str]:
     """Return the settings that are files of the checkout, as far as they are there."""
     files = {_PROFILE: discovery_profile(), _COLCON: _in_checkout("environment", "colcon.yaml")}
     return {name: path for name, path in files.items() if path}
+
+
+def _workspace() -> dict[str, str]:
+    """Return the path of the learner's workspace (`rosbeat.workspace.place`), for terminals."""
+    parent = os.path.expanduser(os.environ.get("ROSBEAT_WORKSPACE_IN", "")) or _in_checkout()
+    has_pages = os.environ.get("ROSBEAT_WORKSPACE_IN") or _in_checkout("notebooks")
+    return {"ROS2_WORKSPACE": os.path.join(parent, "ROS2_and_RL_Tutorials")} if has_pages else {}
 
 
 def _plain_python(prefix: str) -> dict[str, str]:

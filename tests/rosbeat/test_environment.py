@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from rosbeat import environment
+from rosbeat.workspace import place
 
 MODULE = Path(environment.__file__)
 PREFIX = "/home/ada/course/.venv"
@@ -119,7 +120,19 @@ def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
     assert set(environment.defaults(PREFIX)) - set(module.defaults(PREFIX)) == {
         PROFILE,
         "COLCON_DEFAULTS_FILE",
+        "ROS2_WORKSPACE",
     }
+
+
+@pytest.mark.parametrize(
+    ("chosen", "parent"),
+    [("", MODULE.parents[2]), ("/data", Path("/data")), ("~/x", Path("~/x"))],
+)
+def test_terminals_know_where_the_workspace_is(monkeypatch, chosen, parent):
+    monkeypatch.setenv("ROSBEAT_WORKSPACE_IN", chosen)
+    monkeypatch.delenv("ROSBEAT_STEADY_HOME", raising=False)
+    expected = str(parent.expanduser() / "ROS2_and_RL_Tutorials")
+    assert environment.defaults()["ROS2_WORKSPACE"] == expected == str(place.workspace())
 
 
 @pytest.mark.parametrize("variable", [None, "COLCON_HOME"])

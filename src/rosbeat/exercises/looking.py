@@ -41,14 +41,12 @@ class TypedIn:
         folder: The folder it is in, relative to the workspace; absolute if that is outside.
         commands: Each line that was typed, with the folder it was typed in, as the prompt said it.
         exit_code: Of the last command that ended.
-        log_names: The names of the nodes whose log lines it shows.
         text: All that it shows.
     """
 
     folder: str
     commands: tuple[tuple[str, str], ...]
     exit_code: int | None
-    log_names: frozenset[str]
     text: str
 
 
@@ -82,9 +80,9 @@ def look_at_terminal(answer: Any, root: Path) -> TypedIn:  # noqa: ANN401
     Raises:
         ExerciseError: If that is no terminal.
     """
-    if not all(hasattr(answer, name) for name in ("folder", "text", "exit_code", "logs")):
+    if not all(hasattr(answer, name) for name in ("folder", "text", "exit_code")):
         raise ExerciseError(
-            f"{answer!r} is no terminal.",
+            f"{answer!r} is not a terminal.",
             "This check looks at a terminal of the page.",
             'Write workspace.terminal("...") with the name of the terminal in the cell above.',
         )
@@ -92,7 +90,6 @@ def look_at_terminal(answer: Any, root: Path) -> TypedIn:  # noqa: ANN401
         _inside(Path(answer.folder), root),
         tuple(re.findall(r"^(\S+)\$ (.+)$", answer.text, re.MULTILINE)),
         answer.exit_code,
-        frozenset(record.name for record in answer.logs()),
         answer.text,
     )
 

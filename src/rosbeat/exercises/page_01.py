@@ -17,16 +17,27 @@ _START, _GOAL = "resources/images", "src"
 def _judge_folder(seen: Workspace) -> Outcome:
     if _WANTED in seen.folders:
         return passed("01a", f"{_WANTED} is there.")
-    near = [one for one in seen.folders if {_PARENT, _CHILD} & set(one.lower().split("/"))]
+    near = [one for one in seen.folders if {_PARENT, _CHILD} & set(_names(one))]
     if not near:
         return not_attempted("01a", f"There is no folder {_WANTED} yet.")
     deepest = max(near, key=lambda one: (one.count("/"), one))
     return failed("01a", f"There is {deepest}, but not {_WANTED}.", _folder_hint(deepest))
 
 
+def _names(folder: str) -> list[str]:
+    return folder.lower().replace("\\", "/").split("/")
+
+
 def _folder_hint(near: str) -> str:
+    if "\\" in near:
+        return "Paths use `/` between two names, on Linux everywhere."
     if near == f"resources/{_PARENT}":
         return "One level is missing. A path may name several folders: outer/inner."
+    if near in (_PARENT, _CHILD):
+        return (
+            "Names with a blank between them become folders side by side; `/` puts one inside the "
+            "other. A relative path begins where the terminal is."
+        )
     if near.startswith("resources/"):
         return "Compare the path letter by letter; capital letters count, too."
     return "A relative path begins where the terminal is. pwd says where that is."
@@ -44,10 +55,14 @@ def _judge_way(seen: TypedIn) -> Outcome:
         return not_attempted("01b", f"The terminal is still in {_START}.")
     return failed(
         "01b",
-        f"The terminal is in {seen.folder} now, and {_GOAL} in the workspace was the goal.",
+        f"The terminal is in {_place(seen.folder)} now, and {_GOAL} was the goal.",
         f"From {_START}, two folders up is the workspace. `..` is one folder up, and paths are "
         "joined with `/`. Run the cell above first: it goes back to the start.",
     )
+
+
+def _place(folder: str) -> str:
+    return "the workspace itself" if folder == "." else folder
 
 
 def _judge_kind_of_path(tried: list[str]) -> Outcome:

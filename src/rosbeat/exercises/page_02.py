@@ -26,7 +26,7 @@ def _judge_manifest(seen: Workspace) -> Outcome:
     wanted = {"description": manifest.description, "license": manifest.license}
     todo = [name for name, text in wanted.items() if _is_open(text)]
     if len(todo) == len(wanted):
-        return not_attempted("02a", f"{_MANIFEST} still says TODO, twice.")
+        return not_attempted("02a", f"{_MANIFEST} has no description and no license yet.")
     if todo:
         return failed("02a", f"The {todo[0]} in {_MANIFEST} is still open.", _TODO)
     return _judge_rest(manifest)
@@ -41,7 +41,7 @@ _TODO = f"Put a text of your own between <tag> and </tag>, in place of TODO or {
 
 
 def _is_open(text: str) -> bool:
-    return not text or "TODO" in text or BLANK in text
+    return text.lower() in ("", "none", "todo") or "TODO" in text or BLANK in text
 
 
 def _judge_rest(manifest: Manifest) -> Outcome:
@@ -72,10 +72,14 @@ def _judge_second(seen: Workspace) -> Outcome:
     if place:
         return failed(
             "02b",
-            f"{_SECOND} lies in {place}, and packages belong into src.",
+            f"{_SECOND} lies in {place}, and packages belong in src.",
             "Remove it there (rm -r), go to src with cd, and make it again.",
         )
     return _judge_kind(package)
+
+
+def _said(manifest: Manifest) -> str:
+    return ", ".join(manifest.depends) or "none"
 
 
 def _judge_kind(package: Package) -> Outcome:
@@ -91,7 +95,7 @@ def _judge_kind(package: Package) -> Outcome:
         return failed(
             "02b",
             f"{_SECOND} does not say that it needs {' and '.join(missing)}.",
-            f"{again}--dependencies and both names behind it.",
+            f"{again}--dependencies and both names after it. It says now: {_said(manifest)}.",
         )
     return passed("02b", f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}.")
 

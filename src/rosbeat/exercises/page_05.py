@@ -16,6 +16,11 @@ _PACKAGE = "sensor_simulator"
 _PROGRAMS = ("temperature_publisher", "temperature_subscriber")
 _ANATOMY = "An entry point is 'executable = package.module:function'."
 
+_CALLED = (
+    "The executable is the name before the equals sign, and the exercise says what it is called. "
+    "It is not the name of the node."
+)
+
 #: What is wrong with an entry point, by the kind of the flaw.
 _FLAWS = {
     "missing-comma": "two entries have become one",
@@ -33,7 +38,7 @@ _CURES = {
     "no-equals": _ANATOMY,
     "bad-name": _ANATOMY,
     "slash": "Modules are written with dots: package.module.",
-    "suffix": "Leave .py away: a module is named without it.",
+    "suffix": "Leave out .py: a module is named without it.",
     "no-function-part": "After the module comes a colon and the name of the function.",
     "no-module": "The module is package.file: the folder with __init__.py, a dot, the file's name.",
     "syntax-error": "Mend the file, on page 03 or 04, and run its cell again.",
@@ -65,7 +70,7 @@ def _judge_entries(package: Package) -> Outcome:
         wanted = f"{_PACKAGE}.{program}:main"
         if program not in targets:
             found = ", ".join(targets)
-            return failed("05a", f"There is no {program}. The executables are: {found}.", _ANATOMY)
+            return failed("05a", f"There is no {program}. The executables are: {found}.", _CALLED)
         if targets[program] != wanted:
             return failed(
                 "05a",
@@ -76,11 +81,10 @@ def _judge_entries(package: Package) -> Outcome:
 
 
 def _flawed(flaw: Flaw) -> Outcome:
-    nearest = f" Is {flaw.right} meant?" if flaw.right else ""
     return failed(
         "05a",
         f"Line {flaw.entry.line} of setup.py, '{flaw.entry.text}': {_FLAWS[flaw.kind]}.",
-        _CURES[flaw.kind] + nearest,
+        _CURES[flaw.kind],
     )
 
 
@@ -117,6 +121,8 @@ def _call(answer: Any) -> Calls:  # noqa: ANN401 - whatever a learner hands over
 def _judge_calls(seen: Calls) -> Outcome:
     if f"'{BLANK}'" in seen.problem:
         return not_attempted("05b")
+    if "not callable" in seen.problem and not seen.results:
+        return failed("05b", f"It raised {seen.problem}.", _HAND_OVER)
     if seen.problem:
         return failed("05b", f"It raised {seen.problem}.", _GIVES_TEXT)
     for arguments, result in seen.results:
@@ -126,6 +132,7 @@ def _judge_calls(seen: Calls) -> Outcome:
     return passed("05b", f"For example {seen.results[0][1]!r}.")
 
 
+_HAND_OVER = 'Hand over the function itself, by its name: check("05b", entry_point).'
 _GIVES_TEXT = 'The function gives back one text. f"{executable} ..." puts values into a text.'
 
 
@@ -134,12 +141,18 @@ def _wrong_part(arguments: tuple[str, ...], result: str) -> str:
     function = arguments[3] if len(arguments) > 3 else "main"
     name, equals, target = result.partition("=")
     if result == "None":
-        return "Nothing came back: the function needs a return."
+        return "Nothing came back: the function needs a return, and print gives back nothing."
+    if "{" in result:
+        return "The braces are still there: an f before the first quote fills them in."
+    if result.strip() != result or result[:1] in "'\"(":
+        return "Return the bare text: no quotes, brackets or blanks around it."
     if not equals or name.strip() != executable:
         return "What is typed after ros2 run comes first, then an equals sign."
     dotted, colon, called = target.strip().partition(":")
     if dotted != f"{package}.{module}":
         return "Between the equals sign and the colon stands package.module, with a dot."
+    if called.startswith(function) and called != function:
+        return "Nothing stands after the name of the function: no brackets, no comma."
     if not colon or called != function:
         return "After a colon comes the name of the function that was handed over."
     return ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from rosbeat.checks.verdicts import failed, not_attempted, passed
@@ -11,6 +12,8 @@ from rosbeat.records import Outcome
 from rosbeat.workspace.place import workspace
 
 _NAME = "second_monitor"
+#: As ROS prints a log line, with a stamp or without: [INFO] [1732212345.123] [name]: text.
+_LOG_NAME = re.compile(r"^\[[A-Z]+\] (?:\[[\d.]+\] )?\[([\w./]+)\]: ", re.MULTILINE)
 _PACKAGE = "sensor_simulator"
 
 
@@ -22,14 +25,24 @@ def _judge_monitor(seen: TypedIn) -> Outcome:
     runs = [text for _, text in seen.commands if text.startswith("ros2 run")]
     if not runs:
         return not_attempted("06a", "Nothing was run in this terminal yet.")
-    if _NAME in seen.log_names and f"[{_NAME}]: Temperature:" in seen.text:
+    names = _names_since(seen.text, runs[-1])
+    return _judge_names(names, seen.text.rpartition(runs[-1])[2], runs[-1])
+
+
+def _names_since(text: str, command: str) -> set[str]:
+    """The nodes that have logged since a command was typed for the last time."""
+    return set(_LOG_NAME.findall(text.rpartition(command)[2]))
+
+
+def _judge_names(names: set[str], text: str, command: str) -> Outcome:
+    if _NAME in names and f"[{_NAME}]: Temperature:" in text:
         return passed("06a", f"{_NAME} hears what the first monitor hears.")
-    if _NAME in seen.log_names:
+    if _NAME in names:
         return failed("06a", f"{_NAME} runs and has heard nothing.", _IS_THE_SENSOR_THERE)
-    if seen.log_names:
-        found = ", ".join(sorted(seen.log_names))
+    if names:
+        found = ", ".join(sorted(names))
         return failed("06a", f"The node that runs here is called {found}.", _RENAME)
-    return failed("06a", f"No node has started here. The last line typed: {runs[-1]}", _WHICH)
+    return failed("06a", f"No node has started here. The last line typed: {command}", _WHICH)
 
 
 _IS_THE_SENSOR_THERE = (

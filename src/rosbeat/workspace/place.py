@@ -15,6 +15,9 @@ from pathlib import Path
 #: The name that the tutorial gives to the workspace.
 NAME = "ROS2_and_RL_Tutorials"
 SETTING = "ROSBEAT_WORKSPACE_IN"
+#: Holds the path of the workspace in every terminal, so that `cd "$ROS2_WORKSPACE"` leads there
+#: from everywhere.
+VARIABLE = "ROS2_WORKSPACE"
 STEADY = "ROSBEAT_STEADY_HOME"
 
 

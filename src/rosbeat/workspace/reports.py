@@ -1,4 +1,4 @@
-"""What was made for a learner whose earlier pages were not finished."""
+"""What was made for a learner because a page needs it and it was not there."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Report:
         rows = [f"Please look: {one}" for one in self.attention]
         if self.made:
             made = "; ".join(self.made)
-            rows.insert(0, f"Made for you, because earlier pages were not finished: {made}.")
+            rows.insert(0, f"Made for you, because it was not there yet: {made}.")
         rows = rows or ["Everything this page needs is there."]
         return "\n".join(textwrap.fill(row, 100, break_long_words=False, break_on_hyphens=False)
                          for row in rows)  # fmt: skip

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import ast
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from rosbeat.workspace.parsing import parse
+
+#: A name and an equals sign, but not two: `talk ==` is a slip of its own.
+_NAMED = re.compile(r"[\w.-]+\s*=(?!=)")
 
 
 @dataclass(frozen=True)
@@ -30,7 +34,7 @@ class EntryPoint:
     @property
     def joined(self) -> bool:
         """Whether two entry points have become one, because a comma is missing between them."""
-        return self.text.count("=") > 1
+        return len(_NAMED.findall(self.text)) > 1
 
 
 @dataclass(frozen=True)

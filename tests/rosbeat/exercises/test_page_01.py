@@ -17,7 +17,7 @@ def judged_folders(*more):
 def judged_way(folder, *typed):
     place = "ROS2_and_RL_Tutorials/resources/images"
     commands = tuple((place, command) for command in typed)
-    return way_01b.judged(TypedIn(folder, commands, 0, frozenset(), ""))
+    return way_01b.judged(TypedIn(folder, commands, 0, ""))
 
 
 @pytest.mark.parametrize("more", [(), ("resources/sounds",), ("src/other", "resources/sounds")])
@@ -34,7 +34,7 @@ def test_nothing_of_the_folder_is_nothing_tried():
     [
         ("resources/sounds", "outer/inner"),
         ("sounds/alarm", "pwd"),
-        ("alarm", "pwd"),
+        ("alarm", "begins where the terminal is"),
         ("resources/Sounds/Alarm", "capital"),
         ("src/resources/sounds/alarm", "pwd"),
     ],

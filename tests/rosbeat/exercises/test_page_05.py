@@ -62,6 +62,8 @@ def test_an_empty_list_is_nothing_tried(judge):
         ((PUBLISHER.replace("publisher:", "publsher:"), SUBSCRIBER), "module"),
         ((PUBLISHER, SUBSCRIBER.replace("subscriber:", "publisher:")), "would call"),
         (("'____',", "'____',"), "equals sign"),
+        ((PUBLISHER.replace("=", "=="), SUBSCRIBER), "module"),
+        ((PUBLISHER.replace("temperature_publisher =", "publisher ="), SUBSCRIBER), "publisher"),
         ((PUBLISHER.replace("'temp", "temp"), SUBSCRIBER), "cannot be read"),
     ],
 )
@@ -101,6 +103,11 @@ WRONG = {
     "the wrong way round": lambda e, p, m, f="main": f"{p}.{m}:{f} = {e}",
     "brackets": lambda e, p, m, f="main": f"{e} = {p}.{m}:{f}()",
     "too few arguments": lambda e: e,
+    "two equals signs": lambda e, p, m, f="main": f"{e} == {p}.{m}:{f}",
+    "no f": lambda e, p, m, f="main": "{e} = {p}.{m}:{f}",
+    "quoted": lambda e, p, m, f="main": f"'{e} = {p}.{m}:{f}'",
+    "a tuple": lambda e, p, m, f="main": (e, p, m, f),
+    "a comma": lambda e, p, m, f="main": f"{e} = {p}.{m}:{f},",
     "raises": lambda e, p, m, f="main": 1 / 0,
     "no function": "talk = rosie.voice:main",
 }

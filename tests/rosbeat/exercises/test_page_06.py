@@ -11,9 +11,10 @@ PLACE = "ROS2_and_RL_Tutorials"
 RUN = "ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor"
 
 
-def judged(*typed, names=(), text=""):
+def judged(*typed, text=""):
     commands = tuple((PLACE, command) for command in typed)
-    return monitor_06a.judged(TypedIn("", commands, None, frozenset(names), text))
+    shown = "".join(f"{PLACE}$ {command}\n" for command in typed)
+    return monitor_06a.judged(TypedIn("", commands, None, shown + text))
 
 
 @pytest.mark.parametrize(
@@ -21,7 +22,7 @@ def judged(*typed, names=(), text=""):
 )
 def test_the_second_monitor_hears(run):
     text = "[INFO] [second_monitor]: Temperature: 22.10C - Status:Normal\n"
-    assert judged(run, names=["second_monitor"], text=text).status == PASSED
+    assert judged(run, text=text).status == PASSED
 
 
 def test_nothing_run_is_nothing_tried():
@@ -29,19 +30,28 @@ def test_nothing_run_is_nothing_tried():
 
 
 @pytest.mark.parametrize(
-    ("names", "text", "evidence"),
+    ("text", "evidence"),
     [
-        ((), "No executable found", "No node"),
-        (("temperature_monitor",), "[temperature_monitor]: Temperature: 2", "temperature_monitor"),
-        (("second_monitor",), "[second_monitor]: Temperature Monitor Node Started", "nothing"),
-        (("second_monitor",), "[second_monitor]: Publishing: 22.00C", "nothing"),
+        ("No executable found", "No node"),
+        ("[INFO] [temperature_monitor]: Temperature: 22.00C", "temperature_monitor"),
+        ("[INFO] [1732212345.123] [temperature_monitor]: Temperature: 2", "temperature_monitor"),
+        ("[INFO] [second_monitor]: Temperature Monitor Node Started", "nothing"),
+        ("[INFO] [second_monitor]: Publishing: 22.00C", "nothing"),
     ],
 )
-def test_what_else_runs_is_named(names, text, evidence):
-    outcome = judged(RUN, names=names, text=text)
+def test_what_else_runs_is_named(text, evidence):
+    outcome = judged(RUN, text=text)
     assert outcome.status == FAILED
     assert evidence in outcome.evidence
     assert outcome.hint
+
+
+def test_only_the_last_run_counts():
+    right = "[INFO] [second_monitor]: Temperature: 22.10C - Status:Normal\n"
+    again = RUN.replace("__node", "_node")
+    outcome = judged(RUN, again, text="[INFO] [temperature_monitor]: Temperature: 22.00C\n")
+    assert outcome.status == FAILED
+    assert judged(again, RUN, text=right).status == PASSED
 
 
 @pytest.fixture

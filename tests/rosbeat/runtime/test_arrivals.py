@@ -58,8 +58,10 @@ def test_two_own_listeners_record_a_message_once(joined):
     joined.start()
     assert joined.wait(30, until=lambda: all(len(ear.heard) >= 20 for ear in ears))
     joined.stop()
-    assert is_rising(numbers(joined, "/talker"))
-    assert len(joined.messages("count")) < sum(len(ear.heard) for ear in ears)
+    found = numbers(joined, "/talker")
+    # In the order in which one of the two got them: the other may be a message behind.
+    assert len(found) == len(set(found))
+    assert set(found) == {number for ear in ears for number in ear.heard}
 
 
 def test_own_messages_are_recorded_once_and_under_their_own_name(joined):

@@ -9,7 +9,7 @@ def test_nothing_was_missing():
 def test_what_was_made_and_what_stands_in_the_way():
     report = Report(("the folder src (page 01)",), ("a file is there. Rename it.",))
     assert str(report).splitlines() == [
-        "Made for you, because earlier pages were not finished: the folder src (page 01).",
+        "Made for you, because it was not there yet: the folder src (page 01).",
         "Please look: a file is there. Rename it.",
     ]
     assert not report.complete

@@ -12,7 +12,7 @@ from rosbeat.workspace.packages import Package
 
 _UNKNOWN = re.compile(r"ignoring unknown package '(?P<name>[^']+)'")
 _NO_PACKAGES = re.compile(r"Summary: 0 packages finished")
-_STILL = "Nothing new was installed, so `ros2 run` still starts the build before."
+_STILL = "Nothing new was installed; if there was a build before, `ros2 run` still starts that."
 
 
 def _build(seen: Situation) -> Call | None:
@@ -42,8 +42,8 @@ def inside_src(seen: Situation) -> str | None:
         return None
     name = call.place.relative_to(call.place.parent)
     return (
-        f"You built inside the folder {name}, so build, install and log are there now, and the "
-        "workspace itself has none of it. Go up with `cd` to the workspace and build there; "
+        f"You built inside the folder {name}, so build, install and log are there now, where "
+        "nobody looks for them. Go up with `cd` to the workspace and build there; "
         f"you may remove the three folders from {name}."
     )
 
@@ -53,6 +53,9 @@ def unknown_package(seen: Situation) -> str | None:
     found = _UNKNOWN.search(seen.text)
     if not found:
         return None
+    name = found["name"].replace("_", "-")
+    if name in ("symlink-install", "packages-select"):
+        return f"`{found['name']}` was taken for a package: an option begins with two dashes."
     meant = nearest(found["name"], [one.name for one in seen.packages])
     hint = f"Did you mean {meant}?" if meant else "`colcon list` shows the packages that it sees."
     return f"colcon found no package {found['name']}, so it built nothing. {hint}"

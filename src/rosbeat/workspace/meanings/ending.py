@@ -21,6 +21,11 @@ def ended_twice(seen: Situation) -> str | None:
 def not_caught(seen: Situation) -> str | None:
     """A `main` that catches the end of ROS not at all, or only in one of its two forms."""
     lines = seen.text.splitlines()
+    if "in __init__" in seen.text:
+        return (
+            "Ctrl+C came while the node was still starting, before `main` could catch it. Nothing "
+            "is broken: start it again, and wait for its first line."
+        )
     for name, cause in (
         ("ExternalShutdownException", "ROS was shut down while the node was spinning"),
         ("KeyboardInterrupt", "Ctrl+C ended the node in the middle of its work"),

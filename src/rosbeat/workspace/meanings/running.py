@@ -73,6 +73,13 @@ def no_executable(seen: Situation) -> str | None:
     return _not_an_entry_point(package, name, known)
 
 
+def _names_a_node(package: Package, name: str) -> bool:
+    """Whether a module of the package calls a node, or the class of one, by this name."""
+    sign = re.compile(rf"__init__\(\s*['\"]{re.escape(name)}['\"]|class {re.escape(name)}\(")
+    files = (package.folder / package.name / f"{module}.py" for module in package.modules)
+    return any(sign.search(path.read_text(errors="replace")) for path in files)
+
+
 def _not_an_entry_point(package: Package, name: str, known: list[str]) -> str:
     stem = name.removesuffix(".py")
     if stem in package.modules and stem not in known:
@@ -80,6 +87,11 @@ def _not_an_entry_point(package: Package, name: str, known: list[str]) -> str:
             f"{stem}.py is in the package, and setup.py has no entry point for it, so there is "
             "nothing that `ros2 run` could start. Add one, 'executable = package.module:function', "
             "and build again."
+        )
+    if _names_a_node(package, name):
+        return (
+            f"{name} is the name of a node or its class. `ros2 run` wants the executable, the "
+            "name before the `=` in setup.py."
         )
     meant = stem if stem in known else nearest(name, known)
     if meant:

@@ -57,6 +57,9 @@ def command_not_found(seen: Situation) -> str | None:
             "in it. Open the terminal from the course, or start with "
             "`./environment/course shell`."
         )
+    place = seen.calls[-1].place if seen.calls else seen.folder
+    if (place / word).is_file():
+        return f"{word} is here, but the shell does not look here by itself: write ./{word}"
     meant = nearest(word, list(_KNOWN))
     return f"There is no command `{word}`. Did you mean `{meant}`?" if meant else None
 
@@ -84,7 +87,7 @@ def mkdir_failed(seen: Situation) -> str | None:
     if "No such file" in why:
         return (
             f"The folder in which {Path(path).name} should be made does not exist. "
-            f"With -p, `mkdir` makes it too: mkdir -p {path}"
+            "With -p, `mkdir` makes it too."
         )
     return None
 

@@ -6,7 +6,8 @@ import os
 import sys
 from pathlib import Path
 
-from rosbeat.workspace.place import steady_home
+from rosbeat.workspace.place import VARIABLE as WORKSPACE
+from rosbeat.workspace.place import steady_home, workspace
 from rosbeat.workspace.terminals.reaper import VARIABLE
 from rosbeat.workspace.terminals.steadiness import USER
 
@@ -65,6 +66,7 @@ def surroundings(token: str) -> dict[str, str]:
         environ["VIRTUAL_ENV"] = sys.prefix
     environ.update(_language(environ))
     _make_steady(environ)
+    environ[WORKSPACE] = str(workspace())
     environ[VARIABLE] = token
     environ["PROMPT_COMMAND"] = f". {_quoted(str(STARTUP))}"
     return environ

@@ -43,8 +43,8 @@ def test_a_good_build(meaning, package):
         (ENTRY, ENTRY.replace(":", ".py:"), 0, FINE, ["no `.py` at its end"]),
         (ENTRY, ENTRY + "e", 0, FINE, ["function maine", "Did you mean main?"]),
         (ENTRY, ENTRY.removesuffix(":main"), 0, FINE, ["behind a colon"]),
-        (ENTRY, ENTRY.replace(".", "/"), 1, NEVER_CALLED, ["`/`", "the build before"]),
-        (f"{ENTRY}',", f"{ENTRY}'", 1, NEVER_CALLED, ["A comma is missing", "the build before"]),
+        (ENTRY, ENTRY.replace(".", "/"), 1, NEVER_CALLED, ["`/`", "a build before"]),
+        (f"{ENTRY}',", f"{ENTRY}'", 1, NEVER_CALLED, ["A comma is missing", "a build before"]),
         (f"{ENTRY}',", f"{ENTRY},", 1, "SyntaxError", ["cannot read setup.py", "a quote"]),
     ],
 )
