@@ -16,7 +16,7 @@ NO_FILE = "No such file or directory"
          "mkdir -p ~/Documents/ROS2_and_RL_Tutorials/"),
         ("mkdir /Documents", "mkdir: cannot create directory '/Documents': Permission denied",
          "mkdir -p ~/Documents"),
-        ("mkdir a/b", f"mkdir: cannot create directory ‘a/b’: {NO_FILE}", "With -p, `mkdir` makes it too"),
+        ("mkdir a/b", f"mkdir: cannot create directory ‘a/b’: {NO_FILE}", "With -p"),
         ("mkdir src", "mkdir: cannot create directory ‘src’: File exists", "there already"),
         ("cd /Documents/x", f"bash: cd: /Documents/x: {NO_FILE}", "cd ~/Documents/x"),
         ("cd scr", f"bash: line 1: cd: scr: {NO_FILE}", "Did you mean src?"),
