@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -20,6 +21,8 @@ def lab(layout: Layout, options: Sequence[str]) -> NoReturn:
     environ = shell.for_shells(prepare.ready(layout, "course"), layout)
     command = lab_command(layout, options, root_user=os.geteuid() == 0)
     os.chdir(layout.root)
+    # Started in the background of a script, it would hand an ignored Ctrl+C on to every terminal.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     os.execve(layout.python, command, environ)
 
 

@@ -274,4 +274,4 @@ newsroom.close()
 # Only clock and data are made up. These classes are ordinary ROS 2 code, and the messages
 # went through the **middleware** that robots use: the software that carries them.
 #
-# **Next:** [write a publisher](03_write_a_publisher.ipynb). Pages 01 and 02 come later.
+# **Next:** [create a workspace](01_create_a_workspace.ipynb).

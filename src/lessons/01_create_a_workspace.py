@@ -17,8 +17,7 @@
 #
 # ## Open a terminal
 #
-# People who work with ROS type commands into a **terminal**. The program that reads them is called
-# the **shell**; here it is `bash`. This cell brings terminals to your page:
+# People who work with ROS type commands into a **terminal**. This cell brings terminals to your page:
 
 # %%
 from rosbeat import check, workspace
@@ -32,25 +31,29 @@ from rosbeat import check, workspace
 # pwd
 
 # %% [markdown]
-# The line with the `$` is what was typed. In front of the `$` the shell says where it is, in short:
-# `~` is your home folder. Below is the answer. On your computer the path is another one.
+# The line with the `$` is what was typed. In front of the `$` stands the folder, in short: here `~`,
+# which is how a terminal writes your home folder. The line below is the answer. Your own lines differ
+# a little: these terminals start in the folder of the course, wherever you put it.
 #
 # JupyterLab has terminals of its own: *File, New, Terminal*. Everything that you type on these pages
 # you can type there, too.
 #
 # ## Make the folder
 #
-# `mkdir` makes a folder (*make directory*), `cd` goes there (*change directory*). With `-p`, `mkdir`
-# is content if the folder is there already.
+# `mkdir` makes a folder (*make directory*), `cd` goes there (*change directory*). The course keeps the
+# place of your workspace under the name `ROS2_WORKSPACE`. `echo` prints, and `$` in front of a name
+# stands for what is kept under it.
 
 # %% terminal="one"
-# mkdir -p ROS2_and_RL_Tutorials
-# cd ROS2_and_RL_Tutorials
+# echo $ROS2_WORKSPACE
+# mkdir -p "$ROS2_WORKSPACE"
+# cd "$ROS2_WORKSPACE"
 # pwd
 
 # %% [markdown]
-# You see it in JupyterLab's file browser on the left, too: a click on the folder icon at the top goes
-# up to where it is. It is yours: nothing in this course deletes what you put there.
+# (The quotes keep a path together if there is a blank in it. What `-p` does, you see below.) The folder
+# appears in JupyterLab's file browser on the left, too: a click on the folder icon at the top goes up to
+# where it is. It is your own: nothing in this course deletes what you put there.
 #
 # **Predict:** the next cell uses the same terminal. In which folder does it begin?
 
@@ -64,34 +67,33 @@ from rosbeat import check, workspace
 # pwd
 
 # %% [markdown]
-# Terminal `two` is a shell of its own, in a folder of its own. Later, one terminal will run the
-# sensor and another the monitor.
+# Terminal `two` stands in a folder of its own. Later, one terminal will run the sensor and another
+# the monitor.
 #
 # ## Give it an order
 #
-# A workspace has a few folders. The tutorial that this course follows makes all of them in one line:
+# A workspace has a few folders. The tutorial that this course follows makes all of them in one line.
+# `find . -type d` lists all folders below this one (the dot means *here*), and `| sort` puts the lines
+# in order.
 
 # %% terminal="one"
 # mkdir -p src docs scripts resources/images
 # find . -type d | sort
 
 # %% [markdown]
-# `find . -type d` lists all folders below this one, and `| sort` puts the lines in order. The dot
-# means *here*.
-#
 # | folder | what goes in |
 # |---|---|
-# | `src` | the source code of your packages; the next page makes one |
+# | `src` | source code: what you write, in the packages of the next page |
 # | `docs` | what you write about it |
 # | `scripts` | small helpers of your own |
 # | `resources/images` | pictures and other files |
 #
-# ROS cares about `src` only. The others are for you, and for the people you work with.
+# Only `src` matters to ROS. The others are for you, and for the people you work with.
 #
 # ## Understand `-p`
 #
-# `-p` stands for *parents*. It does three things: it makes a folder in a folder in one step, it makes
-# the parents that are missing, and it is no error if the folder exists.
+# `-p` stands for *parents*, the folders around a folder. It makes those that are missing, and it is
+# content if the folder is there already.
 #
 # **Predict:** what happens without it?
 
@@ -99,8 +101,11 @@ from rosbeat import check, workspace
 # mkdir resources/maps/kitchen
 
 # %% [markdown]
-# It refuses: `resources/maps` does not exist. **Exit code 1** tells the same in a number: every
-# command ends with one. 0 means that all went well, anything else that it did not. With `-p` it works:
+# It refuses: `resources/maps` does not exist. Every command ends with an **exit code**: 0 means that
+# all went well, any other number that it did not. Lines that begin with `#` are remarks of this course;
+# a bare terminal does not print them.
+#
+# With `-p` it works. `ls` lists what is in a folder:
 
 # %% terminal="one"
 # mkdir -p resources/maps/kitchen
@@ -123,18 +128,18 @@ from rosbeat import check, workspace
 # others begin where you are: they are **relative**.
 
 # %% terminal="one"
-# cd resources/images
+# cd "$ROS2_WORKSPACE/resources/images"
 # cd ..
 # pwd
-# cd ..
 
 # %% [markdown]
 # ## Try it: a folder in a folder
 #
-# Terminal `one` is in the workspace again. Make the folder `resources/sounds/alarm` with one command.
-# Replace the blank `____` by what is missing, and run both cells.
+# The first line goes back to the workspace. Make the folder `resources/sounds/alarm` there with one
+# command. Replace the blank `____` with what is missing, and run both cells.
 
 # %% terminal="one" exercise="01a"
+# cd "$ROS2_WORKSPACE"
 # --- answer
 # mkdir -p resources/sounds/alarm
 # --- blank
@@ -150,7 +155,7 @@ check("01a", workspace.folder())
 # Terminal `two` goes to `resources/images`. From there, go to `src` with one `cd` and a relative path.
 
 # %% terminal="two"
-# cd ROS2_and_RL_Tutorials/resources/images
+# cd "$ROS2_WORKSPACE/resources/images"
 
 # %% terminal="two" exercise="01b"
 # --- answer
@@ -165,44 +170,49 @@ check("01b", workspace.terminal("two"))
 # %% [markdown]
 # ## Ask whether ROS is there
 #
-# A terminal finds programs through its **environment**: a set of named values that it hands to every
-# command. On a robot you would first type `source /opt/ros/jazzy/setup.bash`, which fills it in. In
-# this course, every terminal begins with it. `echo` prints, and `$` in front of a name means its value:
+# `ROS2_WORKSPACE` is one of many names that a terminal keeps. All of them together are its
+# **environment**, and it hands them to every command. On a robot you would first type `source
+# /opt/ros/jazzy/setup.bash`, which fills the environment in, so that ROS is found. Here, every terminal
+# begins with that.
 
 # %% terminal="one"
 # echo $ROS_DISTRO
-# ros2 pkg prefix rclpy > /dev/null && echo "rclpy is here"
+# ros2 pkg list | grep rclpy
 
 # %% [markdown]
-# `jazzy` is the version of ROS 2. `ros2` is the command-line tool of ROS 2. Here it looked up a
-# package; `> /dev/null` hides the path it found, and `&&` goes on only if the exit code was 0.
+# `jazzy` is the version of ROS 2. `ros2` is its command-line tool: here it listed what is installed, and
+# `| grep rclpy` kept the lines in which `rclpy` stands, the ROS library for Python.
 #
-# The environment belongs to one terminal. **Predict:** what does terminal `two` print?
+# You may put a name of your own into the environment, with `export`:
 
 # %% terminal="one"
 # export ROBOT=Rosie
 # echo "I am $ROBOT"
 
+# %% [markdown]
+# **Predict:** what does terminal `two` print?
+
 # %% terminal="two"
 # echo "I am $ROBOT"
 
 # %% [markdown]
-# Nothing: a name that is not set is empty, and there is no error. `export` in one terminal changes
-# that terminal only. You meet this again with `source`.
+# Nothing: a name that is not there counts as empty, and there is no error. Each terminal has an
+# environment of its own. You meet this again with `source`.
 #
 # ## Build an empty workspace
 #
-# `colcon` builds a workspace: it looks for packages below the folder where you are, and puts the
-# result in three new folders.
+# `colcon` is the tool that builds a workspace: it looks for packages below the folder where you are,
+# makes programs of them that ROS can start, and puts the result into new folders.
 
 # %% terminal="one"
+# cd "$ROS2_WORKSPACE"
 # colcon build
 # ls
 
 # %% [markdown]
-# No package yet, so nothing was built. But `build`, `install` and `log` are there. `install` is the
-# result, `build` and `log` are colcon's own notes. You never edit them, and you may delete all three at
-# any time: the next build makes them again.
+# No package yet, so nothing was built. But three folders are there: `install` is the result, `build` is
+# colcon's workbench, and `log` its diary. You never edit them. You may delete all three at any time: the
+# next build makes them again.
 #
 # ## What went wrong: one character
 #
@@ -212,26 +222,27 @@ check("01b", workspace.terminal("two"))
 # mkdir /Documents/ROS2_and_RL_Tutorials/
 
 # %% [markdown]
-# **Symptom:** an error and exit code 1. **Instrument:** the path in the message. **Cause:** it begins
+# **Symptom:** an error and exit code 1. **What shows it:** the path in the message. **Cause:** it begins
 # with `/`, so it begins at the top of the disk, and there is no folder `Documents` up there. **Cure:**
 # `~/Documents/...` was meant, in your home folder. One character decides.
 #
 # ## What went wrong: the wrong folder
 #
-# `colcon build` works wherever you are, and that is a trap.
+# `colcon build` works wherever there may be packages, and that is a trap.
 
 # %% terminal="one"
-# cd src
+# cd "$ROS2_WORKSPACE/src"
 # colcon build
 # ls
 
 # %% [markdown]
-# Now the three folders are in `src`, and later `source install/setup.bash` would load the wrong ones.
-# **Cure:** remove them, and build in the workspace itself.
+# Now the three folders are in `src`, too, where nobody looks for them. **Cure:** remove them, and build in
+# the workspace itself. `rm` removes files, and with `-r` folders and all that is in them. There is no bin
+# to get them back from, so read such a line twice before you run it.
 
 # %% terminal="one"
+# cd "$ROS2_WORKSPACE/src"
 # rm -r build install log
-# cd ..
 
 # %% [markdown]
 # ## Remember

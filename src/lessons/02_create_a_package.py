@@ -31,7 +31,7 @@ workspace.catch_up("02")
 # Packages live in `src`. One command makes one:
 
 # %% terminal="build"
-# cd ROS2_and_RL_Tutorials/src
+# cd "$ROS2_WORKSPACE/src"
 # ros2 pkg create --build-type ament_python sensor_simulator --dependencies rclpy std_msgs
 
 # %% [markdown]
@@ -43,19 +43,17 @@ workspace.catch_up("02")
 # | `pkg create` | make a new package |
 # | `--build-type ament_python` | a Python package, not C++ |
 # | `sensor_simulator` | its name: lower case, words joined by `_` |
-# | `--dependencies rclpy std_msgs` | what it needs: the Python library of ROS, and the standard messages |
+# | `--dependencies rclpy std_msgs` | what it needs: the Python library of ROS, and standard messages such as `Float32` and `String` |
 #
 # What follows `--dependencies` is only written down, not installed: a **dependency** is a package that
 # yours needs, and other tools read there what to install on a robot. The warning at the end is about
-# the license. You choose one below.
-#
-# **Predict:** how many files has the command made?
+# the licence. You choose one below.
 
 # %% terminal="build"
 # find sensor_simulator -type f | sort
 
 # %% [markdown]
-# Eight files, and you wrote none of them. Here is what they are for:
+# `find ... -type f` lists files. There are eight, and you wrote none of them. Here is what they are for:
 #
 # | file | what for |
 # |---|---|
@@ -75,7 +73,7 @@ workspace.catch_up("02")
 # counts its bytes.
 
 # %% terminal="build"
-# cd sensor_simulator
+# cd "$ROS2_WORKSPACE/src/sensor_simulator"
 # cat setup.cfg
 # wc -c resource/sensor_simulator sensor_simulator/__init__.py
 
@@ -90,18 +88,18 @@ workspace.catch_up("02")
 # cat package.xml
 
 # %% [markdown]
-# This is the **manifest**: name, version, what it is, who looks after it, under which license others
-# may use it, and what it needs. `<depend>` names packages that it needs to run, `<test_depend>` those
+# This is the **manifest**: name, version, what it is, who looks after it, under which licence others
+# may use it (the tag is spelt `license`), and what it needs. `<depend>` names packages that it needs to run, `<test_depend>` those
 # that only its tests need. `<build_type>` tells colcon how to build it.
 #
 # Two places say `TODO`. Nobody minds today, but a package that you share needs both: without a
-# license, nobody else may use it. The name of the maintainer is a guess from this computer's settings.
+# licence, nobody else may use it. The name of the maintainer is a guess from this computer's settings.
 
 # %% [markdown]
 # ## Try it: fill in the manifest
 #
 # A cell that begins with `%%save` becomes a file of your workspace. If that changes a file, the
-# version before is kept. Write a description of your own, and choose a license: `Apache-2.0` is the
+# version before is kept. Write a description of your own, and choose a licence: `Apache-2.0` is the
 # one that ROS itself uses. You may put in your name and address, too.
 
 # %% save="src/sensor_simulator/package.xml" exercise="02a"
@@ -141,17 +139,17 @@ check("02a", workspace.folder())
 # %% [markdown]
 # ## Build it
 #
-# Go up to the workspace and build. `../..` is two folders up.
+# Go to the workspace and build. `colcon build` builds every package that it finds there.
 
 # %% terminal="build"
-# cd ../..
+# cd "$ROS2_WORKSPACE"
 # colcon build
 
 # %% [markdown]
-# colcon found the package by its `package.xml`, built it, and said so in two lines: started and
-# finished. For a Python package, building means copying: the code, the manifest and the marker go to
+# colcon found the package by its `package.xml`, built it, and said so: started, finished. For a Python
+# package, building means copying, and making its programs: the code, the manifest and the marker go to
 # where ROS looks for them. A C++ package would be compiled as well. With many packages, colcon
-# builds those first that others depend on. The result is in `install`:
+# builds those first that others depend on. The result is in `install`, one folder for each package:
 
 # %% terminal="build"
 # ls -d install/*/
@@ -175,8 +173,9 @@ check("02a", workspace.folder())
 # ros2 pkg prefix sensor_simulator
 
 # %% [markdown]
-# Now it is found, and `ros2 pkg prefix` says where it is installed. ROS itself is called the **underlay**, and your workspace, loaded on top of it, is an
-# **overlay**: it adds packages and leaves the others as they are.
+# Now it is found, and `ros2 pkg prefix` says where it is installed. Your workspace lies on top of ROS like
+# a transparent sheet, and that is what it is called: an **overlay**. It adds packages and leaves the
+# others as they are.
 #
 # `source` has changed this terminal and no other. **Predict:** what does a second terminal say?
 
@@ -190,7 +189,7 @@ check("02a", workspace.folder())
 # terminal run `source install/setup.bash`?
 
 # %% terminal="other"
-# cd ROS2_and_RL_Tutorials
+# cd "$ROS2_WORKSPACE"
 # source install/setup.bash
 # ros2 pkg prefix sensor_simulator
 
@@ -203,16 +202,17 @@ check("02a", workspace.folder())
 # ros2 pkg executables sensor_simulator
 
 # %% [markdown]
-# None, because there is no code in it. Compare with a package that every ROS has: it brings messages
-# and no programs either, and what it brings you can read.
+# None, because there is no code in it. Compare with `std_msgs`, a package that comes with ROS: it brings
+# messages and no programs, and what a message looks like you can read. (In ROS a message type is one
+# kind of **interface**: what two nodes have to agree on.)
 
 # %% terminal="build"
 # ros2 interface show std_msgs/msg/Float32
 
 # %% [markdown]
 # That is the message that your sensor will send: one field, `data`, a number with 32 bits. The lines
-# that begin with `#` are a remark of its authors: for a robot of your own, messages with more meaning
-# are better.
+# above it are a remark of its authors: it is here for examples, and for a robot of your own, messages with
+# more meaning are better.
 #
 # ## Try it: a second package
 #
@@ -220,13 +220,12 @@ check("02a", workspace.folder())
 # Replace the blanks.
 
 # %% terminal="build" exercise="02b"
-# cd src
+# cd "$ROS2_WORKSPACE/src"
 # --- answer
 # ros2 pkg create --build-type ament_python room_display --dependencies rclpy sensor_msgs
 # --- blank
 # # ros2 pkg create ____ room_display ____
 # --- end
-# cd ..
 
 # %% check="02b"
 check("02b", workspace.folder())
@@ -237,18 +236,18 @@ check("02b", workspace.folder())
 # **Predict:** what happens if you make `sensor_simulator` once more?
 
 # %% terminal="build"
-# cd src
+# cd "$ROS2_WORKSPACE/src"
 # ros2 pkg create --build-type ament_python sensor_simulator
-# cd ..
 
 # %% [markdown]
-# **Symptom:** *Aborted*, and exit code 1. **Instrument:** the path in the message. **Cause:** the
+# **Symptom:** *Aborted*, and exit code 1. **What shows it:** the path in the message. **Cause:** the
 # folder is there. **Cure:** use it as it is, or choose another name. The command never overwrites a
 # package, so nothing was lost.
 #
 # Two more traps lie in this command. It makes the package in the folder where you are; that should be
 # `src`. And if you forget `--build-type ament_python`, a full ROS makes a C++ package, without a
-# `setup.py`. Then remove the folder and begin again.
+# `setup.py`. Then remove the folder and begin again. (The `ros2` of this course makes Python packages only,
+# and says so.)
 
 # %% [markdown]
 # ## Remember

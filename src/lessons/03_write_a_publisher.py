@@ -20,7 +20,7 @@
 # %% [markdown]
 # ## Import what you need
 #
-# Four imports do it:
+# A few imports do it:
 #
 # - `rclpy` is the ROS client library for Python: everything that talks to ROS goes through it;
 # - `Node` is the class that every node builds on;
@@ -188,7 +188,7 @@ viz.graph(ros.graph())
 #   arguments from the command line;
 # - `TemperatureSensor()` makes the node: it runs `__init__`;
 # - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until somebody stops it;
-# - `Ctrl` + `C` in the terminal raises `KeyboardInterrupt`, and any other request to end raises
+# - `Ctrl` + `C` raises `KeyboardInterrupt`, and any other request to end raises
 #   `ExternalShutdownException`. `main` catches both, and `pass` does nothing;
 # - at the end the node is destroyed and ROS is shut down.
 #
@@ -237,8 +237,7 @@ if __name__ == "__main__":
     main()
 
 # %% [markdown]
-# The very first line tells the system to run the file with Python 3. The last two are the **script
-# entry point**: they call `main` if the file is run as a program, and not if it is imported, nor here:
+# The very first line tells the system to run the file with Python 3. The last two lines start it: they call `main` if the file is run as a program, and not if it is imported, nor here:
 # `main` would spin until you interrupt it. On a page, `ros.run(...)` does its work.
 #
 # The class on the page is now the class in the file. **Predict:** with the seed of before, what does
@@ -253,10 +252,12 @@ with Session(seed=8) as saved:
 # The same numbers. What you tried is what you will build.
 #
 # The tutorial's `main` differs, and you can learn from it. It ends with `rclpy.shutdown()`. In the ROS
-# version used here, `Ctrl` + `C` has shut ROS down already when that line runs, and a second time is an
-# error. `try_shutdown` does it only if it is still needed. And the tutorial spells its class in two
-# ways, `TemperatureSensor` and `TemperaturSensor`. One in the class line and the other in `main` end
-# in a `NameError`: Python compares names letter by letter, as ROS does with topics.
+# version used here, `Ctrl` + `C` has shut ROS down already, and a second time is an error.
+# `try_shutdown` does it only if needed. And the tutorial spells its class in two
+# ways, `TemperatureSensor` and `TemperaturSensor`. With one in the class line and the other in `main`,
+# Python stops with a `NameError`: it compares names letter by letter, as ROS does with topics.
+#
+# It opens the file with `nano`, an editor. Here, a double click in the file browser does.
 
 # %% [markdown]
 # **How the data flows:** `main` starts ROS and makes the node. The node makes its publisher and its

@@ -26,7 +26,7 @@ from rosbeat.records import queue_steps
 # %% [markdown]
 # The first lines are the publisher's. A subscriber must use the message type that the publisher uses,
 # or the two sides do not understand each other. In a file of its own the monitor needs no `random`;
-# here the sensor does.
+# here the sensor does. `String` and `queue_steps` are used further down.
 #
 # ## Bring a sensor
 #
@@ -366,7 +366,7 @@ with Session() as ros:
 #
 # - `create_subscription(type, topic, callback, depth)` listens; ROS calls the callback.
 # - `msg.data` takes the value out of the message.
-# - A queue keeps the newest messages of a slow subscriber, as many as its depth.
+# - A queue keeps the newest messages for a slow subscriber, as many as its depth.
 # - A publisher acts, a subscriber reacts, and a node may do both.
 #
 # The file `temperature_subscriber.py` in your package holds this class, unchanged. You have both

@@ -15,6 +15,7 @@
 #
 # The files are there, and nobody knows yet that they are programs. What is missing is one entry for
 # each in `setup.py`. The next cell makes what earlier pages would have left here, if it is not there.
+# (The star in the commands below stands for any text.)
 
 # %%
 from rosbeat import check, workspace
@@ -22,14 +23,14 @@ from rosbeat import check, workspace
 workspace.catch_up("05")
 
 # %% terminal="build"
-# cd ROS2_and_RL_Tutorials/src/sensor_simulator/sensor_simulator
+# cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # ls
 
 # %% [markdown]
 # ## Make a file executable
 #
 # A file is data until the system is told that it may be run. That permission is one letter, `x`, for
-# *execute*. `stat` shows the permissions of a file.
+# *execute*. `stat` shows what is known of a file, here its permissions and its name.
 
 # %% terminal="build"
 # stat -c "%A %n" temperature_*.py
@@ -47,16 +48,17 @@ workspace.catch_up("05")
 # stat -c "%A %n" temperature_*.py
 
 # %% [markdown]
-# Now the sensor starts by its name alone. The first line of the file, `#!/usr/bin/env python3`, says
-# who runs it. A sensor never ends by itself, so this cell only watches until a text appears, and the
-# program goes on in its terminal.
+# Now the sensor starts by itself. `./` means *in this folder*: the shell does not look for programs here
+# of its own accord. The first line of the file, `#!/usr/bin/env python3`, says who runs it. A sensor never
+# ends, so this cell only watches until a reading appears, and the program goes on in its terminal.
 
-# %% terminal="sensor --until 'Node Started'"
-# cd ROS2_and_RL_Tutorials/src/sensor_simulator/sensor_simulator
+# %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"]
+# cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # ./temperature_publisher.py
 
 # %% [markdown]
-# A real node, in a process of its own. Press `Ctrl` + `C` in its terminal to end it:
+# A real node, running by itself. In a bare terminal you would press `Ctrl` + `C` to end it. A page has a
+# command for that: `%terminal`, with one percent sign, types nothing.
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
@@ -64,8 +66,8 @@ workspace.catch_up("05")
 workspace.terminal("sensor").exit_code
 
 # %% [markdown]
-# Exit code 0: `main` caught the interrupt and tidied up. A program that dies of `Ctrl` + `C` has another
-# one, and a traceback on the screen.
+# Exit code 0: `main` caught the interrupt and tidied up. A program that does not catch it ends with another
+# one, and with a traceback on the screen.
 #
 # ## See what `chmod` does not do
 #
@@ -73,7 +75,7 @@ workspace.terminal("sensor").exit_code
 # package is built and loaded, as on page 02.
 
 # %% terminal="build"
-# cd ../../..
+# cd "$ROS2_WORKSPACE"
 # colcon build --packages-select sensor_simulator
 # source install/setup.bash
 
@@ -81,35 +83,39 @@ workspace.terminal("sensor").exit_code
 # `--packages-select` builds one package and leaves the others alone. **Predict:** does `ros2 run` find
 # the sensor?
 
-# %% terminal="build"
+# %% terminal="build --for 5"
 # ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
 # It does not. `ros2 run` never looks at your files in `src`, and their permissions do not matter to it.
 # There is a good reason: on a robot there may be no `src` at all, only what was installed. `ros2 run`
-# looks for programs in one folder of the installed package, and there are none:
+# looks for programs in one folder of the installed package, and there are none. (`ros2 pkg executables`
+# would list them.)
 
 # %% terminal="build"
 # ros2 pkg executables sensor_simulator
-# ls install/sensor_simulator/lib
 
 # %% [markdown]
 # ## Read setup.py
 #
-# `setup.py` tells Python how to install your package. It is the instruction manual that colcon follows:
-#
+# `setup.py` tells Python how to install your package. It is the instruction manual that colcon follows.
+
+# %% terminal="build"
+# cat src/sensor_simulator/setup.py
+
+# %% [markdown]
 # | piece | what it says |
 # |---|---|
 # | `name`, `version` | the package's name, as in `package.xml` |
-# | `packages=find_packages(...)` | which folders with Python code to install: all, but `test` |
+# | `packages=find_packages(...)` | which folders with Python code to install: all but `test` |
 # | `data_files` | what else to copy: the marker and the manifest |
 # | `install_requires` | what Python itself needs for it |
 # | `zip_safe` | whether it would run from a zip file |
-# | `maintainer`, `description`, `license` | the same as in `package.xml` |
+# | `maintainer`, `description`, `license` | the same as in `package.xml`; nobody compares the two, so you do |
 # | `extras_require` | what its tests need |
 # | `entry_points` | which functions become programs |
 #
-# Two of them are quick to get wrong. A folder without an `__init__.py` is no Python package, so
+# Two of them are easy to get wrong. A folder without an `__init__.py` is no Python package, so
 # `find_packages` does not see it, and its code is not installed. And a file that is not code, such as a
 # picture or a settings file, is installed only if `data_files` names it.
 #
@@ -129,18 +135,16 @@ workspace.terminal("sensor").exit_code
 #
 # So you type `ros2 run rosie talk`. Three names meet here, and they need not be equal. The
 # *executable* is what you type. The *module* is the file in which the code is. The *node's name* stands in
-# `super().__init__(...)`; it is what others see in the graph, and `ros2 run` does not know it. Our sensor
-# uses three: the executable `temperature_publisher` starts the module `temperature_publisher`, and the
-# node calls itself `temperature_sensor`.
-#
-# **Predict:** the two entries that you need begin with the executable. What comes after the colon?
+# `super().__init__(...)`; it is what others see in the graph, and `ros2 run` does not know it. For our
+# sensor, executable and module are both called `temperature_publisher`, and the node calls itself
+# `temperature_sensor`.
 
 # %% [markdown]
 # ## Try it: two programs
 #
 # Write the two entries. The executables are called `temperature_publisher` and `temperature_subscriber`,
 # like their files in the Python package `sensor_simulator`, and each of them calls `main`. Mind the
-# comma after each line.
+# comma after each line. You may put your own description and licence in, as in your `package.xml`.
 
 # %% save="src/sensor_simulator/setup.py" exercise="05a"
 from setuptools import find_packages, setup
@@ -196,14 +200,6 @@ check("05a", workspace.folder())
 # ls install/sensor_simulator/lib/sensor_simulator
 
 # %% [markdown]
-# Start one of them. The monitor waits for messages; nobody sends any yet.
-
-# %% terminal="build --until 'Node Started'"
-# ros2 run sensor_simulator temperature_subscriber
-
-# %% terminal="build --ctrl-c" tags=["nbval-ignore-output"]
-
-# %% [markdown]
 # ## Try it: write entry points
 #
 # Complete the function: it returns the text of an entry point.
@@ -233,7 +229,7 @@ len(entries), entries[0]
 
 # %% [markdown]
 # One. Python glues texts together that stand side by side. **Symptom:** colcon stops with *setup() was never
-# called*, which does not mention a comma. **Instrument:** the list, line by line. **Cause:** the glued
+# called*, which does not mention a comma. **What shows it:** the list, line by line. **Cause:** the glued
 # line is no entry point. **Cure:** a comma after each. And as the build failed, `ros2 run` goes on
 # starting what was built before.
 #
@@ -243,12 +239,12 @@ len(entries), entries[0]
 # ros2 run sensor_simulator temprature_publisher
 
 # %% [markdown]
-# **Symptom:** *No executable found*. **Instrument:** `ros2 pkg executables`. **Cause:** executables are
+# **Symptom:** *No executable found*. **What shows it:** `ros2 pkg executables`. **Cause:** executables are
 # compared letter by letter, like topics. **Cure:** type it as it stands in `setup.py`.
 #
 # An entry point that names a module or a function that does not exist is worse: the build succeeds, and
-# the error comes when you run it. `.py` in the module's name does that, and so does `:main()` with
-# brackets. If an error names a module, compare it with the file, letter by letter.
+# the error comes when you run it. `.py` in the module's name does that. (`:main()` with brackets stops the
+# build, with the text of the missing comma.) If an error names a module, compare it with the file.
 
 # %% [markdown]
 # ## Remember

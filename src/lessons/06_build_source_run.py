@@ -33,40 +33,45 @@ workspace.catch_up("06")
 # again, and a terminal that is loaded already stays loaded.
 
 # %% terminal="build"
-# cd ROS2_and_RL_Tutorials
+# cd "$ROS2_WORKSPACE"
 # colcon build --packages-select sensor_simulator
+# ros2 node list
 
 # %% [markdown]
+# `ros2 node list` shows which nodes run. There is none. (If yours shows one, it still runs on another page
+# or in another terminal: end it there with `Ctrl` + `C`, or it will talk, too.)
+#
 # ## Start the sensor
 #
 # A new terminal knows nothing of your workspace, so `source` comes first. The cell watches until three
 # readings have appeared. Then the page goes on, and so does the sensor.
 
 # %% terminal="sensor --until Publishing --lines 3" tags=["nbval-ignore-output"]
-# cd ROS2_and_RL_Tutorials
+# cd "$ROS2_WORKSPACE"
 # source install/setup.bash
 # ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
-# Each line has a level, a time, the node's name and the text. The time is the real one this time, in
-# seconds since 1970. There is no session here that could make it jump, so this page really waits.
+# On your screen, each line has a level, a time, the node's name and the text. (Pages with stored outputs
+# leave the time out.) It is the real time, in seconds since 1970: there is no session here that could
+# make it jump, so this page really waits.
 #
 # ## Start the monitor
 #
 # **Predict:** the sensor has been running for a while. Which reading does the monitor see first?
 
 # %% terminal="monitor --until Status --lines 3" tags=["nbval-ignore-output"]
-# cd ROS2_and_RL_Tutorials
+# cd "$ROS2_WORKSPACE"
 # source install/setup.bash
 # ros2 run sensor_simulator temperature_subscriber
 
 # %% [markdown]
 # The next one that was published. What was sent before it came is gone: a topic is no archive.
 #
-# Both go on while you read this. `%terminal` with one percent sign and no command looks at a terminal
-# again:
-
-# %% terminal="monitor --until Status --lines 5" tags=["nbval-ignore-output"]
+# (The tutorial does not load the workspace in its second terminal. If a new terminal of yours finds the
+# package without that, something loads it when the terminal opens.)
+#
+# Both go on while you read this.
 
 # %% [markdown]
 # ## See what crossed
@@ -84,10 +89,11 @@ sent = sensor.logs()
 viz.crossing(sent, heard)
 
 # %% [markdown]
-# The arrows are almost upright: a message needs about a thousandth of a second. The first readings have no
+# The arrows are almost upright: a message needs a few thousandths of a second. The first readings have no
 # arrow: nobody was there to hear them.
 #
-# Now compare the numbers themselves. **Predict:** did any reading get lost after the first?
+# Now compare the numbers themselves. **Predict:** once the monitor hears the sensor, does it miss a
+# reading?
 
 # %%
 def numbers(lines):
@@ -100,14 +106,13 @@ said[start : start + 10] == numbers(heard)
 # %% [markdown]
 # Ten readings, the same ten, in the same order. They were made in one process and judged in another. How
 # did they cross? The publisher handed each message to the middleware in its own process. That turned it
-# into a few bytes, passed them to the middleware of the other process, and there they became a
-# message again. Neither of your files has a line about that.
+# into a few bytes, and the middleware of the other process made a message of them again.
 #
 # ## Look from here
 #
-# The page is a third process. In a private session it would see nothing of this. A ROS **domain** is
-# a number: nodes with the same number find each other, nodes with different numbers never do. Your
-# terminals have one, and a session can join it:
+# The page is a third process, and a session on it sees nothing of this: it is in a **domain** of its own.
+# A domain is a number. Nodes with the same number find each other, nodes with different numbers never do.
+# Your terminals have one in their environment, and a session can join it:
 
 # %%
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
@@ -116,7 +121,7 @@ ros.wait_for_nodes("temperature_sensor", "temperature_monitor")
 viz.graph(ros.graph())
 
 # %% [markdown]
-# The graph that you know from the first pages. There it was one process, here there are two, and the picture
+# You know this graph from the first pages. There it was one process, here there are two, and the picture
 # is the same: nodes do not care where the others run. On a robot they may even run on
 # different computers. And no program in the middle keeps a list of them: each process tells the others
 # what it has and what it wants. That is called **discovery**.
@@ -127,13 +132,14 @@ viz.graph(ros.graph())
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
+# %% terminal="monitor" tags=["nbval-ignore-output"]
+
 # %%
 sensor.exit_code, monitor.busy
 
 # %% [markdown]
-# The sensor ended with exit code 0, which means in good order. The monitor is still busy: it waits. It got no error,
-# because for a subscriber silence is nothing special. Start the sensor again, and the monitor goes on as if
-# nothing had happened:
+# The sensor ended with exit code 0, in good order. The monitor got no error, its lines only stop: it is still
+# busy, and waits. For a subscriber, silence is nothing special. Start the sensor again:
 
 # %% terminal="sensor --until Publishing --lines 2" tags=["nbval-ignore-output"]
 # ros2 run sensor_simulator temperature_publisher
@@ -141,16 +147,18 @@ sensor.exit_code, monitor.busy
 # %% terminal="monitor --until Status --lines 2" tags=["nbval-ignore-output"]
 
 # %% [markdown]
-# The terminal `sensor` is in the right folder and has loaded the workspace, so one line was enough.
+# The monitor goes on as if nothing had happened. The first reading may be missing: the two have to find each
+# other first. The terminal `sensor` is in the right folder and has loaded the workspace, so one line was
+# enough to start it.
 #
 # ## Try it: one more monitor
 #
 # Start a second monitor in a third terminal. Nobody has to ask the sensor. Two nodes should not have
 # the same name, or people mix them up. What follows `--ros-args` is for ROS: `-r` stands for *remap*, and
-# here it gives the node another name. Fill in what is run.
+# with `__node` (two underscores) it gives the node another name. Fill in what is run.
 
 # %% terminal="third --until Status" exercise="06a" tags=["nbval-ignore-output"]
-# cd ROS2_and_RL_Tutorials
+# cd "$ROS2_WORKSPACE"
 # source install/setup.bash
 # --- answer
 # ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
@@ -164,23 +172,27 @@ check("06a", workspace.terminal("third"))
 # %% [markdown]
 # ## Know what is installed
 #
-# For `ros2 run`, only `install` counts, and colcon has **copied** your files to it. `diff` compares two files
-# and prints what differs:
+# For `ros2 run`, only `install` counts, and colcon has **copied** your files to it. `diff` compares files,
+# and `echo` speaks only if all is the same (that is what `&&` means):
 
 # %% terminal="build"
-# cd src/sensor_simulator/sensor_simulator
-# diff temperature_publisher.py ../../../install/sensor_simulator/lib/python3*/site-packages/sensor_simulator/ && echo "the same"
-# cd ../../..
+# cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
+# INSTALLED="$ROS2_WORKSPACE"/install/sensor_simulator/lib/python3*/site-packages/sensor_simulator
+# diff temperature_publisher.py $INSTALLED/temperature_publisher.py && echo "the same"
+# cd "$ROS2_WORKSPACE"
 
 # %% [markdown]
-# The same, for now. If you change the file in `src` and run, the *old* program runs, and nothing tells
+# The same, for now. If you change the file in `src` and run, the *old* program runs, and ROS does not tell
 # you. That costs everybody an afternoon once. Build after each change, or let colcon make a link
-# instead of a copy: then what you change counts at once. Only new files and a new `setup.py` still need a
-# build.
+# instead of a copy: then a change counts the next time that the program starts. Only what `setup.py` says
+# still needs a build.
 #
 # ## Try it: link instead of copy
 #
-# Build `sensor_simulator` once more, with the option `--symlink-install`.
+# Build `sensor_simulator` once more, with links. colcon itself knows what the option is called:
+
+# %% terminal="build"
+# colcon build --help | grep symlink
 
 # %% terminal="build" exercise="06b"
 # --- answer
@@ -193,6 +205,9 @@ check("06a", workspace.terminal("third"))
 check("06b", workspace.folder())
 
 # %% [markdown]
+# A link lies in another place than a copy. So, this once, terminals that are open already have to load the
+# workspace again: `source install/setup.bash`.
+#
 # ## Test the package
 #
 # `ros2 pkg create` has put three tests into `test`. `colcon test` runs them: two look at the style of your
@@ -211,17 +226,17 @@ check("06b", workspace.folder())
 # ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
-# **Symptom:** *Package not found*. **Instrument:** the question whether *this* terminal has loaded the
+# **Symptom:** *Package not found*. **What shows it:** the question whether *this* terminal has loaded the
 # workspace. **Cause:** it has not. **Cure:** `source install/setup.bash`, in the workspace.
 #
 # ## Clean up
 #
-# `Ctrl` + `C` ends the three programs. With the tutorial's own `main` you would see a traceback here; yours
-# says nothing and ends with 0.
+# `Ctrl` + `C` in every terminal. With the tutorial's own `main` you would see a traceback here; yours says
+# nothing and ends with 0.
 
-# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
-
-# %% terminal="monitor --ctrl-c" tags=["nbval-ignore-output"]
+# %% tags=["nbval-ignore-output"]
+for name in ("sensor", "monitor", "third"):
+    workspace.terminal(name).ctrl_c()
 
 # %%
 ros.close()

@@ -90,4 +90,4 @@ def test_two_kernels_do_not_disturb_each_other(tmp_path, monkeypatch):
         one.process.kill()
         one.process.wait()
         assert two.run("%terminal").text == "sensor  runs `sleep 300`\n"
-        assert two.run("%terminal sensor --ctrl-c").text == "^C\nexit code 130\n"
+        assert two.run("%terminal sensor --ctrl-c").text == "^C\n# exit code 130\n"

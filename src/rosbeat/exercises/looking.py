@@ -66,7 +66,9 @@ def look_at_workspace(answer: Any) -> Workspace:  # noqa: ANN401 - whatever a le
             "This check looks at the folders of your workspace.",
             "Write workspace.folder(), and run the cells above first: they make it.",
         )
-    packages = [_relative(read_package(folder, root), root) for folder in find_packages(root)]
+    found = [_relative(read_package(folder, root), root) for folder in find_packages(root)]
+    # Of two with one name, the one in src under that name counts; a backup has its name, too.
+    packages = sorted(found, key=lambda one: one.folder.as_posix() == f"src/{one.name}")
     return Workspace(_folders(root), {package.name: package for package in packages})
 
 

@@ -67,7 +67,7 @@ def _place(folder: str) -> str:
 
 def _judge_kind_of_path(tried: list[str]) -> Outcome:
     last = tried[-1] if tried else ""
-    if last.removeprefix("cd").strip().startswith(("/", "~", "$HOME")):
+    if last.removeprefix("cd").strip(" \"'").startswith(("/", "~", "$")):
         return failed(
             "01b",
             f"The terminal is in {_GOAL}, by an absolute path.",

@@ -77,7 +77,7 @@ def _judge_entries(package: Package) -> Outcome:
                 f"{program} would call {targets[program]}.",
                 "It should call main in the file of the same name.",
             )
-    return passed("05a", f"{' and '.join(_PROGRAMS)} are programs now.")
+    return passed("05a", f"setup.py names {' and '.join(_PROGRAMS)}.")
 
 
 def _flawed(flaw: Flaw) -> Outcome:

@@ -22,7 +22,7 @@ def _in_terminal(answer: Any) -> TypedIn:  # noqa: ANN401 - whatever a learner h
 
 
 def _judge_monitor(seen: TypedIn) -> Outcome:
-    runs = [text for _, text in seen.commands if text.startswith("ros2 run")]
+    runs = [text for _, text in seen.commands if "ros2 run" in text]
     if not runs:
         return not_attempted("06a", "Nothing was run in this terminal yet.")
     names = _names_since(seen.text, runs[-1])

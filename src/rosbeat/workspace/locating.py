@@ -28,16 +28,22 @@ def locate(typed: str, root: Path | None = None) -> tuple[PurePosixPath, Path]:
     """
     relative = _relative(typed)
     base = (root or workspace()).resolve()
-    if relative.parts[0] in RESERVED:
-        raise WorkspaceError(
-            f"{relative} cannot be saved: {relative.parts[0]} is not for files of yours.",
-            "colcon and this course write build, install, log and kept themselves.",
-            "Save into src, docs, scripts or resources.",
-        )
     target = _real(base, relative)
     if not target.is_relative_to(base) or target == base:
         raise _outside(typed)
+    _refuse_reserved(relative, target.relative_to(base).parts[0])
     return relative, target
+
+
+def _refuse_reserved(relative: PurePosixPath, real: str) -> None:
+    """Refuse a folder that is not the learner's, also behind a link of another name."""
+    for first in (relative.parts[0], real):
+        if first in RESERVED:
+            raise WorkspaceError(
+                f"{relative} cannot be saved: {first} is not for files of yours.",
+                "colcon and this course write build, install, log and kept themselves.",
+                "Save into src, docs, scripts or resources.",
+            )
 
 
 def _relative(typed: str) -> PurePosixPath:
@@ -48,6 +54,7 @@ def _relative(typed: str) -> PurePosixPath:
             "The path says which file of your workspace the text becomes.",
             f"Write it behind the command:  %%save {_EXAMPLE}",
         )
+    _refuse_more_than_a_path(text)
     path = PurePosixPath(text)
     if path.is_absolute() or text.startswith("~") or ".." in path.parts:
         raise _outside(typed)
@@ -64,6 +71,22 @@ def _relative(typed: str) -> PurePosixPath:
             f"Leave the first part out:  {'/'.join(path.parts[1:]) or _EXAMPLE}",
         )
     return path
+
+
+def _refuse_more_than_a_path(text: str) -> None:
+    path, mark, _ = text.partition(" #")
+    if mark:
+        raise WorkspaceError(
+            f"{text} is more than a path.",
+            "All of that line would be the file's name, also what looks like a comment.",
+            f"Leave the comment out:  {path.rstrip()}",
+        )
+    if "\\" in text:
+        raise WorkspaceError(
+            f"{text} has a `\\` in it.",
+            "ROS 2 runs on Linux here, and there `/` stands between the parts of a path.",
+            f"Write  {text.replace(chr(92), '/')}",
+        )
 
 
 def _real(base: Path, relative: PurePosixPath) -> Path:
@@ -85,8 +108,14 @@ def _outside(typed: str) -> WorkspaceError:
     )
 
 
-def nearest(word: str, names: list[str]) -> str | None:
-    """Return the name that was probably meant, or None if nothing is like it."""
+def nearest(word: str, names: list[str], cutoff: float = 0.6) -> str | None:
+    """Return the name that was probably meant, or None if nothing is like it.
+
+    Args:
+        word: What was typed.
+        names: What would have been right.
+        cutoff: How much alike they have to be, from 0 to 1.
+    """
     by_lower = {name.lower(): name for name in names}
-    found = get_close_matches(word.lower(), by_lower, n=1, cutoff=0.6)
+    found = get_close_matches(word.lower(), by_lower, n=1, cutoff=cutoff)
     return by_lower[found[0]] if found else None

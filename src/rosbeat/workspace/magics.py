@@ -65,7 +65,7 @@ def _look(terminals: Terminals, options: Options) -> None:
             f"`%%terminal {options.name}` with commands below opens it."
         )
     if options.action:
-        getattr(terminal, options.action)()
+        getattr(terminal, options.action)(**options.ending())
     else:
         terminal.look(**options.watching())  # type: ignore[arg-type] # the names fit
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import configparser
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rosbeat.workspace.installed import Installed, read_installed
@@ -64,12 +64,15 @@ def read_package(folder: Path, root: Path) -> Package:
         root: The workspace that it is built in.
     """
     manifest = read_manifest(folder / "package.xml")
+    configured = _read_configuration(folder / "setup.cfg")
     setup = read_setup(folder / "setup.py")
+    if configured.has_option("options.entry_points", "console_scripts"):
+        setup = replace(setup, incomplete=True)
     name = manifest.name or setup.package_name or folder.name
     flaws = (flaw_of(entry, folder) for entry in setup.entry_points)
     return Package(
         folder, name, manifest, setup,
-        scripts_folder=_scripts_folder(folder / "setup.cfg"),
+        scripts_folder=_scripts_folder(configured),
         has_marker=(folder / "resource" / name).is_file(),
         has_init=(folder / name / "__init__.py").is_file(),
         tests=tuple(sorted(one.name for one in (folder / "test").glob("*.py"))),
@@ -111,12 +114,17 @@ def _modules(folder: Path) -> tuple[str, ...]:
     return tuple(sorted(one.stem for one in folder.glob("*.py") if one.stem != "__init__"))
 
 
-def _scripts_folder(path: Path) -> str:
+def _read_configuration(path: Path) -> configparser.ConfigParser:
+    """A `setup.cfg`; one that is absent or cannot be read is empty."""
     parser = configparser.ConfigParser(interpolation=None)
     try:
         parser.read(path, encoding="utf-8")
-        # Older files have a dash in the name.
-        dashed = parser.get("install", "install-scripts", fallback="")
-        return parser.get("install", "install_scripts", fallback=dashed).strip()
     except (configparser.Error, OSError, UnicodeDecodeError):
-        return ""
+        return configparser.ConfigParser(interpolation=None)
+    return parser
+
+
+def _scripts_folder(parser: configparser.ConfigParser) -> str:
+    # Older files have a dash in the name.
+    dashed = parser.get("install", "install-scripts", fallback="")
+    return parser.get("install", "install_scripts", fallback=dashed).strip()

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from uuid import uuid4
@@ -50,12 +53,51 @@ def save(path: str, text: str, root: Path | None = None) -> Saved:
             whatever was there is there still.
     """
     base = (root or workspace()).resolve()
+    relative, _ = locate(path, base)
+    return save_bytes(path, _bytes(relative, text), base)
+
+
+def save_bytes(path: str, content: bytes, root: Path | None = None) -> Saved:
+    """Write a file of the workspace as `save` does, with exactly these bytes.
+
+    Args:
+        path: The file, relative to the workspace.
+        content: All of its content.
+        root: The workspace, by default the learner's.
+
+    Returns:
+        What was done.
+
+    Raises:
+        WorkspaceError: As with `save`.
+    """
+    base = (root or workspace()).resolve()
     relative, target = locate(path, base)
-    content = _bytes(relative, text)
     try:
-        return _replace(relative, target, content, base)
+        base.mkdir(parents=True, exist_ok=True)
+        with only_writer(base):
+            return _replace(relative, target, content, base)
     except OSError as error:
         raise trouble(f"{relative} cannot be saved", error) from None
+
+
+@contextmanager
+def only_writer(folder: Path) -> Iterator[None]:
+    """Hold back other pages that save into a workspace, until this one has finished.
+
+    Two that replace one file at once would each keep the same version before, and one of the two
+    new versions would be lost.
+
+    Args:
+        folder: The workspace.
+    """
+    number = os.open(folder, os.O_RDONLY)
+    try:
+        with suppress(OSError):  # some network file systems have no such locks
+            fcntl.flock(number, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(number)
 
 
 def _bytes(relative: PurePosixPath, text: str) -> bytes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -10,6 +11,7 @@ from IPython.core.magic import no_var_expand
 from rosbeat.errors import WorkspaceError
 from rosbeat.workspace.catching_up import catch_up
 from rosbeat.workspace.locating import locate, nearest
+from rosbeat.workspace.misplaced import refuse_other_place
 from rosbeat.workspace.modules import blank_line, module_name, refuse_magics
 from rosbeat.workspace.place import workspace
 from rosbeat.workspace.running import run_as_module
@@ -32,6 +34,20 @@ def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
         save_cell(shell, line, cell)
 
     shell.register_magic_function(cell_magic, magic_kind="cell", magic_name="save")
+    if with_body not in shell.input_transformers_cleanup:
+        shell.input_transformers_cleanup.append(with_body)
+
+
+def with_body(lines: list[str]) -> list[str]:
+    """Give a cell that is nothing but `%%save PATH` a body, so that we can say what is missing.
+
+    Without one, IPython itself refuses, and proposes its own `%save`, which is something else.
+
+    Args:
+        lines: The lines of a cell.
+    """
+    alone = len(lines) == 1 and re.match(r"%%save\b", lines[0])
+    return [lines[0].rstrip("\n") + "\n", "\n"] if alone else lines
 
 
 def save_cell(shell: Any, line: str, cell: str) -> None:  # noqa: ANN401
@@ -48,6 +64,8 @@ def save_cell(shell: Any, line: str, cell: str) -> None:  # noqa: ANN401
     """
     root = workspace()
     relative, target = locate(line, root)
+    refuse_other_place(relative, root)
+    _refuse_nothing(relative, cell)
     if relative.suffix == ".py":
         refuse_magics(cell, shell.transform_cell)
     _make_room(relative, root)
@@ -59,6 +77,15 @@ def save_cell(shell: Any, line: str, cell: str) -> None:  # noqa: ANN401
     name = module_name(relative, root)
     if name:
         run_as_module(shell, cell, name, target, f"%%save {line}")
+
+
+def _refuse_nothing(relative: PurePosixPath, cell: str) -> None:
+    if not cell.strip():
+        raise WorkspaceError(
+            f"{relative} is not saved: there is nothing to save.",
+            "What stands below the line with `%%save` becomes the file.",
+            f"Write it there. For an empty file, type `touch {relative}` in a terminal.",
+        )
 
 
 def _make_room(relative: PurePosixPath, root: Path) -> None:

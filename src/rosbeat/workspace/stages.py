@@ -6,6 +6,7 @@ stands in the way it raises `InTheWay`, which says what to do.
 
 from __future__ import annotations
 
+import errno
 import tempfile
 from collections.abc import Callable
 from importlib.resources import files
@@ -14,7 +15,8 @@ from pathlib import Path
 from rosbeat.workspace.commands import run_command
 from rosbeat.workspace.manifest import parse_manifest
 from rosbeat.workspace.packages import find_packages, read_package
-from rosbeat.workspace.saving import save
+from rosbeat.workspace.saving import save, save_bytes
+from rosbeat.workspace.setup_edit import with_entry_points
 
 PACKAGE = "sensor_simulator"
 FOLDERS = ("src", "docs", "scripts", "resources/images")
@@ -23,6 +25,7 @@ _CREATE = (
     *("ros2", "pkg", "create", "--build-type", "ament_python", PACKAGE),
     *("--dependencies", "rclpy", "std_msgs"),
 )
+_SCRIPTS = [f"{one} = {PACKAGE}.{one}:main" for one in NODES]
 _MAKING, _BUILDING = 120.0, 300.0
 
 
@@ -45,7 +48,7 @@ def folders(root: Path) -> str:
     for one in missing:
         if (root / one).exists():
             raise InTheWay(f"{one} is a file, and it has to be a folder. Rename the file.")
-        (root / one).mkdir(parents=True)
+        (root / one).mkdir(parents=True, exist_ok=True)
     plural = "s" if len(missing) > 1 else ""
     return f"the folder{plural} {_listed(missing)} (page 01)" if missing else ""
 
@@ -61,8 +64,17 @@ def package(root: Path) -> str:
         if code:
             raise InTheWay(f"`ros2 pkg create` did not work: {_last_line(output)}")
         _fill_in(Path(name) / PACKAGE)
-        (Path(name) / PACKAGE).rename(folder)
+        _put_in_place(Path(name) / PACKAGE, folder)
     return f"the package {PACKAGE} (page 02)"
+
+
+def _put_in_place(made: Path, folder: Path) -> None:
+    try:
+        made.rename(folder)
+    except OSError as error:
+        if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+            raise
+        raise InTheWay("another page has just made the package: run the cell again.") from None
 
 
 def _check_place(folder: Path, root: Path) -> None:
@@ -156,34 +168,28 @@ def node(name: str, page: str) -> Callable[[Path], str]:
 
 def entry_points(root: Path) -> str:
     """Put the entry points of page 05 into a `setup.py` that has none yet."""
+    path = f"src/{PACKAGE}/setup.py"
+    if not (root / path).exists():
+        raise InTheWay(f"{path} is not there. Page 05 shows the whole file.")
     setup = read_package(root / "src" / PACKAGE, root).setup
     if setup.problem:
+        line = f" (line {setup.line})" if setup.line else ""
         raise InTheWay(
-            f"src/{PACKAGE}/setup.py cannot be read: {setup.problem} "
-            f"(line {setup.line}). Page 05 goes through it line by line."
+            f"{path} cannot be read: {setup.problem}{line}. Page 05 goes through it line by line."
         )
     missing = sorted(set(NODES) - {one.executable for one in setup.entry_points})
     if not missing:
         return ""
-    if setup.entry_points or not setup.end_of_scripts:
+    after = None
+    if not (setup.entry_points or setup.incomplete):
+        after = with_entry_points((root / path).read_bytes(), _SCRIPTS)
+    if after is None:
         raise InTheWay(
-            f"src/{PACKAGE}/setup.py has no entry point for {_listed(missing)}. "
+            f"I see no entry point for {_listed(missing)} in {path}. "
             "The file is yours, so it stays as it is; page 05 shows the line."
         )
-    path = f"src/{PACKAGE}/setup.py"
-    save(path, _with_scripts((root / path).read_text(encoding="utf-8"), setup.end_of_scripts), root)
+    save_bytes(path, after, root)
     return "the entry points in setup.py (page 05)"
-
-
-def _with_scripts(text: str, end: int) -> str:
-    """A build script with both entry points before the bracket that closes their empty list."""
-    lines = text.splitlines(keepends=True)
-    before, bracket, after = lines[end - 1].rpartition("]")
-    scripts = "".join(f"            '{one} = {PACKAGE}.{one}:main',\n" for one in NODES)
-    opened = before if before.rstrip().endswith("[") else ""
-    start = f"{opened.rstrip()}\n" if opened else ""
-    indent = " " * 8
-    return "".join([*lines[: end - 1], start, scripts, indent, bracket, after, *lines[end:]])
 
 
 def build(root: Path) -> str:

@@ -19,8 +19,8 @@ class Flaw:
     """What is wrong with an entry point, or with the module that it names.
 
     Attributes:
-        kind: `missing-comma`, `no-equals`, `bad-name`, `slash`, `suffix`, `no-function-part`,
-            `no-module`, `syntax-error` or `no-function`.
+        kind: `missing-comma`, `no-equals`, `two-equals`, `bad-name`, `slash`, `suffix`,
+            `no-function-part`, `no-module`, `syntax-error` or `no-function`.
         entry: The entry point.
         wrong: The part that is wrong.
         right: What was probably meant, or empty.
@@ -49,6 +49,8 @@ def _written_wrong(entry: EntryPoint) -> Flaw | None:
         return Flaw("missing-comma", entry, entry.text)
     if "=" not in entry.text:
         return Flaw("no-equals", entry, entry.text)
+    if entry.text.count("=") > 1 and "[" not in entry.text:
+        return Flaw("two-equals", entry, entry.text)
     if not _NAME.fullmatch(entry.executable):
         return Flaw("bad-name", entry, entry.executable)
     if "/" in entry.module:

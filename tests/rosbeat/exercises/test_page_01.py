@@ -54,7 +54,13 @@ def test_the_way_is_relative(typed):
 
 
 @pytest.mark.parametrize(
-    "typed", ["cd ~/ROS2_and_RL_Tutorials/src", "cd /home/you/ROS2_and_RL_Tutorials/src"]
+    "typed",
+    [
+        "cd ~/ROS2_and_RL_Tutorials/src",
+        "cd /home/you/ROS2_and_RL_Tutorials/src",
+        'cd "/a b/ROS2_and_RL_Tutorials/src"',
+        'cd "$ROS2_WORKSPACE/src"',
+    ],
 )
 def test_an_absolute_path_is_not_what_was_asked(typed):
     outcome = judged_way("src", typed)

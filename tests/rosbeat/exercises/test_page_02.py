@@ -64,6 +64,12 @@ def test_a_manifest_that_is_filled_in(judge, changes):
     assert judge(manifest_02a, src__sensor_simulator=xml(GOOD, **changes)).status == PASSED
 
 
+def test_a_backup_of_the_package_is_not_the_package(judge):
+    untouched = xml(GOOD, description="TODO", license="TODO")
+    packages = {"src__sensor_simulator": xml(GOOD), "src__sensor_simulator_backup": untouched}
+    assert judge(manifest_02a, **packages).status == PASSED
+
+
 @pytest.mark.parametrize("todo", ["TODO: Package description", "____", ""])
 def test_both_open_is_nothing_tried(judge, todo):
     text = xml(GOOD, description=todo, license="TODO: License declaration")

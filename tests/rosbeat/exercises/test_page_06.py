@@ -18,7 +18,13 @@ def judged(*typed, text=""):
 
 
 @pytest.mark.parametrize(
-    "run", [RUN, RUN.replace("-r ", "--remap "), RUN + " -r temperature:=/temperature"]
+    "run",
+    [
+        RUN,
+        RUN.replace("-r ", "--remap "),
+        RUN + " -r temperature:=/temperature",
+        f"source install/setup.bash && {RUN}",
+    ],
 )
 def test_the_second_monitor_hears(run):
     text = "[INFO] [second_monitor]: Temperature: 22.10C - Status:Normal\n"

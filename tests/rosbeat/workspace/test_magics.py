@@ -31,7 +31,7 @@ def test_a_command_goes_on_while_the_page_does(kernel):
     assert kernel.run("%terminal").text.startswith("sensor  runs `for i in")
     assert kernel.run("%%terminal sensor --answer\nhello").text == "hello\nhello\n"
     assert kernel.run("print(workspace.terminal('sensor').busy)").text == "True\n"
-    assert kernel.run("%terminal sensor --ctrl-c").text == "^C\nexit code 130\n"
+    assert kernel.run("%terminal sensor --ctrl-c").text == "^C\n# exit code 130\n"
     assert kernel.run("%terminal sensor").text == ""
     assert kernel.run("%terminal sensor --close").text == ""
     assert kernel.run("%terminal").text.startswith("No terminal is open.")
@@ -56,7 +56,15 @@ def test_interrupting_a_cell_leaves_its_command_alone(kernel):
     assert reply.error == "KeyboardInterrupt"
     assert reply.seconds < 5
     assert kernel.run("print(workspace.terminal('sensor').busy)").text == "True\n"
-    assert kernel.run("%terminal sensor --ctrl-c").text == "^C\nexit code 130\n"
+    assert kernel.run("%terminal sensor --ctrl-c").text == "^C\n# exit code 130\n"
+
+
+def test_ctrl_c_has_the_time_that_it_is_given(kernel):
+    kernel.run("%%terminal sensor --until deaf\n(trap '' INT; echo deaf; sleep 100)")
+    reply = kernel.run("%terminal sensor --ctrl-c --timeout 0.6")
+    assert reply.error == "TerminalError"
+    assert reply.seconds < 9  # without it, ten
+    assert kernel.run("%terminal sensor --close").error == ""
 
 
 def test_the_extension_makes_the_magic_known(tmp_path, monkeypatch):

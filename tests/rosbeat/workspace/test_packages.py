@@ -46,3 +46,12 @@ def test_packages_are_found_where_colcon_finds_them(root, package):
     shutil.copytree(package, root / ".hidden" / "copy")
     shutil.copytree(package, package / "inner")
     assert find_packages(root) == [root / "docs" / "copy", package]
+
+
+def test_entry_points_in_setup_cfg(root, package):
+    assert not read_package(package, root).setup.incomplete
+    path = package / "setup.cfg"
+    path.write_text(path.read_text() + "[options.entry_points]\nconsole_scripts =\n  a = b:c\n")
+    found = read_package(package, root)
+    assert found.setup.incomplete
+    assert found.scripts_are_found

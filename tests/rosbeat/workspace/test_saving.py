@@ -2,12 +2,13 @@ import errno
 import os
 import stat
 import threading
+from concurrent import futures
 
 import pytest
 
 from rosbeat.errors import WorkspaceError
 from rosbeat.workspace import saving
-from rosbeat.workspace.saving import save
+from rosbeat.workspace.saving import only_writer, save, save_bytes
 
 
 def inside(root):
@@ -169,3 +170,26 @@ def test_many_at_once_leave_one_whole_file(root):
     assert (root / "src/a.py").read_text().strip() in texts
     kept = {one.read_text().strip() for one in (root / "kept/src").iterdir()}
     assert "first" in kept
+
+
+def test_exact_bytes(root):
+    save_bytes("docs/a.txt", b"a\r\n\xe9", root)
+    assert (root / "docs/a.txt").read_bytes() == b"a\r\n\xe9"
+
+
+def test_two_pages_that_save_one_file_lose_no_version(root):
+    texts = [f"version {number}\n" for number in range(24)]
+    with futures.ThreadPoolExecutor(4) as pages:
+        list(pages.map(lambda text: save("src/a.py", text, root), texts))
+    kept = [one.read_text() for one in (root / "kept/src").iterdir()]
+    assert sorted([*kept, (root / "src/a.py").read_text()]) == sorted(texts)
+
+
+def test_one_waits_for_the_other(root):
+    with futures.ThreadPoolExecutor(1) as page:
+        with only_writer(root):
+            other = page.submit(save, "src/a.py", "x\n", root)
+            with pytest.raises(futures.TimeoutError):
+                other.result(0.05)
+            assert not (root / "src/a.py").exists()
+        assert other.result(60).changed

@@ -7,6 +7,7 @@ import sys
 import pytest
 
 from rosbeat import Session
+from rosbeat.workspace.saving_magic import with_body
 from rosbeat.workspace.stages import PACKAGE, finished
 
 PUBLISHER = f"src/{PACKAGE}/{PACKAGE}/temperature_publisher.py"
@@ -182,3 +183,38 @@ def test_a_fault_of_a_saved_class_points_at_the_cell_s_line(run, shell):
     assert [fault.line] == line
     assert fault.code == "msg.value = self.temperature"
     linecache.checkcache()
+
+
+@pytest.mark.parametrize("body", ["", "\n", "\n\n  \n"])
+def test_a_cell_without_a_body_says_what_is_missing(run, root, body):
+    before = (root / PUBLISHER).read_text()
+    result, shown = run(f"%%save {PUBLISHER}{body}")
+    assert not result.success
+    assert "there is nothing to save" in shown
+    assert "line magic" not in shown
+    assert (root / PUBLISHER).read_text() == before
+
+
+def test_other_cells_of_one_line_stay_as_they_are():
+    for line in ("x = 1\n", "%%saved a\n", "%save a\n"):
+        assert with_body([line]) == [line]
+    assert with_body(["%%save a"]) == ["%%save a\n", "\n"]
+
+
+@pytest.mark.parametrize(
+    ("typed", "text"),
+    [
+        (f"{PUBLISHER} # my file", f"Leave the comment out:  {PUBLISHER}"),
+        (PUBLISHER.replace("/", "\\"), PUBLISHER),
+        (f"{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
+        (f"{PACKAGE}/{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
+        (f"src/{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
+        (f"{PACKAGE}/setup.py", f"Did you mean src/{PACKAGE}/setup.py?"),
+    ],
+)
+def test_a_path_that_is_not_quite_one(run, root, typed, text):
+    before = sorted(root.rglob("*"))
+    result, shown = run(f"%%save {typed}\nx = 1\n")
+    assert not result.success
+    assert text in shown
+    assert sorted(root.rglob("*")) == before

@@ -64,6 +64,7 @@ def test_a_part_is_absent(read):
 def test_no_list_of_scripts(read, rest):
     setup = read(HEAD + rest)
     assert setup.entry_points == ()
+    assert setup.incomplete == (rest in ("'console_scripts': names()})", "**more})"))
     assert setup.end_of_scripts == 0
     assert setup.problem == ""
 
@@ -81,3 +82,33 @@ def test_a_bad_one_has_a_problem(read, text, line):
 
 def test_it_is_never_run(read):
     assert read("raise SystemExit(3)\n" + scripts("'a = p.a:main'")).entry_points
+
+
+def test_a_tuple_is_read_and_is_no_list(read):
+    setup = read(HEAD + "'console_scripts': ('a = p.a:main',)})\n")
+    assert [one.executable for one in setup.entry_points] == ["a"]
+    assert (setup.end_of_scripts, setup.incomplete) == (0, False)
+
+
+@pytest.mark.parametrize(
+    "item",
+    ["'{} = p.a:main'.format('a'),", "'%s = p.a:main' % 'a',", "*['a = p.a:main'],", "unknown,",
+     "f'{package_name!r} = p.a:main',", "f'{package_name:>9} = p.a:main',", "'a = ' + name(),"],
+)  # fmt: skip
+def test_what_cannot_be_seen_is_not_guessed(read, item):
+    setup = read(scripts(item, "'b = p.b:main',"))
+    assert [one.executable for one in setup.entry_points] == ["b"]
+    assert setup.incomplete
+
+
+@pytest.mark.parametrize(
+    "given", ["entry_points={**more}", "entry_points={}, **more", "entry_points=names"]
+)
+def test_keys_that_cannot_be_seen(read, given):
+    assert read(f"from setuptools import setup\nsetup({given})\n").incomplete
+
+
+def test_two_equals_signs_are_no_missing_comma(read):
+    for text in ("'a == b:c'", "'a = b = c:d'"):
+        assert not read(scripts(text)).entry_points[0].joined
+    assert read(scripts("'a = p.a:main'", "'b == p.b:main',")).entry_points[0].joined

@@ -143,6 +143,9 @@ def test_nothing_else_in_the_file_changes(root, package):
         (finished("setup.py").replace("temperature_subscriber = ", "monitor = "), "subscriber"),
         (EMPTY.replace("'console_scripts': [", "'console_scripts': "), "cannot be read"),
         ("from setuptools import setup\nsetup(name='a')\n", "page 05"),
+        (EMPTY.replace("[\n        ]", "()"), "I see no entry point"),
+        (EMPTY.replace("[\n        ]", "names()"), "I see no entry point"),
+        ("x = 1\n", r"it does not call setup\(\)\."),
     ],
 )
 def test_a_setup_py_of_one_s_own_stays(root, package, text, says):
@@ -163,3 +166,34 @@ def test_a_build_that_fails_says_why(root, package, monkeypatch, capsys):
     with pytest.raises(InTheWay, match="RuntimeError: boom"):
         stages.build(root)
     assert "Building" in capsys.readouterr().out
+
+
+def test_a_setup_py_that_is_not_there(root, package):
+    (package / "setup.py").unlink()
+    with pytest.raises(InTheWay, match="is not there"):
+        stages.entry_points(root)
+
+
+def test_a_setup_py_keeps_its_encoding_and_its_line_ends(root, package):
+    text = "# -*- coding: latin-1 -*-\n# é\n" + EMPTY
+    data = text.replace("\n", "\r\n").encode("latin-1")
+    (package / "setup.py").write_bytes(data)
+    assert stages.entry_points(root)
+    after = (package / "setup.py").read_bytes()
+    assert after.startswith(data[:60])
+    assert after.count(b"\n") == after.count(b"\r\n") == data.count(b"\n") + 2
+    assert (root / f"kept/src/{PACKAGE}/setup.py-1").read_bytes() == data
+
+
+def test_another_page_makes_the_package_at_the_same_time(root, monkeypatch):
+    def slow(command, folder, seconds):
+        for place in (folder / PACKAGE, root / "src" / PACKAGE):
+            place.mkdir()
+            for name in ("package.xml", "setup.py"):
+                (place / name).write_text(finished(name))
+        return 0, ""
+
+    monkeypatch.setattr(stages, "run_command", slow)
+    with pytest.raises(InTheWay, match="another page has just made the package: run the cell"):
+        stages.package(root)
+    assert [one for one in root.iterdir() if one.name.startswith(".")] == []

@@ -66,3 +66,10 @@ def test_names_of_a_module(tmp_path, text, names):
 def test_what_python_cannot_compile(tmp_path, text, line):
     (tmp_path / "a.py").write_text(text)
     assert top_level_names(tmp_path / "a.py") == ([], line)
+
+
+def test_more_than_one_equals_sign(package):
+    text = f"sensor == {NAME}:main"
+    assert flaw_of(EntryPoint(text, 3, "sensor", f"= {NAME}", "main"), package).kind == "two-equals"
+    text = f"sensor = {NAME}:main [a==1]"
+    assert flaw_of(EntryPoint(text, 3, "sensor", NAME, "main"), package) is None

@@ -10,9 +10,11 @@ from pathlib import Path
 
 from ros2_command.children import run_child
 from ros2_command.errors import CommandError
-from ros2_command.nearest import did_you_mean
+from ros2_command.nearest import nearest
 from ros2_command.packages import executables, package_prefix
 
+# Executables of one package are often called alike, and the other one is then not what was meant.
+_ONLY_A_SLIP = 0.85
 _QUOTED_PYTHON = re.compile(rb'#!"([^"]+)"\s*$')
 
 
@@ -72,6 +74,11 @@ def _why_not(prefix: Path, package: str, name: str, offered: list[Path]) -> list
     unmarked = [path for path in folder.rglob(name) if path.is_file()] if folder.is_dir() else []
     if unmarked:
         return [f"{unmarked[0]} is there, but it has no execute permission (chmod +x)."]
+    if not offered and (prefix / "bin" / name).is_file():
+        return [
+            f"{prefix / 'bin' / name} is there, where `ros2 run` does not look.",
+            f"In setup.cfg of the package, install_scripts should be $base/lib/{package}.",
+        ]
     if not offered:
         return [
             f"Package '{package}' has no executables at all: {folder} is empty or missing.",
@@ -80,4 +87,7 @@ def _why_not(prefix: Path, package: str, name: str, offered: list[Path]) -> list
     names = sorted({path.name for path in offered})
     listed = f"Package '{package}' has: {', '.join(names)}"
     stem = os.path.splitext(name)[0]
-    return [did_you_mean(stem if stem in names else name, names), listed]
+    meant = stem if stem in names else nearest(name, names, _ONLY_A_SLIP)
+    if meant:
+        return [f"Did you mean '{meant}'?", listed]
+    return [listed, "A new entry point in setup.py counts after the next `colcon build`."]

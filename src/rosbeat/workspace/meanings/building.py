@@ -7,11 +7,13 @@ from collections.abc import Sequence
 
 from rosbeat.workspace.locating import nearest
 from rosbeat.workspace.meanings.flaws import flaw_in_words, syntax_error_in_words
+from rosbeat.workspace.meanings.folders import way_to
 from rosbeat.workspace.meanings.situation import Call, Situation
 from rosbeat.workspace.packages import Package
 
 _UNKNOWN = re.compile(r"ignoring unknown package '(?P<name>[^']+)'")
 _NO_PACKAGES = re.compile(r"Summary: 0 packages finished")
+_DID = {"build": "built", "test": "tested", "list": "listed"}
 _STILL = "Nothing new was installed; if there was a build before, `ros2 run` still starts that."
 
 
@@ -43,7 +45,7 @@ def inside_src(seen: Situation) -> str | None:
     name = call.place.relative_to(call.place.parent)
     return (
         f"You built inside the folder {name}, so build, install and log are there now, where "
-        "nobody looks for them. Go up with `cd` to the workspace and build there; "
+        f"nobody looks for them. Go to the workspace with `{way_to()}` and build there; "
         f"you may remove the three folders from {name}."
     )
 
@@ -51,14 +53,16 @@ def inside_src(seen: Situation) -> str | None:
 def unknown_package(seen: Situation) -> str | None:
     """`--packages-select` names no package (mistake 13)."""
     found = _UNKNOWN.search(seen.text)
-    if not found:
+    call = seen.call("colcon")
+    if not found or not call:
         return None
+    did = _DID.get(call.words[1], "did") if len(call.words) > 1 else "did"
     name = found["name"].replace("_", "-")
     if name in ("symlink-install", "packages-select"):
         return f"`{found['name']}` was taken for a package: an option begins with two dashes."
     meant = nearest(found["name"], [one.name for one in seen.packages])
     hint = f"Did you mean {meant}?" if meant else "`colcon list` shows the packages that it sees."
-    return f"colcon found no package {found['name']}, so it built nothing. {hint}"
+    return f"colcon found no package {found['name']}, so it {did} nothing. {hint}"
 
 
 def no_packages(seen: Situation) -> str | None:
@@ -69,7 +73,7 @@ def no_packages(seen: Situation) -> str | None:
     if seen.packages and call.place.resolve() != seen.workspace.resolve():
         return (
             f"colcon looked in {call.place.name or '/'} and found no package there. "
-            "Go to the workspace with `cd` and build there."
+            f"Go to the workspace with `{way_to()}` and build there."
         )
     if seen.packages:
         return None
@@ -81,6 +85,8 @@ def no_packages(seen: Situation) -> str | None:
 
 def twice_the_same(seen: Situation) -> str | None:
     """Two folders hold a package of one name."""
+    if not seen.call("colcon"):
+        return None
     if "Duplicate package names" not in seen.text and "have the same name" not in seen.text:
         return None
     names = [one.name for one in seen.packages]

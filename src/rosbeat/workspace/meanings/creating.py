@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 
 from rosbeat.workspace.meanings.situation import Call, Situation
+from rosbeat.workspace.place import VARIABLE
 
 _EXISTS = re.compile(r"The directory already exists: (?P<path>\S+)")
+_REFUSED = re.compile(r"^ros2.*: error: unrecognized arguments: (?P<rest>.+)$", re.M)
 _REST = "the rest of the command stays as it is"
 
 
@@ -49,6 +51,34 @@ def without_build_type(seen: Situation) -> str | None:
     return None
 
 
+def options_missing(seen: Situation) -> str | None:
+    """The values of the options were typed without the options themselves."""
+    call = seen.call("ros2", "pkg", "create")
+    found = _REFUSED.search(seen.text)
+    if not call or not found or "-" in found["rest"].split()[0][:1]:
+        return None
+    typed = any(word.startswith("--build-type") for word in call.words)
+    kind = [] if typed or "ament_python" not in call.words else ["--build-type"]
+    more = len(found["rest"].split()) - len(kind)
+    names = ["--dependencies"] if more > 0 and "--dependencies" not in call.words else []
+    missing = [*kind, *names]
+    if not missing:
+        return None
+    plural = ("s", "are") if len(missing) > 1 else ("", "is")
+    return f"The option{plural[0]} {' and '.join(missing)} {plural[1]} missing."
+
+
+def commas_between_names(seen: Situation) -> str | None:
+    """`--dependencies rclpy, sensor_msgs`."""
+    call = seen.call("ros2", "pkg", "create")
+    if not call or not seen.code or "--dependencies" not in call.words:
+        return None
+    start = call.words.index("--dependencies")
+    if not any("," in word for word in call.words[start:]):
+        return None
+    return "Names are separated by blanks, not by commas."
+
+
 def in_the_wrong_folder(seen: Situation) -> str | None:
     """A package was made outside of `src` (mistake 26)."""
     call = seen.call("ros2", "pkg", "create")
@@ -78,12 +108,15 @@ def _made(call: Call) -> str | None:
 
 
 def _way(call: Call, seen: Situation) -> str:
-    return "src/" if call.place.resolve() == seen.workspace.resolve() else f"{seen.workspace}/src/"
+    here = call.place.resolve() == seen.workspace.resolve()
+    return "src/" if here else f'"${VARIABLE}"/src/'
 
 
 def bad_name(seen: Situation) -> str | None:
     """A name that cannot be a package's."""
-    if not seen.call("ros2", "pkg", "create") or "cannot be the name of a package" not in seen.text:
+    if not seen.call("ros2", "pkg", "create"):
+        return None
+    if not re.search(r"cannot be the name of a package(?! to depend on)", seen.text):
         return None
     return (
         "A package for Python is imported under its name, so the name follows Python's rule: "

@@ -31,6 +31,13 @@ def _no_equals(flaw: Flaw) -> str:
     )
 
 
+def _two_equals(flaw: Flaw) -> str:
+    return (
+        f"The entry point in line {flaw.entry.line} of setup.py has more than one `=`. "
+        "Write it with one, as  'name = package.module:main'."
+    )
+
+
 def _bad_name(flaw: Flaw) -> str:
     return (
         f"The entry point in line {flaw.entry.line} of setup.py has no usable name before "
@@ -102,6 +109,7 @@ def syntax_error_in_words(path: str, line: int) -> str:
 _WORDS: dict[str, Callable[[Flaw], str]] = {
     "missing-comma": _missing_comma,
     "no-equals": _no_equals,
+    "two-equals": _two_equals,
     "bad-name": _bad_name,
     "slash": _slash,
     "suffix": _suffix,

@@ -7,6 +7,7 @@ import re
 from rosbeat.workspace.meanings.running import last_error
 from rosbeat.workspace.meanings.situation import Situation
 
+#: Only of a node: in another program these texts mean something else.
 _TEXTS = (
     (
         r"AssertionError: The '(\w+)' field must be of type '(\w+)'",
@@ -74,6 +75,8 @@ _TEXTS = (
         "In this version of ROS, `rclpy.init()` does not work with `with`. Call it, and at the end "
         "`rclpy.try_shutdown()`.",
     ),
+)
+_PLAIN = (
     (
         r"AttributeError: '(\w+)' object has no attribute '(\w+)'",
         "A {0} has nothing of the name {1}. Compare the spelling with the line where it is made.",
@@ -88,7 +91,7 @@ _TEXTS = (
 
 def no_rclpy(seen: Situation) -> str | None:
     """A Python without ROS."""
-    if "ModuleNotFoundError: No module named 'rclpy'" not in seen.text:
+    if not seen.code or "No module named 'rclpy'" not in last_error(seen.traceback):
         return None
     return (
         "The Python that ran is not the one of the course, and it has no ROS. "
@@ -98,11 +101,10 @@ def no_rclpy(seen: Situation) -> str | None:
 
 
 def in_a_node(seen: Situation) -> str | None:
-    """An error that rclpy raises for a mistake in a node."""
-    if "Traceback" not in seen.text:
-        return None
-    last = last_error(seen.text)
-    for pattern, words in _TEXTS:
+    """An error that rclpy raises for a mistake in a node, or Python for a misspelt name."""
+    last = last_error(seen.traceback)
+    texts: tuple[tuple[str, str], ...] = (*_TEXTS, *_PLAIN) if seen.about_ros else _PLAIN
+    for pattern, words in texts:
         found = re.search(pattern, last)
         if found:
             return words.format(*found.groups())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import takewhile
 
 from rosbeat.workspace.locating import nearest
 from rosbeat.workspace.meanings.building import missing_part
@@ -16,9 +17,21 @@ _AGAIN = "Build again with `colcon build` in the workspace."
 
 def _asked_for(seen: Situation) -> tuple[str, str] | None:
     """The package and the executable of the last `ros2 run`."""
-    call = seen.call("ros2", "run")
-    words = [word for word in call.words[2:] if not word.startswith("-")] if call else []
+    words = names_to_run(seen) or []
     return (words[0], words[1]) if len(words) > 1 else None
+
+
+def names_to_run(seen: Situation) -> list[str] | None:
+    """Return the names behind the last `ros2 run`; None if there was none.
+
+    Args:
+        seen: A command that has ended.
+    """
+    call = seen.call("ros2", "run")
+    if not call:
+        return None
+    own = takewhile(lambda word: word != "--ros-args", call.words[2:])
+    return [word for word in own if not word.startswith("-")]
 
 
 def _package(seen: Situation) -> tuple[Package, str] | None:
@@ -30,16 +43,11 @@ def _package(seen: Situation) -> tuple[Package, str] | None:
 def package_not_found(seen: Situation) -> str | None:
     """Not sourced, not built, or misspelt (mistakes 23 and 13)."""
     found = _NOT_FOUND.search(seen.text)
-    if not found:
+    if not found or not seen.call("ros2"):
         return None
     package = seen.package(found["name"])
     if package is None:
-        meant = nearest(found["name"], [one.name for one in seen.packages])
-        return (
-            f"There is no package {found['name']} in your workspace. Did you mean {meant}?"
-            if meant
-            else None
-        )
+        return _no_such_package(seen, found["name"])
     if package.installed is None:
         return (
             f"The package {package.name} is in src and has not been built yet. In the workspace, "
@@ -50,6 +58,13 @@ def package_not_found(seen: Situation) -> str | None:
         "terminal has to be told: run `source install/setup.bash` in the workspace, "
         "then try again."
     )
+
+
+def _no_such_package(seen: Situation, name: str) -> str | None:
+    meant = nearest(name, [one.name for one in seen.packages])
+    if not meant or seen.says_meant(meant):
+        return None
+    return f"There is no package {name} in your workspace. Did you mean {meant}?"
 
 
 def no_executable(seen: Situation) -> str | None:
@@ -70,7 +85,7 @@ def no_executable(seen: Situation) -> str | None:
             f"setup.py has the entry point {name}, and the build in install is older than that. "
             f"{_AGAIN}"
         )
-    return _not_an_entry_point(package, name, known)
+    return _not_an_entry_point(seen, package, name)
 
 
 def _names_a_node(package: Package, name: str) -> bool:
@@ -80,7 +95,10 @@ def _names_a_node(package: Package, name: str) -> bool:
     return any(sign.search(path.read_text(errors="replace")) for path in files)
 
 
-def _not_an_entry_point(package: Package, name: str, known: list[str]) -> str:
+def _not_an_entry_point(seen: Situation, package: Package, name: str) -> str | None:
+    if package.setup.incomplete:
+        return None
+    known = [one.executable for one in package.setup.entry_points]
     stem = name.removesuffix(".py")
     if stem in package.modules and stem not in known:
         return (
@@ -94,15 +112,31 @@ def _not_an_entry_point(package: Package, name: str, known: list[str]) -> str:
             "name before the `=` in setup.py."
         )
     meant = stem if stem in known else nearest(name, known)
+    told = seen.says_meant(meant) if meant else f"'{package.name}' has: " in seen.text
+    if told:
+        return None
+    return f"The package {package.name} has no executable {name}. {_what_it_has(meant, known)}"
+
+
+def _what_it_has(meant: str | None, known: list[str]) -> str:
     if meant:
-        return (
-            f"The package {package.name} has no executable {name}. Did you mean {meant}? "
-            "The name is the one before the `=` in setup.py."
-        )
-    listed = (
-        f"It has: {', '.join(known)}." if known else "It has no entry point at all in setup.py."
+        return f"Did you mean {meant}? The name is the one before the `=` in setup.py."
+    return f"It has: {', '.join(known)}." if known else "I see no entry point in its setup.py."
+
+
+def linked_since(seen: Situation) -> str | None:
+    """A build has put a link in the place of the copy that this terminal was told of."""
+    found = _package(seen)
+    last = last_error(seen.traceback)
+    if not found or "PackageNotFoundError: No package metadata was found for" not in last:
+        return None
+    installed = found[0].installed
+    if not installed or not installed.linked or found[0].name.replace("_", "-") not in last:
+        return None
+    return (
+        "The package is installed as a link now, and this terminal was loaded before that. "
+        "Run `source install/setup.bash` again."
     )
-    return f"The package {package.name} has no executable {name}. {listed}"
 
 
 def wrong_target(seen: Situation) -> str | None:

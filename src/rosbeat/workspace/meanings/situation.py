@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 from dataclasses import dataclass
@@ -9,9 +10,13 @@ from functools import cached_property
 from pathlib import Path
 
 from rosbeat.workspace.packages import Package, find_packages, read_package
-from rosbeat.workspace.place import steady_home
+from rosbeat.workspace.place import VARIABLE, steady_home
 
 _SEPARATORS = {";", "&&", "||", "|", "&"}
+_SETTING = re.compile(r"[A-Za-z_]\w*=")
+_TIME = re.compile(r"\d+(\.\d*)?[smhd]?")
+_PYTHON = re.compile(r"(\S*/)?python[\d.]*|\S*\.py")
+_TRACEBACK = "Traceback (most recent call last)"
 _COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 
 
@@ -60,7 +65,7 @@ class Situation:
         for words in _commands(self.command):
             found.append(Call(words, place))
             if words[0] == "cd":
-                place = _after_cd(place, words)
+                place = _after_cd(place, words, self.workspace)
         return tuple(found)
 
     def call(self, *start: str) -> Call | None:
@@ -68,6 +73,36 @@ class Situation:
         count = len(start)
         fitting = [one for one in self.calls if one.words[:count] == start]
         return fitting[-1] if fitting else None
+
+    def program(self, pattern: str) -> Call | None:
+        """Return the last command whose program is as a regular expression says, or None."""
+        fitting = [one for one in self.calls if re.fullmatch(pattern, one.words[0])]
+        return fitting[-1] if fitting else None
+
+    @property
+    def ran_python(self) -> Call | None:
+        """The last command that started a program in Python: a script, or `ros2 run`."""
+        return self.program(_PYTHON.pattern) or self.call("ros2", "run")
+
+    @cached_property
+    def traceback(self) -> str:
+        """What a program in Python shows of its error; empty if none was started, or it has none.
+
+        The text of a traceback in a file that is only read does not count.
+        """
+        start = self.text.find(_TRACEBACK) if self.ran_python else -1
+        return self.text[start:] if start >= 0 else ""
+
+    @property
+    def about_ros(self) -> bool:
+        """Whether the traceback is that of a node."""
+        return bool(self.traceback) and (
+            "rclpy" in self.traceback or self.call("ros2", "run") is not None
+        )
+
+    def says_meant(self, name: str) -> bool:
+        """Whether the output itself asks already if a certain name was meant."""
+        return re.search(rf"Did you mean:? '{re.escape(name)}'", self.text) is not None
 
     @cached_property
     def packages(self) -> tuple[Package, ...]:
@@ -100,12 +135,28 @@ def _split(words: list[str]) -> list[tuple[str, ...]]:
             found.append([])
         else:
             found[-1].append(word)
-    return [tuple(one) for one in found if one]
+    return [tuple(_from_the_program(one)) for one in found if one]
 
 
-def _after_cd(place: Path, words: tuple[str, ...]) -> Path:
+def _from_the_program(words: list[str]) -> list[str]:
+    """The words without `NAME=value` or `timeout 5` in front: a program with no say in it."""
+    start = next((at for at, word in enumerate(words) if not _SETTING.match(word)), 0)
+    rest = words[start:]
+    if rest[0] == "timeout":
+        rest = rest[next((at for at, word in enumerate(rest) if _TIME.fullmatch(word)), -1) + 1 :]
+    return rest or words
+
+
+def home() -> Path:
+    """Return the folder that a terminal calls `~`."""
+    return steady_home() or Path.home()
+
+
+def _after_cd(place: Path, words: tuple[str, ...], workspace: Path) -> Path:
     """Where `cd` leads; nowhere else if there is no such folder, for then it failed."""
-    home = steady_home() or Path.home()
     typed = words[1] if len(words) > 1 else "~"
-    path = home / typed[1:].lstrip("/") if typed.split("/")[0] == "~" else place / typed
+    first, _, rest = typed.partition("/")
+    known = {"~": home(), f"${VARIABLE}": workspace, f"${{{VARIABLE}}}": workspace}
+    path = known[first] / rest.lstrip("/") if first in known else place / typed
+    path = Path(os.path.normpath(path))  # `..` leads out of a folder that has gone, too
     return path.resolve() if path.is_dir() else place

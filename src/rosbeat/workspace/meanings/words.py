@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from rosbeat.workspace.locating import nearest
+from rosbeat.workspace.meanings.running import names_to_run
 from rosbeat.workspace.meanings.situation import Situation
 
 _CHOICE = re.compile(
@@ -20,10 +21,18 @@ _MISSING = re.compile(
     r"(?P<names>.+)$",
     re.MULTILINE,
 )
+_REFUSED = r"^ros2.*: error: (unrecognized|the following) arguments"
 _OPTIONS = (
     "--packages-select",
     "--symlink-install",
     "--packages-up-to",
+    "--packages-skip",
+    "--parallel-workers",
+    "--base-paths",
+    "--cmake-args",
+    "--ros-args",
+    "--destination-directory",
+    "--help",
     "--event-handlers",
     "--build-type",
     "--dependencies",
@@ -36,10 +45,12 @@ _OPTIONS = (
 def unknown_word(seen: Situation) -> str | None:
     """A verb that does not exist, with the nearest that does."""
     found = _CHOICE.search(seen.text)
-    if not found:
+    if not found or not seen.call(found["program"]):
         return None
     names = re.findall(r"[\w-]+", found["names"])
     meant = nearest(found["word"], names)
+    if meant and seen.says_meant(meant):
+        return None
     hint = f"Did you mean `{meant}`?" if meant else f"It knows: {', '.join(names)}."
     return f"`{found['program']}` does not know the word `{found['word']}`. {hint}"
 
@@ -47,20 +58,38 @@ def unknown_word(seen: Situation) -> str | None:
 def unknown_option(seen: Situation) -> str | None:
     """An option that does not exist, with the nearest that does."""
     found = _UNKNOWN.search(seen.text)
-    if not found:
+    if not found or not seen.call(found["program"]):
         return None
     word = found["rest"].split()[0]
-    meant = nearest(word.split("=")[0], list(_OPTIONS)) if word.startswith("-") else None
+    meant = _option_like(word.split("=")[0])
+    if meant and seen.says_meant(meant):
+        return None
     hint = (
         f"Did you mean `{meant}`?" if meant else f"`{found['program']} --help` lists what it takes."
     )
     return f"`{found['program']}` cannot do anything with `{word}`. {hint}"
 
 
+def _option_like(word: str) -> str | None:
+    """The option that was meant: the dashes of `-symlink-install` or `symlink_install` are few."""
+    plain = word.lstrip("-").replace("_", "-")
+    if f"--{plain}" in _OPTIONS:
+        return f"--{plain}"
+    return nearest(word, list(_OPTIONS), 0.75) if word.startswith("-") else None
+
+
+def run_without_two_names(seen: Situation) -> str | None:
+    """The package or the executable was left out, so an option counted as one of them."""
+    names = names_to_run(seen)
+    if names is None or len(names) > 1 or not re.search(_REFUSED, seen.text, re.MULTILINE):
+        return None
+    return "After `ros2 run` come two names: the package and the executable."
+
+
 def missing_word(seen: Situation) -> str | None:
     """Something that `ros2` needs was left out."""
     found = _MISSING.search(seen.text)
-    if not found:
+    if not found or not seen.call("ros2"):
         return None
     if found["program"] == "ros2 pkg create":
         return (

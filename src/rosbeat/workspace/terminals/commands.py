@@ -8,11 +8,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from rosbeat.errors import TerminalError
-from rosbeat.workspace.place import steady_home
-from rosbeat.workspace.terminals import refusals
+from rosbeat.workspace.place import steady_home, workspace
+from rosbeat.workspace.terminals import outside, refusals, whole_screen
 from rosbeat.workspace.terminals.after_keys import NewOnly, shapes
+from rosbeat.workspace.terminals.cells import line_with_blank, lines_of
 from rosbeat.workspace.terminals.interrupted import told
 from rosbeat.workspace.terminals.prompt import CONTINUED, prompt
+from rosbeat.workspace.terminals.remarks import say
 from rosbeat.workspace.terminals.report import meaning
 from rosbeat.workspace.terminals.shell import BUSY, ENDED, READY, UNFINISHED, Shell
 from rosbeat.workspace.terminals.showing import Display
@@ -20,6 +22,7 @@ from rosbeat.workspace.terminals.unfinished import unfinished
 from rosbeat.workspace.terminals.watching import (
     FINISHED,
     FOUND,
+    PAINTS,
     QUIET,
     TIME_UP,
     TOO_LONG,
@@ -35,13 +38,11 @@ PATIENCE, BUILD_PATIENCE = 60.0, 300.0
 _ENDS_SOON = 2.0
 _STOPS_WITHIN = 10.0
 _BEGINS_WITHIN = 5.0
-_AGAIN_AFTER = 0.5
+_AGAIN_AFTER, _ASKED = 0.5, 10
 _LAST_LINES = 5
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 _TOUCHES_PROMPT = re.compile(r"PS[12]|PROMPT_COMMAND|\b(exec|source|eval|unset)\b|(^|[;&|\s])\.\s")
 _TOUCHES_ECHO = re.compile(r"\b(stty|reset|tset)\b")
 _LONGEST_LINE = 4095
-_BLANK = re.compile(r"(?<!\w)____(?!\w)")
 
 
 class Commands:
@@ -77,10 +78,12 @@ class Commands:
 
     def run(self, cell: str, goal: Goal, show: Show) -> None:
         """Type the lines of a cell; see `Terminal.type`."""
-        lines = _lines(cell)
-        blank = _line_with_blank(lines)
+        if self._shell.state == ENDED:
+            raise refusals.ended(self._name)
+        lines = lines_of(cell)
+        blank = line_with_blank(lines)
         if blank:
-            show(f"(nothing was typed: there is still a blank, ____, in line {blank})")
+            say(show, f"nothing was typed: there is still a blank, ____, in line {blank}")
             return
         self._make_way(cell, show)
         self._cell = cell
@@ -91,7 +94,7 @@ class Commands:
         """Type into the program that runs; see `Terminal.answer`."""
         if self._shell.state != BUSY:
             raise refusals.nothing_to_answer(self._name)
-        lines = _lines(text)
+        lines = lines_of(text)
         self._shell.wait(lambda: self._shell.begun, _BEGINS_WITHIN)
         if self._shell.reads_lines() and any(len(x.encode()) > _LONGEST_LINE for x in lines):
             raise refusals.too_long()
@@ -136,10 +139,17 @@ class Commands:
         again = cell == self._cell
         if self._shell.wait(lambda: self._shell.state != BUSY, 0.0 if again else _ENDS_SOON):
             return
+        if self._repaired():
+            return
         if not again:
             raise refusals.busy(self._name, self.command)
-        show(f"(`{refusals.short(self.command)}` of this cell still runs, and is stopped first)")
+        say(show, f"`{refusals.short(self.command)}` of this cell still runs, and is stopped first")
         self.ctrl_c(_STOPS_WITHIN, lambda _: None)
+
+    def _repaired(self) -> bool:
+        """Put the prompt back if the last command took it away after nobody watched any more."""
+        lost = self._touches_prompt() and self._shell.bring_prompt_back()
+        return lost and self._shell.wait(lambda: self._shell.state != BUSY, _BEGINS_WITHIN)
 
     def _run_lines(self, lines: list[str], goal: Goal, show: Show) -> None:
         display = Display(show)
@@ -147,6 +157,9 @@ class Commands:
             begins = self._shell.state == READY
             if begins and not line.strip():
                 continue
+            if begins and self._is_outside(line, show):
+                self._say_rest(len(lines) - number - 1, show)
+                return
             display = Display(show) if begins else display
             wanted = goal if number == len(lines) - 1 else goal.end_only()
             ending = self._type(line, wanted, display)
@@ -159,6 +172,14 @@ class Commands:
             self._drop()
             raise unfinished(self.command)
 
+    def _is_outside(self, line: str, show: Show) -> bool:
+        """Refuse a build that would read folders which are nobody's workspace."""
+        if not outside.builds_outside(line, self._shell.folder, workspace()):
+            return False
+        here = self._prompt().removesuffix("$ ")
+        say(show, outside.words(here, workspace().is_dir()))
+        return True
+
     def _type(self, line: str, goal: Goal, display: Display) -> str:
         place = self._shell.end
         if self._shell.state == READY:
@@ -170,10 +191,12 @@ class Commands:
         self._shell.enter(line, before + line)
         return self._follow(goal, display, place)
 
-    def _follow(self, goal: Goal, display: Display, place: int) -> str:
-        touched = bool(_TOUCHES_PROMPT.search(self.command))
-        patience = self._patience(goal)
-        watch = Watch(self._shell, goal, display.add, place, patience, may_repair=touched)
+    def _touches_prompt(self) -> bool:
+        return bool(_TOUCHES_PROMPT.search(self.command))
+
+    def _follow(self, goal: Goal, display: Display, place: int, for_page: bool = True) -> str:
+        touched, patience = self._touches_prompt(), self._patience(goal)
+        watch = Watch(self._shell, goal, display.add, place, patience, touched, for_page)
         try:
             ending = watch.run()
         finally:
@@ -191,15 +214,30 @@ class Commands:
             if goal.until is not None and self._shell.state != UNFINISHED and not said_so:
                 raise self.not_seen(goal, None)
             return
+        if ending == PAINTS:
+            self._stop_painting(show)
+            return
         partial = self._shell.glance(self._shell.end).partial
         if partial and ending != FOUND:
             show(partial)
         if ending == TOO_LONG and goal.until is not None:
             raise self.not_seen(goal, self._patience(goal))
         if ending == TOO_LONG or (ending == TIME_UP and not looking):
-            show(self._goes_on(ending, goal))
+            say(show, self._goes_on(ending, goal))
         if not looking:
             self._explain(0, show)
+
+    def _stop_painting(self, show: Show) -> None:
+        """Stop a program that paints a whole screen; it has just begun, so nothing is lost."""
+        name = self._shell.painter() or self.command.split()[0]
+        for _ in range(_ASKED):
+            self._shell.terminate()
+            if self._shell.wait(lambda: self._shell.state != BUSY, _AGAIN_AFTER):
+                break
+        self._place, self._open = self._shell.end, self._shell.state == BUSY
+        goes_on = f"does not stop, and `%terminal {self._name} --close` ends it"
+        say(show, whole_screen.words(name, goes_on if self._open else "was stopped"))
+        self._say_ended(show)
 
     def _finish(self, show: Show, always: bool = False) -> None:
         """Say how the command ended, once."""
@@ -210,16 +248,22 @@ class Commands:
         if _TOUCHES_ECHO.search(self.command) and state == READY:
             self._shell.enter_unseen("stty -echo")
         if (code and not self.command.lstrip().startswith("#")) or always:
-            show(f"exit code {code}")
+            say(show, f"exit code {code}")
         self._explain(code or 0, show)
-        if state == ENDED:
-            show(f"(the terminal `{self._name}` has ended; its next use opens a new one)")
+        self._say_ended(show)
+
+    def _say_ended(self, show: Show) -> None:
+        if self._shell.state == ENDED:
+            say(show, f"the terminal `{self._name}` has ended; its next use opens a new one")
 
     def _explain(self, code: int, show: Show) -> None:
         output = [line.text for line in self._shell.glance(self.begin).lines if not line.typed]
         said = meaning(self.command, output, code, self._folder)
         if said:
-            show(said)
+            say(show, said)
+        painter = whole_screen.refused(self.command, output) if code else ""
+        if painter:
+            say(show, whole_screen.words(painter, "did not start"))
 
     # Answers and keys.
 
@@ -231,7 +275,7 @@ class Commands:
             place = self._shell.end
             self._shell.answer(line + "\n", line)
             ending = self._follow(wanted, display, place)
-            if ending == FINISHED or last:
+            if ending in (FINISHED, PAINTS) or last:
                 self._conclude(ending, goal, show, looking=ending == QUIET)
                 self._say_rest(len(lines) - number - 1, show)
                 return
@@ -240,7 +284,7 @@ class Commands:
         self, act: Callable[[], None], key: str, timeout: float, show: Show
     ) -> int | None:
         if self._shell.state != BUSY:
-            show(f"(nothing runs in the terminal `{self._name}`)")
+            say(show, f"nothing runs in the terminal `{self._name}`")
             return self._shell.code
         known = shapes(self._shell.glance(self.begin).lines)
         with told(self._interrupted):
@@ -257,7 +301,7 @@ class Commands:
         while True:
             left = deadline - time.monotonic()
             goal = Goal(timeout=min(_AGAIN_AFTER, left))
-            if self._follow(goal, display, self._place) == FINISHED:
+            if self._follow(goal, display, self._place, for_page=False) == FINISHED:
                 return True
             if left <= 0:
                 return False
@@ -275,15 +319,15 @@ class Commands:
     def _say_rest(self, count: int, show: Show) -> None:
         if count:
             lines = "1 more line" if count == 1 else f"{count} more lines"
-            show(f"({lines} in the cell, not typed)")
+            say(show, f"{lines} in the cell, not typed")
 
     def _goes_on(self, ending: str, goal: Goal) -> str:
         command = refusals.short(self.command)
         if ending == TIME_UP:
-            return f"(`{command}` goes on running in the terminal `{self._name}`)"
+            return f"`{command}` goes on running in the terminal `{self._name}`"
         return (
-            f"(`{command}` still runs after {self._patience(goal):g} s, and goes on; "
-            f"`%terminal {self._name}` shows what comes, `--ctrl-c` stops it)"
+            f"`{command}` still runs after {self._patience(goal):g} s, and goes on; "
+            f"`%terminal {self._name}` shows what comes, `--ctrl-c` stops it"
         )
 
     def _interrupted(self) -> str:
@@ -301,20 +345,3 @@ class Commands:
         if goal.timeout is not None:
             return goal.timeout
         return BUILD_PATIENCE if self.command.split()[:1] == ["colcon"] else PATIENCE
-
-
-def _line_with_blank(lines: list[str]) -> int:
-    """Return the line of a cell, its magic counted, in which something is to be filled in; or 0."""
-    return next((number for number, line in enumerate(lines, 2) if _BLANK.search(line)), 0)
-
-
-def _lines(cell: str) -> list[str]:
-    """Return the lines to type, without blank ones at the end.
-
-    Raises:
-        TerminalError: If there is a key among them.
-    """
-    key = _CONTROL.search(cell.replace("\r\n", "\n"))
-    if key:
-        raise refusals.odd_character(key[0])
-    return cell.replace("\r\n", "\n").rstrip().split("\n")

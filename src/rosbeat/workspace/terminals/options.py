@@ -16,7 +16,10 @@ _USAGE = """\
     types the cell into the terminal NAME
 %terminal NAME [--until TEXT [--lines N]] [--for SECONDS] [--timeout SECONDS]
     shows what came since the last look
-%terminal NAME --ctrl-c | --ctrl-d | --kill | --close
+%terminal NAME --ctrl-c | --ctrl-d | --kill [--timeout SECONDS]
+    presses a key, or ends what runs
+%terminal NAME --close
+    ends the terminal
 %terminal
     lists the terminals"""
 
@@ -49,6 +52,10 @@ class Options:
             "seconds": self.seconds,
             "timeout": self.timeout,
         }
+
+    def ending(self) -> dict[str, float]:
+        """Return the keyword arguments of `Terminal.ctrl_c` and its relatives."""
+        return {} if self.timeout is None else {"timeout": self.timeout}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -136,7 +143,25 @@ def _require_sense(given: argparse.Namespace, action: str, in_cell: bool) -> Non
         raise UsageError(f"`--{option}` belongs into a line: `%terminal {given.name} --{option}`.")
     if not in_cell and action == "answer":
         raise UsageError("`--answer` types the cell below it: it needs `%%terminal`.")
+    _require_one_purpose(given, action)
     if given.until == "":
         raise UsageError("`--until` needs a text to wait for.")
     if given.lines > 1 and given.until is None:
         raise UsageError("`--lines` counts lines with a text: it needs `--until TEXT`.")
+
+
+def _require_one_purpose(given: argparse.Namespace, action: str) -> None:
+    """Refuse to watch a program in the same line in which it is ended.
+
+    Raises:
+        UsageError: Then.
+    """
+    if action in ("", "answer"):
+        return
+    useless = {"until": given.until, "for": given.seconds}
+    if action == "close":
+        useless["timeout"] = given.timeout
+    for option, value in useless.items():
+        if value is not None:
+            word = action.replace("_", "-")
+            raise UsageError(f"`--{option}` does not go with `--{word}`.\n{_USAGE}")

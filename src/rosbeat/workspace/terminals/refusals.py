@@ -61,6 +61,15 @@ def not_seen(text: str, lines: int, seconds: float | None, last: list[str]) -> T
     )
 
 
+def ended(name: str) -> TerminalError:
+    """Return the error for a command to a terminal whose shell is gone."""
+    return TerminalError(
+        f"The terminal `{name}` has ended.",
+        "Its shell is gone, and what was set in it, too.",
+        f'`%%terminal {name}` and `workspace.terminal("{name}")` open a new one of this name.',
+    )
+
+
 def nothing_to_answer(name: str) -> TerminalError:
     """Return the error for an answer that no program waits for."""
     return TerminalError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import os
+import re
 import select
 import signal
 import termios
@@ -22,6 +23,7 @@ from rosbeat.workspace.terminals.marks import PROMPT, RUN, Mark, MarkScanner
 from rosbeat.workspace.terminals.pty_process import alive, close_quietly, exit_code, start_bash
 from rosbeat.workspace.terminals.steadiness import Polish
 from rosbeat.workspace.terminals.surroundings import STARTUP
+from rosbeat.workspace.terminals.whole_screen import painter
 
 #: What a shell does: it waits for a command, waits for more of one, runs one, has ended.
 READY, UNFINISHED, BUSY, ENDED = "ready", "unfinished", "busy", "ended"
@@ -30,6 +32,10 @@ _TAKES_WITHIN = 20.0
 # Seconds between two looks whether the shell still lives.
 _LOOK_EVERY = 0.25
 _ASLEEP_WITHIN, _AGAIN_AFTER = 2.0, 5.0
+_ON_ITS_WAY = 0.1
+# After `set -v` bash shows its start-up, too.
+_OURS = "{ PS1=$__rosbeat_ps1"
+_FOREIGN_PROMPT = re.compile(r"[$#%>] ?$")
 # A program that prints without end is slowed down, so that it leaves the page some of the machine.
 _FLOOD, _PAUSE = 65_536, 0.01
 
@@ -78,6 +84,7 @@ class Shell:
         self._moment = self._asked_at = 0
         self.state, self.folder = BUSY, folder
         self.begun = True
+        self._hidden = False
         self.code: int | None = None
         self._process = start_bash(folder, token)
         os.set_blocking(self._process.fd, False)
@@ -144,7 +151,7 @@ class Shell:
         """Type a line of our own at the prompt, and wait until it is done."""
         code = self.code
         with self._changed:
-            self.state = BUSY
+            self.state, self._hidden = BUSY, True
         self.write(f" {line}\n")
         self.wait(lambda: self.state != BUSY, _TAKES_WITHIN)
         self.code = code
@@ -241,6 +248,19 @@ class Shell:
         else:
             self.write("\x03")
 
+    def painter(self) -> str:
+        """Return the program in front if it is known to paint a whole screen, or nothing."""
+        group = self.in_front()
+        if self.state != BUSY or group <= 0 or not self._wants_keys():
+            return ""
+        name = painter(group)
+        # Bash wants keys, too, until it has read the command: only now are these its modes.
+        return name if name and self._wants_keys() else ""
+
+    def terminate(self) -> None:
+        """Ask the program in the foreground to end; bash itself would not listen."""
+        self._signal(signal.SIGTERM)
+
     def kill(self) -> None:
         """Kill the program in the foreground; the shell itself if it is that."""
         self._signal(signal.SIGKILL)
@@ -257,22 +277,42 @@ class Shell:
                 os.kill(self._process.pid, signal.SIGKILL)
         self.wait(lambda: self.state == ENDED, _TAKES_WITHIN)
 
-    def bring_prompt_back(self) -> None:
-        """Put our prompt back if bash waits at a prompt that we cannot see."""
-        if self.state == BUSY and self._waits_in_bash():
-            self.write(f" . '{STARTUP}'\n")
+    def bring_prompt_back(self) -> bool:
+        """Put our prompt back if bash waits at a prompt that we cannot see; return whether so."""
+        # Our own prompt may just be on its way.
+        if not self._waits_in_bash() or self.wait(lambda: self.state != BUSY, _ON_ITS_WAY):
+            return False
+        if not self._waits_in_bash():
+            return False
+        with self._changed:
+            if _FOREIGN_PROMPT.search(self._builder.partial):
+                self._builder.finish()
+            self._hidden = True
+        self.write(f" . '{STARTUP}'\n")
+        return True
 
     def _waits_in_bash(self) -> bool:
         try:
             program = os.path.basename(os.readlink(f"/proc/{self._process.pid}/exe"))
         except OSError:
             return False
-        in_front = self.in_front() == self._process.pid
-        return in_front and program.startswith("bash") and not self.reads_lines()
+        in_front = self.state == BUSY and self.in_front() == self._process.pid
+        return in_front and program.startswith("bash") and self._edits_lines()
+
+    def _edits_lines(self) -> bool:
+        """Tell whether readline has the terminal: unlike `read -n 1` it tells CR from newline."""
+        return not self.reads_lines() and not self._modes(0) & termios.ICRNL
+
+    def _wants_keys(self) -> bool:
+        modes = self._local_modes()
+        return modes != 0 and not modes & termios.ICANON
 
     def _local_modes(self) -> int:
+        return self._modes(3)
+
+    def _modes(self, index: int) -> int:
         try:
-            return int(termios.tcgetattr(self._process.fd)[3])
+            return int(termios.tcgetattr(self._process.fd)[index])
         except (termios.error, OSError, ValueError):
             return 0
 
@@ -310,7 +350,7 @@ class Shell:
             for part in self._scanner.feed(text):
                 if isinstance(part, Mark):
                     self._obey(part)
-                else:
+                elif not self._hidden:
                     self._add(self._builder.feed(part))
             self._tell()
 
@@ -321,6 +361,7 @@ class Shell:
         self._end_line()
         if mark.kind == PROMPT:
             self.code, self.folder = mark.code, Path(mark.folder or "/")
+            self._hidden = False
         self.state = READY if mark.kind == PROMPT else UNFINISHED
 
     def _end(self) -> None:
@@ -340,7 +381,8 @@ class Shell:
     def _add(self, lines: list[str]) -> None:
         now = time.time_ns()
         for line in lines:
-            self._history.add(self._polish(line), now)
+            if _OURS not in line:
+                self._history.add(self._polish(line), now)
 
     def _tell(self) -> None:
         self._moment += 1

@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Callable
 
 from rosbeat.workspace.terminals.history import Line
+from rosbeat.workspace.terminals.remarks import say
 
 #: So many lines of one command are shown at once; of more, the last ones.
 FIRST, LAST = 500, 20
@@ -40,7 +41,7 @@ class Display:
         if self._late:
             left_out = self._late[0].number - (self._next or 0)
             if left_out:
-                self._show(f"... {left_out:,} lines left out ...")
+                say(self._show, f"{left_out:,} lines left out")
         for line in self._late:
             self._show(line.text)
         self._late.clear()

@@ -2,6 +2,8 @@
 # taken our prompt away. The prompt is a mark that nobody sees: it says that the command before has
 # ended, with which code, and in which folder.
 __rosbeat_code=$?
+# readline writes the prompt to the standard error, which `exec 2> FILE` takes away.
+[ -t 2 ] || exec 2>/dev/tty
 # Only this shell has such a prompt, not a bash that is started in it.
 export -n PS0 PS1 PS2 PROMPT_COMMAND
 unset HISTFILE INPUTRC MAILCHECK TMOUT
@@ -21,6 +23,7 @@ __rosbeat_ps2='\[\e]7771;'$ROSBEAT_TERMINAL';M;;\a\]'
 # Printed when a command has been read and before it runs; bash 4.4 and later.
 PS0='\e]7771;'$ROSBEAT_TERMINAL';R;;\a'
 # A virtual environment's `activate` puts its name into PS1; here PS1 is put back.
-PROMPT_COMMAND='PS1=$__rosbeat_ps1 PS2=$__rosbeat_ps2'
+# `set -x` is not to show that.
+PROMPT_COMMAND='{ PS1=$__rosbeat_ps1 PS2=$__rosbeat_ps2; } 2>/dev/null'
 PS1=$__rosbeat_ps1 PS2=$__rosbeat_ps2
 return $__rosbeat_code

@@ -10,8 +10,9 @@ from rosbeat.workspace.terminals.history import Line
 from rosbeat.workspace.terminals.shell import BUSY, Glance, Shell
 
 #: How watching ends: the command has ended; the text has come; the time that was asked for is
-#: over; patience is; the program waits for an answer.
+#: over; patience is; the program waits for an answer; it paints a whole screen.
 FINISHED, FOUND, TIME_UP, TOO_LONG, QUIET = "finished", "found", "time up", "too long", "quiet"
+PAINTS = "paints"
 #: After so many seconds of silence the beginning of a line is taken for a question.
 SILENCE = 0.5
 
@@ -50,6 +51,7 @@ class Watch:
         place: The number of the next line to look at.
         patience: Seconds after which watching ends, if the goal does not say how long.
         may_repair: Whether the command may have taken the shell's prompt away.
+        for_page: Whether watching ends at a program that paints a whole screen.
         begin: When the watch began, as `time.monotonic()` counts.
     """
 
@@ -59,6 +61,7 @@ class Watch:
     place: int
     patience: float
     may_repair: bool = False
+    for_page: bool = False
     begin: float = field(default_factory=time.monotonic)
     _found: int = 0
 
@@ -66,17 +69,27 @@ class Watch:
         """Show what comes, and return how it ended.
 
         Returns:
-            `FINISHED`, `FOUND`, `TIME_UP`, `TOO_LONG` or `QUIET`.
+            `FINISHED`, `FOUND`, `TIME_UP`, `TOO_LONG`, `QUIET` or `PAINTS`.
         """
         while True:
             glance = self.shell.glance(self.place)
-            ending = self._see(glance) or self._over(glance)
+            ending = self._paints(glance) or self._see(glance) or self._over(glance)
             if ending:
                 return ending
             if not self.shell.wait_after(glance.moment, self._slice()):
                 silent = self._silent(glance)
                 if silent:
                     return silent
+
+    def _paints(self, glance: Glance) -> str:
+        """Look whether a whole screen is painted; nothing but what was typed is shown of it."""
+        # Such a program asks for single keys first, and paints then.
+        if not self.for_page or glance.state != BUSY or not self.shell.painter():
+            return ""
+        for line in glance.lines:
+            if line.typed:
+                self.see(line)
+        return PAINTS
 
     def _see(self, glance: Glance) -> str:
         for line in glance.lines:
@@ -109,8 +122,8 @@ class Watch:
     def _silent(self, glance: Glance) -> str:
         """Look closer at a program from which nothing comes."""
         if self.may_repair:
-            self.may_repair = False
-            self.shell.bring_prompt_back()
+            # A `.bashrc` may take its time: until bash waits there is nothing to repair.
+            self.may_repair = not self.shell.bring_prompt_back()
         if self._left() <= 0:
             return ""
         if self.goal.until is not None and self.goal.until in glance.partial:

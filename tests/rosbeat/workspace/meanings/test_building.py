@@ -147,3 +147,29 @@ def test_a_failure_that_is_not_known(meaning, package):
 def test_other_verbs_of_colcon_are_left_alone(meaning, edit):
     edit("setup.py", ENTRY, "nonsense:main")
     assert meaning("colcon list", "sensor_simulator\tsrc/sensor_simulator\n", 0) is None
+
+
+def test_tests_of_a_package_that_is_not_there(meaning, root, package):
+    output = f"WARNING: ignoring unknown package 'nosuch' in --packages-select\n{NONE}"
+    assert "so it tested nothing" in meaning("colcon test --packages-select nosuch", output, 0)
+    assert meaning("cat log/latest", output, 0) is None
+
+
+@pytest.mark.parametrize(
+    "new",
+    [
+        f"'{{}} = {ENTRY}'.format('temperature_publisher'),",
+        f"'%s = {ENTRY}' % 'temperature_publisher',",
+        f"*['temperature_publisher = {ENTRY}'],",
+    ],
+)
+def test_a_list_that_is_computed_is_not_blamed(meaning, edit, new):
+    edit("setup.py", f"'temperature_publisher = {ENTRY}',", new)
+    assert meaning("colcon build", FINE, 0) is None
+
+
+def test_two_equals_signs(meaning, edit):
+    edit("setup.py", "temperature_publisher = ", "temperature_publisher == ")
+    said = meaning("colcon build", FINE, 0)
+    assert "more than one `=`" in said
+    assert "comma" not in said

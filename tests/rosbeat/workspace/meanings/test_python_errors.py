@@ -50,3 +50,19 @@ def test_others_are_left_alone(meaning, last):
 
 def test_without_a_traceback_nothing_is_meant(meaning):
     assert meaning(RUN, "[INFO] [a]: NameError: name 'x' is not defined\n", 0) is None
+
+
+def test_of_a_script_without_ros_nothing_is_said_about_ros(meaning):
+    last = "TypeError: connect() missing 1 required positional argument: 'qos_profile'"
+    output = f"Traceback (most recent call last):\n  File x\n{last}\n"
+    assert meaning("python3 a.py", output) is None
+    assert meaning("python3 a.py", output.replace("File x", "rclpy.spin(node)"))
+    last = "NameError: name 'x' is not defined"
+    assert "Nothing is called x" in meaning("./a.py", output.splitlines()[0] + f"\n{last}\n")
+
+
+def test_a_traceback_that_is_only_read(meaning):
+    output = "Traceback (most recent call last):\nNameError: name 'x' is not defined\n"
+    assert meaning("cat log.txt", output, 0) is None
+    output = "Traceback (most recent call last):\nModuleNotFoundError: No module named 'rclpy'\n"
+    assert meaning("cat log.txt", output, 0) is None

@@ -146,3 +146,32 @@ def test_edited_and_not_rebuilt(meaning, installed, edit):
     assert meaning(f"ros2 run {PACKAGE} temperature_subscriber", "[INFO] ...", 0) is None
     (installed / "lib/python3.11/site-packages/sensor-simulator.egg-link").touch()
     assert meaning(RUN, output, 0) is None
+
+
+def test_a_package_that_became_a_link_after_this_terminal_was_told(meaning, installed):
+    last = "importlib.metadata.PackageNotFoundError: No package metadata was found for "
+    output = traceback(f"{last}sensor-simulator")
+    assert meaning(RUN, output) is None
+    (installed / "lib/python3.11/site-packages/sensor-simulator.egg-link").touch()
+    assert "a link now" in meaning(RUN, output)
+    assert meaning(RUN, traceback(f"{last}another")) is None
+
+
+def test_what_ros2_asks_itself_is_not_asked_again(meaning, installed):
+    output = f"{NO_EXECUTABLE}Did you mean 'temperature_publisher'?\n"
+    assert meaning(f"ros2 run {PACKAGE} temperature_publishr", output) is None
+    output = f"{NO_EXECUTABLE}Package '{PACKAGE}' has: temperature_publisher\n"
+    assert meaning(f"ros2 run {PACKAGE} x", output) is None
+    output = f"Package 'sensor_simulatr' not found\nDid you mean '{PACKAGE}'?\n"
+    assert meaning("ros2 run sensor_simulatr x", output) is None
+
+
+def test_an_output_that_is_only_read(meaning, installed):
+    assert meaning("cat log.txt", NOT_FOUND, 0) is None
+
+
+def test_entry_points_that_cannot_be_seen(meaning, installed, package, edit):
+    edit(
+        "setup.cfg", "[develop]", "[options.entry_points]\nconsole_scripts =\n  x = a:b\n[develop]"
+    )
+    assert meaning(f"ros2 run {PACKAGE} x", NO_EXECUTABLE) is None

@@ -48,3 +48,29 @@ def test_colours_and_quotes_do_not_count(root):
 
 def test_a_workspace_that_is_not_there(tmp_path):
     assert Situation("colcon build", "", 0, tmp_path, tmp_path / "none").packages == ()
+
+
+def test_cd_by_the_variable_of_the_workspace(calls, root):
+    for name in ('"$ROS2_WORKSPACE"', "${ROS2_WORKSPACE}"):
+        assert calls(f"cd {name}/src && ls", root.parent)[1][1] == root / "src"
+
+
+def test_settings_in_front_of_a_program(calls):
+    assert [one for one, _ in calls("A=1 B=2 ros2 run a b; C=3 cd")] == ["ros2 run a b", "cd"]
+    assert calls("timeout -s INT 5 ros2 run a b")[0][0] == "ros2 run a b"
+    assert [calls(one)[0][0] for one in ("timeout", "A=1", "timeout 5")] == [
+        "timeout",
+        "A=1",
+        "timeout 5",
+    ]
+
+
+def test_out_of_a_folder_that_has_gone(calls, root):
+    assert calls("cd .. && ls", root / "gone")[1][1] == root
+
+
+def test_a_traceback_belongs_to_a_program_that_ran(root):
+    output = "before\nTraceback (most recent call last):\nError: rclpy\n"
+    seen = [Situation(command, output, 1, root, root) for command in ("cat a.py", "./a.py", "ls")]
+    assert [bool(one.traceback) for one in seen] == [False, True, False]
+    assert [one.about_ros for one in seen] == [False, True, False]

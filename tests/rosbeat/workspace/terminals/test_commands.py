@@ -24,11 +24,11 @@ def test_exit_codes_are_shown_and_kept(seen, terminal):
     assert terminal.exit_code is None
     assert seen("true") == ["~$ true"]
     assert terminal.exit_code == 0
-    assert "exit code 1" in seen("false")
-    assert seen("(exit 42)")[1:2] == ["exit code 42"]
+    assert "# exit code 1" in seen("false")
+    assert seen("(exit 42)")[1:2] == ["# exit code 42"]
     assert terminal.exit_code == 42
     assert seen("# nothing happens here") == ["~$ # nothing happens here"]
-    assert "exit code 143" in seen("sh -c 'kill $$'")
+    assert "# exit code 143" in seen("sh -c 'kill $$'")
 
 
 def test_what_comes_without_a_newline_is_a_line(seen):
@@ -66,7 +66,7 @@ def test_an_unfinished_command_is_dropped(terminal, seen, command, says):
 def test_a_syntax_error_is_bash_s_own(seen):
     shown = seen("echo )")
     assert "syntax error" in shown[1]
-    assert "exit code 2" in shown
+    assert "# exit code 2" in shown
 
 
 def test_the_history_sign_is_not_special(seen):
@@ -77,7 +77,7 @@ def test_ctrl_c_shows_how_it_ends(terminal):
     terminal.type(TICK, until="tick 2", show=str)
     shown = []
     assert terminal.ctrl_c(show=shown.append) == 130
-    assert shown == ["^C", "exit code 130"]
+    assert shown == ["^C", "# exit code 130"]
     assert terminal.exit_code == 130
 
 
@@ -86,7 +86,7 @@ def test_ctrl_c_shows_what_a_program_says_at_the_end(terminal):
     terminal.type(command, until="tick 2", show=str)
     shown = []
     assert terminal.ctrl_c(show=shown.append) == 0
-    assert shown == ["^C", "tidy", "exit code 0"]
+    assert shown == ["^C", "tidy", "# exit code 0"]
 
 
 def test_ctrl_c_reaches_a_loop_between_two_programs(terminal):
@@ -98,14 +98,14 @@ def test_ctrl_c_reaches_a_loop_between_two_programs(terminal):
 def test_ctrl_c_with_nothing_running(terminal):
     shown = []
     assert terminal.ctrl_c(show=shown.append) is None
-    assert shown == ["(nothing runs in the terminal `sensor`)"]
+    assert shown == ["# nothing runs in the terminal `sensor`"]
 
 
 def test_patience_ends_the_watching_only(terminal):
     shown = []
     terminal.type("sleep 100\necho never typed", timeout=0.3, show=shown.append)
-    assert shown[1].startswith("(`sleep 100` still runs after 0.3 s")
-    assert shown[2] == "(1 more line in the cell, not typed)"
+    assert shown[1].startswith("# `sleep 100` still runs after 0.3 s")
+    assert shown[-1] == "# 1 more line in the cell, not typed"
     assert terminal.busy
 
 
@@ -125,8 +125,9 @@ def test_the_same_cell_again_stops_its_command_first(terminal):
     terminal.type(TICK, until="tick 3", show=str)
     shown = []
     terminal.type(TICK, until="tick 1", show=shown.append)
-    assert shown[0].endswith("of this cell still runs, and is stopped first)")
-    assert shown[1:] == [f"~$ {TICK}", "[INFO] [sensor]: tick 1"]
+    assert shown[0].startswith("# `i=0; while true; do")
+    assert shown[1] == "# stopped first"
+    assert shown[2:] == [f"~$ {TICK}", "[INFO] [sensor]: tick 1"]
 
 
 def test_a_program_that_ignores_ctrl_c_can_be_killed(terminal, says):
@@ -136,7 +137,7 @@ def test_a_program_that_ignores_ctrl_c_can_be_killed(terminal, says):
     says(caught.value, "%terminal sensor --kill")
     shown = []
     assert terminal.kill(show=shown.append) == 137
-    assert shown[-1] == "exit code 137"
+    assert shown[-1] == "# exit code 137"
     assert not terminal.busy
 
 
@@ -146,7 +147,7 @@ def test_a_program_that_reads_gets_answers(terminal):
     terminal.answer("one\ntwo", show=shown.append)
     assert shown == ["one", "one", "two", "two"]
     assert terminal.ctrl_d(show=shown.append) == 0
-    assert shown[-2:] == ["^D", "exit code 0"]
+    assert shown[-2:] == ["^D", "# exit code 0"]
 
 
 def test_python_in_a_terminal(terminal):
@@ -212,7 +213,7 @@ def test_a_loop_that_outlives_its_killed_program_can_be_closed(terminal, says):
 def test_a_cell_with_a_blank_is_not_typed_at_all(terminal, tmp_path):
     shown = []
     terminal.type("mkdir made\nmkdir ____", show=shown.append)
-    assert shown == ["(nothing was typed: there is still a blank, ____, in line 3)"]
+    assert shown == ["# nothing was typed: there is still a blank, ____, in line 3"]
     assert not list(tmp_path.rglob("made"))
     terminal.type("echo a____b", show=shown.append)
     assert shown[-1] == "a____b"
@@ -221,9 +222,17 @@ def test_a_cell_with_a_blank_is_not_typed_at_all(terminal, tmp_path):
 def test_a_command_that_fails_before_the_text_comes_has_said_so(terminal, says):
     shown = []
     terminal.type("ls nowhere", until="somewhere", show=shown.append)
-    assert "exit code 2" in shown
+    assert "# exit code 2" in shown
     with pytest.raises(TerminalError) as caught:
         terminal.type("echo nothing", until="somewhere", show=str)
     says(caught.value, "before the command ended")
     with pytest.raises(TerminalError):
         terminal.look(until="somewhere", show=str)
+
+
+def test_an_ended_terminal_takes_no_command(terminal, says):
+    terminal.type("exit", show=str)
+    with pytest.raises(TerminalError) as caught:
+        terminal.type("echo hello", show=str)
+    says(caught.value, "has ended", "%%terminal sensor")
+    assert terminal.ended

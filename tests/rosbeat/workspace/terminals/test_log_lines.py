@@ -9,7 +9,7 @@ def test_lines_of_ros_become_records():
         Line(1, 7, "[INFO] [1732212345.123456789] [temperature_sensor]: Publishing: 22.13C"),
         Line(2, 9, "[WARN] [ns.monitor]: warm [INFO] [b]: c"),
         Line(3, 11, "[HELLO] [a]: b"),
-        Line(4, 13, "exit code 1"),
+        Line(4, 13, "# exit code 1"),
         Line(5, 15, "[ERROR] [0.5] [a]: "),
     ]
     assert log_records(lines) == (

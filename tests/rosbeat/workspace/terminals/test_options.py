@@ -20,6 +20,11 @@ def test_actions_stand_in_a_line(action):
         parse(f"sensor --{action}", True)
 
 
+def test_ending_a_program_takes_a_time():
+    assert parse("sensor --ctrl-c --timeout 2", False).ending() == {"timeout": 2.0}
+    assert parse("sensor --kill", False).ending() == {}
+
+
 def test_no_name_lists_the_terminals():
     assert parse("  ", False).name == ""
 
@@ -45,6 +50,9 @@ def test_no_name_lists_the_terminals():
         ("sensor --for inf", True, "not a number of seconds"),
         ("sensor --for nan", True, "not a number of seconds"),
         ("sensor --kill --close", False, "not allowed with"),
+        ("sensor --ctrl-c --until x", False, "`--until` does not go with `--ctrl-c`"),
+        ("sensor --kill --for 0", False, "`--for` does not go with `--kill`"),
+        ("sensor --close --timeout 3", False, "`--timeout` does not go with `--close`"),
         ("sensor --answer", False, "needs `%%terminal`"),
         ("sen/sor", True, "is no name"),
         ("../x", False, "is no name"),

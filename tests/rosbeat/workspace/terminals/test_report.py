@@ -26,7 +26,11 @@ def test_the_question_holds_everything(asked, home):
 
 def test_a_terminal_shows_the_meaning_below_the_exit_code(asked, seen, home):
     shown = seen("cd /\nfalse")
-    assert shown[-2:] == ["exit code 1", "It means\n/home/you/ROS2_and_RL_Tutorials"]
+    assert shown[-3:] == [
+        "# exit code 1",
+        "# It means",
+        "# /home/you/ROS2_and_RL_Tutorials",
+    ]
     assert [(call[0], call[2], str(call[3])) for call in asked] == [
         ("cd /", 0, str(home)),
         ("false", 1, "/"),

@@ -18,7 +18,7 @@ def test_everything_is_shown_when_it_is_little():
 
 
 def test_the_middle_is_left_out_and_counted():
-    assert shown(9) == ["10", "11", "12", "... 4 lines left out ...", "17", "18"]
+    assert shown(9) == ["10", "11", "12", "# 4 lines left out", "17", "18"]
 
 
 def test_lines_that_were_forgotten_in_between_count_too():
@@ -27,4 +27,4 @@ def test_lines_that_were_forgotten_in_between_count_too():
     display.add(Line(0, 0, "a"))
     display.add(Line(99, 0, "z"))
     display.end()
-    assert lines == ["a", "... 98 lines left out ...", "z"]
+    assert lines == ["a", "# 98 lines left out", "z"]

@@ -35,7 +35,7 @@ def test_a_command_is_watched_for_a_while(terminal):
     assert shown == [
         "~$ echo a; sleep 100",
         "a",
-        "(`echo a; sleep 100` goes on running in the terminal `sensor`)",
+        "# `echo a; sleep 100` goes on running in the terminal `sensor`",
     ]
     assert terminal.busy
 
@@ -91,7 +91,7 @@ def test_a_look_shows_what_came_and_how_it_ended(terminal, eventually, home):
     eventually(lambda: not terminal.busy)
     shown = []
     terminal.look(show=shown.append)
-    assert shown == ["late", "exit code 5"]
+    assert shown == ["late", "# exit code 5"]
     shown.clear()
     terminal.look(show=shown.append)
     assert shown == []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import getpass
 import os
 import re
+import shlex
 import subprocess
 import sys
 from argparse import ArgumentParser, Namespace
@@ -56,7 +57,7 @@ def main(args: Namespace) -> None:
     if args.build_type != "ament_python":
         raise CommandError(
             f"Build type '{args.build_type}' is left out here: this `ros2` makes Python packages.",
-            f"Try:  ros2 pkg create --build-type ament_python {name}",
+            f"Try:  {_as_python_package(args)}",
         )
     _announce(new := _asked_for(args), destination)
     try:
@@ -66,6 +67,14 @@ def main(args: Namespace) -> None:
         raise CommandError(f"Failed to create {error.filename}: {error.strerror}") from None
     if new.license not in LICENSES:
         _warn_about_license(new.license)
+
+
+def _as_python_package(args: Namespace) -> str:
+    """The command that was typed, with the build type that works here."""
+    needs = ["--dependencies", *args.dependencies] if args.dependencies else []
+    node = ["--node-name", args.node_name] if args.node_name else []
+    words = ["ros2", "pkg", "create", "--build-type", "ament_python", args.package_name]
+    return shlex.join([*words, *node, *needs])
 
 
 def _check_place(destination: Path, name: str) -> None:
