@@ -21,7 +21,7 @@ PROFILE_VARIABLE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 UNKNOWN = "_NODE_NAME_UNKNOWN_"
 #: The graph is believed if it was the same this many times in a row. Not a time: on a busy machine
 #: time passes in which no news could have come in ...
-SAME_LOOKS = 6
+SAME_LOOKS, SAME_NAMES = 4, 2
 #: ... and every process of this machine is in it. Those of other machines announce themselves
 #: each 0.1 s, and cannot be counted, so they are given two chances.
 OTHER_MACHINES = 0.25
@@ -30,7 +30,7 @@ OTHER_MACHINES = 0.25
 NO_NEWS = 4.0
 AT_MOST = 20.0
 #: Endpoints whose numbers are missing may be late, or were destroyed; this is how late they may be.
-GAPS_FOR = 1.0
+GAPS_FOR = 2.0
 _LOOK_EVERY = 0.02
 
 
@@ -107,7 +107,7 @@ class Graph:
         """Let callbacks run for some time."""
         self.spin_until(lambda: False, seconds)
 
-    def settle(self, enough: Callable[[], bool] = lambda: False) -> Graph:
+    def settle(self, enough: Callable[[], bool] = lambda: False, names_only: bool = False) -> Graph:
         """Wait until the graph can be believed, and return this object.
 
         That is when every process of this machine is seen, the names of its nodes are known, and
@@ -115,6 +115,8 @@ class Graph:
 
         Args:
             enough: Ends the wait early, as soon as it is true.
+            names_only: Whether only the names of nodes are wanted, not what belongs to them. A
+                process tells all its names at once.
         """
         if self._spin_time is not None:
             time.sleep(max(0.0, self._spin_time - self.age))
@@ -126,8 +128,10 @@ class Graph:
             if now != last:
                 last, since, same = now, time.monotonic(), 0
             same += 1
-            enough_looks = same >= SAME_LOOKS and self.age >= at_least
-            if enough_looks and self._is_complete() and self._has_no_gaps(since):
+            enough_looks = (
+                same >= (SAME_NAMES if names_only else SAME_LOOKS) and self.age >= at_least
+            )
+            if enough_looks and self._is_complete() and (names_only or self._has_no_gaps(since)):
                 break
             time.sleep(_LOOK_EVERY)
         return self

@@ -30,7 +30,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> None:
     """Print the nodes of the graph."""
     with open_graph(args) as graph:
-        names = graph.settle().nodes(hidden=args.all)
+        names = graph.settle(names_only=True).nodes(hidden=args.all)
     if args.count_nodes:
         print(len(names))
         return
