@@ -16,6 +16,10 @@ _PACKAGE = "sensor_simulator"
 _PROGRAMS = ("temperature_publisher", "temperature_subscriber")
 _ANATOMY = "An entry point is 'executable = package.module:function'."
 
+_PLAIN = (
+    "Some entries are calculated, and this check reads setup.py without running it. Write both "
+    "as plain texts."
+)
 _CALLED = (
     "The executable is the name before the equals sign, and the exercise says what it is called. "
     "It is not the name of the node."
@@ -25,6 +29,7 @@ _CALLED = (
 _FLAWS = {
     "missing-comma": "two entries have become one",
     "no-equals": "has no equals sign",
+    "two-equals": "has two equals signs",
     "bad-name": "begins with a name that no program can have",
     "slash": "has a slash in the module",
     "suffix": "names a file, with .py, and not a module",
@@ -36,6 +41,7 @@ _FLAWS = {
 _CURES = {
     "missing-comma": "A comma is missing after the first one: Python glues texts together.",
     "no-equals": _ANATOMY,
+    "two-equals": "One equals sign is enough: it is no comparison.",
     "bad-name": _ANATOMY,
     "slash": "Modules are written with dots: package.module.",
     "suffix": "Leave out .py: a module is named without it.",
@@ -57,7 +63,7 @@ def _judge_setup(seen: Workspace) -> Outcome:
             "Each entry is a text between quotes, with a comma after it, inside the square "
             "brackets.",
         )
-    if not package.setup.entry_points:
+    if not package.setup.entry_points and not package.setup.incomplete:
         return not_attempted("05a", "setup.py has no entry points yet.")
     return _judge_entries(package)
 
@@ -68,6 +74,8 @@ def _judge_entries(package: Package) -> Outcome:
     targets = {e.executable: f"{e.module}:{e.function}" for e in package.setup.entry_points}
     for program in _PROGRAMS:
         wanted = f"{_PACKAGE}.{program}:main"
+        if program not in targets and package.setup.incomplete:
+            return failed("05a", f"There is no {program} that can be read here.", _PLAIN)
         if program not in targets:
             found = ", ".join(targets)
             return failed("05a", f"There is no {program}. The executables are: {found}.", _CALLED)

@@ -1,9 +1,14 @@
 """Page 05: entry points in a setup.py that nobody runs, and functions that write them."""
 
+import re
+from pathlib import Path
+
 import pytest
 
 from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises import page_05
 from rosbeat.exercises.page_05 import EXERCISES
+from rosbeat.workspace import targets
 
 setup_05a, function_05b = EXERCISES
 PUBLISHER = "'temperature_publisher = sensor_simulator.temperature_publisher:main',"
@@ -62,7 +67,9 @@ def test_an_empty_list_is_nothing_tried(judge):
         ((PUBLISHER.replace("publisher:", "publsher:"), SUBSCRIBER), "module"),
         ((PUBLISHER, SUBSCRIBER.replace("subscriber:", "publisher:")), "would call"),
         (("'____',", "'____',"), "equals sign"),
-        ((PUBLISHER.replace("=", "=="), SUBSCRIBER), "module"),
+        ((PUBLISHER.replace("=", "=="), SUBSCRIBER), "two equals signs"),
+        (("*[],", PUBLISHER), "no temperature_subscriber that can be read"),
+        (("'{} = {}'.format('a', 'b'),",), "that can be read"),
         ((PUBLISHER.replace("temperature_publisher =", "publisher ="), SUBSCRIBER), "publisher"),
         ((PUBLISHER.replace("'temp", "temp"), SUBSCRIBER), "cannot be read"),
     ],
@@ -72,6 +79,13 @@ def test_a_wrong_list_says_what_is_wrong(judge, entries, evidence):
     assert outcome.status == FAILED
     assert evidence in outcome.evidence
     assert outcome.hint
+
+
+def test_every_flaw_of_an_entry_point_has_words():
+    source = Path(targets.__file__).read_text()
+    kinds = set(re.findall(r'Flaw\(\s*"([a-z-]+)"', source))
+    assert len(kinds) >= 10
+    assert kinds == set(page_05._FLAWS) == set(page_05._CURES)
 
 
 def by_format(executable, package, module, function="main"):
