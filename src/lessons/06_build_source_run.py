@@ -172,14 +172,13 @@ check("06a", workspace.terminal("third"))
 # %% [markdown]
 # ## Know what is installed
 #
-# For `ros2 run`, only `install` counts, and colcon has **copied** your files to it. `diff` compares files,
-# and `echo` speaks only if all is the same (that is what `&&` means):
+# For `ros2 run`, only `install` counts, and colcon has **copied** your files to it. `diff` compares a file
+# with its copy (the star stands for any text), and `echo` speaks only if both are the same, which is what
+# `&&` means:
 
 # %% terminal="build"
-# cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
-# INSTALLED="$ROS2_WORKSPACE"/install/sensor_simulator/lib/python3*/site-packages/sensor_simulator
-# diff temperature_publisher.py $INSTALLED/temperature_publisher.py && echo "the same"
 # cd "$ROS2_WORKSPACE"
+# diff src/sensor_simulator/sensor_simulator/temperature_publisher.py install/sensor_simulator/lib/python3*/site-packages/sensor_simulator/ && echo "the same"
 
 # %% [markdown]
 # The same, for now. If you change the file in `src` and run, the *old* program runs, and ROS does not tell
