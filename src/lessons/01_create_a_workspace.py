@@ -73,12 +73,12 @@ from rosbeat import check, workspace
 # ## Give it an order
 #
 # A workspace has a few folders. The tutorial that this course follows makes all of them in one line.
-# `find . -type d` lists all folders below this one (the dot means *here*), and `| sort` puts the lines
-# in order.
+# `ls` lists what is in a folder: with `-1` one name on each line, and with `-d` and these stars only the
+# folders here and in `resources`.
 
 # %% terminal="one"
 # mkdir -p src docs scripts resources/images
-# find . -type d | sort
+# ls -1d */ resources/*/
 
 # %% [markdown]
 # | folder | what goes in |
@@ -105,7 +105,7 @@ from rosbeat import check, workspace
 # all went well, any other number that it did not. Lines that begin with `#` are remarks of this course;
 # a bare terminal does not print them.
 #
-# With `-p` it works. `ls` lists what is in a folder:
+# With `-p` it works:
 
 # %% terminal="one"
 # mkdir -p resources/maps/kitchen
