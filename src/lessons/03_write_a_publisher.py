@@ -188,15 +188,16 @@ viz.graph(ros.graph())
 #   arguments from the command line;
 # - `TemperatureSensor()` makes the node: it runs `__init__`;
 # - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until somebody stops it;
-# - `Ctrl` + `C` raises `KeyboardInterrupt`, and any other request to end raises
-#   `ExternalShutdownException`. `main` catches both, and `pass` does nothing;
-# - at the end the node is destroyed and ROS is shut down.
+# - `Ctrl` + `C` raises `KeyboardInterrupt`, and the line with `SIGTERM`, the system's request to end, makes
+#   that the same. `main` catches it, and the exception with which ROS itself ends;
+# - at the end node and ROS are shut down.
 #
 # The next cell is the whole file. `%%save` writes it into your package and then runs it here.
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_publisher.py"
 #!/usr/bin/env python3
 import random
+import signal
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -223,6 +224,7 @@ class TemperatureSensor(Node):
 
 
 def main(args=None):
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureSensor()
     try:

@@ -217,6 +217,8 @@ viz.queue(queue_steps(arrivals, takes, depth=10), depth=10)
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_subscriber.py"
 #!/usr/bin/env python3
+import signal
+
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -243,6 +245,7 @@ class TemperatureMonitor(Node):
 
 
 def main(args=None):
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureMonitor()
     try:

@@ -19,12 +19,15 @@ class Demo(Node):
         self.declare_parameter("rate", 3)
         self.declare_parameter("limits.max", 30.0)
         self.publisher = self.create_publisher(Float32, topic, 10)
-        self.subscription = self.create_subscription(Float32, f"{name}/in", print, 10)
+        self.subscription = self.create_subscription(Float32, f"{name}/in", self.hear, 10)
         self.service = self.create_service(SetBool, "~/enable", self.enable)
         self.timer = self.create_timer(period, self.publish)
 
     def publish(self) -> None:
         self.publisher.publish(Float32(data=25.5))
+
+    def hear(self, msg: Float32) -> None:  # `print` itself has no signature in Python 3.10
+        print(msg)
 
     def enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         response.success, response.message = request.data, "on"
