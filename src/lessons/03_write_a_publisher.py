@@ -187,12 +187,12 @@ viz.graph(ros.graph())
 # - `rclpy.init()` starts ROS in this process; it must come before the first node. `args` may hold
 #   arguments from the command line;
 # - `TemperatureSensor()` makes the node: it runs `__init__`;
-# - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until somebody stops it;
+# - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until it is stopped;
 # - `Ctrl` + `C` raises `KeyboardInterrupt`, and the line with `SIGTERM`, the system's request to end, makes
 #   that the same. `main` catches it, and the exception with which ROS itself ends;
 # - at the end node and ROS are shut down.
 #
-# The next cell is the whole file. `%%save` writes it into your package and then runs it here.
+# Here is the whole file. `%%save` writes it into your package and then runs it here.
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_publisher.py"
 #!/usr/bin/env python3
