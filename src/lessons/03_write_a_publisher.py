@@ -192,7 +192,7 @@ viz.graph(ros.graph())
 #   that the same. `main` catches it, and the exception with which ROS itself ends;
 # - at the end node and ROS are shut down.
 #
-# Here is the whole file. `%%save` writes it into your package and then runs it here.
+# Here is the whole file. `%%save` writes it into your package and runs it.
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_publisher.py"
 #!/usr/bin/env python3

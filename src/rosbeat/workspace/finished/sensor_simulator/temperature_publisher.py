@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 import random
+import signal
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -26,6 +27,7 @@ class TemperatureSensor(Node):
 
 
 def main(args=None):
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureSensor()
     try:
