@@ -182,14 +182,14 @@ viz.graph(ros.graph())
 # %% [markdown]
 # ## Turn the class into a program
 #
-# On a robot, the class lives in a file of its own, with a function `main` around it:
+# On a robot, the class has a file of its own, with a function `main`:
 #
 # - `rclpy.init()` starts ROS in this process; it must come before the first node. `args` may hold
 #   arguments from the command line;
 # - `TemperatureSensor()` makes the node: it runs `__init__`;
 # - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until it is stopped;
 # - `Ctrl` + `C` raises `KeyboardInterrupt`, and the line with `SIGTERM`, the system's request to end, makes
-#   that the same. `main` catches it, and the exception with which ROS itself ends;
+#   that the same. `main` catches it, and the exception with which ROS itself ends. `pass` does nothing;
 # - at the end node and ROS are shut down.
 #
 # Here is the whole file. `%%save` writes it into your package and runs it.
