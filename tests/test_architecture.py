@@ -25,14 +25,18 @@ MAY_IMPORT = {
     "domains": {"errors"},
     "records": {"errors"},
     "observations": {"records", "errors"},
-    "viz": {"records", "errors"},
-    "checks": {"records", "errors"},
-    "runtime": {"errors", "records", "environment", "domains"},
-    "exercises": {"runtime", "checks", "records", "errors", "viz", "workspace", "rosbeat"},
-    "workspace": {"errors", "records", "environment"},
+    "diagnosis": {"records", "errors"},
+    "viz": {"records", "errors", "diagnosis"},
+    "checks": {"records", "errors", "diagnosis"},
+    "runtime": {"errors", "records", "environment", "domains", "diagnosis"},
+    "exercises": {
+        *("runtime", "checks", "records", "observations", "errors", "viz", "workspace"),
+        *("diagnosis", "environment", "rosbeat"),
+    },
+    "workspace": {"errors", "records", "environment", "diagnosis"},
     "grading": {
         *("errors", "records", "observations", "environment", "runtime", "viz", "checks"),
-        *("exercises", "workspace", "rosbeat"),
+        *("exercises", "workspace", "diagnosis", "rosbeat"),
     },
     "authoring": {"errors", "domains"},
     # The package itself hands out names of other rooms.
@@ -51,6 +55,7 @@ THIRD_PARTY = {
     "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
     "viz": {"matplotlib", "PIL", "numpy"},
     "checks": set(),
+    "diagnosis": set(),
 }
 ROS = re.compile(r"rclpy|_rclpy|rcl_interfaces|builtin_interfaces|rosidl\w*|rmw\w*|\w+_(msgs|srvs)")
 MAX_LINES, MEDIAN_LINES = 400, 130

@@ -19,7 +19,7 @@ from rosbeat.records import Observation
 
 FORMAT = "rosbeat observation"
 #: Raised by one whenever a field is added, taken away or given another meaning.
-VERSION = 1
+VERSION = 2
 _FLOAT = "$float"
 _ODD_FLOATS = {"nan": float("nan"), "inf": float("inf"), "-inf": float("-inf")}
 

@@ -120,6 +120,8 @@ class Fault(Timed):
         text: The exception's message.
         line: Line number of the learner's own line nearest to the fault, 0 if unknown.
         code: That line's text, stripped, or an empty string.
+        asked: The call of rclpy that failed, with the types of what it was given, such as
+            `create_subscription(type, str, int)`; empty if it was none.
     """
 
     time_ns: int
@@ -129,6 +131,7 @@ class Fault(Timed):
     text: str
     line: int
     code: str
+    asked: str = ""
 
 
 @dataclass(frozen=True)
@@ -224,6 +227,8 @@ class Observation(Timed):
         callbacks: Every run of a callback, in order.
         faults: Every exception that left a callback, in order.
         graph: The graph at the end.
+        subject: Full name of the node that was looked at, among others; empty if there was none.
+        printed: How many characters it printed.
     """
 
     time_ns: int
@@ -233,6 +238,27 @@ class Observation(Timed):
     callbacks: tuple[CallbackRecord, ...] = ()
     faults: tuple[Fault, ...] = ()
     graph: GraphSnapshot = GraphSnapshot()
+    subject: str = ""
+    printed: int = 0
+
+
+@dataclass(frozen=True)
+class ProgramRun:
+    """One run of a program in a process of its own, ended with Ctrl+C.
+
+    Attributes:
+        program: What was run, such as `temperature_publisher`.
+        output: What it printed, both streams in one, up to a limit.
+        exit_code: How it ended; negative for the number of a signal; None if it had to be killed.
+        ended_early: Whether it ended before it was interrupted.
+        logs: The log lines among its output, times left at 0.
+    """
+
+    program: str
+    output: str
+    exit_code: int | None
+    ended_early: bool = False
+    logs: tuple[LogRecord, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -244,12 +270,20 @@ class Outcome:
         status: `passed`, `failed` or `not attempted`.
         evidence: What was observed, one or two sentences.
         hint: What to think about next; empty if nothing is wrong.
+        mistake: Id of the recognised mistake, `new-to-me` if none was; empty unless failed.
+        points: Points that were reached.
+        out_of: Points that there are.
+        remarks: What is worth knowing although the answer is right.
     """
 
     exercise: str
     status: str
     evidence: str = ""
     hint: str = ""
+    mistake: str = ""
+    points: int = 0
+    out_of: int = 1
+    remarks: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.records import Fault, Observation, Outcome
 
 PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
@@ -34,14 +35,26 @@ _HINTS = (
 )
 
 
-def passed(exercise: str, evidence: str) -> Outcome:
-    """The answer does what was asked."""
-    return Outcome(exercise, PASSED, evidence)
+def passed(exercise: str, evidence: str, *remarks: str) -> Outcome:
+    """The answer does what was asked; `remarks` are worth knowing all the same."""
+    return Outcome(exercise, PASSED, evidence, remarks=remarks)
 
 
-def failed(exercise: str, evidence: str, hint: str) -> Outcome:
-    """The answer does something else; `evidence` says what, `hint` where to look."""
-    return Outcome(exercise, FAILED, evidence, hint)
+def failed(exercise: str, evidence: str, hint: str, mistake: str = UNKNOWN) -> Outcome:
+    """The answer does something else; `evidence` says what, `hint` where to look.
+
+    Args:
+        exercise: The exercise's id.
+        evidence: What was observed, one or two sentences.
+        hint: Where to look, without the answer.
+        mistake: Id of the mistake, from `diagnosis.mistakes`.
+    """
+    return Outcome(exercise, FAILED, evidence, hint, mistake)
+
+
+def failed_by(exercise: str, diagnosis: Diagnosis) -> Outcome:
+    """The answer failed, and the mistake was recognised."""
+    return failed(exercise, diagnosis.evidence, diagnosis.hint, diagnosis.mistake)
 
 
 def not_attempted(exercise: str, evidence: str = _STILL_BLANK) -> Outcome:

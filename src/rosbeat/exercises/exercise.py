@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
-from rosbeat.checks.verdicts import before_judging
+from rosbeat.checks.verdicts import PASSED, before_judging
 from rosbeat.records import Observation, Outcome
 
 Seen = TypeVar("Seen")
@@ -22,13 +22,22 @@ class Exercise(Generic[Seen]):
             data. The only part that runs foreign code.
         judge: A pure function from that to an outcome. Of a node it is asked only if the answer has
             no blank left and raised nothing.
+        title: What it is about, a few words, such as `another sensor`.
+        points: What a right answer is worth.
+        hints: What `hint` gives, one more each time, from general to exact. The answer itself is
+            not among them; `hint` gives it last.
     """
 
     id: str
     scenario: Callable[[Any], Seen]
     judge: Callable[[Seen], Outcome]
+    title: str = ""
+    points: int = 1
+    hints: tuple[str, ...] = ()
 
     def judged(self, seen: Seen) -> Outcome:
-        """The outcome of what was seen; of a node, blanks and exceptions included."""
+        """The outcome of what was seen, with its points; blanks and exceptions included."""
         early = before_judging(self.id, seen) if isinstance(seen, Observation) else None
-        return early or self.judge(seen)
+        outcome = early or self.judge(seen)
+        reached = self.points if outcome.status == PASSED else 0
+        return replace(outcome, points=reached, out_of=self.points)
