@@ -26,9 +26,13 @@ MAY_IMPORT = {
     "records": {"errors"},
     "observations": {"records", "errors"},
     "diagnosis": {"records", "errors"},
-    "viz": {"records", "errors", "diagnosis"},
+    "comparisons": {"records", "errors"},
+    "bags": {"records", "errors", "comparisons", "runtime"},
+    "viz": {"records", "errors", "diagnosis", "comparisons"},
     "checks": {"records", "errors", "diagnosis"},
-    "runtime": {"errors", "records", "environment", "domains", "diagnosis"},
+    "panel": {"records", "errors", "viz"},
+    # A session opens its panel, which knows it only as instruments.
+    "runtime": {"errors", "records", "environment", "domains", "diagnosis", "panel"},
     "exercises": {
         *("runtime", "checks", "records", "observations", "errors", "viz", "workspace"),
         *("diagnosis", "environment", "rosbeat"),
@@ -40,7 +44,7 @@ MAY_IMPORT = {
     },
     "authoring": {"errors", "domains"},
     # The package itself hands out names of other rooms.
-    "rosbeat": {"environment", "viz", "runtime", "exercises", "workspace"},
+    "rosbeat": {"checks", "environment", "viz", "runtime", "exercises", "workspace"},
 }
 #: `cli` may import everything, and nobody may import `cli`.
 EVERYWHERE = {"cli", "__main__"}
@@ -49,11 +53,14 @@ THIRD_PARTY = {
     "errors": set(),
     "records": set(),
     "observations": set(),
+    "comparisons": set(),
+    "bags": {"rosbags", "numpy"},
     "environment": set(),
     "domains": set(),
     "workspace": {"IPython", "ptyprocess", "ament_index_python"},
     "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
     "viz": {"matplotlib", "PIL", "numpy"},
+    "panel": {"anywidget", "traitlets", "IPython"},
     "checks": set(),
     "diagnosis": set(),
 }

@@ -27,7 +27,7 @@
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, viz
+from rosbeat import Session, check, hint, predict, progress, viz
 
 # %%
 class Thermometer(Node):
@@ -53,11 +53,16 @@ ros.run(seconds=3)
 # jumps from one event to the next. So a minute takes almost no time, and you get the same result as
 # everybody else.
 #
-# **Predict:** how many messages are there after one more minute? Say a number, then run the cell.
+# **Predict:** how many messages are there after one more minute? Write a number in place of the blank,
+# then run the cell. Nobody counts how often you are right; what surprises you is what you remember.
 
-# %%
+# %% predict=true
 ros.run(seconds=60, quiet=True)
-len(ros.messages("temperature"))
+# --- answer
+predict("63", len(ros.messages("temperature")))
+# --- blank
+# predict("____", len(ros.messages("temperature")))
+# --- end
 
 # %% [markdown]
 # Three before and sixty now. `quiet=True` only keeps the log lines off the page; the messages were
@@ -154,11 +159,15 @@ viz.timeline(newsroom.observation())
 # Publishers and subscribers do not know each other. We say that they are **decoupled**. That is a
 # claim, and you can test it.
 #
-# **Does a publisher need a subscriber?** Nobody reads politics. **Predict:** was anything published
-# there?
+# **Does a publisher need a subscriber?** Nobody reads politics. **Predict:** how many messages were
+# published there?
 
-# %%
-len(newsroom.messages("politics"))
+# %% predict=true
+# --- answer
+predict("2", len(newsroom.messages("politics")))
+# --- blank
+# predict("____", len(newsroom.messages("politics")))
+# --- end
 
 # %% [markdown]
 # The politics reporter published two messages. It does not need to know whether anybody listens.
@@ -192,7 +201,8 @@ newsroom.run(seconds=2)
 # ## Try it: read the weather
 #
 # Replace the blank `____`, so that this reader gets the weather and nothing else. Run the cell, then
-# the check below it.
+# the check below it. If you are stuck, make a new cell with the `+` above the page and write `hint("00a")`
+# in it. Each time it tells you a little more.
 
 # %% exercise="00a"
 class WeatherReader(Node):
@@ -245,11 +255,13 @@ newsroom.run(seconds=1)
 
 # %% [markdown]
 # Nothing, and there is no error. That is the price of decoupling: a topic that nobody publishes on
-# looks just like a topic where nobody has spoken *yet*. Whenever a node stays silent, look at the
-# graph:
+# looks just like a topic where nobody has spoken *yet*. Whenever a node stays silent, ask the session
+# why, and look at the graph:
 
 # %%
-viz.graph(newsroom.graph())
+why = newsroom.explain("sport")
+print(why)
+viz.graph(why)
 
 # %% [markdown]
 # Dashed lines touch a topic that has only one side. Dan listens to `/sport`, and no one is there: the
@@ -275,3 +287,6 @@ newsroom.close()
 # went through the **middleware** that robots use: the software that carries them.
 #
 # **Next:** [create a workspace](01_create_a_workspace.ipynb).
+
+# %%
+progress()

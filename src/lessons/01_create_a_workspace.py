@@ -20,7 +20,7 @@
 # People who work with ROS type commands into a **terminal**. This cell brings terminals to your page:
 
 # %%
-from rosbeat import check, workspace
+from rosbeat import check, hint, progress, workspace
 
 # %% [markdown]
 # A cell that begins with `%%terminal` and a name types its lines into the terminal of that name. It
@@ -254,3 +254,6 @@ check("01b", workspace.terminal("two"))
 # - `colcon build` is typed in the workspace, not in `src`.
 #
 # **Next:** [create a package](02_create_a_package.ipynb) in `src`.
+
+# %%
+progress()

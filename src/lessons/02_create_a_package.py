@@ -21,7 +21,7 @@
 # is.
 
 # %%
-from rosbeat import check, workspace
+from rosbeat import check, hint, progress, workspace
 
 workspace.catch_up("02")
 
@@ -259,3 +259,6 @@ check("02b", workspace.folder())
 # - The workspace is an **overlay** on top of ROS.
 #
 # **Next:** [write a publisher](03_write_a_publisher.ipynb), the first node for this package.
+
+# %%
+progress()

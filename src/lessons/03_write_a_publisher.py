@@ -37,7 +37,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32
 
-from rosbeat import Session, check, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, viz, workspace
 
 # %% [markdown]
 # ## Name the node
@@ -64,8 +64,7 @@ with Session() as ros:
 # %% [markdown]
 # One line, and it comes from the constructor. A node does nothing by itself. It needs something that
 # calls it. For a sensor, that is a timer.
-
-# %% [markdown]
+#
 # ## Publish on every tick
 #
 # Two lines in the constructor give the node a voice and a beat:
@@ -95,20 +94,24 @@ class SteadySensor(Node):
 # message are its **fields**; `Float32` has just this one. `Float32(data=22.0)` makes and fills a
 # message in one step.
 #
-# **Predict:** the timer starts at zero seconds. When does the first message come?
+# **Predict:** the timer starts at zero seconds. At which second does the first message come?
 
-# %%
+# %% predict=true
 with Session() as ros:
     ros.add(SteadySensor)
     ros.run(seconds=4)
     readings = ros.messages("temperature")
 
-[(reading.time, reading.value) for reading in readings]
+print([(reading.time, reading.value) for reading in readings])
+# --- answer
+predict("1", readings[0].time)
+# --- blank
+# predict("____", readings[0].time)
+# --- end
 
 # %% [markdown]
 # The first one comes after one full period, not at once. A timer waits first and calls then.
-
-# %% [markdown]
+#
 # ## Let the temperature wander
 #
 # A real sensor does not say the same thing every time. `random.uniform(-0.5, 0.5)` is a random number
@@ -265,8 +268,7 @@ with Session(seed=8) as saved:
 # **How the data flows:** `main` starts ROS and makes the node. The node makes its publisher and its
 # timer. Every second the timer calls `publish_temperature`, which takes a step, clamps it, publishes
 # a message and logs a line. This goes on until `Ctrl` + `C`.
-
-# %% [markdown]
+#
 # ## Try it: another sensor
 #
 # Complete the constructor of a humidity sensor: it publishes `Float32` messages on the topic
@@ -322,6 +324,39 @@ class RoomSensor(Node):
 check("03b", RoomSensor)
 
 # %% [markdown]
+# ## Try it: a greenhouse, alone
+#
+# Now a node of your own, from the first line to the last. It is a sensor for a greenhouse where people
+# count in degrees Fahrenheit. It
+#
+# - walks like the sensor of this page: it starts at 22.0 degrees Celsius, a step is at most 0.5 up or down,
+#   and it stays between 10.2 and 28.0;
+# - publishes in Fahrenheit, as a `Float32`: a number `c` in Celsius is `c * 9 / 5 + 32`;
+# - uses the topic `greenhouse/temperature`, four times a second.
+#
+# All names inside are up to you, and you may add methods. If you are stuck, `hint("03c")` in a new cell helps.
+
+# %% exercise="03c"
+class GreenhouseSensor(Node):
+    def __init__(self):
+        # --- answer
+        super().__init__("greenhouse_sensor")
+        self.readings = self.create_publisher(Float32, "greenhouse/temperature", 10)
+        self.create_timer(0.25, self.measure)
+        self.celsius = 22.0
+
+    def measure(self):
+        step = random.uniform(-0.5, 0.5)
+        self.celsius = min(28.0, max(10.2, self.celsius + step))
+        self.readings.publish(Float32(data=self.celsius * 9 / 5 + 32))
+        # --- blank
+        # ____
+        # --- end
+
+# %% check="03c"
+check("03c", GreenhouseSensor)
+
+# %% [markdown]
 # ## What went wrong: a number is not a message
 #
 # **Predict:** this sensor publishes the number itself. What happens at the first tick?
@@ -339,8 +374,7 @@ with Session() as ros:
 # **Symptom:** a `TypeError`, and the node stops. **Instrument:** the error itself; it names the line,
 # what was expected and what it got. **Cause:** a publisher sends messages of its type, and `22.0` is
 # a plain Python number. **Cure:** make a `Float32` and put the number into its field `data`.
-
-# %% [markdown]
+#
 # ## Remember
 #
 # - `super().__init__("name")` makes the class a node.
@@ -351,3 +385,6 @@ with Session() as ros:
 # The file `temperature_publisher.py` in your package holds this class, unchanged.
 #
 # **Next:** [write a subscriber](04_write_a_subscriber.ipynb) that listens to this sensor.
+
+# %%
+progress()

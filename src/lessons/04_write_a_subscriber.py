@@ -20,7 +20,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, viz, workspace
 from rosbeat.records import queue_steps
 
 # %% [markdown]
@@ -84,8 +84,7 @@ with Session(seed=8) as ros:
 # Nothing for five seconds, then one line a second. A publisher acts: its timer drives it. A
 # subscriber is passive: it **reacts**, and only a message wakes it. It does not ask whether there is
 # something new, and it does not mind that the sensor came after it. Waiting costs almost nothing.
-
-# %% [markdown]
+#
 # ## Judge what you hear
 #
 # The monitor says *High* above 26 degrees, *Low* below 20, and *Normal* in between.
@@ -148,9 +147,13 @@ viz.values(ros.observation(), "temperature", bands=limits)
 #
 # **Predict:** how often does the status change in these ten minutes? Roughly is good enough.
 
-# %%
+# %% predict=true
 changes = sum(a != b for a, b in zip(statuses, statuses[1:]))
-f"{len(statuses)} readings, {changes} changes"
+# --- answer
+predict("26", changes, tolerance=5)
+# --- blank
+# predict("____", changes, tolerance=5)
+# --- end
 
 # %% [markdown]
 # 26 changes, for a line that crosses a border only a few times for good. Most of them come in groups:
@@ -181,7 +184,7 @@ viz.timeline(ros.observation(), until=3)
 # **Predict:** the monitor is paused for 15 seconds while the sensor publishes once a second. How
 # many readings does it get when it comes back?
 
-# %%
+# %% predict=true
 with Session(seed=8) as ros:
     ros.add(TemperatureSensor)
     ros.add(TemperatureMonitor)
@@ -192,7 +195,11 @@ with Session(seed=8) as ros:
     waited = len(ros.logs("temperature_monitor")) - 1
     seen = ros.observation()
 
-waited
+# --- answer
+predict("10", waited)
+# --- blank
+# predict("____", waited)
+# --- end
 
 # %% [markdown]
 # Ten. The picture shows the queue. The numbers are readings, and time runs to the right: up to 15
@@ -278,9 +285,8 @@ if __name__ == "__main__":
 # | its method | is called by the timer and calls `publish()` | is called by ROS with a message |
 # | the data | is made here | is used here |
 #
-# A node may be both. The last exercise is one that listens *and* speaks.
-
-# %% [markdown]
+# A node may be both. The last two exercises listen *and* speak.
+#
 # ## Try it: watch a fridge
 #
 # A fridge has limits of its own. Above 8 degrees it is *Warm*, below 2 degrees it is *Frost*, and in
@@ -341,6 +347,54 @@ class Alarm(Node):
 check("04b", Alarm)
 
 # %% [markdown]
+# ## Try it: a calm monitor, alone
+#
+# Near a border, the status flickers. So real monitors have two borders: one to go over, and another to come
+# back. This is called **hysteresis**. Write a node that listens to `temperature` and publishes
+#
+# - on `mean`, for each reading, the mean of the last five readings, as a `Float32` (of those that there are,
+#   while there are fewer);
+# - on `status`, as a `String`, the status, but only when it changes. It begins as `Normal`.
+#
+# A reading above 26 is `High` and one below 20 is `Low`, whatever was before. From `High` it goes back to
+# `Normal` only below 25, from `Low` only above 21.
+
+# %% exercise="04c"
+class CalmMonitor(Node):
+    def __init__(self):
+        # --- answer
+        super().__init__("calm_monitor")
+        self.create_subscription(Float32, "temperature", self.listen, 10)
+        self.means = self.create_publisher(Float32, "mean", 10)
+        self.statuses = self.create_publisher(String, "status", 10)
+        self.values = []
+        self.status = "Normal"
+
+    def listen(self, msg):
+        self.values = [*self.values, msg.data][-5:]
+        self.means.publish(Float32(data=sum(self.values) / len(self.values)))
+
+        status = self.judge(msg.data)
+        if status != self.status:
+            self.status = status
+            self.statuses.publish(String(data=status))
+
+    def judge(self, value):
+        if value > 26.0:
+            return "High"
+        if value < 20.0:
+            return "Low"
+        still_high = self.status == "High" and value >= 25.0
+        still_low = self.status == "Low" and value <= 21.0
+        return self.status if still_high or still_low else "Normal"
+        # --- blank
+        # ____
+        # --- end
+
+# %% check="04c"
+check("04c", CalmMonitor)
+
+# %% [markdown]
 # ## What went wrong: the callback is called too early
 #
 # Two small brackets too many, in the line that subscribes. **Predict:** when does this fail: at the
@@ -376,3 +430,6 @@ with Session() as ros:
 # halves of a system now: one node speaks, one listens, and neither knows the other.
 #
 # **Next:** [set the entry points](05_set_the_entry_points.ipynb), so that `ros2 run` finds them.
+
+# %%
+progress()

@@ -18,7 +18,7 @@
 # (The star in the commands below stands for any text.)
 
 # %%
-from rosbeat import check, workspace
+from rosbeat import check, hint, predict, progress, workspace
 
 workspace.catch_up("05")
 
@@ -220,12 +220,17 @@ check("05b", entry_point)
 #
 # Two texts side by side, without a comma. **Predict:** how many entries does Python see?
 
-# %%
+# %% predict=true
 entries = [
     "talk = rosie.voice:start"
     "sing = rosie.voice:start"
 ]
-len(entries), entries[0]
+print(entries)
+# --- answer
+predict("1", len(entries))
+# --- blank
+# predict("____", len(entries))
+# --- end
 
 # %% [markdown]
 # One. Python glues texts together that stand side by side. **Symptom:** colcon stops with *setup() was never
@@ -254,3 +259,6 @@ len(entries), entries[0]
 # - `chmod +x` lets you start a file directly; `ros2 run` does not need it.
 #
 # **Next:** [build, source, run](06_build_source_run.ipynb): both programs, at the same time.
+
+# %%
+progress()

@@ -20,7 +20,7 @@
 # %%
 import os
 
-from rosbeat import Session, check, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, viz, workspace
 
 workspace.catch_up("06")
 
@@ -72,8 +72,7 @@ workspace.catch_up("06")
 # package without that, something loads it when the terminal opens.)
 #
 # Both go on while you read this.
-
-# %% [markdown]
+#
 # ## See what crossed
 #
 # Both programs log what they do. `logs()` reads those lines from a terminal, and `viz.crossing` draws
@@ -95,11 +94,15 @@ viz.crossing(sent, heard)
 # Now compare the numbers themselves: `numbers` puts those of some lines into one text, and `in` looks for one
 # text in the other. **Predict:** once the monitor hears the sensor, does it miss a reading?
 
-# %%
+# %% predict=true
 def numbers(lines):
     return " ".join(line.text.split()[1] for line in lines)
 
-numbers(heard) in numbers(sent)
+# --- answer
+predict("no", numbers(heard) not in numbers(sent))
+# --- blank
+# predict("____", numbers(heard) not in numbers(sent))
+# --- end
 
 # %% [markdown]
 # Ten readings, the same ten, in the same order. They were made in one process and judged in another. How
@@ -248,4 +251,8 @@ sensor.exit_code, monitor.exit_code
 # - `ros2 run` starts what is installed, not what is in `src`.
 #
 # In JupyterLab, open two terminals with *File, New, Terminal*, and do the same there by hand. Then you have
-# done all that the tutorial does, on your own.
+# done all that the tutorial does, on your own. One more check looks at everything at once: in a new cell,
+# `check("system", workspace.folder())` builds your package elsewhere, runs both programs and compares.
+
+# %%
+progress()

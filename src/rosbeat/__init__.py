@@ -1,9 +1,10 @@
 """rosbeat: learn how robots talk.
 
-A learner needs four names from here: `Session` runs nodes, `viz` draws what a session recorded,
-`check` looks at the answer to an exercise, `workspace` is where packages are built. Importing
-the package is quick and does not import ROS: names load when they are first used (PEP 562), so that
-tools which only build or check pages work where ROS is not installed.
+A learner needs seven names from here: `Session` runs nodes, `viz` draws what a session recorded,
+`predict` compares what you expect with what happens, `check` looks at the answer to an exercise,
+`hint` helps with it, `progress` shows how far you are, `workspace` is where packages are built.
+Importing the package is quick and does not import ROS: names load when they are first used
+(PEP 562), so that tools which only build or check pages work where ROS is not installed.
 """
 
 from __future__ import annotations
@@ -16,11 +17,14 @@ from rosbeat import environment
 if TYPE_CHECKING:
     from rosbeat import viz as viz
     from rosbeat import workspace as workspace
+    from rosbeat.checks.predictions import predict as predict
     from rosbeat.exercises.checking import check as check
+    from rosbeat.exercises.hinting import hint as hint
+    from rosbeat.exercises.progress import progress as progress
     from rosbeat.runtime.session import Session as Session
 
 __version__ = "0.1.0"
-__all__ = ["Session", "check", "viz", "workspace"]
+__all__ = ["Session", "check", "hint", "predict", "progress", "viz", "workspace"]
 
 # Before any message class is imported: the field checks are read at that moment.
 environment.apply()
@@ -28,6 +32,9 @@ environment.apply()
 _HOMES = {
     "Session": ("rosbeat.runtime.session", "Session"),
     "check": ("rosbeat.exercises.checking", "check"),
+    "hint": ("rosbeat.exercises.hinting", "hint"),
+    "predict": ("rosbeat.checks.predictions", "predict"),
+    "progress": ("rosbeat.exercises.progress", "progress"),
     "viz": ("rosbeat.viz", None),
     "workspace": ("rosbeat.workspace", None),
 }

@@ -80,9 +80,40 @@ def _lint(options: argparse.Namespace) -> int:
     return FAILED if findings else 0
 
 
+def _progress_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--json", action="store_true", help="the same as JSON, for programs")
+
+
+def _progress(options: argparse.Namespace) -> int:
+    from rosbeat.exercises import progress_table
+
+    print(progress_table.as_json() if options.json else progress_table.as_text())
+    return 0
+
+
+def _explain_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("topic", metavar="TOPIC", help="its name, such as temperature")
+    parser.add_argument("--domain-id", type=int, help="the ROS domain (default: this terminal's)")
+    parser.add_argument("--seconds", type=float, default=3.0, help="listen no longer (default: 3)")
+
+
+def _explain(options: argparse.Namespace) -> int:
+    from rosbeat.runtime.across_processes import explain_domain
+    from rosbeat.workspace.stale import stale_builds
+
+    try:
+        found = explain_domain(options.topic, options.domain_id, options.seconds, stale_builds)
+    except KeyboardInterrupt:
+        return INTERRUPTED  # whoever stops it knows that
+    print(found)
+    return 0 if found.is_well else FAILED
+
+
 COMMANDS: tuple[Command, ...] = (
     Command("build", "make the pages from their sources", _build_arguments, _build),
     Command("lint", "check the lesson sources against the rules", _page_arguments, _lint),
+    Command("explain", "say why nothing arrives on a topic", _explain_arguments, _explain),
+    Command("progress", "show how far you are with the course", _progress_arguments, _progress),
 )
 
 

@@ -17,6 +17,7 @@
     ├── WorkspaceError              something in the learner's workspace is not as it is needed
     ├── TerminalError               a terminal of a page was asked for something it cannot do
     ├── LessonError                 a lesson source breaks a rule of the builder
+    ├── BagError                    a recording cannot be written, read, replayed or compared
     ├── RecordError                 saved data that does not follow the schema
     └── CommandError                the command line was used in a way it does not know
 
@@ -110,6 +111,10 @@ class TerminalError(RosbeatError):
 
 class LessonError(RosbeatError):
     """A lesson source breaks a rule of the builder."""
+
+
+class BagError(RosbeatError):
+    """A recording cannot be written, read, replayed or compared."""
 
 
 class RecordError(RosbeatError):

@@ -121,7 +121,8 @@ class Fault(Timed):
         line: Line number of the learner's own line nearest to the fault, 0 if unknown.
         code: That line's text, stripped, or an empty string.
         asked: The call of rclpy that failed, with the types of what it was given, such as
-            `create_subscription(type, str, int)`; empty if it was none.
+            `create_publisher(message_type[Float32], str)`; empty if it was none. If a callback was
+            called while a call was being prepared, `create(called[...])` with its name.
     """
 
     time_ns: int

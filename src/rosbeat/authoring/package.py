@@ -16,6 +16,7 @@ from pathlib import Path
 
 from rosbeat.authoring.layout import Course
 from rosbeat.authoring.markers import solution
+from rosbeat.authoring.solved import folder_of
 from rosbeat.authoring.source import Lesson
 from rosbeat.errors import LessonError
 
@@ -63,13 +64,14 @@ def saved_files(lessons: Iterable[Lesson]) -> dict[str, bytes]:
 
 
 def stale_files(course: Course, wanted: Iterable[Path]) -> list[Path]:
-    """Return files in the package's folders that nothing makes any more.
+    """Return derived files outside of the two trees of pages that nothing makes any more.
 
     Args:
         course: Where they are.
         wanted: The files that should be there.
     """
-    folders = (course.solutions / NAME, course.root / "src/rosbeat/workspace/finished")
+    finished = course.root / "src/rosbeat/workspace/finished"
+    folders = (course.solutions / NAME, finished, folder_of(course))
     keep = set(wanted)
     return [path for folder in folders for path in _files(folder) if path not in keep]
 

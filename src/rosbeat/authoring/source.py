@@ -16,7 +16,7 @@ from rosbeat.errors import LessonError
 
 _FILE_NAME = re.compile(r"\d\d_[a-z0-9]+(_[a-z0-9]+)*\.py")
 _MARKER = re.compile(r"# ?%%(\s|$)")
-_KNOWN_KEYS = {"exercise", "check", "only", "tags", "terminal", "save"}
+_KNOWN_KEYS = {"exercise", "check", "only", "predict", "tags", "terminal", "save"}
 # jupytext would take `# ls` for a magic, and its comment sign away.
 _FORMAT = {"extension": ".py", "format_name": "percent", "comment_magics": False}
 _TREES = (None, "notebook", "solution")
@@ -38,6 +38,7 @@ class SourceCell:
         check: The id of the exercise that is checked here.
         only: ``"notebook"`` or ``"solution"`` if the cell appears in one tree only.
         tags: Jupyter's cell tags.
+        predict: Whether a prediction is made here, which is compared with what the cell does.
     """
 
     id: str
@@ -48,6 +49,7 @@ class SourceCell:
     check: str | None = None
     only: str | None = None
     tags: tuple[str, ...] = ()
+    predict: bool = False
     magic: str = ""
 
     @property
@@ -137,6 +139,7 @@ def _row(cell: Any, line: int, name: str) -> dict[str, Any]:  # noqa: ANN401 - u
         "check": metadata.get("check"),
         "only": metadata.get("only"),
         "tags": tuple(metadata.get("tags", ())),
+        "predict": metadata.get("predict", False),
     }
 
 
@@ -160,3 +163,6 @@ def _refuse_unknown(kind: str, metadata: dict[str, Any], where: str) -> None:
     if metadata.get("only") not in _TREES:
         what = f"{where}: only= is {metadata['only']!r}."
         raise LessonError(what, "", 'Write only="notebook" or only="solution".')
+    if metadata.get("predict", True) is not True:
+        what = f"{where}: predict= is {metadata['predict']!r}."
+        raise LessonError(what, "", "Write predict=true, or leave it out.")

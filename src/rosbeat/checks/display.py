@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from html import escape
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
 
+from rosbeat.checks.frames import OPEN, RIGHT, WRONG, framed, indented, words
 from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.records import Outcome
 
-#: Sign, word and border colour; the sign and the word say the same as the colour.
-_LOOKS = {
-    PASSED: ("\N{CHECK MARK}", "passed", "#00785a"),
-    FAILED: ("\N{MULTIPLICATION SIGN}", "not there yet", "#b34700"),
-    NOT_ATTEMPTED: ("\N{WHITE CIRCLE}", "not attempted yet", "#5a6b7b"),
+#: The record of an outcome in a cell's output, for programs.
+MIME = "application/vnd.rosbeat.outcome+json"
+VERSION = 1
+
+#: Sign and word of each status.
+LOOKS = {
+    PASSED: (RIGHT, "passed"),
+    FAILED: (WRONG, "not there yet"),
+    NOT_ATTEMPTED: (OPEN, "not attempted yet"),
 }
 
 
@@ -27,19 +34,61 @@ class Shown:
     outcome: Outcome
 
     def __str__(self) -> str:
-        sign, word, _ = _LOOKS[self.outcome.status]
-        rows = [f"{sign} Exercise {self.outcome.exercise}: {word}. {self.outcome.evidence}".strip()]
-        if self.outcome.hint:
-            rows.append(f"  Hint: {self.outcome.hint}")
-        return "\n".join(rows)
+        return "\n".join([f"{self._head} {indented(self.outcome.evidence)}".strip(), *self._rows()])
 
     def __repr__(self) -> str:
         return str(self)
 
-    def _repr_html_(self) -> str:
-        sign, word, colour = _LOOKS[self.outcome.status]
-        head = f"<strong>{sign} Exercise {escape(self.outcome.exercise)}: {word}.</strong>"
-        hint = f"<br><em>Hint:</em> {escape(self.outcome.hint)}" if self.outcome.hint else ""
-        # No background and no text colour of its own: both are the reader's theme.
-        style = f"border-left:4px solid {colour};padding:0.3em 0.8em;margin:0.3em 0"
-        return f'<div style="{style}">{head} {escape(self.outcome.evidence)}{hint}</div>'
+    def html(self) -> str:
+        """The outcome as HTML."""
+        head = f"{words(self._head, 'strong')} {words(self.outcome.evidence)}"
+        rows = (_labelled(label, text) for label, text in self._details())
+        return framed(self._look[0], head, *rows)
+
+    def record(self) -> dict[str, Any]:
+        """The outcome as JSON-like data, with the version of its form."""
+        remarks = list(self.outcome.remarks)
+        return {"version": VERSION, **asdict(self.outcome), "remarks": remarks}
+
+    @property
+    def _look(self) -> tuple[str, str]:
+        return LOOKS[self.outcome.status]
+
+    @property
+    def _head(self) -> str:
+        sign, word = self._look
+        return f"{sign} Exercise {self.outcome.exercise}: {word}{self._points()}."
+
+    def _points(self) -> str:
+        if self.outcome.out_of == 1 or self.outcome.status == NOT_ATTEMPTED:
+            return ""
+        return f", {self.outcome.points} of {self.outcome.out_of} points"
+
+    def _rows(self) -> Iterator[str]:
+        for label, text in self._details():
+            yield f"  {f'{label}: ' if label else ''}{indented(text, '    ')}"
+
+    def _details(self) -> Iterator[tuple[str, str]]:
+        """What comes below the head: a label, which may be empty, and a text."""
+        if self.outcome.status == FAILED:
+            yield _named(self.outcome.mistake)
+        if self.outcome.hint:
+            yield "Hint", self.outcome.hint
+        for remark in self.outcome.remarks:
+            yield "Remark", remark
+        if self.outcome.status == FAILED:
+            yield "More help", f'hint("{self.outcome.exercise}")'
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"text/plain": str(self), "text/html": self.html(), MIME: self.record()}
+
+
+def _named(mistake: str) -> tuple[str, str]:
+    known = MISTAKES.get(mistake)
+    if known is None:
+        return "", "This is new to me: I have no name for this mistake."
+    return "Mistake", f"{known.title}."
+
+
+def _labelled(label: str, text: str) -> str:
+    return f"{words(f'{label}:', 'em')} {words(text)}" if label else words(text)

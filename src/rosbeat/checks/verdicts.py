@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rosbeat.diagnosis.faults import diagnose_fault, first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.records import Fault, Observation, Outcome
 
@@ -10,29 +11,11 @@ PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
 #: What a learner replaces; the name is never defined, so running it raises a NameError.
 BLANK = "____"
 
-_STILL_BLANK = f"There is still a blank, {BLANK}, in the cell above."
-
-#: Signs in an error, and what it means in an answer of a page.
-_HINTS = (
-    (
-        ("invalid allocator", "existing topic name"),
-        "What this error means: the topic exists already, with another message type. Both sides "
-        "must use the same type.",
-    ),
-    (
-        ("must be of type 'float'",),
-        "A Float32 carries a float. 18 is an int: write 18.0, with a decimal point.",
-    ),
-    (
-        ("'NoneType' object is not callable", "required positional argument: 'msg'"),
-        "Hand over the method itself, without brackets after its name: ROS calls it later.",
-    ),
-    (
-        ("NameError:",),
-        "Python does not know this name. A text needs quotes; a method of the node needs self. "
-        "before it.",
-    ),
+_NEW_TO_ME = (
+    "This one is new to me. The last sentence of an error says what Python met and, often, what it "
+    "expected there; the line says where. Print the values on that line before it runs."
 )
+_STILL_BLANK = f"There is still a blank, {BLANK}, in the cell above."
 
 
 def passed(exercise: str, evidence: str, *remarks: str) -> Outcome:
@@ -77,26 +60,13 @@ def before_judging(exercise: str, observation: Observation) -> Outcome | None:
 
 
 def _raised(exercise: str, fault: Fault) -> Outcome:
+    known = diagnose_fault(fault)
+    if known is not None:
+        return failed_by(exercise, known)
     if fault.callback in ("add", "run"):  # the session itself refused; its sentence is complete
         return failed(exercise, fault.text, "Hand over the class that you wrote, by its name.")
-    where = f" Line {fault.line} of your cell: `{fault.code}`." if fault.line else ""
     return failed(
         exercise,
-        f"{fault.callback} raised {fault.kind}: {_first_sentence(fault.text)}.{where}",
-        _hint_for(fault),
-    )
-
-
-def _first_sentence(text: str) -> str:
-    # Errors of the middleware go on for lines with addresses of its own source files.
-    return text.split(", at ")[0].split("\n")[0].rstrip(".")
-
-
-def _hint_for(fault: Fault) -> str:
-    for signs, hint in _HINTS:
-        if any(sign in f"{fault.kind}: {fault.text}" for sign in signs):
-            return hint
-    return (
-        "An exception ends a node. Read the last sentence of the error first; it says what was "
-        "expected there."
+        f"{fault.callback} raised {fault.kind}: {first_sentence(fault.text)}.{line_of(fault)}",
+        _NEW_TO_ME,
     )

@@ -7,11 +7,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.errors import ExerciseError
+from rosbeat.workspace.meanings import recognise
 from rosbeat.workspace.packages import Package, find_packages, read_package
 
 #: What colcon makes; it belongs to no exercise.
 _BUILT = {"build", "install", "log", "kept"}
+#: A line that was typed, behind its prompt.
+_TYPED = re.compile(r"^(\S+)\$ (.+)$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -42,12 +46,14 @@ class TypedIn:
         commands: Each line that was typed, with the folder it was typed in, as the prompt said it.
         exit_code: Of the last command that ended.
         text: All that it shows.
+        meaning: What a line that was typed has led to, if it is a known mistake.
     """
 
     folder: str
     commands: tuple[tuple[str, str], ...]
     exit_code: int | None
     text: str
+    meaning: Diagnosis | None = None
 
 
 def look_at_workspace(answer: Any) -> Workspace:  # noqa: ANN401 - whatever a learner hands over
@@ -72,12 +78,14 @@ def look_at_workspace(answer: Any) -> Workspace:  # noqa: ANN401 - whatever a le
     return Workspace(_folders(root), {package.name: package for package in packages})
 
 
-def look_at_terminal(answer: Any, root: Path) -> TypedIn:  # noqa: ANN401
+def look_at_terminal(answer: Any, root: Path, about: str = "") -> TypedIn:  # noqa: ANN401
     """Look at a terminal of the page.
 
     Args:
         answer: The terminal; `workspace.terminal("one")` on a page.
         root: The workspace.
+        about: What the line holds whose meaning is asked for; of several the last one. By default,
+            and if there is none, it is the last line of all.
 
     Raises:
         ExerciseError: If that is no terminal.
@@ -88,12 +96,25 @@ def look_at_terminal(answer: Any, root: Path) -> TypedIn:  # noqa: ANN401
             "This check looks at a terminal of the page.",
             'Write workspace.terminal("...") with the name of the terminal in the cell above.',
         )
+    folder, text, code = Path(answer.folder), answer.text, answer.exit_code
+    typed = list(_TYPED.finditer(text))
+    at = max((at for at, one in enumerate(typed) if about in one[2]), default=len(typed) - 1)
     return TypedIn(
-        _inside(Path(answer.folder), root),
-        tuple(re.findall(r"^(\S+)\$ (.+)$", answer.text, re.MULTILINE)),
-        answer.exit_code,
-        answer.text,
+        _inside(folder, root),
+        tuple((one[1], one[2]) for one in typed),
+        code,
+        text,
+        _meaning(typed[at:], text, code, folder, root) if typed else None,
     )
+
+
+def _meaning(
+    lines: list[re.Match[str]], text: str, code: int | None, folder: Path, root: Path
+) -> Diagnosis | None:
+    """What the first of some lines has led to. Of an earlier one the exit code is not known."""
+    end = lines[1].start() if len(lines) > 1 else len(text)
+    output = text[lines[0].end() : end]
+    return recognise(lines[0][2], output, 1 if len(lines) > 1 else code or 0, folder, root)
 
 
 def _folders(root: Path) -> tuple[str, ...]:

@@ -1,28 +1,68 @@
-"""Page 04, write a subscriber: find the state, and pass an alert on."""
+"""Page 04, write a subscriber: find the state, pass an alert on, a calm monitor alone."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import Any
 
-from rosbeat.checks.verdicts import failed, passed
+from rosbeat.checks.verdicts import failed, failed_by, passed
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises.calm import judge_calm
 from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.running import feeder, observe
 from rosbeat.records import Observation, Outcome
-from rosbeat.runtime.scenario import feeder, observe
 
 #: What is fed in, and what it is. A float32 holds each of these numbers exactly.
 _FRIDGE = {
     5.0: "Fine",
     9.5: "Warm",
+    12.5: "Warm",  # a text "12.5" would come before "8.0"
+    7.75: "Fine",
     8.0: "Fine",
     8.25: "Warm",
+    2.25: "Fine",
     2.0: "Fine",
     1.75: "Frost",
     -18.0: "Frost",
 }
-_ROOM = {22.0: False, 27.5: True, 26.0: False, 26.25: True, 20.0: False, 19.75: True, -5.0: True}
+#: Which of these readings is an alarm; just inside of a limit, at it, and just outside.
+_ROOM = {
+    22.0: False,
+    27.5: True,
+    25.5: False,
+    26.0: False,
+    26.25: True,
+    20.5: False,
+    20.0: False,
+    19.75: True,
+    -5.0: True,
+}
+#: Every border of a status with hysteresis, from both sides, and jumps across.
+_CALM = (
+    *(
+        22.0,
+        25.5,
+        20.5,
+        26.0,
+        26.5,
+        25.5,
+        26.25,
+        25.0,
+        24.75,
+        25.5,
+        20.0,
+        19.5,
+        20.5,
+        21.0,
+        21.25,
+        20.5,
+    ),
+    *(27.0, 18.0, 30.0, 23.0, 19.0, 25.5, 27.0, 20.5),
+)
 _FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
 _SENSOR = "/temperature_sensor"
+_TEMPERATURE, _ALERT = Wire("/temperature", _FLOAT), Wire("/alert", _STRING)
 _WORDS = ("Warm", "Frost", "Fine")
 
 
@@ -33,100 +73,151 @@ def _fed(answer: Any, values: Iterable[float]) -> Observation:  # noqa: ANN401
 
 
 def _judge_states(observation: Observation) -> Outcome:
-    deaf = _deaf("04a", observation)
+    deaf = _deaf(observation, len(_FRIDGE))
     if deaf:
-        return deaf
+        return failed_by("04a", deaf)
     for second, (value, wanted) in enumerate(_FRIDGE.items(), 1):
         said = [log.text for log in observation.logs if log.time == second]
         wrong = _wrong_state(value, wanted, said)
         if wrong:
-            return wrong
+            return failed_by("04a", wrong)
     return passed("04a", f"All {len(_FRIDGE)} readings got the right state, 8.0 and 2.0 too.")
 
 
-def _wrong_state(value: float, wanted: str, said: list[str]) -> Outcome | None:
+def _wrong_state(value: float, wanted: str, said: list[str]) -> Diagnosis | None:
     words = [word for word in _WORDS if any(word.lower() in line.lower() for line in said)]
     if words == [wanted]:
         return None
     if not said:
         evidence = f"A reading of {value:g} arrived and nothing was logged."
-        return failed("04a", evidence, "End the callback with self.get_logger().info(...).")
+        return Diagnosis(
+            "nothing-logged", evidence, "End the callback with self.get_logger().info(...)."
+        )
     found = " and ".join(words) or f"none of {', '.join(_WORDS)}"
-    return failed(
-        "04a", f"For a reading of {value:g} the node said {found}.", _state_hint(value, wanted)
-    )
-
-
-def _state_hint(value: float, wanted: str) -> str:
-    if value in (8.0, 2.0):
-        return f"Exactly {value:g} is {wanted}: above 8 is Warm, below 2 is Frost."
-    return f"It should be {wanted}. Which of your conditions is true for {value:g}?"
+    evidence = f"For a reading of {value:g} the node said {found}."
+    if value in (8.0, 2.0) and len(words) == 1:
+        hint = f"Exactly {value:g} is {wanted}: above 8 is Warm, below 2 is Frost."
+        return Diagnosis("boundary", evidence, hint)
+    hint = f"It should be {wanted}. Which of your conditions is true for {value:g}?"
+    return Diagnosis("wrong-state", evidence, hint)
 
 
 def _judge_alarm(observation: Observation) -> Outcome:
-    deaf = _deaf("04b", observation)
-    if deaf:
-        return deaf
-    wanted = [second for second, alarming in enumerate(_ROOM.values(), 1) if alarming]
-    alerts = [sample for sample in observation.samples if sample.topic == "/alert"]
-    if not alerts:
-        return failed("04b", *_silent_words(observation))
+    found = _deaf(observation, len(_ROOM))
+    alerts = [sample for sample in observation.samples if sample.topic == _ALERT.topic]
+    found = found or (None if alerts else _silent(observation))
+    if found:
+        return failed_by("04b", found)
     if alerts[0].type_name != _STRING:
         return failed(
             "04b",
             f"The alerts are messages of type {alerts[0].type_name}.",
             "An alert is a String: the first argument of create_publisher, and what you publish.",
+            "type-mismatch",
         )
+    wanted = [second for second, alarming in enumerate(_ROOM.values(), 1) if alarming]
     times = [sample.time for sample in alerts]
     if times == wanted:
         return passed("04b", f"{len(_ROOM)} readings, {len(times)} alerts: none too many.")
-    return failed("04b", *_alarm_words(times, wanted))
+    return failed_by("04b", _alarms(times, wanted))
 
 
-def _silent_words(observation: Observation) -> tuple[str, str]:
-    topics = {s.topic for s in observation.samples if s.node not in ("", _SENSOR)}
-    if topics:
-        return (
-            f"It published on {', '.join(sorted(topics))}, and nothing on /alert.",
-            "The topic is called alert. Topics match letter by letter.",
-        )
-    if any(end.name == "/alert" for end in observation.graph.endpoints):
-        return (
+def _silent(observation: Observation) -> Diagnosis:
+    if any(end.name == _ALERT.topic for end in observation.graph.endpoints):
+        return Diagnosis(
+            "never-published",
             "Readings were too high and too low, and no alert was published.",
-            "Is your condition ever true? No reading is above 26 and below 20 at once.",
+            "Is your condition ever true? No reading is above 26 and below 20 at once. And is "
+            "there a publish behind it?",
         )
-    return (
+    return why_not_published(observation, _ALERT) or Diagnosis(
+        "no-publisher",
         "Readings were too high and too low, and nothing was published on /alert.",
         "Make a publisher in __init__ and call its publish in the callback.",
     )
 
 
-def _alarm_words(times: list[float], wanted: list[int]) -> tuple[str, str]:
+def _alarms(times: list[float], wanted: list[int]) -> Diagnosis:
     values = list(_ROOM)
-    extra = [values[int(at) - 1] for at in times if at not in wanted]
+    stray = [at for at in times if at not in range(1, len(values) + 1)]
+    if stray:
+        return Diagnosis(
+            "alert-too-many",
+            f"An alert was published at {stray[0]:g} s, and no reading came then.",
+            "Publish in the callback of the subscription: it runs when a reading comes.",
+        )
+    extra = [values[round(at) - 1] for at in times if at not in wanted]
     if extra:
-        return (
+        return Diagnosis(
+            "boundary" if extra[0] in (26.0, 20.0) else "alert-too-many",
             f"An alert was published for a reading of {extra[0]:g}.",
             "Publish only if the reading is above 26 or below 20; the limits are still fine.",
         )
     missed = [values[at - 1] for at in wanted if at not in times]
     if missed:
-        return f"No alert for a reading of {missed[0]:g}.", "Both above 26 and below 20 count."
-    return f"{len(times)} alerts for {len(wanted)} readings.", "One alert for each is enough."
+        evidence = f"No alert for a reading of {missed[0]:g}."
+        return Diagnosis("alert-missing", evidence, "Both above 26 and below 20 count.")
+    evidence = f"{len(times)} alerts for {len(wanted)} readings."
+    return Diagnosis("alert-too-many", evidence, "One alert for each is enough.")
 
 
-def _deaf(exercise: str, observation: Observation) -> Outcome | None:
-    calls = [c for c in observation.callbacks if c.source == "/temperature"]
+def _deaf(observation: Observation, count: int) -> Diagnosis | None:
+    """Why no reading was heard, or None if some were."""
+    calls = [c for c in observation.callbacks if c.source == _TEMPERATURE.topic]
     if calls:
         return None
-    return failed(
-        exercise,
-        "Seven readings were published on /temperature and the node got none.",
+    return why_not_heard(observation, _TEMPERATURE) or Diagnosis(
+        "new-to-me",
+        f"{count} readings were published on /temperature and the node got none.",
         'Does it call create_subscription, with the topic "temperature"?',
     )
 
 
+def _judge_monitor(observation: Observation) -> Outcome:
+    deaf = _deaf(observation, len(_CALM))
+    return failed_by("04c", deaf) if deaf else judge_calm("04c", observation, _CALM)
+
+
 EXERCISES = (
-    Exercise("04a", lambda answer: _fed(answer, _FRIDGE), _judge_states),
-    Exercise("04b", lambda answer: _fed(answer, _ROOM), _judge_alarm),
+    Exercise(
+        "04a",
+        lambda answer: _fed(answer, _FRIDGE),
+        _judge_states,
+        "watch a fridge",
+        1,
+        (
+            "The monitor of this page decides between three words, too. Compare the limits.",
+            "if, elif and else are tried from top to bottom. > and < leave the limit itself out.",
+        ),
+    ),
+    Exercise(
+        "04b",
+        lambda answer: _fed(answer, _ROOM),
+        _judge_alarm,
+        "raise the alarm",
+        2,
+        (
+            "The publisher is made once, in __init__, like the sensor's; the message type and the "
+            "topic are others.",
+            "One reading is enough for an alert if it is too high or if it is too low: join the "
+            "two conditions with `or`.",
+            "A String is made like a Float32, with text in its field data.",
+        ),
+    ),
+    Exercise(
+        "04c",
+        lambda answer: _fed(answer, _CALM),
+        _judge_monitor,
+        "a calm monitor, alone",
+        4,
+        (
+            "Do one thing after the other and check in between: first the mean, then the status.",
+            "Keep the readings in a list. readings[-5:] are the last five of it, or all if there "
+            "are fewer.",
+            "The status needs a memory: self.status. Find the new one from the reading and from "
+            "the old one, and publish it only if they differ.",
+            "Ask for High and for Low first: they do not depend on what was before. Then ask "
+            "whether a High or a Low has come back far enough.",
+        ),
+    ),
 )

@@ -96,9 +96,14 @@ class Arrivals:
         """Every topic on which something from outside would have been recorded."""
         return set(self._types)
 
+    def is_own(self, topic: str, info: dict[str, int]) -> bool:
+        """Whether a message that came on a topic was published by this session."""
+        number, sent = info["publication_sequence_number"], info["source_timestamp"]
+        return any(own.sent(number, sent) for own in self._own.get(topic, ()))
+
     def _arrived(self, topic: str, memory: Memory, message: Any, info: dict[str, int]) -> None:  # noqa: ANN401
         number, sent = info["publication_sequence_number"], info["source_timestamp"]
-        if any(own.sent(number, sent) for own in self._own.get(topic, ())):
+        if self.is_own(topic, info):
             return
         with self._recorder.lock:
             if (topic, number, sent) in self._known:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 
+from rosbeat.diagnosis.faults import first_sentence, meaning_of
 from rosbeat.records import Fault, LogRecord
 
 #: Log lines printed for one call of `run`; the rest is counted and stays in `logs()`.
@@ -25,15 +26,24 @@ def log_text(record: LogRecord) -> str:
     return f"[{record.level}] [{seconds_text(record.time_ns)}] [{record.name}]: {record.text}"
 
 
+_ENDS = (
+    "n exception that leaves a callback ends its node, as it would end the node's process. The "
+    "other nodes go on."
+)
+_MEANS = "\n  What it means: "
+_AGAIN = "run the cell that adds the node again."
+
+
 def fault_text(fault: Fault) -> str:
     """An exception in a callback, in three parts."""
     where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+    # An error of our own says what it means itself.
+    known = None if _MEANS in fault.text else meaning_of(fault)
     return (
         f"{fault.node} stopped at {seconds_text(fault.time_ns)} s, in {fault.callback}: "
-        f"{fault.kind}: {fault.text}{where}\n"
-        "  What it means: an exception that leaves a callback ends its node, as it would end the "
-        "node's process. The other nodes go on.\n"
-        "  What to try:   mend that line, then run the cell that adds the node again."
+        f"{fault.kind}: {first_sentence(fault.text) if known else fault.text}{where}\n"
+        f"  What it means: {f'{known.means} A' if known else 'a'}{_ENDS}\n"
+        f"  What to try:   {f'{known.to_try} Then ' if known else 'mend that line, then '}{_AGAIN}"
     )
 
 

@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from inspect import isclass
 from typing import Any
 
+from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 
-from rosbeat.errors import NodeClassError, NodeConstructionError
-from rosbeat.runtime.faults import learners_line
+from rosbeat.diagnosis.faults import first_sentence, meaning_of
+from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError
+from rosbeat.records import Fault
+from rosbeat.runtime.faults import fault_of
+from rosbeat.runtime.message_classes import mend_message_classes
 
 Buildable = type[Node] | Node | Callable[[], Node]
+
+_NOT_READY = "The constructor, `__init__`, raised before the node was ready, so there is no node."
 
 
 def build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
@@ -47,19 +54,33 @@ def _not_a_node(subject: str, found: object) -> NodeClassError:
 
 def _call(target: Callable[[], Any]) -> Any:  # noqa: ANN401
     try:
-        return target()
+        made = target()
+        if isinstance(made, Node):
+            with suppress(InvalidHandle):  # destroyed; that is told elsewhere
+                Node.get_name(made)  # raises if super().__init__ was never called
+        return made
     except (Exception, SystemExit) as error:
         raise _refusal(_name(target), error) from error
 
 
 def _refusal(name: str, error: BaseException) -> NodeConstructionError:
-    line, code = learners_line(error)
-    where = f"\n    line {line}: {code}" if line else ""
-    return NodeConstructionError(
-        f"{name} could not be made: {type(error).__name__}: {error}{where}",
-        "The constructor, `__init__`, raised before the node was ready, so there is no node.",
-        f"Mend line {line}, then run the cell again." if line else "Mend `__init__`.",
-    )
+    mend_message_classes()
+    fault = fault_of(error, 0, "", "__init__")
+    where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+    text, means, to_try = _told(error, fault)
+    what = f"{name} could not be made: {fault.kind}: {text}{where}"
+    return NodeConstructionError(what, means, to_try)
+
+
+def _told(error: BaseException, fault: Fault) -> tuple[str, str, str]:
+    """What is said of an exception: its text, what it means, what to try."""
+    if isinstance(error, RosbeatError):
+        return error.what, error.means, error.to_try
+    known = meaning_of(fault)
+    if known is not None:
+        return first_sentence(fault.text), known.means, f"{known.to_try} Then run the cell again."
+    line = f"line {fault.line}, then run the cell again." if fault.line else "`__init__`."
+    return fault.text, _NOT_READY, f"Mend {line}"
 
 
 def _name(target: Any) -> str:  # noqa: ANN401

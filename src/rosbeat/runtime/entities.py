@@ -38,6 +38,8 @@ class NodeState:
         name: Full name.
         node: The node, once its constructor has got far enough.
         spinning: Whether its callbacks are run: it was added, has no fault and is not paused.
+        born_ns: When it was made, in nanoseconds since the session began.
+        paused: It rests because the session was told to pause it.
         ended: It raised in a callback or asked for shutdown, and does not come back.
         logger: The logger handed to its code, made at the first call of `get_logger`.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
@@ -48,6 +50,8 @@ class NodeState:
     name: str
     node: Node | None = None
     spinning: bool = False
+    born_ns: int = 0
+    paused: bool = False
     ended: bool = False
     logger: Any = None
     entries: list[Entry] = field(default_factory=list)
@@ -70,12 +74,13 @@ class Entry:
         take: Takes one thing that has arrived; a timer has none. See `direct`.
         calls: How often its callback has run.
         backlog: Take until nothing is left, since messages may have come while nobody took any.
+        born: Of a subscription: how many messages had been recorded when it was made.
         owed: Stored messages that a transient-local subscription has yet to be given.
         deadline: Where the agenda keeps a timer, in nanoseconds; None if it waits elsewhere.
     """
 
     __slots__ = (
-        "backlog", "calls", "deadline", "entity", "handle", "kind", "label",
+        "backlog", "born", "calls", "deadline", "entity", "handle", "kind", "label",
         "label_number", "name", "number", "owed", "state", "take",
     )  # fmt: skip
 
@@ -96,5 +101,6 @@ class Entry:
         self.take = take
         self.calls = 0
         self.backlog = False
+        self.born = 0
         self.owed = 0
         self.deadline: int | None = None

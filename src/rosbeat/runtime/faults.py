@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import linecache
 import sysconfig
+from itertools import pairwise
 from pathlib import Path
 from traceback import walk_tb
 from types import FrameType
 
+from rosbeat.diagnosis.callbacks import CALLED, is_argument
 from rosbeat.records import Fault
+from rosbeat.runtime.asking import asked_by
+from rosbeat.runtime.suggestions import suggestion
 
 # A frame in the standard library, in an installed package or in rosbeat is not the learner's.
 _FOREIGN = tuple(
@@ -17,21 +21,48 @@ _FOREIGN = tuple(
 )
 
 
-def _is_learners(frame: FrameType) -> bool:
+def is_learners(frame: FrameType) -> bool:
+    """Whether a frame runs code that the learner wrote, and not a library or rosbeat."""
     name = frame.f_code.co_filename
     return not name.startswith(_FOREIGN) and not name.startswith("<frozen")
 
 
 def learners_line(error: BaseException) -> tuple[int, str]:
     """Number and text of the innermost line that the learner wrote, or `(0, "")`."""
-    own = [(frame, line) for frame, line in walk_tb(error.__traceback__) if _is_learners(frame)]
-    if not own:
-        return 0, ""
-    frame, line = own[-1]
-    return line, linecache.getline(frame.f_code.co_filename, line, frame.f_globals).strip()
+    own = _own_lines(error)
+    return own[-1][1:] if own else (0, "")
+
+
+def _own_lines(error: BaseException) -> list[tuple[str, int, str]]:
+    """Function, number and text of each line of the learner's at work, outermost first."""
+    return [
+        (
+            frame.f_code.co_name,
+            line,
+            linecache.getline(frame.f_code.co_filename, line, frame.f_globals).strip(),
+        )
+        for frame, line in walk_tb(error.__traceback__)
+        if is_learners(frame)
+    ]
+
+
+def error_text(error: BaseException) -> str:
+    """The exception's message, with the proposal that Python makes in a traceback."""
+    try:
+        text = str(error)
+    except Exception:  # a class of the learner's own
+        return ""
+    meant = suggestion(error)
+    asks = "Did you mean" in text or not meant
+    return text if asks else f"{text.rstrip('.')}. Did you mean: '{meant}'?"
 
 
 def fault_of(error: BaseException, time_ns: int, node: str, callback: str) -> Fault:
     """The record of an exception that left a callback."""
     line, code = learners_line(error)
-    return Fault(time_ns, node, callback, type(error).__name__, str(error), line, code)
+    kind, asked = type(error).__name__, asked_by(error)
+    for (_, at, text), (called, *_) in pairwise(_own_lines(error)):
+        # `create_timer(1.0, self.tick())`: what failed in `tick` is not where the mistake is.
+        if is_argument(text, called):
+            line, code, asked = at, text, f"create({CALLED}[{called}])"
+    return Fault(time_ns, node, callback, kind, error_text(error), line, code, asked)

@@ -17,7 +17,8 @@ from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
 from rclpy.node import Node
 
-from rosbeat.errors import NoSessionError
+from rosbeat.errors import NoSessionError, SessionError
+from rosbeat.runtime.asking import asking, is_message_class
 
 ENTITY_METHODS = {
     "create_publisher": "publisher",
@@ -75,11 +76,12 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
         context: Context | None = kwargs.get("context")
         watcher = getattr(context or _default_context(), "watcher", None)
         name = kwargs.get("node_name", args[0] if args else None)
-        if watcher is None or not isinstance(name, str) or isinstance(node, Unwatched):
-            _make_alone(partial(original, node, *args, **kwargs))
-            return
-        watcher.node_begins(name, kwargs.get("namespace") or "/")
-        original(node, *args, **kwargs)
+        with asking("Node.__init__", node, *args, **kwargs):
+            if watcher is None or not isinstance(name, str) or isinstance(node, Unwatched):
+                _make_alone(partial(original, node, *args, **kwargs))
+                return
+            watcher.node_begins(name, kwargs.get("namespace") or "/")
+            original(node, *args, **kwargs)
         watcher.node_made(node)
 
     return init
@@ -114,14 +116,27 @@ def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]
     @wraps(original)
     def create(node: Node, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
         watcher = watcher_of(node)
-        if watcher is None:
-            return original(node, *args, **kwargs)
-        watcher.entity_begins(node)
-        entity = original(node, *args, **kwargs)
+        with asking(original.__name__, *args, **kwargs):
+            if watcher is None:
+                return original(node, *args, **kwargs)
+            _refuse_a_message(original.__name__, kwargs.get("msg_type", args[0] if args else None))
+            watcher.entity_begins(node)
+            entity = original(node, *args, **kwargs)
         watcher.entity_made(node, kind, entity)
         return entity
 
     return create
+
+
+def _refuse_a_message(call: str, kind: object) -> None:
+    """A message in the place of its class: rclpy takes it, and fails at the first use."""
+    if not isinstance(kind, type) and is_message_class(type(kind)):
+        name = type(kind).__name__
+        raise SessionError(
+            f"{call} was given a message of type {name}, and not the class {name}.",
+            "rclpy notices nothing yet, and fails when the first message is to be sent.",
+            "Hand over the class itself: nothing is sent at this line.",
+        )
 
 
 def _watch_end(original: Callable[[Node], None]) -> Callable[[Node], None]:

@@ -8,9 +8,11 @@ kernel alive; nodes of a session stay with their session.
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Callable
 from functools import wraps
+from types import FrameType
 from typing import Any
 
 import rclpy
@@ -100,6 +102,7 @@ def _spin_until_interrupt(node: Node, executor: Executor) -> None:
 def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401 - World imports this package
     """Run the session's nodes against the wall clock until Interrupt."""
     world.refuse_in_callback("rclpy.spin")
+    _refuse_in_constructor(node)
     state = world.state_of(node)
     world.spin_node(state)
     was_live = world.live is not None
@@ -119,6 +122,25 @@ def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401 - World im
         if not was_live:
             world.go_virtual()
         world.show_news()
+
+
+def _refuse_in_constructor(node: Node) -> None:
+    """A node that spins while it is being made would never be there.
+
+    Raises:
+        SessionError: If the node's own `__init__` is running.
+    """
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None:
+        code = frame.f_code
+        if code.co_name == "__init__" and frame.f_locals.get(code.co_varnames[0]) is node:
+            raise SessionError(
+                "`rclpy.spin` was called from inside the constructor.",
+                "It does not return while the node runs, so the constructor does not end either, "
+                "on a real robot too.",
+                "Whoever makes the node spins it, when it is ready. In a session: `ros.run(10)`.",
+            )
+        frame = frame.f_back
 
 
 def _spin_once(original: Callable[..., None]) -> Callable[..., None]:

@@ -76,6 +76,11 @@ class LiveExecutor(SingleThreadedExecutor):
         """Begin to run callbacks."""
         self._thread.start()
 
+    @property
+    def at_work(self) -> object:
+        """What stands for the callback that is running now; None if none is."""
+        return self._handler
+
     def is_this_thread(self) -> bool:
         """Whether the caller is a callback of this executor."""
         return current_thread() is self._thread

@@ -13,10 +13,41 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+#: The generator behind the functions of `random`: `random.uniform` is a method of it.
+_SHARED: random.Random = random.uniform.__self__  # type: ignore[attr-defined]
+
 
 def _numpy_random() -> Any:  # noqa: ANN401 - a module
     # Only a node that imported NumPy can draw from it; importing it here would cost 0.1 s.
     return getattr(sys.modules.get("numpy"), "random", None)
+
+
+def tilt(exponent: float) -> None:
+    """Tilt the numbers that the functions of `random` draw, until the session's run ends.
+
+    They are what would have been drawn, between 0 and 1, raised to a power; so they keep their
+    range, and only their mean moves, to 1 / (1 + exponent).
+
+    Args:
+        exponent: 1 for no tilt, less for higher numbers, more for lower ones; above 0.
+    """
+    _straighten()
+    if exponent == 1.0:
+        return
+    plain = _SHARED.random
+
+    def tilted() -> float:
+        return float(plain() ** exponent)
+
+    # `uniform` and `gauss` ask the first, `choice` and `randint` the second.
+    vars(_SHARED).update(random=tilted, _randbelow=lambda n: int(n * tilted()))
+    random.random = tilted
+
+
+def _straighten() -> None:
+    for name in ("random", "_randbelow"):
+        vars(_SHARED).pop(name, None)
+    random.random = _SHARED.random
 
 
 class SeededRandom:
@@ -58,6 +89,7 @@ class SeededRandom:
         try:
             yield
         finally:
+            _straighten()
             self._state = random.getstate()
             random.setstate(outer)
             self._leave_numpy(outer_numpy)

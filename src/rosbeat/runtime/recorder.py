@@ -7,6 +7,7 @@ the objects of `rosbeat.records` are made when somebody asks.
 from __future__ import annotations
 
 from array import array
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from threading import Lock
@@ -133,6 +134,49 @@ class Recorder:
         for at, number in zip(self._callback_times, self._callback_labels, strict=False):
             label = self._labels[number]
             yield CallbackRecord(at, label.node, label.kind, label.name, label.source)
+
+    def since(self, mark: int) -> tuple[int, list[tuple[Channel, int, Sample]]]:
+        """What has come since a mark: for each channel how many messages, and the newest.
+
+        It costs about as much for one message as for a thousand, and another thread may record
+        meanwhile.
+
+        Returns:
+            The mark for the next call; channel, count and newest message, in order of the newest.
+        """
+        end = len(self._sample_copies)  # the column that grows last
+        numbers = self._sample_channels[mark:end]
+        newest = {number: mark + k for k, number in enumerate(numbers)}
+        counts = Counter(numbers)
+        found = [
+            (self._channels[number], counts[number], self._sample(*self._row(k)))
+            for number, k in sorted(newest.items(), key=lambda item: item[1])
+        ]
+        return end, found
+
+    def _row(self, k: int) -> tuple[int, Channel, Any]:
+        channel = self._channels[self._sample_channels[k]]
+        return self._sample_times[k], channel, self._sample_copies[k]
+
+    def mark(self) -> int:
+        """How many messages have been recorded so far."""
+        return len(self._sample_times)
+
+    def times(self, topic: str) -> list[tuple[int, str, int]]:
+        """The messages of a topic: number among all, who published, and when in nanoseconds."""
+        nodes = {one.number: one.node for one in self._channels if one.topic == topic}
+        columns = zip(self._sample_channels, self._sample_times, strict=False)
+        return [(k, nodes[n], at) for k, (n, at) in enumerate(columns) if n in nodes]
+
+    def last_run(self, label: int) -> int:
+        """When a callback ran last, in nanoseconds; -1 if never."""
+        labels = self._callback_labels
+        found = (k for k in range(len(labels) - 1, -1, -1) if labels[k] == label)
+        return next((self._callback_times[k] for k in found), -1)
+
+    def newest_callback(self) -> CallbackLabel | None:
+        """The callback that began last."""
+        return self._labels[self._callback_labels[-1]] if self._callback_labels else None
 
     def topics(self) -> set[str]:
         """Every topic that ever had a publisher."""

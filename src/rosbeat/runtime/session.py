@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 from weakref import finalize
 
 from rclpy.node import Node
 
+from rosbeat.diagnosis.explanation import Explanation
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
+from rosbeat.runtime import explaining, learner_calls, lookups, refusals, waiting
 from rosbeat.runtime import hooks as _hooks  # noqa: F401 - makes nodes watchable
-from rosbeat.runtime import learner_calls, refusals, waiting
 from rosbeat.runtime.construction import build_node
 from rosbeat.runtime.durations import duration_ns
 from rosbeat.runtime.entities import NodeState
+from rosbeat.runtime.instruments import open_panel
 from rosbeat.runtime.interrupts import show_briefly
 from rosbeat.runtime.world import World
+
+if TYPE_CHECKING:
+    from rosbeat.panel.panel import Panel
 
 SomeNode = TypeVar("SomeNode", bound=Node)
 
@@ -128,7 +132,9 @@ class Session:
             except BaseException:  # Interrupt, too
                 self._clear_away(before)
                 raise
-            self._world.spin_node(self._state_of(made))
+            self._world.spin_node(lookups.state_of(self._world, made))
+            if made is not node:
+                self._world.makers[made] = node
         return made
 
     def remove(self, node: Node | str) -> None:
@@ -141,7 +147,7 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        self._world.destroy(self._find(node))
+        self._world.destroy(lookups.find(self._world, node))
 
     def pause(self, node: Node | str) -> None:
         """Run none of this node's callbacks for a while, as if it were busy.
@@ -155,7 +161,9 @@ class Session:
             SessionError: If the session has no such node.
         """
         self._check_open()
-        self._world.rest_node(self._find(node))
+        state = lookups.find(self._world, node)
+        self._world.rest_node(state)
+        state.paused = True
 
     def resume(self, node: Node | str) -> None:
         """Run a paused node's callbacks again; it first gets what waits in its queues.
@@ -167,7 +175,7 @@ class Session:
             SessionError: If the session has no such node, or it ended with an exception.
         """
         self._check_open()
-        state = self._find(node)
+        state = lookups.find(self._world, node)
         if state.ended:
             raise refusals.node_has_ended(state.name)
         self._world.spin_node(state)
@@ -237,17 +245,7 @@ class Session:
         if not self.is_live:
             raise refusals.session_is_not_live()
         span = None if seconds is None else duration_ns(seconds, "wait(seconds=...)") / 1e9
-        deadline = None if span is None else time.monotonic() + span
-        self._world.console.begin()
-        try:
-            return waiting.poll(until or bool, deadline, self._world.show_news)
-        except KeyboardInterrupt as interrupt:
-            show_briefly(interrupt, "you stopped waiting; the session is still live.")
-            self._world.hurry()
-            raise
-        finally:
-            self._world.show_news()
-            self._world.console.end()
+        return waiting.wait_live(self._world, until or bool, span)
 
     def wait_for_nodes(self, *names: str, timeout: float = 10.0) -> None:
         """Wait until nodes are in the graph, those of other processes too, as a terminal's.
@@ -307,11 +305,7 @@ class Session:
             SessionError: If `topic` is not a name.
         """
         self._world.show_faults()
-        name = "/" + refusals.check_name("messages", topic).lstrip("/")
-        known = self._world.known_topics()
-        if name not in known:
-            raise refusals.unknown_topic(name, known, self._world.graph())
-        return tuple(self._world.recorder.samples(name))
+        return lookups.samples(self._world, topic)
 
     def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
         """What the nodes said, in order.
@@ -323,11 +317,46 @@ class Session:
             SessionError: If `node` is neither a name nor a node that is or was in this session.
         """
         self._world.show_faults()
-        records = tuple(self._world.recorder.logs)
-        if node is None:
-            return records
-        wanted = self._name_of(node).strip("/").replace("/", ".")
-        return tuple(record for record in records if record.name == wanted)
+        return lookups.log_lines(self._world, node)
+
+    def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:
+        """Say why nothing arrives on a topic, or that all is well, with the rate.
+
+        It goes by what the session has recorded, which takes no time. In a domain that was joined
+        with `domain_id`, it also listens to the other processes and asks their nodes whether they
+        run.
+
+        Args:
+            topic: The topic's name; `temperature` and `/temperature` are the same. Nobody need use
+                it.
+            seconds: How long to listen to other processes at most, in seconds of wall time.
+
+        Returns:
+            The explanation; at the end of a cell it shows itself, and `viz.graph` draws it.
+
+        Raises:
+            DurationError: If `seconds` is not a number from 0 up.
+            SessionError: If `topic` cannot be the name of a topic, or `explain` is called from a
+                callback.
+            ClosedSessionError: If the session has ended.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.explain")
+        return explaining.explained(self._world, topic, seconds)
+
+    def panel(self) -> Panel:
+        """Open the instrument panel: what the live nodes do, and controls to disturb them.
+
+        An open panel makes room for the new one; the last one ends with the session. Where no
+        browser can show it, it is a still picture of the graph.
+
+        Raises:
+            SessionError: If `panel` is called from a callback.
+            ClosedSessionError: If the session has ended.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.panel")
+        return open_panel(self._world)
 
     def graph(self) -> GraphSnapshot:
         """The nodes, topics, services and timers as they are now, or were when the session ended.
@@ -344,16 +373,7 @@ class Session:
         Of a session that has ended it holds the graph as it was just before the end.
         """
         self._world.show_faults()
-        recorder = self._world.recorder
-        return Observation(
-            self._world.now(),
-            self._seed,
-            tuple(recorder.samples()),
-            tuple(recorder.logs),
-            tuple(recorder.callbacks()),
-            tuple(recorder.faults),
-            self._world.graph(),
-        )
+        return lookups.observation(self._world, self._seed)
 
     # How it works.
 
@@ -374,26 +394,3 @@ class Session:
         for state in self._world.states():
             if state not in before:
                 self._world.destroy(state)
-
-    def _state_of(self, node: Node) -> NodeState:
-        state = self._world.state_of(node)
-        if state is None:
-            raise refusals.foreign_node(node, self._world.name_of(node))
-        return state
-
-    def _name_of(self, node: Node | str) -> str:
-        if not isinstance(node, Node):
-            return refusals.check_name("logs", node)
-        name = self._world.name_of(node)
-        if name is None:
-            raise refusals.foreign_node(node)
-        return name
-
-    def _find(self, node: Node | str) -> NodeState:
-        if isinstance(node, Node):
-            return self._state_of(node)
-        name = "/" + str(node).lstrip("/")
-        state = self._world.named(name)
-        if state is None:
-            raise refusals.no_such_node(name, [other.name for other in self._world.states()])
-        return state

@@ -13,8 +13,10 @@ from rclpy.client import Client
 from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSCompatibility, QoSProfile, qos_check_compatible
+from rclpy.serialization import deserialize_message
 from rclpy.timer import Rate, Timer
 
+from rosbeat.runtime.asking import asking
 from rosbeat.runtime.messages import Memory, Raw
 
 
@@ -46,11 +48,16 @@ class PublisherTap:
                     send_message(msg)
                 copy = take(msg)
             else:
-                send(msg)  # bytes; or anything else, which rclpy refuses in its own words
+                with asking("publish", msg):
+                    if isinstance(msg, bytes):
+                        # Bytes that are no message would only fail where they arrive.
+                        deserialize_message(msg, message_type)
+                    send(msg)  # bytes; or anything else, which rclpy refuses in its own words
                 copy = Raw(msg)
             self.count += 1
             heard(copy)
 
+        publish.__qualname__ = send.__qualname__  # for the errors of a call with other arguments
         publisher.publish = publish
 
     def stored_for(self, qos: QoSProfile) -> int:

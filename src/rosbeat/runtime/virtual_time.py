@@ -26,7 +26,7 @@ from rosbeat.runtime.clock import SessionClock
 from rosbeat.runtime.coroutines import Coroutines, Waiting
 from rosbeat.runtime.entities import Entry, NodeState
 from rosbeat.runtime.interrupts import Interrupts
-from rosbeat.runtime.recorder import Recorder
+from rosbeat.runtime.recorder import CallbackLabel, Recorder
 from rosbeat.runtime.wait_set import Host, WaitSetExecutor
 
 
@@ -45,6 +45,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
     Attributes:
         now: Virtual time in nanoseconds.
         running: Whether `run_until` is at work.
+        calling: The callback that is running, or ran last; None before the first.
+        elsewhere: What threads of the nodes' own have published since the last step.
     """
 
     def __init__(
@@ -52,6 +54,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
     ) -> None:
         self.now = 0
         self.running = False
+        self.calling: CallbackLabel | None = None
+        self.elsewhere: deque[Callable[[], None]] = deque()
         # Not `_clock`: rclpy's executor has a steady clock of that name.
         self._session_clock, self._host = clock, host
         self._note_time, self._note_label = recorder.callback_columns()
@@ -72,6 +76,11 @@ class VirtualTimeExecutor(WaitSetExecutor):
         return task
 
     # What the session calls.
+
+    @property
+    def has_work(self) -> bool:
+        """Whether callbacks wait for the next run."""
+        return bool(self._ready)
 
     def watch(self, entry: Entry) -> None:
         """Run this entity's callback from now on, whenever its node spins."""
@@ -145,17 +154,28 @@ class VirtualTimeExecutor(WaitSetExecutor):
         finally:
             self.running = False
 
+    def run_nested(self, end: int) -> None:
+        """The same for a callback that sleeps until then: its node must not spin meanwhile."""
+        self._run(end, None)
+
     # How it works.
 
     def _run(self, end: int, done: Callable[[], bool] | None) -> None:
         self._drain()
         while not (done and done()):
             self._interrupts.insist()
+            if self.elsewhere:
+                self._take_from_elsewhere()
             deadline = self._agenda.next_deadline(self.now)
             if deadline is None or deadline > end:
-                self._advance(end)
+                self._advance(max(end, self.now))  # a callback may have slept
                 return
             self._step(deadline)
+
+    def _take_from_elsewhere(self) -> None:
+        while self.elsewhere:
+            self.elsewhere.popleft()()
+        self._drain()
 
     def _drop(self, entry: Entry) -> None:
         listeners = self._listeners.get((entry.kind, entry.name), [])
@@ -232,7 +252,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         entry.calls += 1
         self._note_time(self.now)
         self._note_label(entry.label_number)
-        self.current = entry.state
+        self.current, self.calling = entry.state, entry.label
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
@@ -263,6 +283,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def _resume_one(self, waiting: Waiting) -> None:
         self.current = waiting.state
+        if waiting.entry is not None:
+            self.calling = waiting.entry.label
         try:
             waiting.task()
         except SystemExit as error:

@@ -8,6 +8,7 @@ from threading import Event
 
 from rosbeat.records import GraphSnapshot
 from rosbeat.runtime import refusals
+from rosbeat.runtime.interrupts import show_briefly
 from rosbeat.runtime.lookout import Lookout
 from rosbeat.runtime.outside import is_settled
 from rosbeat.runtime.world import World
@@ -39,6 +40,30 @@ def poll(
         if left <= 0:
             return False
         pulse.wait(min(_LOOK_EVERY, left))
+
+
+def wait_live(world: World, done: Callable[[], object], seconds: float | None) -> bool:
+    """Wait while a session is live, and print what its nodes say.
+
+    Args:
+        world: The session.
+        done: Asked again and again.
+        seconds: How long at most, in seconds of wall time; None for ever.
+
+    Returns:
+        Whether it came true.
+    """
+    deadline = None if seconds is None else time.monotonic() + seconds
+    world.console.begin()
+    try:
+        return poll(done, deadline, world.show_news)
+    except KeyboardInterrupt as interrupt:
+        show_briefly(interrupt, "you stopped waiting; the session is still live.")
+        world.hurry()
+        raise
+    finally:
+        world.show_news()
+        world.console.end()
 
 
 def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
+from threading import get_ident
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -96,8 +98,10 @@ class Watching:
             return
         try:
             state.node.destroy_node()
-        except (AttributeError, InvalidHandle):
-            # Its constructor stopped half-way, or its own destroy_node did half of it before.
+        except Exception:
+            # Its constructor stopped half-way, or its own destroy_node raises, or did half of it.
+            with suppress(AttributeError, InvalidHandle):
+                Node.destroy_node(state.node)
             self.node_ends(state.node)
 
     # What the hooks tell.
@@ -123,7 +127,7 @@ class Watching:
             node._clock = self.clock
         if node not in self._states:
             name = node.get_fully_qualified_name()
-            self._states[node] = NodeState(len(self._states), name, node)
+            self._states[node] = NodeState(len(self._states), name, node, born_ns=self.now())
             self._names[node] = name
 
     def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
@@ -234,6 +238,7 @@ class Watching:
             )
 
     def _subscription(self, entry: Entry) -> None:
+        entry.born = self.recorder.mark()
         qos = entry.entity.qos_profile
         taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
         stored = sum(tap.stored_for(qos) for tap in taps)
@@ -259,15 +264,22 @@ class Watching:
     def _published(
         self, happened: Callable[[], None], add: Callable[[int, Any], None]
     ) -> Callable[[Any], None]:
-        virtual = self.virtual
+        virtual, home = self.virtual, get_ident()
 
         def heard(copy: Any) -> None:  # noqa: ANN401
             if self.live is None:
+                if get_ident() != home:  # a thread of the node's own
+                    virtual.elsewhere.append(partial(heard_elsewhere, copy))
+                    return
                 add(virtual.now, copy)
                 happened()
                 return
             with self.recorder.lock:
                 add(self.now(), copy)
+
+        def heard_elsewhere(copy: Any) -> None:  # noqa: ANN401
+            add(virtual.now, copy)
+            happened()
 
         return heard
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import Any, Protocol
+from weakref import WeakKeyDictionary
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
@@ -20,6 +21,7 @@ from rosbeat.runtime.entities import Entry, NodeState
 from rosbeat.runtime.faults import fault_of
 from rosbeat.runtime.live import LiveExecutor
 from rosbeat.runtime.lookout import Lookout
+from rosbeat.runtime.message_classes import mend_message_classes
 from rosbeat.runtime.outside import with_outside
 from rosbeat.runtime.randomness import SeededRandom
 from rosbeat.runtime.recorder import Recorder
@@ -30,6 +32,13 @@ from rosbeat.runtime.watching import Watching
 
 #: Virtual seconds that a call without a limit of its own waits for another node.
 LONGEST_WAIT = 3600.0
+
+
+class Closable(Protocol):
+    """What ends with the session."""
+
+    def close(self) -> None:
+        """End."""
 
 
 class World(Watching):
@@ -48,10 +57,13 @@ class World(Watching):
         context: The ROS context.
         lookout: Sees the other processes; None in a private domain, where there are none.
         closed: Whether `close` was called.
+        panel: The instrument panel, or None.
+        makers: What the session was handed to make each node.
     """
 
     def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
         super().__init__()
+        mend_message_classes()
         self._lease: DomainLease | None = lease_domain() if domain_id is None else None
         self.domain_id = self._lease.domain_id if self._lease else domain_id
         self.clock = make_clock()
@@ -61,6 +73,8 @@ class World(Watching):
         self.virtual = VirtualTimeExecutor(self.context, self.clock, self.recorder, self)
         self.live: LiveExecutor | None = None
         self.closed = False
+        self.panel: Closable | None = None
+        self.makers: WeakKeyDictionary[Node, Callable[[], Node]] = WeakKeyDictionary()
         self._random = SeededRandom(seed)
         self._live_since = 0
         self._shown_logs = 0
@@ -82,7 +96,7 @@ class World(Watching):
 
     def spin_node(self, state: NodeState) -> None:
         """Run this node's callbacks from now on."""
-        state.spinning = True
+        state.spinning, state.paused = True, False
         executor = self.live or self.virtual
         state.node.executor = executor  # type: ignore[union-attr]
         executor.wake()
@@ -122,6 +136,7 @@ class World(Watching):
         """An exception left a callback: record it, end the node, let the others go on."""
         node = state.name if state else "A task"
         self.recorder.faults.append(fault_of(error, self.now(), node, name))
+        mend_message_classes()
         if state is not None:
             self.rest_node(state)
             state.ended = True
@@ -203,6 +218,8 @@ class World(Watching):
         """Destroy the nodes, end the context and give the domain id back."""
         if self.closed:
             return
+        if self.panel is not None:
+            self.panel.close()
         self.closed = True
         self.go_virtual()
         self._last_graph = self.graph()

@@ -7,7 +7,8 @@ import matplotlib; that happens when a picture is asked for the first time (PEP 
 - `timeline` shows when callbacks ran and which message caused which;
 - `values` shows a topic's numbers over virtual time;
 - `queue` shows a subscription's queue filling, emptying and dropping;
-- `crossing` shows which messages went from one process to another, and which were lost.
+- `crossing` shows which messages went from one process to another, and which were lost;
+- `differences` shows two runs over each other, and what only one of them has.
 """
 
 from __future__ import annotations
@@ -22,12 +23,14 @@ if TYPE_CHECKING:
     from rosbeat.viz.time_lanes import timeline as timeline
     from rosbeat.viz.topic_values import values as values
     from rosbeat.viz.two_lanes import crossing as crossing
+    from rosbeat.viz.two_runs import differences as differences
 
-__all__ = ["Picture", "crossing", "graph", "queue", "timeline", "values"]
+__all__ = ["Picture", "crossing", "differences", "graph", "queue", "timeline", "values"]
 
 _HOMES = {
     "Picture": "picture",
     "crossing": "two_lanes",
+    "differences": "two_runs",
     "graph": "node_graph",
     "queue": "queue_columns",
     "timeline": "time_lanes",

@@ -67,15 +67,18 @@ def cornered(points: Sequence[Point]) -> Path:
     return Path([*vertices, points[-1]], [*codes, Path.LINETO])
 
 
-def draw(canvas: Canvas, path: Path, stroke: Stroke = PLAIN) -> None:
-    """Draw a path with a head at its end."""
+def draw(canvas: Canvas, path: Path, stroke: Stroke = PLAIN, head: bool = True) -> None:
+    """Draw a path, usually with a head at its end."""
     (x0, y0), (x1, y1) = (tuple(map(float, vertex)) for vertex in path.vertices[-2:])
     length = hypot(x1 - x0, y1 - y0) or 1.0
     ux, uy = (x1 - x0) / length, (y1 - y0) / length
     # The line ends inside the head; otherwise its blunt end would show beside the tip.
-    shown = Path([*path.vertices[:-1], (x1 - ux * 5, y1 - uy * 5)], path.codes)
+    inside = 5 if head else 0
+    shown = Path([*path.vertices[:-1], (x1 - ux * inside, y1 - uy * inside)], path.codes)
     look = {"color": stroke.colour, "ls": stroke.dash, "lw": stroke.width}
     canvas.axes.add_patch(PathPatch(shown, fill=False, zorder=2, **look))
+    if not head:
+        return
     back = (x1 - ux * _HEAD, y1 - uy * _HEAD)
     wings = [(back[0] - uy * side, back[1] + ux * side) for side in (_HALF, -_HALF)]
     canvas.axes.add_patch(Polygon([(x1, y1), *wings], fc=stroke.colour, ec="none", zorder=2.5))

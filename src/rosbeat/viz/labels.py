@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from matplotlib.patches import Ellipse, FancyBboxPatch, Patch
 
@@ -32,12 +33,14 @@ class Label:
         is_node: Whether the box is a node (ellipse) or a topic (rectangle).
         strong: Whether it is highlighted.
         broken: Whether nothing passes here.
+        dashed: Whether it does not run, or is not there.
     """
 
     lines: tuple[Line, ...]
     is_node: bool
     strong: bool = False
     broken: bool = False
+    dashed: bool = False
 
     @property
     def size(self) -> tuple[float, float]:
@@ -51,6 +54,8 @@ class Label:
     def draw(self, canvas: Canvas, x: float, y: float) -> None:
         """Draw box and text with the middle at (`x`, `y`), in CSS pixels."""
         canvas.axes.add_patch(self._shape(x, y))
+        if self.dashed and self.is_node:
+            self._cross(canvas, x, y)
         top = y + sum(line_height(line.size) for line in self.lines) / 2
         for line in self.lines:
             high = line_height(line.size)
@@ -64,21 +69,42 @@ class Label:
 
     def _shape(self, x: float, y: float) -> Patch:
         width, height = self.size
-        look = {"lw": 2.6 if self.strong else 1.3, "zorder": 3}
+        look: dict[str, Any] = {
+            "lw": 2.6 if self.strong else 1.3,
+            "zorder": 3,
+            "ls": "--" if self.dashed else "-",
+        }
         if self.is_node:
             fill = theme.NODE_FILL_STRONG if self.strong else theme.NODE_FILL
-            return Ellipse((x, y), width, height, fc=fill, ec=theme.BLUE, **look)
+            edge = theme.ALERT if self.dashed else theme.BLUE
+            return Ellipse((x, y), width, height, fc=fill, ec=edge, **look)
         fill = theme.TOPIC_FILL_STRONG if self.strong else theme.TOPIC_FILL
         edge = theme.ALERT if self.broken else theme.TOPIC_EDGE
         corner = (x - width / 2 + 3, y - height / 2 + 3)
         box = "round,pad=3,rounding_size=4"
         return FancyBboxPatch(corner, width - 6, height - 6, box, fc=fill, ec=edge, **look)
 
+    def _cross(self, canvas: Canvas, x: float, y: float) -> None:
+        """A cross on the rim, at the upper right."""
+        width, height = self.size
+        at = (x + width / 2 * 0.62, y + height / 2 * 0.78)
+        look: dict[str, Any] = {"mfc": theme.ALERT, "mec": theme.CARD, "mew": 1.2, "zorder": 5}
+        canvas.axes.plot(*at, marker="X", ms=12, **look)
 
-def node_label(name: str, limit: float, size: float, strong: bool) -> Label:
-    """The label of a node, its name broken at `limit` CSS pixels."""
-    rows = wrap(name, limit, size)
-    return Label(tuple(Line(row, size) for row in rows), is_node=True, strong=strong)
+
+def node_label(
+    name: str,
+    limit: float,
+    size: float,
+    strong: bool,
+    faults: tuple[str, ...] = (),
+    stopped: bool = False,
+) -> Label:
+    """The label of a node: its name, broken at `limit` CSS pixels, and what is wrong."""
+    small = min(size, theme.SMALL)
+    lines = [Line(row, size) for row in wrap(name, limit, size)]
+    lines += [Line(row, small, theme.ALERT_TEXT) for row in faults]
+    return Label(tuple(lines), is_node=True, strong=strong, dashed=stopped)
 
 
 def topic_label(
@@ -88,10 +114,11 @@ def topic_label(
     limit: float,
     size: float,
     strong: bool,
+    unused: bool = False,
 ) -> Label:
     """The label of a topic: name, types without their package, what is wrong."""
     small = min(size, theme.SMALL)
     lines = [Line(row, size) for row in wrap(name, limit, size)]
     lines += [Line(kind.rsplit("/", 1)[-1], small, theme.MUTED) for kind in types]
     lines += [Line(fault, small, theme.ALERT_TEXT) for fault in faults]
-    return Label(tuple(lines), is_node=False, strong=strong, broken=bool(faults))
+    return Label(tuple(lines), is_node=False, strong=strong, broken=bool(faults), dashed=unused)

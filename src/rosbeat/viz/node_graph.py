@@ -8,15 +8,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from rosbeat.diagnosis.explanation import Explanation
 from rosbeat.errors import PictureError
 from rosbeat.records import GraphSnapshot
 from rosbeat.viz import arrows, sources, theme
 from rosbeat.viz.canvas import Canvas, blank
 from rosbeat.viz.labels import Label, node_label, topic_label
 from rosbeat.viz.layers import Layering, layering
+from rosbeat.viz.marked import Marked, has_head, marked, say
+from rosbeat.viz.notes import Note
 from rosbeat.viz.picture import Picture
 from rosbeat.viz.placement import Placement, needed, place
-from rosbeat.viz.wiring import Wiring, describe, node_key, topic_key, wiring
+from rosbeat.viz.wiring import describe, node_key, topic_key, wiring
 
 #: Widest line of a name in CSS pixels and font size in points, tried in this order.
 _FITS = ((200.0, 10.0), (150.0, 10.0), (115.0, 10.0), (115.0, 9.0), (95.0, 8.5))
@@ -27,7 +30,7 @@ _ROOM = theme.WIDTH - 2 * theme.MARGIN
 class _Layout:
     """A placement with its labels, and whether it flows down instead of to the right."""
 
-    labels: dict[str, Label]
+    labels: dict[str, Label | Note]
     placement: Placement
     down: bool
 
@@ -47,7 +50,7 @@ class _Layout:
 
 
 def graph(
-    source: sources.Observed | GraphSnapshot,
+    source: sources.Observed | GraphSnapshot | Explanation,
     highlight: str | Iterable[str] = (),
     infrastructure: bool = False,
 ) -> Picture:
@@ -55,10 +58,11 @@ def graph(
 
     An arrow is dashed where nothing passes: nobody is on the other side, the qualities of service
     do not match, or the types differ. Nodes whose name has a part that begins with `_` are left
-    out.
+    out. Of an explanation the causes are marked where they are, in words, and its topic is drawn
+    boldly.
 
     Args:
-        source: A session, what it observed, or a graph.
+        source: A session, what it observed, a graph, or what `ros.explain` returned.
         highlight: Name of a node or topic, or several, to draw boldly.
         infrastructure: Whether to show `/rosout`, `/parameter_events` and `/clock`, too.
 
@@ -68,28 +72,39 @@ def graph(
     Raises:
         PictureError: If there is no node, or a highlighted name is not in the graph.
     """
-    shown = wiring(sources.snapshot(source), infrastructure)
-    if not shown.nodes:
+    shown = _shown(source, infrastructure)
+    if not shown.plain.nodes:
         raise PictureError(
             "There is no node to draw.",
             "The graph was taken before a node was added, or all of its nodes are hidden.",
             "Add a node to the session first.",
         )
     names = [highlight] if isinstance(highlight, str) else list(highlight)
-    known = (*shown.nodes, *shown.topics)
+    known = (*shown.wiring.nodes, *shown.wiring.topics)
     strong = {sources.known_name(name, known, "node or topic") for name in names}
+    if isinstance(source, Explanation):
+        strong |= {source.topic} & set(shown.wiring.topics)
     layout = _layout(shown, strong)
     width, height = layout.size
     with blank(height, width) as canvas:
         _draw(canvas, shown, layout)
-    return Picture(canvas.figure, describe(shown), "Nodes and topics")
+    words = f"{say(source)} " if isinstance(source, Explanation) else ""
+    return Picture(canvas.figure, words + describe(shown.plain), "Nodes and topics")
 
 
-def _layout(shown: Wiring, strong: set[str]) -> _Layout:
+def _shown(source: sources.Observed | GraphSnapshot | Explanation, infrastructure: bool) -> Marked:
+    if isinstance(source, Explanation):
+        return marked(source, infrastructure)
+    plain = wiring(sources.snapshot(source), infrastructure)
+    return Marked(plain, plain)
+
+
+def _layout(shown: Marked, strong: set[str]) -> _Layout:
     """The first layout that fits: from left to right if possible, else from top to bottom."""
-    starts = {node_key(name): 0 for name in shown.nodes}
-    starts.update((topic_key(name), 1) for name in shown.topics)
-    plan = layering(starts, [(edge.source, edge.target) for edge in shown.edges])
+    starts = {node_key(name): 0 for name in shown.wiring.nodes}
+    starts.update((topic_key(name), 1) for name in shown.wiring.topics)
+    starts.update(dict.fromkeys(shown.notes, 1))
+    plan = layering(starts, [(edge.source, edge.target) for edge in shown.wiring.edges])
     tries = [(down, *fit) for down in (False, True) for fit in _FITS]
     for down, limit, size in tries:
         layout = _attempt(plan, _labels(shown, strong, limit, size), down)
@@ -98,42 +113,48 @@ def _layout(shown: Wiring, strong: set[str]) -> _Layout:
     return layout or _forced(plan, _labels(shown, strong, *_FITS[-1]))
 
 
-def _attempt(plan: Layering, labels: dict[str, Label], down: bool) -> _Layout | None:
+def _attempt(plan: Layering, labels: dict[str, Label | Note], down: bool) -> _Layout | None:
     sizes = {name: _extent(label, down) for name, label in labels.items()}
     if not down and needed(plan, sizes) > _ROOM:
         return None
     return _Layout(labels, place(plan, sizes, 0.0 if down else _ROOM), down)
 
 
-def _extent(label: Label, down: bool) -> tuple[float, float]:
+def _extent(label: Label | Note, down: bool) -> tuple[float, float]:
     """A label's size along and across the flow."""
     width, height = label.size
     return (height, width) if down else (width, height)
 
 
-def _forced(plan: Layering, labels: dict[str, Label]) -> _Layout:
+def _forced(plan: Layering, labels: dict[str, Label | Note]) -> _Layout:
     sizes = {name: label.size for name, label in labels.items()}
     return _Layout(labels, place(plan, sizes, _ROOM), down=False)
 
 
-def _labels(shown: Wiring, strong: set[str], limit: float, size: float) -> dict[str, Label]:
-    labels = {node_key(name): node_label(name, limit, size, name in strong) for name in shown.nodes}
-    for name, types in shown.topics.items():
-        faults = shown.faults(name)
-        labels[topic_key(name)] = topic_label(name, types, faults, limit, size, name in strong)
+def _labels(shown: Marked, strong: set[str], limit: float, size: float) -> dict[str, Label | Note]:
+    labels: dict[str, Label | Note] = {key: Note(words) for key, words in shown.notes.items()}
+    for name in shown.wiring.nodes:
+        stopped, twins = shown.stopped.get(name, ()), shown.twins.get(name, ())
+        wrong = (stopped + twins, bool(stopped))
+        labels[node_key(name)] = node_label(name, limit, size, name in strong, *wrong)
+    for name, types in shown.wiring.topics.items():
+        unused = shown.unused.get(name, ())
+        said = shown.plain.faults(name) or unused
+        look = (limit, size, name in strong, bool(unused))
+        labels[topic_key(name)] = topic_label(name, types, said, *look)
     return labels
 
 
-def _draw(canvas: Canvas, shown: Wiring, layout: _Layout) -> None:
+def _draw(canvas: Canvas, shown: Marked, layout: _Layout) -> None:
     place_of = layout.placement
-    for edge in shown.edges:
-        stroke = arrows.BROKEN if edge.fault else arrows.PLAIN
+    for edge in shown.wiring.edges:
+        stroke, head = arrows.BROKEN if edge.fault else arrows.PLAIN, has_head(edge)
         link = (edge.source, edge.target)
         if link in place_of.routes:
             points = [layout.point(*point) for point in place_of.routes[link]]
-            arrows.draw(canvas, arrows.curve(points, layout.down), stroke)
+            arrows.draw(canvas, arrows.curve(points, layout.down), stroke, head)
         else:
             points = [layout.point(*point) for point in place_of.returns[link]]
-            arrows.draw(canvas, arrows.cornered(points), stroke)
+            arrows.draw(canvas, arrows.cornered(points), stroke, head)
     for name, box in place_of.boxes.items():
         layout.labels[name].draw(canvas, *layout.point(box.along, box.across))

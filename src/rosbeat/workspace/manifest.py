@@ -26,6 +26,8 @@ class Manifest:
         build_type: `ament_python`, `ament_cmake` or another.
         depends: Packages that it needs to run or to be built.
         problem: Why the file cannot be read, or empty.
+        format: Which version of the format of manifests it says that it has.
+        tags: Every tag below the outermost one, each once, in order.
     """
 
     name: str = ""
@@ -37,6 +39,8 @@ class Manifest:
     build_type: str = ""
     depends: tuple[str, ...] = ()
     problem: str = ""
+    format: str = ""
+    tags: tuple[str, ...] = ()
 
 
 def read_manifest(path: Path) -> Manifest:
@@ -78,6 +82,8 @@ def _manifest(root: ElementTree.Element) -> Manifest:
         email=maintainer.get("email", "") if maintainer is not None else "",
         build_type=_text(root, "export/build_type"),
         depends=tuple(dict.fromkeys(one for tag in _DEPENDS for one in _texts(root, tag))),
+        format=root.get("format", ""),
+        tags=tuple(dict.fromkeys(one.tag for one in root)),
     )
 
 

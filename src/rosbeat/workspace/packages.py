@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rosbeat.workspace.installed import Installed, read_installed
 from rosbeat.workspace.manifest import Manifest, read_manifest
-from rosbeat.workspace.setup_script import SetupScript, read_setup
+from rosbeat.workspace.setup_script import SetupScript, entry_points_in, read_setup
 from rosbeat.workspace.targets import Flaw, flaw_of, top_level_names
 
 
@@ -66,8 +66,7 @@ def read_package(folder: Path, root: Path) -> Package:
     manifest = read_manifest(folder / "package.xml")
     configured = _read_configuration(folder / "setup.cfg")
     setup = read_setup(folder / "setup.py")
-    if configured.has_option("options.entry_points", "console_scripts"):
-        setup = replace(setup, incomplete=True)
+    setup = _with_configured(setup, configured)
     name = manifest.name or setup.package_name or folder.name
     flaws = (flaw_of(entry, folder) for entry in setup.entry_points)
     return Package(
@@ -122,6 +121,20 @@ def _read_configuration(path: Path) -> configparser.ConfigParser:
     except (configparser.Error, OSError, UnicodeDecodeError):
         return configparser.ConfigParser(interpolation=None)
     return parser
+
+
+def _with_configured(setup: SetupScript, parser: configparser.ConfigParser) -> SetupScript:
+    """Add what `setup.cfg` says to a build script that says nothing of it, as setuptools does."""
+    if setup.problem:
+        return setup
+    if not setup.packages and parser.has_option("options", "packages"):
+        setup = replace(setup, packages=None)
+    section = "options.entry_points"
+    if setup.groups or setup.incomplete or not parser.has_section(section):
+        return setup
+    lines = parser.get(section, "console_scripts", fallback="")
+    entries = tuple(entry_points_in(lines, 1, "setup.cfg"))
+    return replace(setup, entry_points=entries, groups=tuple(sorted(parser[section])))
 
 
 def _scripts_folder(parser: configparser.ConfigParser) -> str:

@@ -4,14 +4,25 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from rosbeat.workspace.parsing import decoded, parse, pieces
+from rosbeat.workspace.seen_names import reached
+from rosbeat.workspace.seen_values import Seen, entries_of, items_of, keywords_of, text_of
 
 #: A name and what stands for an equals sign; `talk ==` is a slip of its own, and one name.
 _NAMED = re.compile(r"[\w.-]+\s*=+")
+_SCRIPTS = "console_scripts"
+#: What a build script says of a package besides its code, and the manifest says, too.
+_ABOUT = ("version", "description", "license")
+_FINDERS = ("find_packages", "find_namespace_packages")
+#: How much alike two words have to be, from 0 to 1, to be taken for one with a letter wrong.
+_ALIKE = 0.75
+NO_CALL = "it does not call setup()"
 
 
 @dataclass(frozen=True)
@@ -25,6 +36,7 @@ class EntryPoint:
         module: The module before `:`.
         function: The function behind `:`, or empty.
         pieces: How many texts in a row Python joins to this one.
+        file: The file that it stands in.
     """
 
     text: str
@@ -33,6 +45,7 @@ class EntryPoint:
     module: str
     function: str
     pieces: int = 1
+    file: str = "setup.py"
 
     @property
     def joined(self) -> bool:
@@ -52,6 +65,11 @@ class SetupScript:
         incomplete: Whether there may be console scripts that cannot be seen without running it.
         problem: Why the file cannot be read, or empty.
         line: The line of that problem, or 0.
+        keywords: What `setup` is given by name, sorted.
+        groups: The groups of entry points, sorted.
+        packages: Patterns of the Python packages that it installs; None if that cannot be seen.
+        excluded: Patterns of those that it leaves out.
+        about: Its version, description and license, as far as it says them as texts.
     """
 
     package_name: str = ""
@@ -61,6 +79,31 @@ class SetupScript:
     incomplete: bool = False
     problem: str = ""
     line: int = 0
+    keywords: tuple[str, ...] = ()
+    groups: tuple[str, ...] = ()
+    packages: tuple[str, ...] | None = None
+    excluded: tuple[str, ...] = ()
+    about: tuple[tuple[str, str], ...] = ()
+
+    def installs(self, package: str) -> bool:
+        """Whether a Python package is installed, as far as can be seen.
+
+        Args:
+            package: Its name.
+        """
+        if self.packages is None:
+            return True
+        wanted = any(fnmatchcase(package, one) for one in self.packages)
+        return wanted and not any(fnmatchcase(package, one) for one in self.excluded)
+
+    @property
+    def misspelled_group(self) -> str:
+        """A keyword or a group that is nearly the one for programs, or an empty text."""
+        if "entry_points" not in self.keywords:
+            return next(iter(get_close_matches("entry_points", self.keywords, 1, _ALIKE)), "")
+        if self.entry_points or _SCRIPTS in self.groups:
+            return ""
+        return next(iter(get_close_matches(_SCRIPTS, self.groups, 1, _ALIKE)), "")
 
 
 def read_setup(path: Path) -> SetupScript:
@@ -90,94 +133,163 @@ def parse_setup(data: bytes) -> SetupScript:
 
 
 def _script(tree: ast.Module, source: str) -> SetupScript:
-    call = next((one for one in ast.walk(tree) if _is_setup(one)), None)
-    if not isinstance(call, ast.Call):
-        return SetupScript(problem="it does not call setup()")
-    texts = _constants(tree)
-    given = {one.arg: one.value for one in call.keywords if one.arg}
-    value = given.get("entry_points")
-    scripts = _console_scripts(value)
-    items = scripts.elts if isinstance(scripts, ast.List | ast.Tuple) else []
-    found = list(_entry_points(items, texts, source))
-    complete = value is None or _is_list(scripts) or _has_no_scripts(value, scripts)
-    end = scripts if isinstance(scripts, ast.List) else None
+    call = reached(tree, "setup")
+    if call is None or not isinstance(call.node, ast.Call):
+        return SetupScript(problem=NO_CALL)
+    everything = keywords_of(call, call.node)
+    given = _readable(call, call.node) if everything is None else everything
+    groups = _groups(given.get("entry_points"))
+    found, complete = _entry_points(groups or {}, source)
+    end = _end((groups or {}).get(_SCRIPTS))
+    packages, excluded = _packages(given.get("packages"), everything is not None)
     return SetupScript(
-        package_name=_text(given.get("name"), texts) or "",
-        entry_points=tuple(found),
+        package_name=_text(given.get("name")),
+        entry_points=found,
         end_of_scripts=(end.end_lineno or 0) if end else 0,
         end_column=(end.end_col_offset or 0) if end else 0,
-        incomplete=len(found) < len(items) or not complete or len(given) < len(call.keywords),
+        incomplete=everything is None or groups is None or not complete,
+        keywords=tuple(sorted(given)),
+        groups=tuple(sorted(groups or ())),
+        packages=packages,
+        excluded=excluded,
+        about=tuple((key, _text(given[key])) for key in _ABOUT if _text(given.get(key))),
     )
 
 
-def _is_list(node: ast.expr | None) -> bool:
-    return isinstance(node, ast.List | ast.Tuple)
+def _readable(call: Seen, node: ast.Call) -> dict[str, Seen]:
+    """What is given by name and can be seen, if something else cannot."""
+    return {one.arg: call.of(one.value) for one in node.keywords if one.arg}
 
 
-def _has_no_scripts(value: ast.expr, scripts: ast.expr | None) -> bool:
-    """Whether the keys can all be seen, and the one that is looked for is not among them."""
-    if not isinstance(value, ast.Dict) or scripts is not None:
-        return False
-    return all(isinstance(key, ast.Constant) for key in value.keys)
+def _text(seen: Seen | None) -> str:
+    return (text_of(seen) if seen else None) or ""
 
 
-def _is_setup(node: ast.AST) -> bool:
-    return isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "setup"
+def _end(scripts: Seen | None) -> ast.List | None:
+    return scripts.node if scripts and isinstance(scripts.node, ast.List) else None
 
 
-def _constants(tree: ast.Module) -> dict[str, str]:
-    """Names that stand for a text, as `package_name` does."""
-    return {
-        target.id: node.value.value
-        for node in tree.body
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
-        for target in node.targets
-        if isinstance(target, ast.Name) and isinstance(node.value.value, str)
-    }
+def _groups(value: Seen | None) -> Mapping[str, Seen] | None:
+    """The groups of entry points; None if they cannot all be seen."""
+    if value is None:
+        return {}
+    text = text_of(value)
+    return _read_groups(text, value) if text is not None else _visible(value)
 
 
-def _console_scripts(value: ast.expr | None) -> ast.expr | None:
-    if not isinstance(value, ast.Dict):
+def _visible(value: Seen) -> Mapping[str, Seen] | None:
+    found = entries_of(value)
+    if found is None and isinstance(value.node, ast.Dict):
+        # A star in it hides other groups; what stands beside it can be seen all the same.
+        keys = zip(value.node.keys, value.node.values, strict=True)
+        names = {text_of(value.of(key)): one for key, one in keys if key}
+        shown = names.get(_SCRIPTS)
+        return {_SCRIPTS: value.of(shown)} if shown else None
+    return found
+
+
+def _read_groups(text: str, value: Seen) -> Mapping[str, Seen]:
+    """The groups of a text such as `[console_scripts]` with one entry in each line below it."""
+    parts = re.split(r"^\s*\[(.+?)\]\s*$", text, flags=re.MULTILINE)
+    pairs = zip(parts[1::2], parts[2::2], strict=True)
+    lines = {name: ast.copy_location(ast.Constant(lines), value.node) for name, lines in pairs}
+    return {name: Seen(node, {}) for name, node in lines.items()}
+
+
+def _entry_points(groups: Mapping[str, Seen], source: str) -> tuple[tuple[EntryPoint, ...], bool]:
+    """The programs that can be seen, and whether these are all.
+
+    On Linux the group for windows makes the same programs as the one for terminals.
+    """
+    found: list[EntryPoint | None] = []
+    for name in (_SCRIPTS, "gui_scripts"):
+        if name in groups:
+            found += _programs(groups[name], source)
+    entries = tuple(one for one in found if one is not None)
+    return entries, len(entries) == len(found)
+
+
+def _programs(scripts: Seen, source: str) -> list[EntryPoint | None]:
+    """The entry points of a group; None stands for what cannot be seen."""
+    lines = text_of(scripts)
+    if lines is not None:
+        return list(entry_points_in(lines, scripts.node.lineno))
+    items = items_of(scripts)
+    if items is None:
+        return [*(_item(one, source) for one in _beside_stars(scripts)), None]
+    return [_item(one, source) for one in items]
+
+
+def _beside_stars(scripts: Seen) -> list[Seen]:
+    node = scripts.node
+    return [scripts.of(one) for one in node.elts] if isinstance(node, ast.List | ast.Tuple) else []
+
+
+def _item(seen: Seen, source: str) -> EntryPoint | None:
+    text = text_of(seen)
+    if text is None:
         return None
-    for key, scripts in zip(value.keys, value.values, strict=True):
-        if isinstance(key, ast.Constant) and key.value == "console_scripts":
-            return scripts
-    return None
+    line = getattr(seen.node, "lineno", 0)
+    segment = ast.get_source_segment(source, seen.node) if line else None
+    return entry_point(text, line, pieces(segment or ""))
 
 
-def _text(node: ast.AST | None, names: dict[str, str]) -> str | None:
-    """The text that an expression makes, or None if that cannot be seen without running it."""
-    if isinstance(node, ast.Constant):
-        return node.value if isinstance(node.value, str) else None
-    if isinstance(node, ast.Name):
-        return names.get(node.id)
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
-        return _joined((node.left, node.right), names)
-    if isinstance(node, ast.JoinedStr):
-        return _joined(node.values, names)
-    plain = isinstance(node, ast.FormattedValue) and node.conversion < 0 and not node.format_spec
-    return _text(node.value, names) if isinstance(node, ast.FormattedValue) and plain else None
+def entry_points_in(lines: str, line: int, file: str = "setup.py") -> list[EntryPoint]:
+    """Return the entry points of a text that has one in each line.
+
+    Args:
+        lines: The text.
+        line: Where it begins.
+        file: The file that it stands in.
+    """
+    plain = [one.strip() for one in lines.splitlines()]
+    return [entry_point(one, line, 1, file) for one in plain if one and one[0] not in "#;"]
 
 
-def _joined(nodes: Iterable[ast.expr], names: dict[str, str]) -> str | None:
-    texts = [_text(one, names) for one in nodes]
-    known = [text for text in texts if text is not None]
-    return "".join(known) if len(known) == len(texts) else None
+def entry_point(text: str, line: int, parts: int = 1, file: str = "setup.py") -> EntryPoint:
+    """Take the text of an entry point apart.
 
-
-def _entry_points(
-    nodes: list[ast.expr], names: dict[str, str], source: str
-) -> Iterable[EntryPoint]:
-    """The items that are plain texts; nothing can be said of the others."""
-    for node in nodes:
-        text = _text(node, names)
-        if text is not None:
-            parts = pieces(ast.get_source_segment(source, node) or "")
-            yield _entry_point(text, node.lineno, parts)
-
-
-def _entry_point(text: str, line: int, parts: int) -> EntryPoint:
+    Args:
+        text: As in `talk = rosie.voice:main`.
+        line: Its line.
+        parts: How many texts in a row Python joined to this one.
+        file: The file that it stands in.
+    """
     executable, _, target = text.partition("=")
     module, _, function = target.partition(":")
     function = function.split("[")[0]
-    return EntryPoint(text, line, executable.strip(), module.strip(), function.strip(), parts)
+    return EntryPoint(text, line, executable.strip(), module.strip(), function.strip(), parts, file)
+
+
+def _packages(
+    value: Seen | None, everything: bool
+) -> tuple[tuple[str, ...] | None, tuple[str, ...]]:
+    """Patterns of what is installed and of what is not.
+
+    Without `packages`, setuptools looks by itself, and refuses where it finds two folders: every
+    ROS package has `resource` beside its code.
+    """
+    if value is None:
+        return () if everything else None, ()
+    node = value.node
+    if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in _FINDERS:
+        return _found(value, node)
+    return _texts(value), ()
+
+
+def _found(value: Seen, node: ast.Call) -> tuple[tuple[str, ...] | None, tuple[str, ...]]:
+    names = ("where", "exclude", "include")
+    given = {**dict(zip(names, node.args, strict=False)),
+             **{one.arg: one.value for one in node.keywords if one.arg}}  # fmt: skip
+    include = _texts(value.of(given["include"])) if "include" in given else ("*",)
+    exclude = _texts(value.of(given["exclude"])) if "exclude" in given else ()
+    where = text_of(value.of(given["where"])) if "where" in given else "."
+    if include is None or exclude is None or where is None:
+        return None, ()
+    return (include if where in (".", "./", "") else ()), exclude
+
+
+def _texts(value: Seen) -> tuple[str, ...] | None:
+    texts = [text_of(one) for one in items_of(value) or ()]
+    known = tuple(text for text in texts if text is not None)
+    return known if items_of(value) is not None and len(known) == len(texts) else None

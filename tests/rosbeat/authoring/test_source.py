@@ -28,6 +28,17 @@ def test_cells_have_kind_role_tags_and_their_line(checkout):
     assert (lesson.name, lesson.number) == ("00_hear_it", "00")
 
 
+def test_a_cell_may_ask_for_a_prediction(checkout):
+    lesson = checkout.lesson("""
+        # %% predict=true
+        x = 1
+
+        # %%
+        y = 2
+    """)
+    assert [cell.predict for cell in lesson.cells] == [False, True, False]
+
+
 @pytest.mark.parametrize(
     ("body", "message"),
     [
@@ -36,6 +47,8 @@ def test_cells_have_kind_role_tags_and_their_line(checkout):
         ("# %% [raw]\n# x", "kind 'raw'"),
         ('# %% only="learner"\nx = 1', "only= is 'learner'"),
         ('# %% exercize="00a"\nx = 1', "does not know 'exercize'"),
+        ("# %% predict=false\nx = 1", "predict= is False"),
+        ('# %% predict="00a"\nx = 1', "predict= is '00a'"),
     ],
 )
 def test_what_the_format_does_not_know_is_refused(checkout, body, message):

@@ -1,8 +1,11 @@
 import pytest
+from rclpy.node import Node
 
 from rosbeat import Session, check
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises.checking import EXERCISES
+from rosbeat.exercises.progress_file import progress_file
+from rosbeat.exercises.standing import Standing
 
 pytestmark = pytest.mark.ros
 
@@ -13,8 +16,44 @@ def test_an_unknown_exercise_is_refused_with_the_nearest_one():
     assert 'check("03a"' in caught.value.to_try
 
 
-def test_ids_are_a_page_and_a_letter():
-    assert all(len(key) == 3 and key[:2].isdigit() and key[2].isalpha() for key in EXERCISES)
+def test_ids_of_pages_are_a_page_and_a_letter():
+    ids = [key for key in EXERCISES if key[0].isdigit()]
+    assert all(len(key) == 3 and key[:2].isdigit() and key[2].isalpha() for key in ids)
+
+
+def test_every_check_is_remembered_with_its_points_and_its_mistake(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
+    import answers as a
+
+    class Untouched(Node):
+        def __init__(self):
+            super().__init__("humidity_sensor")
+            self.publisher_ = self.create_publisher(____)  # noqa: F821
+
+    check("03a", Untouched)
+    assert progress_file().standings()["03a"] == Standing()
+    failed = check("03a", a.ShallowHumiditySensor).outcome
+    passed = check(" 03A ", a.HumiditySensor).outcome
+    check("03a", a.ShallowHumiditySensor)
+    check("03a", Untouched)
+    assert progress_file().standings()["03a"] == Standing(
+        "not attempted", True, passed.points, attempts=3, mistake=failed.mistake
+    )
+
+
+def test_a_refused_check_leaves_no_trace(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
+    with pytest.raises(ExerciseError):
+        check("01a", tmp_path / "nowhere")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_check_answers_though_nothing_can_be_remembered(tmp_path, monkeypatch, capsys):
+    (tmp_path / ".rosbeat").write_text("mine")
+    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
+    (tmp_path / "resources/sounds/alarm").mkdir(parents=True)
+    assert [check("01a", tmp_path).outcome.status for _ in range(3)] == ["passed"] * 3
+    assert capsys.readouterr().out.count("cannot be saved") == 1
 
 
 def test_a_check_leaves_the_learners_session_alone(capsys):

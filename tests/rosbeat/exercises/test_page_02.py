@@ -11,7 +11,7 @@ XML = """<?xml version="1.0"?>
   <name>{name}</name>
   <version>0.0.0</version>
   <description>{description}</description>
-  <maintainer email="a@b.c">a</maintainer>
+  <maintainer email="a@example.com">a</maintainer>
   <license>{license}</license>
   {depends}
   <export><build_type>{kind}</build_type></export>
@@ -41,6 +41,10 @@ def judge(tmp_path):
             folder = tmp_path.joinpath(*place.split("__"))
             folder.mkdir(parents=True, exist_ok=True)
             (folder / "package.xml").write_text(text)
+            name = folder.name
+            for file in ("setup.py", f"resource/{name}", f"{name}/__init__.py"):
+                (folder / file).parent.mkdir(exist_ok=True)
+                (folder / file).write_text("from setuptools import setup\nsetup()\n")
         return exercise.judged(exercise.scenario(tmp_path))
 
     return run

@@ -6,16 +6,18 @@ from pathlib import Path
 import pytest
 
 from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.exercises import page_05
+from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.exercises import entries as entries_module
 from rosbeat.exercises.page_05 import EXERCISES
 from rosbeat.workspace import targets
+from rosbeat.workspace.meanings.flaws import MISTAKE_OF
 
 setup_05a, function_05b = EXERCISES
 PUBLISHER = "'temperature_publisher = sensor_simulator.temperature_publisher:main',"
 SUBSCRIBER = "'temperature_subscriber = sensor_simulator.temperature_subscriber:main',"
 SETUP = """from setuptools import setup
 package_name = 'sensor_simulator'
-setup(name=package_name, entry_points={{'console_scripts': [
+setup(name=package_name, packages=[package_name], entry_points={{'console_scripts': [
 {}
 ]}})
 """
@@ -28,6 +30,8 @@ def judge(tmp_path):
     (package / "package.xml").write_text("<package><name>sensor_simulator</name></package>")
     for name in ("__init__", "temperature_publisher", "temperature_subscriber"):
         (package / "sensor_simulator" / f"{name}.py").write_text("def main():\n    pass\n")
+
+    (package / "setup.cfg").write_text("[install]\ninstall_scripts=$base/lib/sensor_simulator\n")
 
     def run(*entries):
         (package / "setup.py").write_text(SETUP.format("\n".join(entries)))
@@ -53,6 +57,7 @@ def test_both_programs_are_there(judge, entries):
 
 def test_an_empty_list_is_nothing_tried(judge):
     assert judge().status == NOT_ATTEMPTED
+    assert judge("'____',", "'____',").status == NOT_ATTEMPTED
 
 
 @pytest.mark.parametrize(
@@ -66,10 +71,10 @@ def test_an_empty_list_is_nothing_tried(judge):
         ((PUBLISHER.replace(":main", ""), SUBSCRIBER), "names no function"),
         ((PUBLISHER.replace("publisher:", "publsher:"), SUBSCRIBER), "module"),
         ((PUBLISHER, SUBSCRIBER.replace("subscriber:", "publisher:")), "would call"),
-        (("'____',", "'____',"), "equals sign"),
+        (("'____',", SUBSCRIBER), "equals sign"),
         ((PUBLISHER.replace("=", "=="), SUBSCRIBER), "two equals signs"),
-        (("*[],", PUBLISHER), "no temperature_subscriber that can be read"),
-        (("'{} = {}'.format('a', 'b'),",), "that can be read"),
+        (("*more(),", PUBLISHER), "no temperature_subscriber that can be read"),
+        (("'{} = {}'.format('a', b()),",), "that can be read"),
         ((PUBLISHER.replace("temperature_publisher =", "publisher ="), SUBSCRIBER), "publisher"),
         ((PUBLISHER.replace("'temp", "temp"), SUBSCRIBER), "cannot be read"),
     ],
@@ -85,7 +90,8 @@ def test_every_flaw_of_an_entry_point_has_words():
     source = Path(targets.__file__).read_text()
     kinds = set(re.findall(r'Flaw\(\s*"([a-z-]+)"', source))
     assert len(kinds) >= 10
-    assert kinds == set(page_05._FLAWS) == set(page_05._CURES)
+    assert kinds == set(entries_module.FLAWS) == set(MISTAKE_OF)
+    assert set(MISTAKE_OF.values()) <= set(MISTAKES)
 
 
 def by_format(executable, package, module, function="main"):

@@ -65,6 +65,7 @@ def workspace(tmp_path):
     package = tmp_path / "src" / "sensor_simulator"
     package.mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>sensor_simulator</name></package>")
+    (package / "setup.py").write_text("from setuptools import setup\nsetup()\n")
     return tmp_path
 
 

@@ -8,7 +8,7 @@ from std_srvs.srv import Trigger
 
 from nodes import Doer, Listener, Server, Speaker, Talker, Ticker
 from rosbeat.errors import SessionError
-from rosbeat.runtime.faults import learners_line
+from rosbeat.runtime.faults import fault_of, learners_line
 
 
 class Bomb(Listener):
@@ -179,3 +179,44 @@ def test_the_innermost_own_line():
 
 def test_no_line_is_better_than_a_wrong_one():
     assert learners_line(ValueError("never raised")) == (0, "")
+
+
+def test_an_error_that_misleads_is_translated(ros, capsys):
+    def do(node):
+        node.create_publisher(float, "temperature", 10)
+
+    ros.add(partial(Doer, do))
+    ros.run(1)
+    shown = capsys.readouterr().err
+    assert "What it means: In the place of the message type stands the type float" in shown
+    assert "ends its node" in shown
+    assert "Then run the cell that adds the node again." in shown
+
+
+def test_an_error_that_nobody_knows_is_left_as_it_is(ros, capsys):
+    def do(node):
+        raise ValueError("one, at /two\nthree")
+
+    ros.add(partial(Doer, do))
+    ros.run(1)
+    shown = capsys.readouterr().err
+    assert "ValueError: one, at /two\nthree\n" in shown
+    assert "What it means: an exception that leaves a callback" in shown
+
+
+def test_the_line_is_the_one_that_calls_the_callback_too_early():
+    class Hasty:
+        def __init__(self):
+            self.create_timer(1.0, self.tick())
+
+        def create_timer(self, period, callback):
+            pass
+
+        def tick(self):
+            return self.temperature
+
+    with pytest.raises(AttributeError) as caught:
+        Hasty()
+    fault = fault_of(caught.value, 0, "", "__init__")
+    assert fault.code == "self.create_timer(1.0, self.tick())"
+    assert fault.asked == "create(called[tick])"

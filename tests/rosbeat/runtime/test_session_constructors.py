@@ -1,6 +1,7 @@
 """Nodes whose constructor fails, and what is no node at all."""
 
 import pytest
+import rclpy
 from rclpy.node import Node
 from std_msgs.msg import String
 
@@ -118,3 +119,49 @@ def test_a_node_of_another_session_is_refused(ros, says):
         with pytest.raises(NodeClassError) as caught:
             ros.add(talker)
         says(caught.value, "does not belong to this session")
+
+
+def test_a_node_that_never_called_super_is_refused(ros, says):
+    class Empty(Node):
+        def __init__(self):
+            pass
+
+    with pytest.raises(NodeConstructionError) as caught:
+        ros.add(Empty)
+    says(caught.value, "super().__init__ has not been called yet")
+    assert names(ros) == []
+
+
+def test_a_message_in_the_place_of_its_class_is_refused(ros, says):
+    class Confused(Node):
+        def __init__(self):
+            super().__init__("confused")
+            self.create_publisher(String(), "words", 10)
+
+    with pytest.raises(NodeConstructionError) as caught:
+        ros.add(Confused)
+    says(caught.value, "not the class String", "Hand over the class itself")
+    assert names(ros) == []
+
+
+def test_a_node_that_spins_while_it_is_made_is_refused(ros, says):
+    class Spinning(Node):
+        def __init__(self):
+            super().__init__("spinning")
+            rclpy.spin(self)
+
+    with pytest.raises(NodeConstructionError) as caught:
+        ros.add(Spinning)
+    says(caught.value, "from inside the constructor")
+
+
+def test_an_error_that_misleads_is_translated(ros, says):
+    class Swapped(Node):
+        def __init__(self):
+            super().__init__("swapped")
+            self.create_publisher("words", String, 10)
+
+    with pytest.raises(NodeConstructionError) as caught:
+        ros.add(Swapped)
+    says(caught.value, "create_publisher got a text in the place of the message type")
+    assert "Invoked with" not in str(caught.value)

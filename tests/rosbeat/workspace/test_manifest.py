@@ -20,7 +20,9 @@ def test_what_it_says():
 
 
 def test_what_is_absent_is_empty():
-    assert parse_manifest(b"<package><name> a </name></package>") == Manifest(name="a")
+    assert parse_manifest(b"<package><name> a </name></package>") == Manifest(
+        name="a", tags=("name",)
+    )
 
 
 @pytest.mark.parametrize(

@@ -49,9 +49,21 @@ def test_packages_are_found_where_colcon_finds_them(root, package):
 
 
 def test_entry_points_in_setup_cfg(root, package):
-    assert not read_package(package, root).setup.incomplete
     path = package / "setup.cfg"
     path.write_text(path.read_text() + "[options.entry_points]\nconsole_scripts =\n  a = b:c\n")
+    # setuptools reads them only if setup.py has none of its own.
+    assert "a" not in [one.executable for one in read_package(package, root).setup.entry_points]
+    setup = package / "setup.py"
+    setup.write_text("from setuptools import setup\nsetup(packages=['sensor_simulator'])\n")
     found = read_package(package, root)
-    assert found.setup.incomplete
+    assert [(one.text, one.file) for one in found.setup.entry_points] == [("a = b:c", "setup.cfg")]
+    assert [flaw.kind for flaw in found.flaws] == ["no-module"]
+    assert found.setup.groups == ("console_scripts",)
     assert found.scripts_are_found
+
+
+def test_packages_that_setup_cfg_names(root, package):
+    (package / "setup.py").write_text("from setuptools import setup\nsetup()\n")
+    assert not read_package(package, root).setup.installs("sensor_simulator")
+    (package / "setup.cfg").write_text("[options]\npackages = find:\n")
+    assert read_package(package, root).setup.installs("sensor_simulator")

@@ -1,5 +1,9 @@
+import sys
+from types import ModuleType
+
 import pytest
 
+from bank.workspaces import entries
 from rosbeat.workspace.setup_script import SetupScript, read_setup
 from rosbeat.workspace.stages import finished
 
@@ -92,7 +96,7 @@ def test_a_tuple_is_read_and_is_no_list(read):
 
 @pytest.mark.parametrize(
     "item",
-    ["'{} = p.a:main'.format('a'),", "'%s = p.a:main' % 'a',", "*['a = p.a:main'],", "unknown,",
+    ["'{} = p.a:main'.format(name()),", "'%d = p.a:main' % 'a',", "*others,", "unknown,",
      "f'{package_name!r} = p.a:main',", "f'{package_name:>9} = p.a:main',", "'a = ' + name(),"],
 )  # fmt: skip
 def test_what_cannot_be_seen_is_not_guessed(read, item):
@@ -112,3 +116,79 @@ def test_two_equals_signs_are_no_missing_comma(read):
     for text in ("'a == b:c'", "'a = b = c:d'"):
         assert not read(scripts(text)).entry_points[0].joined
     assert read(scripts("'a = p.a:main'", "'b == p.b:main',")).entry_points[0].joined
+
+
+def test_the_group_for_windows_makes_programs_too(read):
+    text = scripts("'a = p.a:main'").replace("console_scripts", "gui_scripts")
+    assert [one.executable for one in read(text).entry_points] == ["a"]
+
+
+@pytest.mark.parametrize(
+    ("given", "installed"),
+    [
+        ("packages=find_packages()", True),
+        ("packages=find_packages(exclude=['test'])", True),
+        ("packages=find_packages('.', exclude=['p*'])", False),
+        ("packages=find_packages(include=['p', 'p.*'])", True),
+        ("packages=find_packages(include=['q'])", False),
+        ("packages=find_packages(where='src')", False),
+        ("packages=find_packages(exclude=unknown())", True),
+        ("packages=['p']", True),
+        ("packages=['q']", False),
+        ("packages=[]", False),
+        ("packages=unknown()", True),
+        ("", False),
+        ("**unknown()", True),
+    ],
+)
+def test_whether_the_code_is_installed(read, given, installed):
+    assert read(f"from setuptools import *\nsetup({given})\n").installs("p") == installed
+
+
+@pytest.mark.parametrize(
+    ("given", "found"),
+    [
+        ("entry_point={}", "entry_point"),
+        ("entry_points={'console_script': []}", "console_script"),
+        ("entry_points={'console_scripts': []}", ""),
+        ("entry_points={'pytest11': []}", ""),
+        ("name='p'", ""),
+    ],
+)
+def test_entries_where_nobody_looks(read, given, found):
+    assert read(f"setup({given})").misspelled_group == found
+
+
+def executed(text, monkeypatch):
+    """What a build script hands to setuptools when it is run: its console scripts, as texts."""
+    given = {}
+    fake = ModuleType("setuptools")
+    fake.setup, fake.find_packages = given.update, lambda *_, **__: []
+    monkeypatch.setitem(sys.modules, "setuptools", fake)
+    exec(compile(text, "setup.py", "exec", dont_inherit=True), {"__name__": "__main__"})
+    found = given.get("entry_points", {})
+    return list(found["console_scripts"]) if isinstance(found, dict) and found else []
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [one for one in entries.ANSWERS if one.status == "passed" and "'''" not in one.given],
+    ids=lambda one: one.name,
+)
+def test_what_is_seen_is_what_a_run_gives(read, answer, monkeypatch):
+    setup = read(answer.given)
+    assert not setup.incomplete
+    assert [one.text for one in setup.entry_points] == executed(answer.given, monkeypatch)
+
+
+@pytest.mark.parametrize("start", ["'a = p.a:main'", "['a = p.a:main']"])
+def test_what_doubles_in_every_line_is_given_up(read, start):
+    text = f"x = {start}\n" + "x = x + x\n" * 100
+    setup = read(text + "setup(entry_points={'console_scripts': [*x, x]})\n")
+    assert setup.incomplete
+
+
+def test_a_dictionary_that_is_added_to_itself(read):
+    text = "x = {'console_scripts': ['a = p.a:main']}\n" + "x = x | x\n" * 100
+    setup = read(text + "setup(entry_points=x)\n")
+    assert [one.executable for one in setup.entry_points] == ["a"]

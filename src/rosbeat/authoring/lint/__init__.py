@@ -16,6 +16,7 @@ from rosbeat.authoring.lint.leaks import leaked_answer
 from rosbeat.authoring.lint.links import alt_text, broken_link
 from rosbeat.authoring.lint.marks import answer_markers
 from rosbeat.authoring.lint.numbering import page_numbers
+from rosbeat.authoring.lint.predictions import predictions
 from rosbeat.authoring.lint.prose import code_as_prose, prose_as_code
 from rosbeat.authoring.lint.running import endless, machine_path, unseen_by_nbval
 from rosbeat.authoring.source import Lesson
@@ -32,6 +33,7 @@ LINTS: tuple[Lint, ...] = (
     answer_outside_exercise,
     exercise_names,
     exercise_pairs,
+    predictions,
     cell_budget,
     page_budget,
     broken_link,

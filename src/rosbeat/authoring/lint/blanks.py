@@ -37,9 +37,9 @@ def blank_outside_function(desk: Desk) -> Iterator[Finding]:
 
 
 def stray_blank(desk: Desk) -> Iterator[Finding]:
-    """Blanks stand in exercise cells only."""
+    """Blanks stand in exercises and predictions only."""
     for cell in desk.code:
-        if cell.exercise:
+        if cell.exercise or cell.predict:
             continue
         for number, line in enumerate(learner_text(cell).split("\n"), cell.line):
             if BLANK in line:

@@ -30,13 +30,13 @@ class Budgets:
     code_lines: int = 25
     exercise_lines: int = 40
     cell_words: int = 120
-    page_cells: tuple[int, int] = (25, 40)
+    page_cells: tuple[int, int] = (25, 42)
     page_words: tuple[int, int] = (900, 1500)
     exercises: int = 3
 
 
 PAGE = Budgets()
-FIRST_PAGE = Budgets(page_cells=(12, 40), page_words=(400, 1500))
+FIRST_PAGE = Budgets(page_cells=(12, 42), page_words=(400, 1500))
 """The first page brings the first message within a minute, so it may be short."""
 
 

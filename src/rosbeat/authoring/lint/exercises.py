@@ -11,10 +11,10 @@ from rosbeat.authoring.markers import find_blocks
 
 
 def answer_outside_exercise(desk: Desk) -> Iterator[Finding]:
-    """Answers stand in exercise cells, and an exercise has at least one."""
+    """Answers stand in exercises and predictions, and an exercise has at least one."""
     for cell in desk.lesson.cells:
         blocks = find_blocks(cell.source)
-        if blocks and (cell.kind != "code" or not cell.exercise):
+        if blocks and (cell.kind != "code" or not (cell.exercise or cell.predict)):
             line = cell.line + blocks[0].line
             cure = f"Begin the cell with '# %% exercise=\"{desk.lesson.number}a\"'."
             yield desk.finding("answer-outside-exercise", line, "this is no exercise cell.", cure)

@@ -4,35 +4,41 @@ from __future__ import annotations
 
 import re
 
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.workspace.meanings.situation import Call, Situation
 from rosbeat.workspace.place import VARIABLE
 
 _EXISTS = re.compile(r"The directory already exists: (?P<path>\S+)")
 _REFUSED = re.compile(r"^ros2.*: error: unrecognized arguments: (?P<rest>.+)$", re.M)
+#: What the course's `ros2` prints about a package that was to be made in another one.
+INSIDE = "is a package itself (it holds a package.xml)"
 _REST = "the rest of the command stays as it is"
 
 
-def exists_already(seen: Situation) -> str | None:
+def exists_already(seen: Situation) -> Diagnosis | None:
     """A package of this name is there (mistake 26)."""
     found = _EXISTS.search(seen.text)
     if not found or not seen.call("ros2", "pkg", "create"):
         return None
     name = found["path"].rsplit("/", 1)[-1]
-    return (
-        f"A folder {name} is there already, most likely from the first time you ran this command. "
-        "Nothing was changed. If it is your package, go on with it; if not, rename it first."
+    return Diagnosis(
+        "package-exists",
+        f"A folder {name} is there already, most likely from the first time you ran this command.",
+        "Nothing was changed. If it is your package, go on with it; if not, rename it first.",
     )
 
 
-def without_build_type(seen: Situation) -> str | None:
+def without_build_type(seen: Situation) -> Diagnosis | None:
     """`--build-type ament_python` was forgotten (mistake 25)."""
     call = seen.call("ros2", "pkg", "create")
     if not call or any(word.startswith("--build-type") for word in call.words):
         return None
     if "is left out here" in seen.text:
-        return (
+        return Diagnosis(
+            "build-type",
             "Without `--build-type ament_python`, `ros2 pkg create` makes a package for C++, and "
-            f"that is not what your node needs. Add it; {_REST}."
+            "that is not what your node needs.",
+            f"Add it; {_REST}.",
         )
     name = next(
         (
@@ -43,15 +49,29 @@ def without_build_type(seen: Situation) -> str | None:
         None,
     )
     if seen.code == 0 and name:
-        return (
+        return Diagnosis(
+            "build-type",
             f"{name} has become a package for C++: it has a CMakeLists.txt and no setup.py, "
-            f"because `--build-type ament_python` was left out. Rename the folder {name} or move "
-            "it away, then make the package again with that option."
+            "because `--build-type ament_python` was left out.",
+            f"Rename the folder {name} or move it away, then make the package again with that "
+            "option.",
         )
     return None
 
 
-def options_missing(seen: Situation) -> str | None:
+def another_build_type(seen: Situation) -> Diagnosis | None:
+    """`--build-type ament_cmake`, where the course's `ros2` makes Python packages only."""
+    call = seen.call("ros2", "pkg", "create")
+    if not call or "is left out here" not in seen.text:
+        return None
+    return Diagnosis(
+        "build-type",
+        "The build type that was asked for is one for C++, and your nodes are in Python.",
+        f"Write ament_python behind --build-type; {_REST}.",
+    )
+
+
+def options_missing(seen: Situation) -> Diagnosis | None:
     """The values of the options were typed without the options themselves."""
     call = seen.call("ros2", "pkg", "create")
     found = _REFUSED.search(seen.text)
@@ -65,10 +85,14 @@ def options_missing(seen: Situation) -> str | None:
     if not missing:
         return None
     plural = ("s", "are") if len(missing) > 1 else ("", "is")
-    return f"The option{plural[0]} {' and '.join(missing)} {plural[1]} missing."
+    return Diagnosis(
+        "option-missing",
+        f"The option{plural[0]} {' and '.join(missing)} {plural[1]} missing.",
+        "Each option stands before the words that belong to it.",
+    )
 
 
-def commas_between_names(seen: Situation) -> str | None:
+def commas_between_names(seen: Situation) -> Diagnosis | None:
     """`--dependencies rclpy, sensor_msgs`."""
     call = seen.call("ros2", "pkg", "create")
     if not call or not seen.code or "--dependencies" not in call.words:
@@ -76,10 +100,25 @@ def commas_between_names(seen: Situation) -> str | None:
     start = call.words.index("--dependencies")
     if not any("," in word for word in call.words[start:]):
         return None
-    return "Names are separated by blanks, not by commas."
+    return Diagnosis(
+        "commas-between-names",
+        "There are commas behind --dependencies.",
+        "Names are separated by blanks, not by commas.",
+    )
 
 
-def in_the_wrong_folder(seen: Situation) -> str | None:
+def inside_a_package(seen: Situation) -> Diagnosis | None:
+    """A package was to be made in another one; the course's `ros2` says so itself."""
+    if not seen.call("ros2", "pkg", "create") or INSIDE not in seen.text:
+        return None
+    return Diagnosis(
+        "wrong-folder",
+        "This terminal is in a package, and no package lies in another one.",
+        "Packages belong into the folder src of the workspace: go there first.",
+    )
+
+
+def in_the_wrong_folder(seen: Situation) -> Diagnosis | None:
     """A package was made outside of `src` (mistake 26)."""
     call = seen.call("ros2", "pkg", "create")
     if not call or seen.code or "--destination-directory" in call.words:
@@ -88,10 +127,11 @@ def in_the_wrong_folder(seen: Situation) -> str | None:
     name = _made(call)
     if not name or call.place.resolve() == source:
         return None
-    return (
-        f"The package {name} was made in {call.place.name or '/'}, where this terminal is. "
+    return Diagnosis(
+        "wrong-folder",
+        f"The package {name} was made in {call.place.name or '/'}, where this terminal is.",
         "Packages belong into the folder src of the workspace. "
-        f"Move it there: mv {name} {_way(call, seen)}"
+        f"Move it there: mv {name} {_way(call, seen)}",
     )
 
 
@@ -112,13 +152,14 @@ def _way(call: Call, seen: Situation) -> str:
     return "src/" if here else f'"${VARIABLE}"/src/'
 
 
-def bad_name(seen: Situation) -> str | None:
+def bad_name(seen: Situation) -> Diagnosis | None:
     """A name that cannot be a package's."""
     if not seen.call("ros2", "pkg", "create"):
         return None
     if not re.search(r"cannot be the name of a package(?! to depend on)", seen.text):
         return None
-    return (
-        "A package for Python is imported under its name, so the name follows Python's rule: "
-        "small letters, digits and `_`, and a letter first."
+    return Diagnosis(
+        "package-name",
+        "A package for Python is imported under its name, so the name follows Python's rule:",
+        "small letters, digits and `_`, and a letter first.",
     )

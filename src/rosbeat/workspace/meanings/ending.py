@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.workspace.meanings.running import last_error
 from rosbeat.workspace.meanings.situation import Situation
 
@@ -12,29 +13,37 @@ _CAUSES = {
 }
 
 
-def ended_twice(seen: Situation) -> str | None:
+def ended_twice(seen: Situation) -> Diagnosis | None:
     """`rclpy.shutdown()` after Ctrl+C has shut ROS down."""
     if not seen.code or "rcl_shutdown already called" not in last_error(seen.traceback):
         return None
-    return (
+    return Diagnosis(
+        "ctrl-c-traceback",
         "Ctrl+C has shut ROS down already when `main` calls `rclpy.shutdown()`, and a second time "
-        "is an error. The node did its work; only its end is untidy. "
-        "Write `rclpy.try_shutdown()` in `main` instead."
+        "is an error.",
+        "The node did its work; only its end is untidy. "
+        "Write `rclpy.try_shutdown()` in `main` instead.",
     )
 
 
-def not_caught(seen: Situation) -> str | None:
+def not_caught(seen: Situation) -> Diagnosis | None:
     """A `main` that catches the end of ROS not at all, or only in one of its two forms."""
     last = last_error(seen.traceback)
     cause = _CAUSES.get(last.split(":")[0].split(".")[-1])
     if not cause or not seen.code or not seen.about_ros:
         return None
     if "in __init__" in seen.traceback:
-        return (
-            "Ctrl+C came while the node was still starting, before `main` could catch it. Nothing "
-            "is broken: start it again, and wait for its first line."
-        )
-    return (
-        f"{cause}, and `main` does not expect that, so Python shows a traceback. Nothing "
-        f"is broken. Put `rclpy.spin(node)` into `try:`, and below it  {_MEND} pass"
+        return _while_starting()
+    return Diagnosis(
+        "ctrl-c-traceback",
+        f"{cause}, and `main` does not expect that, so Python shows a traceback.",
+        f"Nothing is broken. Put `rclpy.spin(node)` into `try:`, and below it  {_MEND} pass",
+    )
+
+
+def _while_starting() -> Diagnosis:
+    return Diagnosis(
+        "ctrl-c-traceback",
+        "Ctrl+C came while the node was still starting, before `main` could catch it.",
+        "Nothing is broken: start it again, and wait for its first line.",
     )

@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from itertools import takewhile
 
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.workspace.locating import nearest
-from rosbeat.workspace.meanings.building import missing_part
-from rosbeat.workspace.meanings.flaws import flaw_in_words, syntax_error_in_words
+from rosbeat.workspace.meanings.building import (
+    diagnose_cmake,
+    diagnose_missing_part,
+    diagnose_packages,
+)
+from rosbeat.workspace.meanings.flaws import diagnose_flaw, diagnose_syntax_error
 from rosbeat.workspace.meanings.situation import Situation
 from rosbeat.workspace.packages import Package
 
 _NOT_FOUND = re.compile(r"Package '(?P<name>[^']+)' not found")
+_ASKED = re.compile(r"Did you mean '(?P<name>[^']+)'")
+_BEFORE = "A build fails because of that, so what ran here is the build before."
 _AGAIN = "Build again with `colcon build` in the workspace."
 
 
@@ -40,7 +48,7 @@ def _package(seen: Situation) -> tuple[Package, str] | None:
     return (package, asked[1]) if asked and package else None
 
 
-def package_not_found(seen: Situation) -> str | None:
+def package_not_found(seen: Situation) -> Diagnosis | None:
     """Not sourced, not built, or misspelt (mistakes 23 and 13)."""
     found = _NOT_FOUND.search(seen.text)
     if not found or not seen.call("ros2"):
@@ -49,43 +57,53 @@ def package_not_found(seen: Situation) -> str | None:
     if package is None:
         return _no_such_package(seen, found["name"])
     if package.installed is None:
-        return (
-            f"The package {package.name} is in src and has not been built yet. In the workspace, "
-            "run `colcon build` and then `source install/setup.bash`."
+        return Diagnosis(
+            "not-built",
+            f"The package {package.name} is in src and has not been built yet.",
+            "In the workspace, run `colcon build` and then `source install/setup.bash`.",
         )
-    return (
-        f"The package {package.name} is built, and this terminal does not know it yet. Every new "
-        "terminal has to be told: run `source install/setup.bash` in the workspace, "
-        "then try again."
+    return Diagnosis(
+        "not-sourced",
+        f"The package {package.name} is built, and this terminal does not know it yet.",
+        "Every new terminal has to be told: run `source install/setup.bash` in the workspace, "
+        "then try again.",
     )
 
 
-def _no_such_package(seen: Situation, name: str) -> str | None:
-    meant = nearest(name, [one.name for one in seen.packages])
-    if not meant or seen.says_meant(meant):
+def _no_such_package(seen: Situation, name: str) -> Diagnosis | None:
+    asked = _ASKED.search(seen.text)
+    meant = nearest(name, [one.name for one in seen.packages]) or (asked and asked["name"])
+    if not meant:
         return None
-    return f"There is no package {name} in your workspace. Did you mean {meant}?"
+    return Diagnosis(
+        "package-misspelled",
+        f"There is no package {name} in your workspace.",
+        f"Did you mean {meant}?",
+    )
 
 
-def no_executable(seen: Situation) -> str | None:
+def no_executable(seen: Situation) -> Diagnosis | None:
     """The entry point is not there, or is called otherwise (mistakes 20, 24 and 27)."""
     found = _package(seen)
     if not found or "No executable found" not in seen.text:
         return None
     package, name = found
-    part = missing_part(package)
+    if package.manifest.build_type.endswith("cmake"):
+        return diagnose_cmake(package)
+    part = diagnose_missing_part(package)
     if part:
         return part
     flaw = next((one for one in package.flaws if one.kind in ("missing-comma", "slash")), None)
     if flaw:
-        return flaw_in_words(flaw)
+        return diagnose_flaw(flaw)
     known = [one.executable for one in package.setup.entry_points]
     if name in known:
-        return (
-            f"setup.py has the entry point {name}, and the build in install is older than that. "
-            f"{_AGAIN}"
+        return Diagnosis(
+            "not-rebuilt",
+            f"setup.py has the entry point {name}, and the build in install is older than that.",
+            _AGAIN,
         )
-    return _not_an_entry_point(seen, package, name)
+    return _not_an_entry_point(package, name)
 
 
 def _names_a_node(package: Package, name: str) -> bool:
@@ -95,27 +113,41 @@ def _names_a_node(package: Package, name: str) -> bool:
     return any(sign.search(path.read_text(errors="replace")) for path in files)
 
 
-def _not_an_entry_point(seen: Situation, package: Package, name: str) -> str | None:
+def _not_an_entry_point(package: Package, name: str) -> Diagnosis | None:
     if package.setup.incomplete:
         return None
+    if package.setup.misspelled_group:
+        return Diagnosis(
+            "group-misspelled",
+            f"setup.py puts its entries under {package.setup.misspelled_group}, and nobody looks "
+            "for them there.",
+            f"Compare that word with page 05, letter by letter. {_AGAIN}",
+        )
     known = [one.executable for one in package.setup.entry_points]
     stem = name.removesuffix(".py")
     if stem in package.modules and stem not in known:
-        return (
-            f"{stem}.py is in the package, and setup.py has no entry point for it, so there is "
-            "nothing that `ros2 run` could start. Add one, 'executable = package.module:function', "
-            "and build again."
-        )
+        return _no_entry_for(stem)
     if _names_a_node(package, name):
-        return (
-            f"{name} is the name of a node or its class. `ros2 run` wants the executable, the "
-            "name before the `=` in setup.py."
+        return Diagnosis(
+            "executable-misspelled",
+            f"{name} is the name of a node or its class.",
+            "`ros2 run` wants the executable, the name before the `=` in setup.py.",
         )
     meant = stem if stem in known else nearest(name, known)
-    told = seen.says_meant(meant) if meant else f"'{package.name}' has: " in seen.text
-    if told:
-        return None
-    return f"The package {package.name} has no executable {name}. {_what_it_has(meant, known)}"
+    return Diagnosis(
+        "executable-misspelled" if known else "entry-point-missing",
+        f"The package {package.name} has no executable {name}.",
+        _what_it_has(meant, known),
+    )
+
+
+def _no_entry_for(module: str) -> Diagnosis:
+    return Diagnosis(
+        "entry-point-missing",
+        f"{module}.py is in the package, and setup.py has no entry point for it, so there is "
+        "nothing that `ros2 run` could start.",
+        "Add one, 'executable = package.module:function', and build again.",
+    )
 
 
 def _what_it_has(meant: str | None, known: list[str]) -> str:
@@ -124,7 +156,7 @@ def _what_it_has(meant: str | None, known: list[str]) -> str:
     return f"It has: {', '.join(known)}." if known else "I see no entry point in its setup.py."
 
 
-def linked_since(seen: Situation) -> str | None:
+def linked_since(seen: Situation) -> Diagnosis | None:
     """A build has put a link in the place of the copy that this terminal was told of."""
     found = _package(seen)
     last = last_error(seen.traceback)
@@ -133,13 +165,14 @@ def linked_since(seen: Situation) -> str | None:
     installed = found[0].installed
     if not installed or not installed.linked or found[0].name.replace("_", "-") not in last:
         return None
-    return (
-        "The package is installed as a link now, and this terminal was loaded before that. "
-        "Run `source install/setup.bash` again."
+    return Diagnosis(
+        "not-sourced",
+        "The package is installed as a link now, and this terminal was loaded before that.",
+        "Run `source install/setup.bash` again.",
     )
 
 
-def wrong_target(seen: Situation) -> str | None:
+def wrong_target(seen: Situation) -> Diagnosis | None:
     """The executable starts and finds no module or no function (mistakes 21, 27 and 28)."""
     found = _package(seen)
     if not found or "Traceback" not in seen.text:
@@ -147,14 +180,14 @@ def wrong_target(seen: Situation) -> str | None:
     package, name = found
     last = last_error(seen.text)
     if last.startswith(("ModuleNotFoundError", "ImportError")) and package.name in last:
-        part = missing_part(package)
-        if part:
-            return part
+        part = diagnose_missing_part(package)
+        if part or not package.setup.installs(package.name):
+            return part or diagnose_packages(package)
     if not _is_about_loading(last):
         return None
     flaw = next((one for one in package.flaws if one.entry.executable == name), None)
     if flaw:
-        return flaw_in_words(flaw)
+        return diagnose_flaw(flaw)
     return _syntax(package, last)
 
 
@@ -168,14 +201,14 @@ def _is_about_loading(last: str) -> bool:
     )
 
 
-def _syntax(package: Package, last: str) -> str | None:
+def _syntax(package: Package, last: str) -> Diagnosis | None:
     broken = package.module_with_syntax_error()
     if not broken or not last.startswith(("SyntaxError", "IndentationError", "TabError")):
         return None
-    return syntax_error_in_words(f"{package.name}/{broken[0]}.py", broken[1])
+    return diagnose_syntax_error(f"{package.name}/{broken[0]}.py", broken[1])
 
 
-def the_build_before(seen: Situation) -> str | None:
+def the_build_before(seen: Situation) -> Diagnosis | None:
     """A build of this source fails, so an older one runs (mistake 22)."""
     found = _package(seen)
     if not found or not found[0].installed or seen.call("colcon", "build"):
@@ -183,15 +216,17 @@ def the_build_before(seen: Situation) -> str | None:
     package = found[0]
     flaw = next((one for one in package.flaws if one.kind in ("missing-comma", "slash")), None)
     if package.setup.line:
-        why = f"Python cannot read setup.py: {package.setup.problem}, at line {package.setup.line}."
-    elif flaw:
-        why = flaw_in_words(flaw)
-    else:
+        said = (
+            f"Python cannot read setup.py: {package.setup.problem}, at line {package.setup.line}."
+        )
+        return Diagnosis("syntax-error", said, _BEFORE)
+    if not flaw:
         return None
-    return f"{why} A build fails because of that, so what ran here is the build before."
+    why = diagnose_flaw(flaw)
+    return replace(why, hint=f"{why.hint} {_BEFORE}")
 
 
-def not_rebuilt(seen: Situation) -> str | None:
+def not_rebuilt(seen: Situation) -> Diagnosis | None:
     """What runs is older than what is written (mistake 24)."""
     found = _package(seen)
     if not found or not found[0].installed or seen.call("colcon", "build"):
@@ -202,10 +237,11 @@ def not_rebuilt(seen: Situation) -> str | None:
     edited = [one for one in files if one in found[0].installed.changed]
     if not edited:
         return None
-    return (
+    return Diagnosis(
+        "not-rebuilt",
         f"{edited[0]} has been edited since the last build, and `ros2 run` starts the copy in "
-        f"install: what you see is the old version. {_AGAIN} "
-        "With `--symlink-install`, edits count without a build."
+        "install: what you see is the old version.",
+        f"{_AGAIN} With `--symlink-install`, edits count without a build.",
     )
 
 

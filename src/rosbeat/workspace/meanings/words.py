@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.workspace.locating import nearest
 from rosbeat.workspace.meanings.running import names_to_run
 from rosbeat.workspace.meanings.situation import Situation
@@ -42,32 +43,35 @@ _OPTIONS = (
 )
 
 
-def unknown_word(seen: Situation) -> str | None:
+def unknown_word(seen: Situation) -> Diagnosis | None:
     """A verb that does not exist, with the nearest that does."""
     found = _CHOICE.search(seen.text)
     if not found or not seen.call(found["program"]):
         return None
     names = re.findall(r"[\w-]+", found["names"])
     meant = nearest(found["word"], names)
-    if meant and seen.says_meant(meant):
-        return None
     hint = f"Did you mean `{meant}`?" if meant else f"It knows: {', '.join(names)}."
-    return f"`{found['program']}` does not know the word `{found['word']}`. {hint}"
+    said = f"`{found['program']}` does not know the word `{found['word']}`."
+    return Diagnosis(_mistake_of(found["word"]), said, hint)
 
 
-def unknown_option(seen: Situation) -> str | None:
+def _mistake_of(word: str) -> str:
+    """A build type is asked for by a word, too, and has a mistake of its own."""
+    return "build-type" if word.startswith("ament") else "word-misspelled"
+
+
+def unknown_option(seen: Situation) -> Diagnosis | None:
     """An option that does not exist, with the nearest that does."""
     found = _UNKNOWN.search(seen.text)
     if not found or not seen.call(found["program"]):
         return None
     word = found["rest"].split()[0]
     meant = _option_like(word.split("=")[0])
-    if meant and seen.says_meant(meant):
-        return None
     hint = (
         f"Did you mean `{meant}`?" if meant else f"`{found['program']} --help` lists what it takes."
     )
-    return f"`{found['program']}` cannot do anything with `{word}`. {hint}"
+    said = f"`{found['program']}` cannot do anything with `{word}`."
+    return Diagnosis("option-misspelled", said, hint)
 
 
 def _option_like(word: str) -> str | None:
@@ -78,23 +82,30 @@ def _option_like(word: str) -> str | None:
     return nearest(word, list(_OPTIONS), 0.75) if word.startswith("-") else None
 
 
-def run_without_two_names(seen: Situation) -> str | None:
+def run_without_two_names(seen: Situation) -> Diagnosis | None:
     """The package or the executable was left out, so an option counted as one of them."""
     names = names_to_run(seen)
     if names is None or len(names) > 1 or not re.search(_REFUSED, seen.text, re.MULTILINE):
         return None
-    return "After `ros2 run` come two names: the package and the executable."
+    return Diagnosis(
+        "word-missing",
+        "`ros2 run` got fewer than two names.",
+        "After `ros2 run` come two names: the package and the executable.",
+    )
 
 
-def missing_word(seen: Situation) -> str | None:
+def missing_word(seen: Situation) -> Diagnosis | None:
     """Something that `ros2` needs was left out."""
     found = _MISSING.search(seen.text)
     if not found or not seen.call("ros2"):
         return None
     if found["program"] == "ros2 pkg create":
-        return (
+        return Diagnosis(
+            "word-missing",
             "The name of the package is missing, or an option before it has taken it: "
-            "`--dependencies` takes every word behind it. Put the name first."
+            "`--dependencies` takes every word behind it.",
+            "Put the name first.",
         )
     names = found["names"].removesuffix(", argv").replace("_", " ")
-    return f"`{found['program']}` needs something more behind it: {names}."
+    said = f"`{found['program']}` needs something more behind it:"
+    return Diagnosis("word-missing", said, f"{names}.")

@@ -20,6 +20,15 @@ class Sensor(Node):
 # %% check="00a"
 print("not attempted yet")
 """
+PREDICTION = """
+# %% predict=true
+beats = [0.0, 0.8]
+# --- answer
+predict(2, len(beats))
+# --- blank
+# predict("____", len(beats))
+# --- end
+"""
 ANSWER = "# --- answer\n{}\n# --- blank\n{}\n# --- end\n"
 
 BROKEN = {
@@ -66,6 +75,18 @@ BROKEN = {
                        EXERCISE + EXERCISE],
     "exercise-pairs": [EXERCISE.split("# %% check")[0], '# %% check="00a"\nx = 1',
                        EXERCISE + '# %% check="00a"\nx = 1'],
+    "predictions": [
+        PREDICTION.replace(" predict=true", ""),
+        "# %%\npredict(2, len(beats))",
+        "# %% predict=true\npredict(2, len(beats))",
+        PREDICTION.replace('"____"', '"__"').replace("len(beats))\n# --- end", "____)\n# --- end"),
+        PREDICTION.replace('# predict("____", len(beats))', '# "____"'),
+        PREDICTION.replace("predict(2, ", 'predict("____", '),
+        PREDICTION.replace("predict=true", 'predict=true only="solution"'),
+        PREDICTION.replace("predict=true", 'predict=true save="src/a.py"'),
+        PREDICTION.replace("predict=true", 'predict=true exercise="00a"'),
+        PREDICTION.replace("predict=true", 'predict=true check="00a"'),
+    ],
     "cell-budget": ["# %%\n" + "x = 1\n" * 26, "# %% [markdown]\n# " + "word " * 121,
                     EXERCISE.replace("# %% check", "    x = 1\n" * 40 + "# %% check")],
     "page-budget": [""],
@@ -103,6 +124,7 @@ KEPT = [
     '# %% exercise="00a"\nf = 1\n'
     + ANSWER.format("g = lambda x: x + 1", "# g = lambda x: ____")
     + '# %% check="00a"\nf',
+    PREDICTION,
     "# %%\n# One remark.\nx = 1",
     "# %%\n%matplotlib inline\n!ls\nx = 1",
     "# %%\n%%bash\nls -l | head",

@@ -67,11 +67,11 @@ def test_the_options_themselves_are_left_out(meaning, root):
         return meaning(f"ros2 pkg create {command}", refused(rest), 2, root / "src")
 
     both = said("ament_python room_display rclpy sensor_msgs", "room_display rclpy sensor_msgs")
-    assert both == "The options --build-type and --dependencies are missing."
+    assert both.startswith("The options --build-type and --dependencies are missing.")
     kind = said("ament_python room_display", "room_display")
-    assert kind == "The option --build-type is missing."
+    assert kind.startswith("The option --build-type is missing.")
     needs = said("--build-type ament_python room_display rclpy", "rclpy")
-    assert needs == "The option --dependencies is missing."
+    assert needs.startswith("The option --dependencies is missing.")
     assert "--dependencies" not in said("--licence x a", "--licence")
 
 
@@ -79,7 +79,7 @@ def test_commas_between_dependencies(meaning, root):
     command = "ros2 pkg create --build-type ament_python a --dependencies rclpy, std_msgs"
     output = "Aborted! 'rclpy,' cannot be the name of a package to depend on.\n"
     said = meaning(command, output, 1, root / "src")
-    assert said == "Names are separated by blanks, not by commas."
+    assert said.endswith("Names are separated by blanks, not by commas.")
 
 
 def test_a_dependency_with_a_bad_name_is_not_the_package_s_name(meaning, root):

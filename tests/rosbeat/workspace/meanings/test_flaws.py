@@ -1,6 +1,7 @@
 import pytest
 
-from rosbeat.workspace.meanings.flaws import flaw_in_words
+from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.workspace.meanings.flaws import diagnose_flaw
 from rosbeat.workspace.setup_script import EntryPoint
 from rosbeat.workspace.targets import Flaw
 
@@ -11,7 +12,9 @@ KINDS = ("missing-comma", "no-equals", "bad-name", "slash", "suffix", "no-functi
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_each_has_words_of_two_sentences(kind):
-    said = flaw_in_words(Flaw(kind, ENTRY, "wrong", line=3))
-    assert said
+    found = diagnose_flaw(Flaw(kind, ENTRY, "wrong", line=3))
+    assert found.mistake in MISTAKES
+    assert found.hint
+    said = f"{found.evidence} {found.hint}"
     assert "Error" not in said
     assert "None" not in said

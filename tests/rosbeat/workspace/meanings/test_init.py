@@ -3,6 +3,7 @@
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.workspace import meanings
 
 PIECES = st.sampled_from(
@@ -61,5 +62,7 @@ def test_a_file_that_vanishes_meanwhile_is_no_error(root, monkeypatch):
     def vanished(_):
         raise FileNotFoundError
 
-    monkeypatch.setattr(meanings, "_MEANINGS", (vanished, lambda _: "found"))
-    assert meanings.explain("", "", 0, root, root) == "found"
+    found = Diagnosis("raised", "seen", "try")
+    monkeypatch.setattr(meanings, "_MEANINGS", (vanished, lambda _: found))
+    assert meanings.explain("", "", 0, root, root) == "seen try"
+    assert meanings.recognise("", "", 0, root, root).mistake == "raised"

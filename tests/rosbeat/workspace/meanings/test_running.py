@@ -171,7 +171,5 @@ def test_an_output_that_is_only_read(meaning, installed):
 
 
 def test_entry_points_that_cannot_be_seen(meaning, installed, package, edit):
-    edit(
-        "setup.cfg", "[develop]", "[options.entry_points]\nconsole_scripts =\n  x = a:b\n[develop]"
-    )
+    edit("setup.py", "'console_scripts': [", "'console_scripts': [*more(),")
     assert meaning(f"ros2 run {PACKAGE} x", NO_EXECUTABLE) is None

@@ -1,0 +1,68 @@
+"""Recordings: rosbag2 bags of what a session published, read, replayed and broken on purpose.
+
+- `record` writes a bag, as MCAP or as SQLite, that other tools of ROS 2 open too;
+- `Bag` reads one, whoever made it;
+- `replay` makes a node of it that publishes everything again, in virtual time;
+- `compare` says in what two runs differ;
+- `stuck`, `drift`, `dropouts`, `with_nan`, `spikes` and `delayed` are faults, to be injected with
+  `inject` or on replay.
+
+Names load when they are first used (PEP 562): only `replay` needs ROS.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rosbeat.bags.bag import Bag as Bag
+    from rosbeat.bags.faults import delayed as delayed
+    from rosbeat.bags.faults import drift as drift
+    from rosbeat.bags.faults import dropouts as dropouts
+    from rosbeat.bags.faults import spikes as spikes
+    from rosbeat.bags.faults import stuck as stuck
+    from rosbeat.bags.faults import with_nan as with_nan
+    from rosbeat.bags.injecting import inject as inject
+    from rosbeat.bags.replaying import replay as replay
+    from rosbeat.bags.writing import record as record
+    from rosbeat.comparisons import compare as compare
+
+_HOMES = {
+    "Bag": "rosbeat.bags.bag",
+    "compare": "rosbeat.comparisons",
+    "delayed": "rosbeat.bags.faults",
+    "drift": "rosbeat.bags.faults",
+    "dropouts": "rosbeat.bags.faults",
+    "inject": "rosbeat.bags.injecting",
+    "record": "rosbeat.bags.writing",
+    "replay": "rosbeat.bags.replaying",
+    "spikes": "rosbeat.bags.faults",
+    "stuck": "rosbeat.bags.faults",
+    "with_nan": "rosbeat.bags.faults",
+}
+__all__ = [
+    "Bag",
+    "compare",
+    "delayed",
+    "drift",
+    "dropouts",
+    "inject",
+    "record",
+    "replay",
+    "spikes",
+    "stuck",
+    "with_nan",
+]
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the name
+    """Load a public name when it is first used."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'rosbeat.bags' has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    """List the public names, so that completion offers them before they are loaded."""
+    return list(__all__)

@@ -1,0 +1,96 @@
+"""Faults on their way into a recording: what a fault is, and how it gets at its messages."""
+
+from __future__ import annotations
+
+from collections import defaultdict, deque
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+from rosbeat.bags import refusals
+from rosbeat.bags.sources import Observer, full_name, observed
+from rosbeat.records import Observation, Sample
+
+#: What a fault does to the messages of one topic. Messages that are not there were lost; those in
+#: between may come at other times.
+Change = Callable[[Sequence[Sample]], Sequence[Sample]]
+
+
+@dataclass(frozen=True, repr=False)
+class InjectedFault:
+    """A fault of a sensor or of the line to it: messages in, messages with the fault out.
+
+    It has no memory: the same messages give the same result.
+
+    Attributes:
+        words: What goes wrong, such as `stuck from 20 s on`.
+        topic: Full name of the only topic that it concerns; empty for all.
+        change: What it does to the messages of one topic.
+    """
+
+    words: str
+    topic: str
+    change: Change
+
+    def __repr__(self) -> str:
+        return f"{self.topic}: {self.words}" if self.topic else self.words
+
+    def __call__(self, samples: Sequence[Sample]) -> tuple[Sample, ...]:
+        """Inject the fault into messages, topic by topic, and keep them in order of time."""
+        known = dict.fromkeys(one.topic for one in samples)
+        if self.topic and samples and self.topic not in known:
+            raise refusals.unknown_topic(self.topic, known)
+        groups = {topic: [one for one in samples if one.topic == topic] for topic in known}
+        made = {topic: self._changed(topic, group) for topic, group in groups.items()}
+        return _in_order(samples, made)
+
+    def _changed(self, topic: str, group: Sequence[Sample]) -> Sequence[Sample]:
+        return self.change(group) if self.topic in ("", topic) else group
+
+
+def fault(words: str, topic: str | None, change: Change) -> InjectedFault:
+    """Make a fault.
+
+    Args:
+        words: What goes wrong.
+        topic: The topic that it concerns, or None for all.
+        change: What it does to the messages of one topic.
+    """
+    return InjectedFault(words, full_name(topic) if topic is not None else "", change)
+
+
+def inject(
+    source: Observation | Observer | Iterable[Sample], *faults: Change
+) -> tuple[Sample, ...]:
+    """Break a recording on purpose: the messages with some faults, one after the other.
+
+    Args:
+        source: A bag, a session, what it observed, or messages.
+        faults: Faults, such as `stuck(at=20)`, or any function from messages to messages.
+
+    Returns:
+        New messages; those in `source` stay as they are.
+
+    Raises:
+        BagError: If a fault cannot be injected into these messages.
+    """
+    if isinstance(source, (list, tuple)):
+        samples: tuple[Sample, ...] = tuple(source)
+    else:
+        samples = observed(source).samples  # type: ignore[arg-type]
+    for one in faults:
+        if not callable(one):
+            raise refusals.no_fault(one)
+        samples = tuple(one(samples))
+    return samples
+
+
+def _in_order(samples: Sequence[Sample], groups: dict[str, Sequence[Sample]]) -> tuple[Sample, ...]:
+    """Messages of several topics by time; at equal times in the order in which they came before."""
+    places: dict[tuple[str, int], deque[int]] = defaultdict(deque)
+    for number, one in enumerate(samples):
+        places[one.topic, one.time_ns].append(number)
+    keyed = []
+    for one in (one for group in groups.values() for one in group):
+        before = places[one.topic, one.time_ns]
+        keyed.append((one.time_ns, before.popleft() if before else len(samples), one))
+    return tuple(one for *_, one in sorted(keyed, key=lambda key: key[:2]))

@@ -1,0 +1,52 @@
+"""What a bag of ours knows besides: how long the session ran, its seed, who published.
+
+rosbag2 has a place for such notes, `custom_data` in metadata.yaml, with a text for each name. A bag
+without them was made by somebody else, and nothing is wrong with it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from rosbeat.records import Observation
+
+_LENGTH, _SEED, _NODES = "rosbeat.session_ns", "rosbeat.seed", "rosbeat.publishers"
+
+
+@dataclass(frozen=True)
+class Notes:
+    """The notes in a bag.
+
+    Attributes:
+        length_ns: How long the session had run, in nanoseconds.
+        seed: Seed of its random numbers.
+        publishers: Full names of the nodes that published, for each topic.
+    """
+
+    length_ns: int
+    seed: int = 0
+    publishers: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+def notes_of(seen: Observation, topics: Iterable[str]) -> dict[str, Any]:
+    """What to note of an observation."""
+    nodes = {topic: dict.fromkeys(end.node for end in seen.graph.on(topic, "publisher"))
+             for topic in topics}  # fmt: skip
+    for one in seen.samples:
+        if one.topic in nodes:
+            nodes[one.topic][one.node] = None
+    publishers = {topic: list(names) for topic, names in nodes.items()}
+    return {_LENGTH: seen.time_ns, _SEED: seen.seed, _NODES: publishers}
+
+
+def notes_in(custom: Mapping[str, str] | None) -> Notes | None:
+    """The notes in a bag's metadata, or None if they are not ours or not whole."""
+    try:
+        length, seed, nodes = (json.loads((custom or {})[key]) for key in (_LENGTH, _SEED, _NODES))
+        publishers = {str(topic): tuple(map(str, names)) for topic, names in nodes.items()}
+        return Notes(int(length), int(seed), publishers)
+    except (KeyError, TypeError, ValueError, AttributeError):
+        return None

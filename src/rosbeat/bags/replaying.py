@@ -1,0 +1,94 @@
+"""A recording as a node that publishes it again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import groupby
+from math import isfinite
+
+from rosbeat.bags import refusals
+from rosbeat.bags.injecting import Change, inject
+from rosbeat.bags.reading import UNKNOWN
+from rosbeat.bags.sources import Run, chosen, full_name, observed, types_of
+from rosbeat.bags.types import installed_types
+from rosbeat.bags.writing import wires
+from rosbeat.records import Observation, QoS, Sample
+from rosbeat.runtime.replaying import NodeFactory, Outlet, Turn, player
+
+
+def replay(
+    source: Run,
+    *,
+    speed: float = 1,
+    topics: str | Iterable[str] | None = None,
+    remap: Mapping[str, str] | None = None,
+    faults: Iterable[Change] = (),
+    name: str = "replay",
+) -> NodeFactory:
+    """A node that publishes a recording again, each message at the time at which it was recorded.
+
+    ::
+
+        bag = Bag("first_run")
+        with Session() as ros:
+            ros.add(replay(bag, topics="temperature"))
+            ros.add(TemperatureMonitor)
+            ros.run(bag.seconds)
+
+    Times count from the moment at which the node is added. In virtual time every run is the same.
+    Messages of one node at one instant are published together, as one callback does; those of
+    several nodes one after the other, each with all that follows from it.
+
+    Args:
+        source: A bag, a session, or what it observed.
+        speed: How many times as fast; `ros.run(bag.seconds / speed)` then runs all of it.
+        topics: Names of the topics to publish on; all by default.
+        remap: New names for topics: `{"temperature": "old/temperature"}`.
+        faults: Faults to inject, one after the other; their times are those of the recording.
+        name: The node's name.
+
+    Returns:
+        A function that makes the node, for `Session.add`.
+
+    Raises:
+        BagError: If a topic was not recorded, its type is not installed, a message does not fit it,
+            `speed` is not a number above 0, or a fault cannot be injected.
+    """
+    if not isinstance(speed, (int, float)) or not isfinite(speed) or speed <= 0:
+        raise refusals.no_number(speed)
+    seen = observed(source)
+    types, names = types_of(seen, topics), _renamed(seen, remap)
+    samples = sorted(inject(chosen(seen, types), *faults), key=lambda one: one.time_ns)
+    made = wires(installed_types(types.values()), samples)
+    outlets = [Outlet(names.get(one, one), types[one], _offer(seen, one)) for one in types]
+    return player(name, outlets, _turns(samples, made, list(types), speed))
+
+
+def _renamed(seen: Observation, remap: Mapping[str, str] | None) -> dict[str, str]:
+    known = types_of(seen)
+    names = {full_name(old): full_name(new) for old, new in (remap or {}).items()}
+    for old in names:
+        if old not in known:
+            raise refusals.unknown_topic(old, known)
+    return names
+
+
+def _offer(seen: Observation, topic: str) -> QoS:
+    return next((end.qos for end in seen.graph.on(topic, "publisher")), QoS())
+
+
+def _turns(
+    samples: Sequence[Sample], made: Sequence[bytes], topics: Sequence[str], speed: float
+) -> list[Turn]:
+    """What is published together: what one known node has published at one instant."""
+    places = {topic: number for number, topic in enumerate(topics)}
+
+    def turn_of(item: tuple[int, tuple[Sample, bytes]]) -> tuple[int, str]:
+        number, (sample, _) = item
+        return sample.time_ns, f"?{number}" if sample.node == UNKNOWN else sample.node
+
+    pairs = enumerate(zip(samples, made, strict=True))
+    return [
+        Turn(round(at / speed), tuple((places[one.topic], wire) for _, (one, wire) in group))
+        for (at, _), group in groupby(pairs, turn_of)
+    ]

@@ -1,0 +1,97 @@
+"""From what a caller gives to what was observed, and which topics of it are meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Protocol, runtime_checkable
+
+from rosbeat.bags import refusals
+from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Sample
+
+
+@runtime_checkable
+class Observer(Protocol):
+    """Anything that can say what it has observed, such as a session or a bag."""
+
+    def observation(self) -> Observation:
+        """What was observed so far."""
+        ...
+
+
+#: Whatever can be recorded and replayed.
+Run = Observation | Observer
+
+
+def observed(source: Run) -> Observation:
+    """The observation itself, or the one of a session or a bag.
+
+    Raises:
+        BagError: If it is none of these.
+    """
+    if isinstance(source, Observation):
+        return source
+    if isinstance(source, Observer) and not isinstance(source, type):
+        return source.observation()
+    raise refusals.no_observation(source)
+
+
+def full_name(topic: object) -> str:
+    """A topic's full name; a missing leading slash is forgiven.
+
+    Raises:
+        BagError: If it is not a text.
+    """
+    if not isinstance(topic, str):
+        raise refusals.not_a_name(topic)
+    return f"/{topic.lstrip('/')}"
+
+
+def types_of(seen: Observation, topics: str | Iterable[str] | None = None) -> dict[str, str]:
+    """The topics that are meant, each with its type, in order of publisher, then of message.
+
+    Args:
+        seen: What was observed.
+        topics: Names, or None for all but those that every node brings along.
+
+    Raises:
+        BagError: If a topic was not observed, or had messages of two types.
+    """
+    ends = ((end.name, end.type_name) for end in seen.graph.endpoints if end.kind == "publisher")
+    types: dict[str, list[str]] = {}
+    for name, kind in (*ends, *((one.topic, one.type_name) for one in seen.samples)):
+        if kind not in types.setdefault(name, []):
+            types[name].append(kind)
+    wanted = [name for name in types if name not in INFRASTRUCTURE_TOPICS]
+    if topics is not None:
+        wanted = [
+            _known(topic, types) for topic in ([topics] if isinstance(topics, str) else topics)
+        ]
+    for name in wanted:
+        if len(types[name]) > 1:
+            raise refusals.two_types(name, types[name])
+    return {name: types[name][0] for name in wanted}
+
+
+def chosen(seen: Observation, types: Iterable[str]) -> list[Sample]:
+    """The messages on some topics, in order."""
+    names = set(types)
+    return [one for one in seen.samples if one.topic in names]
+
+
+def place(folder: object) -> Path:
+    """Where a recording is or shall be.
+
+    Raises:
+        BagError: If it is not the name of a folder.
+    """
+    if isinstance(folder, (str, Path)) and str(folder).strip() and "\0" not in str(folder):
+        return Path(folder).expanduser()
+    raise refusals.no_place(folder)
+
+
+def _known(topic: object, known: Iterable[str]) -> str:
+    name = full_name(topic)
+    if name not in known:
+        raise refusals.unknown_topic(name, known)
+    return name

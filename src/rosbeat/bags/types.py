@@ -1,0 +1,93 @@
+"""Which fields a message type has: as the library knows it, as it is installed, as a bag says.
+
+The library brings the definitions of every type that ROS 2 Jazzy ships. A type of one's own is read
+from where packages install it, `share/<package>/msg/<Name>.msg` below a folder of
+`AMENT_PREFIX_PATH`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from rosbags.interfaces import Connection, MessageDefinitionFormat, Nodetype
+from rosbags.typesys import (
+    Stores,
+    TypesysError,
+    get_types_from_idl,
+    get_types_from_msg,
+    get_typestore,
+)
+from rosbags.typesys.store import Typestore
+
+from rosbeat.bags import refusals
+
+
+def installed_types(names: Iterable[str]) -> Typestore:
+    """The types that nodes on this computer use.
+
+    Args:
+        names: Types that are needed, such as `std_msgs/msg/Float32`.
+
+    Raises:
+        BagError: If one of them is neither part of ROS 2 nor installed.
+    """
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for name in names:
+        _learn(store, name)
+    return store
+
+
+def recorded_types(connections: Iterable[Connection]) -> Typestore:
+    """The types as a bag defines them; what it does not define, as ROS 2 Jazzy does.
+
+    Raises:
+        TypesysError: If a definition cannot be understood, or two of them contradict each other.
+    """
+    store, undefined = get_typestore(Stores.EMPTY), []
+    for one in connections:
+        if one.msgdef.format == MessageDefinitionFormat.IDL:
+            store.register(get_types_from_idl(one.msgdef.data))
+        elif one.msgdef.format == MessageDefinitionFormat.MSG:
+            store.register(get_types_from_msg(one.msgdef.data, one.msgtype))
+        else:
+            undefined.append(one.msgtype)
+    known = installed_types(name for name in undefined if name not in store.fielddefs)
+    for name in known.fielddefs.keys() - store.fielddefs.keys():
+        store.fielddefs[name], store.types[name] = known.fielddefs[name], known.types[name]
+    return store
+
+
+def _learn(store: Typestore, name: str) -> None:
+    """Add an installed type, and those it is made of, to a store that lacks it."""
+    if name in store.fielddefs:
+        return
+    try:
+        found = get_types_from_msg(_definition(name), name)
+    except (OSError, ValueError, TypesysError) as error:
+        raise refusals.unknown_type(name) from error
+    for part in _parts(found[name][1]):
+        _learn(store, part)
+    store.register(found)
+
+
+def _definition(name: str) -> str:
+    """The text of an installed `.msg` file."""
+    package, kind, short = name.split("/")
+    prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    places = (Path(one, "share", package, kind, f"{short}.msg") for one in prefixes if one)
+    found = next((place for place in places if place.is_file()), None)
+    if found is None:
+        raise FileNotFoundError(name)
+    return found.read_text(encoding="utf-8")
+
+
+def _parts(fields: Iterable[tuple[str, Any]]) -> Iterator[str]:
+    """Types of the fields that are messages themselves, or arrays of messages."""
+    for _, (kind, detail) in fields:
+        if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
+            kind, detail = detail[0]
+        if kind == Nodetype.NAME:
+            yield detail

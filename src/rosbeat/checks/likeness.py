@@ -1,0 +1,139 @@
+"""Whether a guess and what happened are the same for a person, whatever their types are."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from contextlib import suppress
+from math import isclose, isnan
+from numbers import Real
+
+_TRUTH = {"yes": True, "true": True, "y": True, "no": False, "false": False, "n": False}
+_LONGEST = 200
+#: A Float32 carries seven digits: 22.3 comes back as 22.299999237.
+_FLOAT32 = 1e-6
+_ADDRESS = re.compile(r" at 0x[0-9a-f]+", re.IGNORECASE)
+
+
+def is_blank(guess: object) -> bool:
+    """Whether nothing was filled in: an empty text, underscores only, or nothing at all."""
+    if isinstance(guess, str):
+        return not guess.strip(" \t\n_\"'")
+    return guess is None or guess is Ellipsis
+
+
+def agree(guess: object, happened: object, tolerance: object = 0.0) -> bool:
+    """Whether a guess says what happened. Never raises, whatever it is given.
+
+    Numbers compare by value, texts without regard to case and blanks, yes and no as True and
+    False, lists element by element.
+
+    Args:
+        guess: What somebody wrote.
+        happened: What happened.
+        tolerance: How far apart two numbers may be.
+    """
+    with suppress(Exception):  # what a learner hands over may do anything when it is compared
+        return _agree(_plain(guess), _plain(happened), _size(tolerance))
+    return False
+
+
+def same_number(guess: object, happened: object) -> bool | None:
+    """Whether both are numbers of the same value; None if they are not both numbers."""
+    one, other = _number(_plain(guess)), _number(_plain(happened))
+    return None if one is None or other is None else _near(one, other, 0.0)
+
+
+def told(value: object, exact: bool = False) -> str:
+    """Say a value in one line, as people write it.
+
+    Args:
+        value: Any value.
+        exact: Whether numbers keep all their digits.
+    """
+    try:
+        text = _ADDRESS.sub("", " ".join(_told(_plain(value), exact).split()))
+    except Exception:  # a broken __repr__ is no reason to end the page
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 4]} ..."
+
+
+def _agree(guess: object, happened: object, tolerance: float) -> bool:
+    one, other = _number(guess), _number(happened)
+    if one is not None and other is not None:
+        return _near(one, other, tolerance)
+    if isinstance(guess, bool) or isinstance(happened, bool):
+        return _truth(guess) is not None and _truth(guess) == _truth(happened)
+    if isinstance(guess, str) and isinstance(happened, str):
+        return _squeezed(guess) == _squeezed(happened)
+    if isinstance(happened, (list, tuple)):
+        return _agree_all(_parts(guess), list(happened), tolerance)
+    return bool(guess == happened)
+
+
+def _agree_all(guesses: list[object], happened: list[object], tolerance: float) -> bool:
+    return len(guesses) == len(happened) and all(
+        _agree(_plain(one), _plain(other), tolerance)
+        for one, other in zip(guesses, happened, strict=True)
+    )
+
+
+def _parts(guess: object) -> list[object]:
+    """The elements of a list, also of one that was written as a text, such as `1, 2, 3`."""
+    if isinstance(guess, str):
+        inner = guess.strip().strip("[]()").rstrip(", ")
+        return [part.strip(" \"'") for part in inner.split(",")] if inner else []
+    return list(guess) if isinstance(guess, (list, tuple)) else [guess]
+
+
+def _near(one: float, other: float, tolerance: float) -> bool:
+    if isnan(one) or isnan(other):
+        return isnan(one) and isnan(other)
+    whole = one.is_integer() and other.is_integer()
+    return isclose(one, other, rel_tol=0.0 if whole else _FLOAT32, abs_tol=tolerance)
+
+
+def _number(value: object) -> float | None:
+    if isinstance(value, bool):
+        return None
+    if isinstance(value, (Real, str)):
+        with suppress(ValueError, OverflowError):
+            return float(value)
+    return None
+
+
+def _size(tolerance: object) -> float:
+    size = _number(tolerance)
+    return size if size is not None and size > 0 else 0.0
+
+
+def _truth(value: object) -> bool | None:
+    if isinstance(value, bool):
+        return value
+    return _TRUTH.get(_squeezed(value)) if isinstance(value, str) else None
+
+
+def _squeezed(text: str) -> str:
+    return " ".join(text.split()).strip(" .\"'").casefold()
+
+
+def _plain(value: object) -> object:
+    """Arrays and numbers of NumPy as Python's own, without importing it."""
+    to_list = getattr(value, "tolist", None)
+    return to_list() if callable(to_list) else value
+
+
+def _told(value: object, exact: bool) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return repr(value) if exact else f"{value:.6g}"
+    if isinstance(value, str):
+        return repr(value) if exact or not value.strip() else value.strip()
+    if isinstance(value, (list, tuple)):
+        # More elements than letters are never shown; a page may have collected a million.
+        return f"[{', '.join(_told(_plain(one), exact) for one in value[:_LONGEST])}]"
+    if isinstance(value, Mapping):
+        inside = (f"{_told(key, exact)}: {_told(one, exact)}" for key, one in value.items())
+        return f"{{{', '.join(inside)}}}"
+    return "nothing" if value is None else str(value)

@@ -1,0 +1,276 @@
+"""In what two runs differ: message by message on one topic. Pure functions on records.
+
+Messages are paired by their times. What has no partner in the second run is missing there; what
+has none in the first is extra.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import inf, isfinite, isnan, nan
+from typing import Any, Protocol, runtime_checkable
+
+from rosbeat.errors import BagError
+from rosbeat.records import NANOSECONDS, Observation, Sample, Timed
+
+#: What kinds of differences there are.
+MISSING, EXTRA, VALUE = "missing", "extra", "value"
+
+
+@runtime_checkable
+class Observer(Protocol):
+    """Anything that can say what it has observed, such as a session or a bag."""
+
+    def observation(self) -> Observation:
+        """What was observed so far."""
+        ...
+
+
+#: Whatever can be compared.
+Run = Observation | Observer | Sequence[Sample]
+
+
+@dataclass(frozen=True)
+class Difference(Timed):
+    """One place in which two runs differ.
+
+    Attributes:
+        time_ns: When, in nanoseconds of the first run; of the second for what is extra.
+        kind: `missing`, `extra` or `value`.
+        amount: How far two values are apart, in units of the value; infinite if one is infinite,
+            NaN if that cannot be said, as of texts, of NaN and of lists of different lengths; 0 for
+            other kinds.
+    """
+
+    time_ns: int
+    kind: str
+    amount: float = 0.0
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison:
+    """Two runs side by side, on one topic; at the end of a cell it shows itself in words.
+
+    Attributes:
+        topic: Full name of the topic.
+        names: What the two runs are called.
+        pairs: Messages that both have, from the first run and from the second.
+        missing: Messages that only the first run has.
+        extra: Messages that only the second run has.
+    """
+
+    topic: str
+    names: tuple[str, str]
+    pairs: tuple[tuple[Sample, Sample], ...] = ()
+    missing: tuple[Sample, ...] = ()
+    extra: tuple[Sample, ...] = ()
+
+    def __repr__(self) -> str:
+        return _words(self)
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """How many messages the two runs have."""
+        return len(self.pairs) + len(self.missing), len(self.pairs) + len(self.extra)
+
+    @property
+    def differences(self) -> tuple[Difference, ...]:
+        """Every difference, in order of time."""
+        apart = ((one.time_ns, distance(one.data, other.data)) for one, other in self.pairs)
+        found = [Difference(at, VALUE, amount) for at, amount in apart if amount != 0]
+        found += [Difference(one.time_ns, MISSING) for one in self.missing]
+        found += [Difference(one.time_ns, EXTRA) for one in self.extra]
+        return tuple(sorted(found, key=lambda one: one.time_ns))
+
+    @property
+    def is_same(self) -> bool:
+        """Whether both runs have the same messages at the same times."""
+        return not self.differences
+
+    @property
+    def first(self) -> Difference | None:
+        """The first difference; None if there is none."""
+        return next(iter(self.differences), None)
+
+    @property
+    def largest(self) -> Difference | None:
+        """The largest difference of two values that can be measured, the first of its size."""
+        found = (one for one in self.differences if one.kind == VALUE and not isnan(one.amount))
+        return max(found, key=lambda one: one.amount, default=None)
+
+
+def compare(
+    one: Run,
+    other: Run,
+    topic: str,
+    *,
+    within: float = 0.0,
+    names: tuple[str, str] = ("the first run", "the second run"),
+) -> Comparison:
+    """Compare two runs on one topic.
+
+    Args:
+        one: A bag, a session, what it observed, or messages.
+        other: The same of the second run.
+        topic: The topic's name; `temperature` and `/temperature` are the same.
+        within: How far the times of a pair may be apart, in seconds.
+        names: What the two runs are called.
+
+    Returns:
+        The comparison.
+
+    Raises:
+        BagError: If these are no runs, neither has the topic, or `within` is not a number from 0
+            up.
+    """
+    runs = [_run(source) for source in (one, other)]
+    name = _name(topic, {known for _, topics in runs for known in topics})
+    slack = _slack(within)
+    left, right = ([s for s in samples if s.topic == name] for samples, _ in runs)
+    pairs, missing, extra = _paired(left, right, slack)
+    return Comparison(name, (str(names[0]), str(names[1])), pairs, missing, extra)
+
+
+def distance(one: Any, other: Any) -> float:  # noqa: ANN401 - whatever a message may hold
+    """How far two values are apart: their largest difference, 0 if they are the same.
+
+    NaN and NaN are the same. What differs and cannot be measured is NaN apart.
+    """
+    if isinstance(one, Mapping) and isinstance(other, Mapping) and one.keys() == other.keys():
+        return _largest(distance(one[name], other[name]) for name in one)
+    if isinstance(one, (list, tuple)) and isinstance(other, (list, tuple)):
+        same = len(one) == len(other)
+        return _largest(map(distance, one, other)) if same else nan
+    if _is_number(one) and _is_number(other):
+        return 0.0 if one == other or (isnan(one) and isnan(other)) else abs(one - other)
+    return 0.0 if one == other else nan
+
+
+# How it works.
+
+
+def _largest(distances: Iterable[float]) -> float:
+    """The largest; one that cannot be measured counts only if there is no other."""
+    found = [one for one in distances if one != 0]
+    return max((one for one in found if not isnan(one)), default=nan if found else 0.0)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _run(source: object) -> tuple[Sequence[Sample], set[str]]:
+    """The messages of a run, and the topics that it had."""
+    if isinstance(source, Observer) and not isinstance(source, type):
+        source = source.observation()
+    if isinstance(source, Observation):
+        return source.samples, {one.topic for one in source.samples} | set(source.graph.topics())
+    if isinstance(source, (list, tuple)) and all(isinstance(one, Sample) for one in source):
+        return source, {one.topic for one in source}
+    raise BagError(
+        f"{type(source).__name__!r} is not a run.",
+        "Two runs can be compared: recordings, sessions, what they observed, or their messages.",
+        'Write for example `compare(bag, ros, "temperature")`.',
+    )
+
+
+def _name(topic: object, known: set[str]) -> str:
+    name = f"/{topic.lstrip('/')}" if isinstance(topic, str) else ""
+    if name in known:
+        return name
+    raise BagError(
+        f"Neither run has a topic {topic!r}.",
+        f"They have {', '.join(sorted(known))}." if known else "Nothing was published in either.",
+        "Choose a topic that one of them has.",
+    )
+
+
+def _slack(within: object) -> int:
+    if isinstance(within, (int, float)) and isfinite(within) and within >= 0:
+        return round(within * NANOSECONDS)
+    raise BagError(
+        f"within={within!r} cannot be used.",
+        "It says how far the times of two messages may be apart, in seconds: a number from 0 up.",
+        "Leave it out to pair messages of exactly the same time.",
+    )
+
+
+def _paired(
+    left: Sequence[Sample], right: Sequence[Sample], slack: int
+) -> tuple[tuple[tuple[Sample, Sample], ...], tuple[Sample, ...], tuple[Sample, ...]]:
+    pairs, missing, extra = [], [], []
+    i = j = 0
+    while i < len(left) or j < len(right):
+        gap = _gap(left, right, i, j)
+        if abs(gap) <= slack:
+            pairs.append((left[i], right[j]))
+        elif gap < 0:
+            missing.append(left[i])
+        else:
+            extra.append(right[j])
+        i, j = i + (gap <= slack), j + (gap >= -slack)
+    return tuple(pairs), tuple(missing), tuple(extra)
+
+
+def _gap(left: Sequence[Sample], right: Sequence[Sample], i: int, j: int) -> float:
+    """Nanoseconds from the second run's next message to the first's; infinite at an end."""
+    if i == len(left):
+        return inf
+    return -inf if j == len(right) else left[i].time_ns - right[j].time_ns
+
+
+# Words.
+
+
+def _words(found: Comparison) -> str:
+    one, other = found.names
+    counts = found.counts
+    if found.is_same:
+        same = f"the same {_count(counts[0], 'message')}" if counts[0] else "no messages"
+        return f"{found.topic}: {one} and {other} have {same}."
+    said = [f"{found.topic}: {_count(counts[0], 'message')} in {one}, {counts[1]} in {other}."]
+    said += _unpaired(found)
+    said += _values(found)
+    return " ".join([*said, *_first(found)])
+
+
+def _unpaired(found: Comparison) -> Iterator[str]:
+    one, other = found.names
+    if found.missing:
+        yield f"{_are(len(found.missing))} missing in {other}."
+    if found.extra:
+        yield f"{_are(len(found.extra))} only in {other}, not in {one}."
+
+
+def _values(found: Comparison) -> Iterator[str]:
+    number = sum(one.kind == VALUE for one in found.differences)
+    if not number:
+        if found.pairs:
+            yield f"The {len(found.pairs)} that both have are the same."
+        return
+    verb = "differs" if number == 1 else "differ"
+    largest = found.largest
+    most = f", by {_number(largest.amount)} at most, at {_at(largest)}" if largest else ""
+    yield f"{number} of the {len(found.pairs)} that both have {verb}{most}."
+
+
+def _first(found: Comparison) -> Iterator[str]:
+    if len(found.differences) > 1 and found.first is not None:
+        yield f"The first difference is at {_at(found.first)}."
+
+
+def _are(number: int) -> str:
+    return f"{number} is" if number == 1 else f"{number} are"
+
+
+def _at(one: Difference) -> str:
+    return f"{one.time_ns / NANOSECONDS:.9f}".rstrip("0").rstrip(".") + " s"
+
+
+def _number(value: float) -> str:
+    return f"{value:.4g}"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number or 'no'} {noun if number == 1 else noun + 's'}"

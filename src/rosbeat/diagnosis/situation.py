@@ -1,0 +1,165 @@
+"""What is known when somebody asks why nothing arrives on a topic: plain data.
+
+A session or a terminal fills a `Scene` with what it can see; `explanation.explain` reads nothing
+else. What a field cannot know keeps its default, and nothing is concluded from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from rosbeat.records import NANOSECONDS, Endpoint, Fault, GraphSnapshot
+
+#: How a node does, as `Condition.state` says it.
+RUNNING, PAUSED, NOT_ADDED, ENDED = "running", "paused", "not added", "ended"
+BLOCKED, SILENT = "blocked", "no answer"
+
+
+@dataclass(frozen=True)
+class Beat:
+    """The heartbeat of one endpoint on the topic.
+
+    Attributes:
+        node: Full name of its node.
+        kind: `publisher` or `subscription`.
+        count: Messages published, or callbacks run; -1 if unknown.
+        last_ns: When the last one was, in nanoseconds since the session began; -1 if never.
+        rate_hz: Messages a second; 0 if unknown.
+        watched_ns: For how long it was watched, in nanoseconds.
+        missed: Of a subscription: messages that were published before it was there.
+        since: Of a subscription: messages that were published since.
+    """
+
+    node: str
+    kind: str
+    count: int = -1
+    last_ns: int = -1
+    rate_hz: float = 0.0
+    watched_ns: int = 0
+    missed: int = 0
+    since: int = 0
+
+    @property
+    def seconds(self) -> float:
+        """For how long it was watched, in seconds."""
+        return self.watched_ns / NANOSECONDS
+
+
+@dataclass(frozen=True)
+class Condition:
+    """How a node does.
+
+    Attributes:
+        node: Full name of the node.
+        state: `RUNNING`; `PAUSED`; `NOT_ADDED`, so that nobody runs its callbacks; `ENDED`;
+            `BLOCKED` by a callback that does not return; `SILENT`, if it is in another process and
+            does not answer.
+        fault: The exception that ended it, if one did.
+        callback: The callback that does not return.
+    """
+
+    node: str
+    state: str = RUNNING
+    fault: Fault | None = None
+    callback: str = ""
+
+
+@dataclass(frozen=True)
+class Former:
+    """Somebody who has published on the topic and is no longer there.
+
+    Attributes:
+        node: Full name of the node; `?` if it was in another process and is not known.
+        count: How many messages it published.
+        last_ns: When the last one was, in nanoseconds since the session began.
+    """
+
+    node: str
+    count: int
+    last_ns: int
+
+
+@dataclass(frozen=True)
+class OtherDomain:
+    """Another ROS domain on this machine in which somebody takes part.
+
+    Attributes:
+        domain_id: Its id.
+        publishers: Full names of the nodes that publish on the topic there.
+        subscriptions: Full names of the nodes that subscribe to the topic there.
+        private: Whether it is one that sessions of pages take, which was not looked into.
+    """
+
+    domain_id: int
+    publishers: tuple[str, ...] = ()
+    subscriptions: tuple[str, ...] = ()
+    private: bool = False
+
+
+@dataclass(frozen=True)
+class StaleBuild:
+    """A program of the workspace that names the topic, and was edited since the last build.
+
+    Attributes:
+        package: The package.
+        executable: What `ros2 run` starts.
+        module: The file that was edited, relative to the package.
+        built: Whether it was ever built.
+    """
+
+    package: str
+    executable: str
+    module: str
+    built: bool = True
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What was seen around a topic.
+
+    Attributes:
+        graph: The graph.
+        now_ns: When it was seen, in nanoseconds since the session began.
+        beats: What the endpoints on the topic do, each one's as far as it is known.
+        conditions: How the nodes on the topic do, as far as it is known.
+        arriving_hz: Messages a second that came from other processes; 0 if none, or unknown.
+        own: The nodes of the page's own session; all others are in other processes.
+        virtual: Whether time is virtual, and so stands still between two runs.
+        waiting: Whether callbacks wait for the next run.
+        domain_id: The ROS domain, or -1 if it is a private one of which nobody need know.
+        former: Who has published there before.
+        other_domains: Other domains in which somebody takes part.
+        stale_builds: What was edited and not built again.
+    """
+
+    graph: GraphSnapshot = field(default_factory=GraphSnapshot)
+    now_ns: int = 0
+    beats: tuple[Beat, ...] = ()
+    conditions: tuple[Condition, ...] = ()
+    arriving_hz: float = 0.0
+    own: frozenset[str] = frozenset()
+    virtual: bool = False
+    waiting: bool = False
+    domain_id: int = -1
+    former: tuple[Former, ...] = ()
+    other_domains: tuple[OtherDomain, ...] = ()
+    stale_builds: tuple[StaleBuild, ...] = ()
+
+    def beat(self, end: Endpoint) -> Beat:
+        """The heartbeat of an endpoint; one that knows nothing if there is none."""
+        for beat in self.beats:
+            if (beat.node, beat.kind) == (end.node, end.kind):
+                return beat
+        return Beat(end.node, end.kind)
+
+    def condition(self, node: str) -> Condition:
+        """How a node does; running if nothing else is known."""
+        return next((one for one in self.conditions if one.node == node), Condition(node))
+
+
+def rate_of(times_ns: Sequence[int]) -> float:
+    """Messages a second, from their times in nanoseconds, ascending; 0 if it cannot be known."""
+    if len(times_ns) < 2 or times_ns[-1] <= times_ns[0]:
+        return 0.0
+    return (len(times_ns) - 1) * NANOSECONDS / (times_ns[-1] - times_ns[0])

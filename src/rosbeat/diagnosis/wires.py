@@ -1,0 +1,240 @@
+"""Why nothing arrives where something should: silence, made loud.
+
+A node was run and raised nothing, and yet the topic stayed silent, or the node deaf. What it made
+is in the graph of the observation, and that says why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from rosbeat.diagnosis.explanation_names import difference, nearest
+from rosbeat.diagnosis.faults import diagnose_fault
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.qos import incompatible, rule
+from rosbeat.records import INFRASTRUCTURE_TOPICS, Endpoint, Observation
+
+
+@dataclass(frozen=True)
+class Wire:
+    """A topic and its type.
+
+    Attributes:
+        topic: Full name.
+        type_name: Message type, such as `std_msgs/msg/Float32`.
+    """
+
+    topic: str
+    type_name: str
+
+
+def why_not_published(
+    observation: Observation, wire: Wire, besides: Collection[str] = ()
+) -> Diagnosis | None:
+    """Say why the node that was looked at published nothing on a topic.
+
+    Args:
+        observation: What it did; without a `subject` it is the node that was made last.
+        wire: Where it should have published, and what.
+        besides: Full names of other topics on which it is to publish as well.
+
+    Returns:
+        The mistake; None if it has published there, or if nothing shows why it has not.
+    """
+    found = _raised(observation)
+    if found:
+        return found
+    made = _made(observation, "publisher")
+    here = [end for end in made if end.name == wire.topic]
+    if here:
+        return _wrong_type(here[0], wire) or _unused(observation, wire, besides)
+    others = [end for end in made if end.name not in besides]
+    if others:
+        return _elsewhere(others, wire, "publishes", _published(observation))
+    how = "for" if made else "at all, so nothing came on"
+    return Diagnosis(
+        "no-publisher",
+        f"The node has no publisher {how} {wire.topic}.",
+        "Something has to be made in the constructor with which the node can publish.",
+    )
+
+
+def why_not_heard(observation: Observation, wire: Wire) -> Diagnosis | None:
+    """Say why the node that was looked at got nothing from a topic.
+
+    Args:
+        observation: What it did; without a `subject` it is the node that was made last.
+        wire: What it should have listened to.
+
+    Returns:
+        The mistake; None if it has heard something, or if nothing shows why it has not.
+    """
+    found = _raised(observation)
+    if found:
+        return found
+    made = _made(observation, "subscription")
+    here = [end for end in made if end.name == wire.topic]
+    if here:
+        return (
+            _wrong_type(here[0], wire)
+            or _unfit(observation, here[0])
+            or _not_run(observation, here[0])
+        )
+    if made:
+        return _elsewhere(made, wire, "listens", {})
+    return Diagnosis(
+        "no-subscription",
+        f"The node has no subscription, so what is published on {wire.topic} passes it by.",
+        "Something has to be made in the constructor that names the topic and the callback.",
+    )
+
+
+# What the node made.
+
+
+def _made(observation: Observation, kind: str) -> list[Endpoint]:
+    return [
+        end
+        for end in observation.graph.endpoints
+        if end.kind == kind
+        and end.name not in INFRASTRUCTURE_TOPICS
+        and end.node == _subject(observation)
+    ]
+
+
+def _subject(observation: Observation) -> str:
+    """The node that was looked at; without a name the one that was made last."""
+    return observation.subject or (observation.graph.nodes or ("",))[-1]
+
+
+def _published(observation: Observation) -> dict[str, int]:
+    """How many messages the node published, by topic."""
+    counts: dict[str, int] = {}
+    for sample in observation.samples:
+        if sample.node == _subject(observation):
+            counts[sample.topic] = counts.get(sample.topic, 0) + 1
+    return counts
+
+
+def _raised(observation: Observation) -> Diagnosis | None:
+    """The first exception of the node, if its mistake is known."""
+    # A node that could not be made has no name.
+    own = [one for one in observation.faults if one.node in ("", _subject(observation))]
+    return diagnose_fault(own[0]) if own else None
+
+
+# Another topic, another type.
+
+
+def _elsewhere(made: list[Endpoint], wire: Wire, does: str, counts: dict[str, int]) -> Diagnosis:
+    names = {end.name for end in made}
+    near = nearest(wire.topic, names)
+    name = near or max(sorted(names), key=lambda one: counts.get(one, 0))
+    if near:
+        return Diagnosis(
+            "topic-misspelled",
+            f"The node {does} on {near}, and {wire.topic} is what is asked for: "
+            f"{difference(near, wire.topic)}.",
+            _names(near, wire.topic),
+        )
+    return Diagnosis(
+        "wrong-topic",
+        f"The node {does} on {name}, and not on {wire.topic}.",
+        "A topic is nothing but a name: both sides have to write the same one.",
+    )
+
+
+def _names(name: str, wanted: str) -> str:
+    if name.lower() == wanted.lower():
+        return "Names of topics match letter by letter, and a capital is another letter."
+    if name.endswith(f"/{wanted.strip('/')}"):
+        return (
+            "Something stands before the name: a namespace, the node's own name, or a part of the "
+            "topic's. Which of them is asked for?"
+        )
+    return "Names of topics match letter by letter. ROS does not mind a wrong one: nobody hears it."
+
+
+def _wrong_type(end: Endpoint, wire: Wire) -> Diagnosis | None:
+    if end.type_name == wire.type_name:
+        return None
+    return Diagnosis(
+        "type-mismatch",
+        f"On {wire.topic} the node has a {end.kind} for {end.type_name}, and "
+        f"{wire.type_name} is what is asked for.",
+        "One topic carries one type, and both sides have to name the same one.",
+    )
+
+
+# A publisher without messages.
+
+
+def _unused(observation: Observation, wire: Wire, besides: Collection[str]) -> Diagnosis | None:
+    counts = _published(observation)
+    if counts.get(wire.topic):
+        return None
+    used = [end for end in _made(observation, "publisher") if counts.get(end.name)]
+    used = [end for end in used if end.name not in besides]
+    return _elsewhere(used, wire, "publishes", counts) if used else _silent(observation, wire)
+
+
+def _silent(observation: Observation, wire: Wire) -> Diagnosis:
+    ran = [one for one in observation.callbacks if one.node == _subject(observation)]
+    return (_never_called(observation, wire) if not ran else None) or Diagnosis(
+        "never-published",
+        f"The node has a publisher on {wire.topic}, and it was never used.",
+        f"{ran[0].name} was called. Does it get as far as publishing, and when?"
+        if ran
+        else "Which line calls publish, and who calls the function that it is in?",
+    )
+
+
+def _never_called(observation: Observation, wire: Wire) -> Diagnosis | None:
+    timers = [one for one in observation.graph.timers if one.node == _subject(observation)]
+    if timers:
+        timer = min(timers, key=lambda one: one.period_ns)
+        if timer.period_ns <= observation.time_ns:
+            return None
+        return Diagnosis(
+            "wrong-rate",
+            f"The node's timer waits {timer.period_ns / 1e9:g} s before its first call; the node "
+            f"was watched for {observation.time:g} s, and {wire.topic} stayed silent.",
+            "The period of a timer is the time between two calls, in seconds.",
+        )
+    if _made(observation, "subscription"):
+        return None
+    return Diagnosis(
+        "no-timer",
+        f"The node has a publisher on {wire.topic}, and nothing that ever calls a method of it.",
+        "A node does something only when a callback is called. What calls one once in a while?",
+    )
+
+
+# A subscription without messages.
+
+
+def _unfit(observation: Observation, end: Endpoint) -> Diagnosis | None:
+    for publisher in observation.graph.on(end.name, "publisher"):
+        for policy in incompatible(publisher.qos, end.qos):
+            return Diagnosis(
+                "qos-mismatch",
+                f"The subscription to {end.name} asks for {getattr(end.qos, policy)}, and "
+                f"{publisher.node} offers {getattr(publisher.qos, policy)}, so they are not "
+                "connected.",
+                f"The rule of {policy}: {rule(policy)}.",
+            )
+    return None
+
+
+def _not_run(observation: Observation, end: Endpoint) -> Diagnosis | None:
+    ran = any((one.node, one.source) == (end.node, end.name) for one in observation.callbacks)
+    sent = sum(one.topic == end.name and one.node != end.node for one in observation.samples)
+    if ran or not sent or end.matched == 0:
+        return None
+    return Diagnosis(
+        "not-spun",
+        f"{end.node} is connected to {end.name}, {sent} messages were published there, and its "
+        "callback ran for none of them.",
+        "A callback runs only while somebody spins its node and no other callback holds it up.",
+    )

@@ -1,0 +1,220 @@
+"""Random walks between two limits: what a sensor's readings show of how they were made.
+
+Pure functions, but for `weather`, which makes the scenario's drift. The walk is driven up, then
+down, and then left alone (see `runtime.drift`). So both limits are met, and a walk that is still
+beyond a limit when the drift has turned gives itself away: what is published was cut off, and what
+is kept was not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import groupby, pairwise
+from math import isfinite
+from typing import Any
+
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.running import drift
+
+#: Readings while the drift goes in one direction.
+PHASE = 600
+#: Exponents of the drift: readings tend upwards, downwards, nowhere.
+UP, DOWN, FREE = 1 / 3, 3.0, 1.0
+#: Readings of a whole run: drift up, drift down, and then none.
+READINGS = 6 * PHASE
+#: Readings of a run without drift; a walk misses a limit in one of 10,000 of them.
+LONG = 8 * READINGS
+#: Room for rounding to 32 bits.
+_ROUNDING = 1e-4
+#: A walk that has turned leaves a limit within a few steps; more than this many are no chance.
+_STUCK = 60
+#: How often a walk meets the very same number at its end if something cuts it off there.
+_AGAIN = 5
+_ADD = (
+    "Each reading is drawn anew and does not know the one before. A walk goes on from where it "
+    "was: add the step to the old value."
+)
+_WHOLE = "All readings are whole numbers. Leave the digits behind the point as they are."
+_STRANGE = "Among the readings is one that is no finite number."
+
+
+@dataclass(frozen=True)
+class Walk:
+    """What is asked of a walk.
+
+    Attributes:
+        low: The lower limit.
+        high: The upper limit.
+        step: The widest step.
+        unit: What stands behind a number, such as `degrees`.
+    """
+
+    low: float
+    high: float
+    step: float
+    unit: str = "degrees"
+
+    def diagnose(self, values: Sequence[float]) -> Diagnosis | None:
+        """Say what is wrong with a walk, or None if it is right.
+
+        Args:
+            values: Its readings, at least two; the first `PHASE` drift up and the next `PHASE`
+                down.
+        """
+        if not all(map(isfinite, values)):
+            return Diagnosis("wrong-values", _STRANGE, "Which calculation gives no number?")
+        found = self._shape(values) or self._steps(values)
+        found = found or self._memory(values) or self._limits(values) or _chance(values)
+        return Diagnosis(found[0], self.evidence(values), found[1]) if found else None
+
+    def is_met(self, values: Sequence[float]) -> bool:
+        """Whether these readings show both ends of the range, wherever the node has put them.
+
+        Numbers that the drift does not reach may wander for long before they meet a limit; then
+        more readings are needed. A walk that is cut off stays at its end again and again.
+        """
+        low, high = min(values, default=0.0), max(values, default=0.0)
+        return all(
+            there or sum(abs(one - end) < _ROUNDING for one in values) >= _AGAIN
+            for end, there in (
+                (low, low <= self.low + self.step),
+                (high, high >= self.high - self.step),
+            )
+        )
+
+    def touches(self, values: Sequence[float]) -> bool:
+        """Whether a reading is exactly at a limit: then the unit, at least, is right."""
+        return any(abs(one - end) < _ROUNDING for one in values for end in (self.low, self.high))
+
+    def stands_or_jumps(self, values: Sequence[float]) -> bool:
+        """Whether this is no walk at all, whatever its unit."""
+        return widest(values) == 0 or widest(values) > 0.4 * (self.high - self.low)
+
+    def evidence(self, values: Sequence[float]) -> str:
+        """What can be seen of a walk, in one sentence."""
+        return (
+            f"The readings went from {min(values):.2f} to {max(values):.2f} {self.unit}, in steps "
+            f"of at most {widest(values):.2f}."
+        )
+
+    def _shape(self, values: Sequence[float]) -> tuple[str, str] | None:
+        if widest(values) == 0:
+            return self._constant(values[0])
+        if self.step % 1 and all(one == round(one) for one in values):
+            return "wrong-values", _WHOLE
+        if max(values) - min(values) <= 2 * self.step + _ROUNDING:
+            return "forgets-itself", _ADD
+        moves = [b - a for a, b in pairwise(values)]
+        if min(moves) >= 0 or max(moves) <= 0:
+            way = "rises" if min(moves) >= 0 else "falls"
+            return "one-way", f"It only {way}. A step goes up or down, as chance will have it."
+        return None
+
+    def _constant(self, value: float) -> tuple[str, str]:
+        stays = f"It stays at {value:g} from the first reading on."
+        if value == 0.0:
+            hint = "A new message holds 0.0. Which line puts the number into its field data?"
+            return "wrong-values", hint
+        if abs(value - self.high) < _ROUNDING:
+            hint = f"{stays} Which of the two, min or max, keeps a number below a limit?"
+            return "clamp-swapped", hint
+        if abs(value - self.low) < _ROUNDING:
+            return "never-changes", (
+                f"{stays} Either a step takes the place of the old value instead of being added "
+                "to it, or min and max have changed places."
+            )
+        return "never-changes", "It never changes. Each call has to add a new random number."
+
+    def _steps(self, values: Sequence[float]) -> tuple[str, str] | None:
+        found = widest(values)
+        if _ROUNDING < self._beyond(values) <= self.step + _ROUNDING and found <= 2.01 * self.step:
+            return "clamped-too-early", (
+                "It gets past a limit, by less than a step. Which comes first, the step or the "
+                "clamp?"
+            )
+        if found > 0.5 * (self.high - self.low):
+            return "forgets-itself", _ADD
+        if found > self.step + 10 * _ROUNDING:
+            return "step-too-wide", (
+                "A step is too wide. random.uniform(a, b) gives a number between a and b."
+            )
+        moves = [b - a for a, b in pairwise(values)]
+        if min(max(moves), -min(moves)) < 0.8 * self.step:
+            return "step-too-small", (
+                f"The steps are small. They may be as wide as {self.step:g}, up and down."
+            )
+        return None
+
+    def _beyond(self, values: Sequence[float]) -> float:
+        return max(max(values) - self.high, self.low - min(values))
+
+    def _limits(self, values: Sequence[float]) -> tuple[str, str] | None:
+        if max(values) - self.high > _ROUNDING:
+            return "no-clamp", f"It got above {self.high:g}. Which function cuts off what is above?"
+        if self.low - min(values) > _ROUNDING:
+            return "no-clamp", f"It got below {self.low:g}. Which function cuts off what is below?"
+        if self.high - max(values) > self.step or min(values) - self.low > self.step:
+            return "other-limits", (
+                f"It stays inside narrower limits than {self.low:g} and {self.high:g}. Look at the "
+                "two numbers."
+            )
+        return None
+
+    def _memory(self, values: Sequence[float]) -> tuple[str, str] | None:
+        for limit, rest in ((self.high, values[PHASE:]), (self.low, values[2 * PHASE :])):
+            # Without drift, too, a walk leaves a limit at every second step or so.
+            if _longest_stay(rest, limit) > _STUCK:
+                return "clamp-not-kept", (
+                    f"It stays at {limit:g} for minutes. What is published is cut off, and what "
+                    "the node remembers is not: it has to walk all the way back."
+                )
+        return None
+
+
+def watch_walk(
+    walk: Walk, rate: int, look: Callable[[float, list[Any]], tuple[Any, Sequence[float]]]
+) -> Any:  # noqa: ANN401 - whatever `look` makes
+    """Look at a walk until it has shown both of its ends.
+
+    Args:
+        walk: What is asked of it.
+        rate: Readings a second.
+        look: Takes seconds and further nodes, and gives what was seen, and the readings in it.
+    """
+    seen, values = look(READINGS / rate, [weather(rate)])
+    found = walk.diagnose(values) if len(values) == READINGS else None
+    if found and found.mistake == "other-limits" and not walk.is_met(values):
+        seen, _ = look(LONG / rate, [])
+    return seen
+
+
+def weather(rate: int) -> Callable[[], Any]:
+    """The drift that goes with `Walk.diagnose`, as a node for `observe`.
+
+    Args:
+        rate: Readings a second.
+    """
+    return drift([(PHASE / rate, UP), (PHASE / rate, DOWN), (0, FREE)])
+
+
+def _chance(values: Sequence[float]) -> tuple[str, str] | None:
+    """Whether chance decides: then about every second step turns round."""
+    moves = [b - a for a, b in pairwise(values[2 * PHASE :]) if a != b]
+    turns = sum((a > 0) != (b > 0) for a, b in pairwise(moves))
+    if 0.25 <= turns / max(1, len(moves)) <= 0.75:
+        return None
+    return "not-random", (
+        "It goes up and down by a rule of its own, every time the same way. Let a random number "
+        "decide about each step."
+    )
+
+
+def _longest_stay(values: Sequence[float], limit: float) -> int:
+    runs = groupby(values, lambda one: abs(one - limit) < _ROUNDING)
+    return max((len(list(run)) for same, run in runs if same), default=0)
+
+
+def widest(values: Sequence[float]) -> float:
+    """The widest step between two readings that follow each other; 0 for fewer than two."""
+    return max((abs(b - a) for a, b in pairwise(values)), default=0.0)

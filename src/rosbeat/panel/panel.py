@@ -1,0 +1,121 @@
+"""The instrument panel of one session."""
+
+from __future__ import annotations
+
+import time
+from contextlib import suppress
+from threading import Event, RLock, Thread, current_thread
+from typing import Any
+
+from IPython.display import display, update_display
+
+from rosbeat.panel import orders
+from rosbeat.panel.instruments import Instruments
+from rosbeat.panel.sampling import Sampler
+from rosbeat.panel.still import is_for_a_browser, still, with_view
+from rosbeat.panel.traffic import Traffic
+from rosbeat.panel.widget import PanelWidget
+
+#: Seconds from one look at the session to the next: 20 frames a second.
+PERIOD = 0.05
+#: Seconds that `close` waits for the look that is being taken.
+_PATIENCE = 2.0
+
+
+def next_look(last: float, now: float) -> float:
+    """When to look again: looks that were missed are not made up for.
+
+    Args:
+        last: When the look before was due, in seconds on a clock that never goes back.
+        now: Its reading now.
+    """
+    return max(last + PERIOD, now)
+
+
+class Panel:
+    """Shows what a session does, as it does it; shows itself at the end of a cell.
+
+    Opened with `ros.panel()`. It looks at the session in a thread of its own, so it goes on while a
+    cell runs.
+
+    Args:
+        instruments: The session.
+    """
+
+    def __init__(self, instruments: Instruments) -> None:
+        self._instruments = instruments
+        self._sampler = Sampler(instruments)
+        self._traffic = Traffic()
+        self._lock = RLock()
+        self._stopping = Event()
+        self._notes: list[str] = []
+        self._still: dict[str, str] = {}
+        self._display_id = ""
+        self._widget: PanelWidget | None = None
+        self._thread = Thread(target=self._run, name="rosbeat panel", daemon=True)
+        if is_for_a_browser():
+            self._widget = PanelWidget(self._heard)
+            self._display_id = f"rosbeat-panel-{self._widget.model_id}"
+            self._thread.start()
+
+    def __repr__(self) -> str:
+        return f"Panel({'closed' if self._stopping.is_set() else 'open'})"
+
+    def close(self) -> None:
+        """End the panel and what it has added to the session; its picture stays on the page."""
+        if self._stopping.is_set():
+            return
+        self._stopping.set()
+        if self._thread.is_alive() and current_thread() is not self._thread:
+            self._thread.join(_PATIENCE)
+        self._instruments.release()
+        if self._widget is not None:
+            with suppress(Exception):  # the kernel may be on its way out, and take no message
+                self._post({"closed": True})
+                self._widget.close()
+                if self._still:
+                    update_display(self._still, raw=True, display_id=self._display_id)
+
+    def _ipython_display_(self) -> None:
+        self._still = still(self._instruments.graph())
+        if self._widget is None or self._stopping.is_set():
+            display(self._still, raw=True)
+        else:
+            bundle = with_view(self._still, self._widget.model_id)
+            display(bundle, raw=True, display_id=self._display_id)
+
+    def _run(self) -> None:
+        due = time.monotonic()
+        while not self._stopping.wait(max(0.0, due - time.monotonic())):
+            due = next_look(due, time.monotonic())
+            self._turn()
+
+    def _turn(self) -> None:
+        self._sampler.look()
+        with self._lock:
+            now = time.monotonic()
+            if not self._traffic.may_send(now):
+                return
+            frame = self._sampler.frame(whole=self._traffic.asked)
+            frame["number"] = self._traffic.sent(now)
+            if self._notes:
+                frame["note"] = self._notes.pop()
+                self._notes.clear()
+        self._post(frame)
+
+    def _post(self, content: dict[str, Any]) -> None:
+        assert self._widget is not None
+        if self._widget.comm is not None:
+            self._widget.send(content)
+
+    def _heard(self, content: dict[str, Any]) -> None:
+        if "got" in content:
+            with self._lock:
+                self._traffic.heard(int(content["got"]))
+        elif content.get("do") == "open":
+            with self._lock:
+                self._traffic.ask()
+        else:
+            note = orders.carry_out(content, self._instruments)
+            with self._lock:
+                self._notes.append(note)

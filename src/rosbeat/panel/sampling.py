@@ -1,0 +1,101 @@
+"""From a session to frames: what the browser is told, and how little of it."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Any
+
+from rosbeat.panel.charts import Chart
+from rosbeat.panel.instruments import Instruments
+from rosbeat.panel.layout import layout
+from rosbeat.records import NANOSECONDS, Fault, LogRecord
+from rosbeat.viz.wiring import Wiring, wiring
+
+#: Log lines that the panel keeps, and how many it puts into one frame.
+KEPT_LINES, LINES_PER_FRAME = 500, 100
+
+Line = tuple[float, str, str, str]
+
+
+class Sampler:
+    """Looks at a session and remembers what is to be drawn.
+
+    Nothing here slows the session down or loses any of its records: a look reads what has been
+    recorded since the look before, and draws at most one point of each publisher.
+
+    Args:
+        instruments: The session.
+    """
+
+    def __init__(self, instruments: Instruments) -> None:
+        self._instruments = instruments
+        self._charts: dict[str, Chart] = {}
+        self._changed: set[str] = set()
+        self._lines: deque[Line] = deque(maxlen=KEPT_LINES)
+        self._said = self._sent_lines = 0
+        self._wiring: Wiring | None = None
+        self._layout: dict[str, Any] = {}
+        self._state: dict[str, Any] = {}
+        self._sent_state: dict[str, Any] = {}
+
+    def look(self) -> None:
+        """Look at the session once."""
+        news = self._instruments.news()
+        for arrival in news.arrivals:
+            topic = arrival.newest.topic
+            self._charts.setdefault(topic, Chart()).add(arrival)
+            self._changed.add(topic)
+        for line in sorted([*map(_log_line, news.logs), *map(_fault_line, news.faults)]):
+            self._lines.append(line)
+            self._said += 1
+        shown = wiring(self._instruments.graph())
+        if shown != self._wiring:
+            self._wiring, self._layout = shown, layout(shown)
+        self._state = {
+            "live": self._instruments.is_live(),
+            "nodes": self._instruments.conditions(),
+            "graph": self._layout,
+        }
+
+    def frame(self, whole: bool) -> dict[str, Any]:
+        """What the browser does not know yet.
+
+        Args:
+            whole: Everything, for a browser that knows nothing.
+        """
+        now = self._instruments.now_ns() / NANOSECONDS
+        told = {name: chart for name, chart in self._charts.items() if self._is_told(name, whole)}
+        frame: dict[str, Any] = {
+            "whole": whole,
+            "time": round(now, 3),
+            "topics": {name: chart.news(now, whole) for name, chart in told.items()},
+            **self._log(whole),
+        }
+        for part, state in self._state.items():
+            if whole or self._sent_state.get(part) != state:
+                frame[part] = state
+        self._sent_state = dict(self._state)
+        self._changed.clear()
+        return frame
+
+    def _is_told(self, topic: str, whole: bool) -> bool:
+        """Whether a frame has something to say of a topic: for one that falls silent, its rate."""
+        return whole or topic in self._changed or self._charts[topic].was_busy
+
+    def _log(self, whole: bool) -> dict[str, Any]:
+        new = len(self._lines) if whole else self._said - self._sent_lines
+        taken = min(new, LINES_PER_FRAME if not whole else KEPT_LINES, len(self._lines))
+        self._sent_lines = self._said
+        lines = list(self._lines)[len(self._lines) - taken :]
+        return {"log": lines, "left_out": new - taken} if lines else {}
+
+
+def _log_line(record: LogRecord) -> Line:
+    return round(record.time, 3), record.level, record.name, record.text
+
+
+def _fault_line(fault: Fault) -> Line:
+    name = fault.node.strip("/").replace("/", ".")
+    where = f", line {fault.line}: {fault.code}" if fault.line else ""
+    text = f"stopped in {fault.callback}: {fault.kind}: {fault.text}{where}"
+    return round(fault.time, 3), "FATAL", name, text

@@ -1,0 +1,96 @@
+"""Why nothing arrives, asked in a terminal: the nodes are other processes in its ROS domain."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+from rosbeat.diagnosis.explanation import Explanation, explain
+from rosbeat.diagnosis.situation import StaleBuild
+from rosbeat.errors import CommandError, SessionError
+from rosbeat.runtime.durations import duration_ns
+from rosbeat.runtime.explaining import look
+from rosbeat.runtime.lookups import full_topic
+from rosbeat.runtime.world import World
+
+#: The last domain id that there is (RTPS specification, section 9.6.1).
+_LAST_DOMAIN = 232
+_CLEAR = "\r\x1b[K"
+
+
+def explain_domain(
+    topic: str,
+    domain_id: int | None,
+    seconds: float,
+    stale_builds: Callable[[str], tuple[StaleBuild, ...]],
+) -> Explanation:
+    """Say why nothing arrives on a topic in a domain, as a node that comes and goes.
+
+    While it looks, a terminal shows one line on the standard error stream.
+
+    Args:
+        topic: The topic's name, with or without its slash.
+        domain_id: The domain; None for the terminal's own.
+        seconds: How long to listen at most, in seconds of wall time.
+        stale_builds: Says of a topic which programs that name it were edited and not built again.
+
+    Raises:
+        CommandError: If one of them cannot be used.
+    """
+    name, span = _checked(topic, seconds)
+    domain = _domain(domain_id)
+    with _ended_gently(), _progress(f"Looking at {name} in ROS domain {domain} ..."):
+        world = World(0, domain)
+        try:
+            scene = look(world, name, span)
+        finally:
+            world.close()
+    return explain(name, replace(scene, stale_builds=stale_builds(name)))
+
+
+def _checked(topic: str, seconds: float) -> tuple[str, float]:
+    try:
+        return full_topic("explain", topic), duration_ns(seconds, "--seconds") / 1e9
+    except SessionError as error:
+        raise CommandError(error.what, error.means, error.to_try) from None
+
+
+def _domain(given: int | None) -> int:
+    text = os.environ.get("ROS_DOMAIN_ID") or "0"
+    asked: Any = given if given is not None else text
+    number = int(asked) if str(asked).isdecimal() and str(asked).isascii() else -1
+    if 0 <= number <= _LAST_DOMAIN:
+        return number
+    source = "--domain-id" if given is not None else "ROS_DOMAIN_ID"
+    raise CommandError(
+        f"{source} is {asked!r}, which is no domain id.",
+        f"It says which processes see each other, and is a whole number from 0 to {_LAST_DOMAIN}.",
+        "Look at the number of the node's terminal: `echo $ROS_DOMAIN_ID`.",
+    )
+
+
+@contextmanager
+def _ended_gently() -> Iterator[None]:
+    """Let SIGTERM do what Ctrl+C does: others would see a node that was killed for 20 s."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+@contextmanager
+def _progress(text: str) -> Iterator[None]:
+    if not sys.stderr.isatty():
+        yield
+        return
+    try:  # an interrupt may come as soon as somebody can read the line
+        print(text, end="", file=sys.stderr, flush=True)
+        yield
+    finally:
+        print(_CLEAR, end="", file=sys.stderr, flush=True)

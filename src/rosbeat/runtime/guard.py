@@ -1,0 +1,314 @@
+"""A deadline for code that may do anything.
+
+`within(seconds)` ends whatever runs in its block when the time is up, by an exception that
+is raised in the middle of it: an endless loop, a wait, a sleep. Code that catches everything
+(`while True: try: ... except: pass`) is shot at again, and from the second time on hooks of Python
+make its next lines and calls raise, too: those in the handlers of the exceptions.
+
+It is meant for the main thread, where the operating system's timer (`SIGALRM`) is the clock. In
+another thread the watchdog throws the exception in, which reaches Python code but no wait in C.
+What nothing in Python ends is a single long call of C that never looks up, such as
+`sum(range(10**12))`: it ends by itself or not at all, for Interrupt too.
+
+Rosbeat's own code is spared where it is: it is shot at once, as by Interrupt, and then has time to
+tidy up.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import linecache
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from types import FrameType, TracebackType
+from typing import Any
+
+import rclpy
+
+from rosbeat.runtime.faults import is_learners
+
+#: Seconds between the first two shots, and between two looks of the watchdog.
+_EVERY = 0.1
+#: Seconds between later shots.
+_SOON = 0.001
+#: Seconds that our own code has to tidy up, between two shots at it.
+_PATIENCE = 0.6
+#: Seconds that a learner's code may go on after Interrupt, if it catches even that.
+_AFTER_INTERRUPT = 0.2
+#: Seconds after which the timer is taken for lost: its handler was replaced, or its signal blocked.
+_LOST = 0.3
+#: How many exceptions the watchdog throws in at a time, and the seconds between them.
+_BURST, _PAUSE = 5, 0.001
+
+_OURS = (str(Path(__file__).parents[1]), str(Path(rclpy.__file__).parent))
+
+
+class DeadlinePassed(BaseException):
+    """Raised in code that still runs when its time is up."""
+
+    def __str__(self) -> str:
+        return "the time is up"
+
+
+class Deadline:
+    """A block of code that ends in time; see `within`.
+
+    Attributes:
+        seconds: How long the block may take.
+        passed: Whether it took longer.
+        interrupted: Whether Interrupt was pressed in the block.
+    """
+
+    def __init__(
+        self,
+        seconds: float,
+        noting: Callable[[], object] = bool,
+        nudge: Callable[[], object] = bool,
+    ) -> None:
+        self.seconds = seconds
+        self.passed = self.interrupted = False
+        self._where: tuple[str, int, dict[str, Any]] | None = None
+        self._noting, self._nudge = noting, nudge
+        self._open = self._aiming = False
+        self._shots = 0
+        self._base: FrameType | None = None
+        self._running = threading.Lock()  # an Event needs names that a learner may replace
+        self._watchdog = threading.Thread(target=self._watch, name="rosbeat deadline", daemon=True)
+
+    def __enter__(self) -> Deadline:
+        self._base = sys._getframe(1)
+        self._thread = threading.get_ident()
+        self._in_main = threading.current_thread() is threading.main_thread()
+        self._hooks_before = sys.gettrace(), sys.getprofile()
+        self._began = time.monotonic()
+        self._until, self._spared_until = self._began + self.seconds, 0.0
+        self._open = True
+        if self._in_main:
+            self._take_signals()
+        self._running.acquire()
+        self._watchdog.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
+    ) -> bool:
+        """End the watch; a passed deadline is no exception for what follows, an interrupt is.
+
+        Raises:
+            KeyboardInterrupt: If Interrupt was pressed, whatever the code made of it.
+        """
+        try:
+            self.end()
+        except DeadlinePassed:  # one more that was thrown in
+            self.end()
+        if self.interrupted and not isinstance(error, KeyboardInterrupt):
+            raise KeyboardInterrupt from None
+        return self.passed and isinstance(error, DeadlinePassed)  # else it is an outer one's
+
+    @property
+    def place(self) -> tuple[int, str]:
+        """Number and text of the learner's line where the time was up; `(0, "")` if there is none.
+
+        To be asked after the block: in it a learner's code may have changed what Python needs.
+        """
+        if self._where is None:
+            return 0, ""
+        file, line, names = self._where
+        return line, linecache.getline(file, line, names).strip()
+
+    def expire(self) -> None:
+        """Let the time be up now, for a reason of the caller's own.
+
+        Raises:
+            DeadlinePassed: Always.
+        """
+        self._note(list(self._inside(sys._getframe(1))))
+        raise DeadlinePassed
+
+    def end(self) -> None:
+        """End the watch; a second call does nothing.
+
+        The end of the block does so. But an exception that was thrown in may come in the moment
+        between the block and its end.
+        """
+        self._open = False
+        if self._running.locked():
+            self._running.release()
+        if self._in_main:
+            self._give_signals_back()
+        self._watchdog.join()
+        _let_things_in()
+        if self._shots > 1:
+            sys.settrace(self._hooks_before[0])
+            sys.setprofile(self._hooks_before[1])
+        self._base = None
+
+    # Signals.
+
+    def _take_signals(self) -> None:
+        self._mask = signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGALRM})
+        self._alarm_before = signal.signal(signal.SIGALRM, self._alarm)
+        self._timer_before = signal.setitimer(signal.ITIMER_REAL, self.seconds, _EVERY)
+        self._interrupt_before = signal.getsignal(signal.SIGINT)
+        if callable(self._interrupt_before):
+            signal.signal(signal.SIGINT, self._interrupt)
+
+    def _give_signals_back(self) -> None:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        _let_things_in()
+        signal.signal(signal.SIGALRM, self._alarm_before or signal.SIG_DFL)
+        if callable(self._interrupt_before):
+            signal.signal(signal.SIGINT, self._interrupt_before)
+        (left, again), self._timer_before = self._timer_before, (0.0, 0.0)
+        signal.pthread_sigmask(signal.SIG_SETMASK, self._mask)
+        if left:  # somebody else's alarm: a test's time limit, say
+            left = max(0.001, left - (time.monotonic() - self._began))
+            signal.setitimer(signal.ITIMER_REAL, left, again)
+
+    def _alarm(self, _: int, frame: FrameType | None) -> None:
+        if not self._open or self._aiming or time.monotonic() < self._until:
+            return
+        self._aiming = True  # the next alarm may come while this one is being answered
+        try:
+            self._shoot(frame)
+        finally:
+            self._aiming = False
+
+    def _interrupt(self, number: int, frame: FrameType | None) -> None:
+        self.interrupted = True
+        if self._open:
+            self._until = min(self._until, time.monotonic() + _AFTER_INTERRUPT)
+            signal.setitimer(signal.ITIMER_REAL, _AFTER_INTERRUPT + 0.01, _EVERY)
+        self._interrupt_before(number, frame)  # type: ignore[operator,misc] # it is callable
+
+    # Shots.
+
+    def _shoot(self, frame: FrameType | None) -> None:
+        inside = list(self._inside(frame))
+        if any(one.f_code is Deadline.__exit__.__code__ for one in inside):
+            return
+        self._note(inside)
+        self._shots += 1
+        if self._shots == 2:
+            signal.setitimer(signal.ITIMER_REAL, _SOON, _SOON)
+        if self._shots > 1:
+            self._hook(inside)
+        if self._may_be_shot(inside):
+            raise DeadlinePassed
+
+    def _note(self, inside: list[FrameType]) -> None:
+        if self.passed:
+            return
+        self.passed = True
+        frame = next((one for one in inside if is_learners(one)), None)
+        if frame is not None:
+            self._where = (frame.f_code.co_filename, frame.f_lineno or 0, frame.f_globals)
+        with suppress(Exception):  # names that Python has by itself may be others by now
+            self._noting()
+
+    def _may_be_shot(self, inside: list[FrameType]) -> bool:
+        """Whether to raise at this point: in a learner's code always, in ours now and then."""
+        first = next((one for one in inside if is_learners(one) or _is_ours(one)), None)
+        if first is not None and is_learners(first):
+            return True
+        now = time.monotonic()
+        if now < self._spared_until:
+            return False
+        self._spared_until = now + _PATIENCE
+        return True
+
+    def _inside(self, frame: FrameType | None) -> Iterator[FrameType]:
+        """The frames of the block, innermost first."""
+        while frame is not None:
+            yield frame
+            frame = frame.f_back if frame is not self._base else None
+
+    # Hooks. An exception in a trace function ends the tracing, one in a profile function the
+    # profiling: each of them begins the other one again before it raises.
+
+    def _hook(self, inside: Iterable[FrameType]) -> None:
+        for frame in filter(is_learners, inside):
+            # The frame with the block itself must come to the end of its `with`.
+            if frame is not self._base:
+                frame.f_trace = self._line
+        sys.settrace(self._called)
+        sys.setprofile(self._profile)
+
+    def _called(self, frame: FrameType, event: str, value: Any) -> Any:  # noqa: ANN401 - Python's
+        return self._line(frame, event, value) if self._is_target(frame) else None
+
+    def _line(self, _: FrameType, event: str, value: Any) -> Any:  # noqa: ANN401 - Python's
+        if self._open and event in ("line", "call"):
+            sys.setprofile(self._profile)
+            raise DeadlinePassed
+        return self._line
+
+    def _profile(self, frame: FrameType, event: str, _: Any) -> None:  # noqa: ANN401 - Python's
+        if self._open and event in ("call", "c_call") and self._is_target(frame):
+            self._hook([frame])
+            raise DeadlinePassed
+
+    def _is_target(self, frame: FrameType) -> bool:
+        return frame is not self._base and is_learners(frame)
+
+    # The watchdog.
+
+    def _watch(self) -> None:
+        while not self._running.acquire(timeout=_EVERY):
+            with suppress(Exception):  # whatever the guarded code may have broken
+                self._nudge()
+            late = time.monotonic() - self._until
+            if late > (_LOST if self._in_main else 0) and self._is_alarm_lost():
+                self._throw()
+
+    def _throw(self) -> None:
+        """Throw exceptions in, some in quick succession: the handler of one gets the next."""
+        for _ in range(_BURST):
+            self._throw_at(sys._current_frames().get(self._thread))
+            if self._running.acquire(timeout=_PAUSE):
+                self._running.release()
+                return
+
+    def _is_alarm_lost(self) -> bool:
+        if not self._in_main or self._shots == 0:
+            return True
+        return signal.getsignal(signal.SIGALRM) != self._alarm
+
+    def _throw_at(self, frame: FrameType | None) -> None:
+        inside = list(self._inside(frame))
+        self._note(inside)
+        if self._open and self._may_be_shot(inside):
+            number, kind = ctypes.c_ulong(self._thread), ctypes.py_object(DeadlinePassed)
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(number, kind)
+
+
+def within(
+    seconds: float, noting: Callable[[], object] = bool, nudge: Callable[[], object] = bool
+) -> Deadline:
+    """Let a block of code end in time.
+
+    When the time is up, `DeadlinePassed` is raised in the block, which ends it; after the block
+    `deadline.passed` tells. Interrupt means what it always means, also for code that catches it.
+
+    Args:
+        seconds: How long the block may take, in seconds of wall time.
+        noting: Called once, in the guarded thread, at the moment when the time is up.
+        nudge: Called ten times a second in another thread: it may wake what waits in C, which
+            neither the deadline nor Interrupt reach there.
+    """
+    return Deadline(seconds, noting, nudge)
+
+
+def _is_ours(frame: FrameType) -> bool:
+    return frame.f_code.co_filename.startswith(_OURS)
+
+
+def _let_things_in() -> None:
+    """Python runs handlers of signals, and raises what was thrown in, between two such steps."""
+    for _ in range(3):
+        time.monotonic()

@@ -1,0 +1,1 @@
+"""Answers to the exercises about nodes, page by page; see `bank.answer`."""

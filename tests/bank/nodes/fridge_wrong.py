@@ -1,0 +1,136 @@
+"""04a, watch a fridge: wrong answers."""
+
+from bank.answer import edited, either, wrong
+from bank.nodes.fridge_right import BASE
+
+_SUPER = 'super().__init__("fridge_monitor")'
+_CALL = 'self.create_subscription(Float32, "temperature", self.temperature_callback, 10)'
+_LOG = 'self.get_logger().info(f"Fridge: {temp:.2f}C - Status:{status}")'
+_ELSE = '        else:\n            status = "Fine"\n'
+
+
+def _wrong(name, mistake, *edits):
+    return wrong("04a", name, mistake, edited(BASE, *edits))
+
+
+def _either(name, mistakes, *edits):
+    return either("04a", name, mistakes, edited(BASE, *edits))
+
+
+ANSWERS = (
+    # The exercise's own mistakes.
+    _wrong("8.0 is warm", "boundary", ("temp > 8.0", "temp >= 8.0")),
+    _wrong("2.0 is frost", "boundary", ("temp < 2.0", "temp <= 2.0")),
+    _wrong("both limits", "boundary", ("temp > 8.0", "temp >= 8.0"), ("temp < 2.0", "temp <= 2.0")),
+    _wrong("the room's limits", "wrong-state", ("8.0", "26.0"), ("2.0", "20.0")),
+    _wrong("another upper limit", "wrong-state", ("8.0", "9.0")),
+    _wrong("another lower limit", "wrong-state", ("2.0", "0.0")),
+    _wrong("upside down", "wrong-state",
+           ("temp > 8.0", "temp < 8.0"), ("temp < 2.0", "temp > 2.0")),
+    _wrong("the words swapped", "wrong-state",
+           ('"Warm"', '"X"'), ('"Frost"', '"Warm"'), ('"X"', '"Frost"')),
+    _wrong("the monitor's words", "wrong-state",
+           ('"Warm"', '"High"'), ('"Frost"', '"Low"'), ('"Fine"', '"Normal"')),
+    _wrong("a word with a letter wrong", "wrong-state", ('"Frost"', '"Forst"')),
+    _wrong("always fine", "wrong-state", ("temp > 8.0", "False"), ("temp < 2.0", "False")),
+    _wrong("if for elif", "wrong-state", ("elif", "if")),
+    _wrong("or, with a number behind it", "wrong-state", ("temp > 8.0", "temp > 8.0 or 9.0")),
+    _wrong("and for or", "wrong-state", ("temp > 8.0", "temp > 8.0 and temp < 2.0")),
+    _wrong("it compares texts", "wrong-state",
+           ("temp > 8.0", 'str(temp) > "8.0"'), ("temp < 2.0", 'str(temp) < "2.0"')),
+    _wrong("whole degrees", "wrong-state", ("temp = msg.data", "temp = int(msg.data)")),
+    _wrong("it knows only the first reading", "wrong-state",
+           (_SUPER, f"{_SUPER}\n        self.first = None"),
+           ("temp = msg.data", "self.first = self.first or msg.data\n        temp = self.first")),
+    _wrong("it says everything", "wrong-state", ("{status}", "{status} (Warm, Fine, Frost)")),
+    _wrong("it says nothing", "nothing-logged", (_LOG, "pass")),
+    _wrong("it prints", "nothing-logged",
+           (_LOG, 'print(f"Fridge: {temp:.2f}C - Status:{status}")')),
+    _wrong("it speaks only when it is warm", "nothing-logged",
+           (f"        {_LOG}", f"        if status == 'Warm':\n            {_LOG}")),
+    _either("the log line is a debug line", ("nothing-logged", "wrong-state"),
+            (".info(", ".debug(")),
+    _either("the log line stands in the else branch", ("nothing-logged", "wrong-state"),
+            (f"        {_LOG}", f"            {_LOG}")),
+    _either("only the number is logged", ("wrong-state", "nothing-logged"),
+            (" - Status:{status}", "")),
+    # The thirty.
+    _wrong("another field", "wrong-field", ("msg.data", "msg.temperature")),
+    _wrong("no depth", "depth-missing", ("callback, 10", "callback")),
+    _wrong("no callback", "callback-missing",
+           ("self.temperature_callback, 10", "10")),
+    _wrong("topic first", "arguments-swapped",
+           ('Float32, "temperature"', '"temperature", Float32')),
+    _wrong("depth before callback", "arguments-swapped",
+           ("self.temperature_callback, 10", "10, self.temperature_callback")),
+    _wrong("float for a type", "not-a-message-type", ("(Float32, ", "(float, ")),
+    _wrong("the callback called", "callback-called",
+           ("self.temperature_callback, 10", "self.temperature_callback(), 10")),
+    _wrong("the callback called with a type", "callback-called",
+           ("self.temperature_callback, 10", "self.temperature_callback(Float32()), 10")),
+    _wrong("a callback without msg", "callback-parameters", ("(self, msg)", "(self)")),
+    _wrong("a callback without self", "callback-parameters", ("(self, msg)", "(msg)")),
+    _wrong("no super", "super-missing", (f"        {_SUPER}\n", "")),
+    _wrong("super comes last", "super-missing",
+           (f"{_SUPER}\n        {_CALL}", f"{_CALL}\n        {_SUPER}")),
+    _wrong("no name", "node-name-missing", ('"fridge_monitor"', "")),
+    _wrong("a space in the node's name", "invalid-name", ("fridge_monitor", "fridge monitor")),
+    _wrong("a hyphen in the topic", "invalid-name", ('"temperature"', '"fridge-temperature"')),
+    _wrong("a letter is missing", "topic-misspelled", ('"temperature"', '"temprature"')),
+    _wrong("a capital letter", "topic-misspelled", ('"temperature"', '"Temperature"')),
+    _wrong("the plural", "topic-misspelled", ('"temperature"', '"temperatures"')),
+    _wrong("a namespace", "topic-misspelled",
+           ('"fridge_monitor"', '"fridge_monitor", namespace="kitchen"')),
+    _wrong("stored messages wanted", "qos-mismatch",
+           ("class F", "from rclpy.qos import DurabilityPolicy, QoSProfile\n\nclass F"),
+           ("callback, 10",
+            "callback, QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)")),
+    _wrong("another type", "type-mismatch",
+           ("(Float32, ", "(String, ")),
+    _wrong("Float64", "type-mismatch",
+           ("class F", "from std_msgs.msg import Float64\n\nclass F"),
+           ("(Float32, ", "(Float64, ")),
+    _wrong("no quotes at the topic", "name-error", ('"temperature"', "temperature")),
+    _wrong("no quotes at a word", "name-error", ('"Warm"', "Warm")),
+    _wrong("no self before the callback", "name-error", (", self.temp", ", temp")),
+    _wrong("no else", "no-value-yet", (_ELSE, "")),
+    _wrong("nothing that listens", "no-subscription", (_CALL, "pass")),
+    _wrong("it spins before it listens", "callback-blocks",
+           (_CALL, f"while True:\n            pass\n        {_CALL}")),
+    _wrong("it sleeps for ever", "callback-blocks",
+           ("temp = msg.data", "temp = msg.data\n        import time\n        time.sleep(10_000)")),
+    _wrong("it exits", "exits", (_LOG, f"{_LOG}\n        exit()")),
+    _wrong("no node", "no-node", ("(Node)", ""), (_SUPER, "pass")),
+    _wrong("the message is compared", "message-for-value",
+            ("temp = msg.data", "temp = msg")),
+    _either("the class's field", ("wrong-field", "new-to-me", "raised", "wrong-attribute"),
+            ("temp = msg.data", "temp = Float32.data")),
+    _wrong("a name that is not there", "wrong-attribute",
+            (", self.temperature_callback", ", self.callback")),
+    # Pairs.
+    _either("a limit and the words", ("boundary", "wrong-state"),
+            ("temp > 8.0", "temp >= 8.0"), ('"Frost"', '"Low"')),
+    _either("topic and type", ("topic-misspelled", "type-mismatch"),
+            ('Float32, "temperature"', 'String, "temprature"')),
+    _either("called, and no depth", ("callback-called", "depth-missing"),
+            ("callback, 10", "callback()")),
+    _either("no else, and a limit", ("no-value-yet", "boundary"),
+            (_ELSE, ""), ("temp < 2.0", "temp <= 2.0")),
+    _either("a wrong field and a wrong limit", ("wrong-field", "boundary"),
+            ("msg.data", "msg.value"), ("temp > 8.0", "temp >= 8.0")),
+    _either("no super, swapped", ("super-missing", "arguments-swapped"),
+            (f"        {_SUPER}\n", ""), ('Float32, "temperature"', '"temperature", Float32')),
+    # Limits that are nearly right, and readings that come late.
+    _wrong("a lower limit one too high", "wrong-state", ("2.0", "3.0")),
+    _wrong("an upper limit one too low", "wrong-state", ("8.0", "7.0")),
+    _wrong("one reading too late", "wrong-state",
+           (_SUPER, f"{_SUPER}\n        self.last = 5.0"),
+           ("temp = msg.data", "temp, self.last = self.last, msg.data")),
+    _either("only when it changes", ("nothing-logged", "wrong-state"),
+            (_SUPER, f"{_SUPER}\n        self.last = None"),
+            (f"        {_LOG}", f"        if status != self.last:\n            {_LOG}\n"
+                               "        self.last = status")),
+    _wrong("the mean of two readings", "wrong-state",
+           (_SUPER, f"{_SUPER}\n        self.last = 5.0"),
+           ("temp = msg.data", "temp = (self.last + msg.data) / 2\n        self.last = msg.data")),
+)  # fmt: skip

@@ -1,0 +1,29 @@
+"""All answers to the exercises about nodes."""
+
+from bank.answer import Answer
+from bank.nodes import (
+    alarm_right,
+    alarm_wrong,
+    beat_right,
+    beat_wrong,
+    calm_right,
+    calm_wrong,
+    fridge_right,
+    fridge_wrong,
+    greenhouse_right,
+    greenhouse_wrong,
+    reader_right,
+    reader_wrong,
+    reporter_right,
+    reporter_wrong,
+    room_right,
+    room_wrong,
+)
+
+_MODULES = (
+    *(reader_right, reader_wrong, reporter_right, reporter_wrong),
+    *(beat_right, beat_wrong, room_right, room_wrong, greenhouse_right, greenhouse_wrong),
+    *(fridge_right, fridge_wrong, alarm_right, alarm_wrong, calm_right, calm_wrong),
+)
+
+ANSWERS: tuple[Answer, ...] = tuple(one for module in _MODULES for one in module.ANSWERS)

@@ -1,0 +1,32 @@
+"""Running an answer of the bank as a page would."""
+
+import linecache
+import warnings
+from typing import Any
+
+from bank.pages import imports
+from rosbeat.exercises.checking import check
+from rosbeat.records import Outcome
+
+
+def namespace_of(exercise: str, text: str, name: str) -> dict[str, Any]:
+    """Execute a cell after the imports of its page.
+
+    Args:
+        exercise: The exercise's id.
+        text: The cell.
+        name: The name of its file; tracebacks and faults find its lines under it, as in IPython.
+    """
+    space: dict[str, Any] = {"__name__": "__main__"}
+    exec(imports(exercise), space)
+    linecache.cache[name] = (len(text), None, text.splitlines(keepends=True), name)
+    exec(compile(text, name, "exec", dont_inherit=True), space)
+    return space
+
+
+def outcome_of(exercise: str, text: str, subject: str) -> Outcome:
+    """What `check` says of a cell; `subject` is the expression that the check cell hands over."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a warning ends no cell; in a test it would be an error
+        space = namespace_of(exercise, text, f"<cell of {exercise}>")
+        return check(exercise, eval(subject, space)).outcome

@@ -1,0 +1,137 @@
+"""A notebook that is open in a browser, as a person sees it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import nbformat
+
+#: Milliseconds of patience with what a click does, and with a whole page that runs.
+PATIENCE, LONG_PATIENCE = 60_000, 240_000
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+
+
+def browser_path():
+    """The browser to use: `ROSBEAT_BROWSER`, or one that is installed; None if there is none."""
+    named = os.environ.get("ROSBEAT_BROWSER")
+    return named or next(filter(None, map(shutil.which, BROWSERS)), None)
+
+
+def write_notebook(path: Path, *sources: str):
+    """A notebook of code cells, not run yet."""
+    cells = [nbformat.v4.new_code_cell(source) for source in sources]
+    spec = {"name": "python3", "display_name": "Python 3 (ipykernel)", "language": "python"}
+    nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata={"kernelspec": spec}), path)
+
+
+class Notebook:
+    """The notebook in front.
+
+    Args:
+        page: Playwright's page.
+        lab: The server.
+        name: Path of the notebook below the server's folder.
+    """
+
+    def __init__(self, page, lab, name):
+        self.page, self.name = page, name
+        page.goto(f"{lab.url}lab/workspaces/{Path(name).stem}/tree/{name}?reset")
+        page.wait_for_selector(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Cell", timeout=PATIENCE)
+        self._wait_for_idle()
+
+    def run_all(self):
+        """Click Run, Run All Cells, and wait until the last one has run."""
+        self._menu("Run", "Run All Cells")
+        self._wait_for_idle()
+
+    def run(self, cell):
+        """Run one cell, as Shift-Enter does, and wait for it."""
+        self.start(cell)
+        self._wait_for_idle()
+
+    def start(self, cell):
+        """Run one cell and do not wait."""
+        self.cell(cell).locator(".cm-content").click()
+        self.page.keyboard.press("Control+Enter")
+
+    def cell(self, number):
+        """A code cell, counted from 0."""
+        found = self.page.locator(".jp-Notebook .jp-CodeCell").nth(number)
+        found.scroll_into_view_if_needed(timeout=PATIENCE)
+        return found
+
+    def write(self, number, text):
+        """Type over what is in a cell."""
+        self.cell(number).locator(".cm-content").click()
+        self.page.keyboard.press("Control+a")
+        self.page.keyboard.insert_text(text)
+
+    def output(self, number):
+        """The text of a cell's output."""
+        return self.cell(number).locator(".jp-OutputArea-output").first.text_content()
+
+    def says(self, number, text):
+        """Wait until a text is in a cell's output."""
+        output = self.cell(number).locator(".jp-OutputArea", has_text=text)
+        output.wait_for(state="attached", timeout=PATIENCE)
+
+    def _wait_for_idle(self):
+        # The prompt is [*] while a cell waits or runs; the status bar says what the kernel does.
+        self.page.wait_for_function(
+            """() => {
+                const prompts = [...document.querySelectorAll('.jp-InputPrompt')];
+                const status = document.querySelector('#jp-bottom-panel')?.innerText || '';
+                return prompts.length && !prompts.some((one) => one.innerText.includes('[*]'))
+                    && status.includes('| Idle');
+            }""",
+            timeout=LONG_PATIENCE,
+        )
+
+    def errors(self):
+        """What cells have raised."""
+        mark = '.jp-OutputArea-output[data-mime-type="application/vnd.jupyter.error"]'
+        return self.page.locator(mark).all_inner_texts()
+
+    def interrupt(self):
+        """Interrupt the kernel, and wait until it is idle."""
+        self._do("notebook:interrupt-kernel")
+        self._wait_for_idle()
+
+    def save(self):
+        """Save, and wait until it is saved."""
+        self._do("docmanager:save")
+        self.page.wait_for_function("() => !document.querySelector('.jp-mod-dirty')")
+
+    def theme(self, name):
+        """Choose a theme, `light` or `dark`."""
+        self._do("apputils:change-theme", theme=f"JupyterLab {name.title()}")
+        wanted = "true" if name == "light" else "false"
+        self.page.wait_for_selector(f"body[data-jp-theme-light='{wanted}']", state="attached")
+
+    def picture(self, name, element, folder):
+        """Save a picture of an element; return its path."""
+        target = Path(os.environ.get("ROSBEAT_SCREENSHOTS") or folder)
+        target.mkdir(parents=True, exist_ok=True)
+        path = target / f"{name}.png"
+        element.screenshot(path=str(path))
+        return path
+
+    def shut_down(self):
+        """End the kernel, so that the next test has the machine for itself."""
+        request = self.page.request
+        base = self.page.url.split("/lab")[0]
+        for session in request.get(f"{base}/api/sessions").json():
+            request.delete(f"{base}/api/sessions/{session['id']}")
+
+    def _do(self, command, **arguments):
+        """Run one of JupyterLab's commands, as a menu does."""
+        self.page.evaluate(
+            "([command, given]) => window.jupyterapp.commands.execute(command, given)",
+            [command, arguments],
+        )
+
+    def _menu(self, menu, item):
+        self.page.get_by_role("menuitem", name=menu, exact=True).click()
+        self.page.get_by_role("menuitem", name=item, exact=True).click()

@@ -1,0 +1,201 @@
+"""Silence has a reason: which one, from the record of a run alone, and for real."""
+
+from dataclasses import replace
+
+import pytest
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from std_msgs.msg import Float32, Float64
+
+from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.records import (
+    CallbackRecord,
+    Endpoint,
+    Fault,
+    GraphSnapshot,
+    Observation,
+    QoS,
+    Sample,
+    TimerRecord,
+)
+from rosbeat.runtime.scenario import feeder, observe
+
+FLOAT = "std_msgs/msg/Float32"
+WIRE = Wire("/temperature", FLOAT)
+NODE, ROOM = "/answer", "/room"
+
+
+def end(kind, name="/temperature", node=NODE, type_name=FLOAT, qos=None, matched=1):
+    return Endpoint(node, name, type_name, kind, qos or QoS(), matched)
+
+
+def seen(*endpoints, **more):
+    """A run of ten seconds of the node `/answer`."""
+    timers = more.pop("timers", ())
+    graph = GraphSnapshot((ROOM, NODE), endpoints, timers)
+    return Observation(10_000_000_000, 0, graph=graph, subject=NODE, **more)
+
+
+def tick(calls=10, seconds=1.0):
+    return TimerRecord(NODE, "tick", round(seconds * 1e9), calls)
+
+
+RAN = (CallbackRecord(1, NODE, "timer", "tick", "1 s"),)
+PUBLISHED = (Sample(1, "/temperature", FLOAT, NODE, {"data": 1.0}),)
+HEARD = (Sample(1, "/temperature", FLOAT, ROOM, {"data": 1.0}),)
+ROSOUT = end("publisher", "/rosout", type_name="rcl_interfaces/msg/Log")
+RELIABLE, BEST_EFFORT = QoS(), QoS("BEST_EFFORT")
+
+SILENT = [
+    ("no-publisher", seen(ROSOUT), "no publisher at all"),
+    ("no-publisher", seen(end("publisher", node=ROOM)), "no publisher at all"),
+    ("topic-misspelled", seen(end("publisher", "/temprature")), "/temprature"),
+    ("topic-misspelled", seen(end("publisher", "/Temperature")), "capital"),
+    ("topic-misspelled", seen(end("publisher", "/temperatures")), "/temperatures"),
+    ("topic-misspelled", seen(end("publisher", "/answer/temperature")), "before the last slash"),
+    ("wrong-topic", seen(end("publisher", "/humidity")), "/humidity, and not on /temperature"),
+    ("type-mismatch", seen(end("publisher", type_name="std_msgs/msg/String")), "std_msgs/msg/Str"),
+    ("no-timer", seen(end("publisher")), "nothing that ever calls"),
+    ("never-published", seen(end("publisher"), timers=(tick(),), callbacks=RAN), "never used"),
+    ("never-published", seen(end("publisher"), end("subscription", "/a")), "never used"),
+    ("wrong-rate", seen(end("publisher"), timers=(tick(0, 1000.0),)), "1000 s before its first"),
+    ("never-published", seen(end("publisher"), timers=(tick(0),)), "never used"),
+]
+DEAF = [
+    ("no-subscription", seen(ROSOUT, end("publisher", node=ROOM)), "has no subscription"),
+    ("topic-misspelled", seen(end("subscription", "/temprature")), "listens on /temprature"),
+    ("wrong-topic", seen(end("subscription", "/humidity")), "/humidity"),
+    ("type-mismatch", seen(end("subscription", type_name="std_msgs/msg/String")), "String"),
+    (
+        "qos-mismatch",
+        seen(end("publisher", node=ROOM, qos=BEST_EFFORT), end("subscription", matched=0)),
+        "asks for RELIABLE, and /room offers BEST_EFFORT",
+    ),
+    (
+        "qos-mismatch",
+        seen(
+            end("publisher", node=ROOM),
+            end("subscription", qos=QoS(durability="TRANSIENT_LOCAL"), matched=0),
+        ),
+        "asks for TRANSIENT_LOCAL, and /room offers VOLATILE",
+    ),
+    ("not-spun", seen(end("subscription"), samples=HEARD), "ran for none of them"),
+]
+
+
+@pytest.mark.parametrize(("mistake", "observation", "text"), SILENT)
+def test_why_nothing_was_published(mistake, observation, text):
+    found = why_not_published(observation, WIRE)
+    assert (found.mistake, text in found.evidence, bool(found.hint)) == (mistake, True, True), found
+
+
+@pytest.mark.parametrize(("mistake", "observation", "text"), DEAF)
+def test_why_nothing_was_heard(mistake, observation, text):
+    found = why_not_heard(observation, WIRE)
+    assert (found.mistake, text in found.evidence, bool(found.hint)) == (mistake, True, True), found
+
+
+def test_what_was_published_needs_no_reason():
+    assert why_not_published(seen(end("publisher"), samples=PUBLISHED), WIRE) is None
+
+
+def test_what_was_heard_needs_no_reason():
+    call = CallbackRecord(1, NODE, "subscription", "listen", "/temperature")
+    observation = seen(end("subscription"), samples=HEARD, callbacks=(call,))
+    assert why_not_heard(observation, WIRE) is None
+
+
+def test_if_nobody_publishes_the_listener_is_not_to_blame():
+    assert why_not_heard(seen(end("subscription")), WIRE) is None
+
+
+def test_qos_that_fits_is_no_reason():
+    listens = end("subscription", qos=BEST_EFFORT)
+    assert why_not_heard(seen(end("publisher", node=ROOM), listens), WIRE) is None
+
+
+def test_a_second_topic_that_is_wanted_too_is_not_a_wrong_one():
+    observation = seen(end("publisher", "/status"))
+    found = why_not_published(observation, Wire("/mean", FLOAT), ("/mean", "/status"))
+    assert found.mistake == "no-publisher"
+    assert why_not_published(observation, Wire("/mean", FLOAT)).mistake == "wrong-topic"
+
+
+def test_a_second_publisher_that_is_used_in_its_place():
+    sent = Sample(1, "/temperatures", FLOAT, NODE, {"data": 1.0})
+    made = (end("publisher"), end("publisher", "/temperatures"))
+    observation = seen(*made, samples=(sent,), callbacks=RAN)
+    assert why_not_published(observation, WIRE).mistake == "topic-misspelled"
+    found = why_not_published(observation, WIRE, ("/temperatures",))
+    assert found.mistake == "never-published"
+
+
+def test_an_exception_comes_first():
+    fault = Fault(1, NODE, "tick", "SystemExit", "", 3, "sys.exit()")
+    observation = seen(end("publisher"), faults=(fault,))
+    assert why_not_published(observation, WIRE).mistake == "exits"
+    assert why_not_heard(observation, WIRE).mistake == "exits"
+    others = replace(observation, faults=(replace(fault, node=ROOM),))
+    assert why_not_published(others, WIRE).mistake == "no-timer"
+
+
+def test_without_a_subject_it_is_the_node_that_was_made_last():
+    observation = replace(seen(end("publisher", node=ROOM)), subject="")
+    assert why_not_published(observation, WIRE).mistake == "no-publisher"
+    assert why_not_published(Observation(0, 0), WIRE).mistake == "no-publisher"
+    assert why_not_heard(Observation(0, 0), WIRE).mistake == "no-subscription"
+
+
+# For real.
+
+
+def answer(make):
+    class Answer(Node):
+        def __init__(self):
+            super().__init__("answer")
+            make(self)
+
+    return Answer
+
+
+def publishes(topic="temperature", kind=Float32, timer=True):
+    def make(node):
+        made = node.create_publisher(kind, topic, 10)
+        if timer:
+            node.create_timer(1.0, lambda: made.publish(kind(data=1.0)))
+
+    return answer(make)
+
+
+def listens(topic="temperature", qos=10):
+    return answer(lambda node: node.create_subscription(Float32, topic, lambda msg: None, qos))
+
+
+STORED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(
+    ("why", "mistake", "made"),
+    [
+        (why_not_published, None, publishes()),
+        (why_not_published, None, publishes("/temperature")),
+        (why_not_published, "topic-misspelled", publishes("~/temperature")),
+        (why_not_published, "topic-misspelled", publishes("temperatur")),
+        (why_not_published, "type-mismatch", publishes(kind=Float64)),
+        (why_not_published, "no-timer", publishes(timer=False)),
+        (why_not_published, "no-publisher", answer(lambda node: None)),
+        (why_not_heard, None, listens()),
+        (why_not_heard, None, listens("/temperature")),
+        (why_not_heard, "topic-misspelled", listens("Temperature")),
+        (why_not_heard, "wrong-topic", listens("pressure")),
+        (why_not_heard, "qos-mismatch", listens(qos=STORED)),
+        (why_not_heard, None, listens(qos=QoSProfile(
+            depth=1, reliability=ReliabilityPolicy.BEST_EFFORT))),
+        (why_not_heard, "no-subscription", answer(lambda node: None)),
+    ],
+)  # fmt: skip
+def test_for_real(why, mistake, made):
+    others = [feeder("room", "temperature", FLOAT, [22.0])] if why is why_not_heard else []
+    found = why(observe(made, 3.0, others=others), WIRE)
+    assert (found and found.mistake) == mistake

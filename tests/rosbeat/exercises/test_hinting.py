@@ -1,0 +1,107 @@
+from __future__ import annotations
+
+import pytest
+
+from rosbeat import hint
+from rosbeat.errors import ExerciseError
+from rosbeat.exercises import registry
+from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.progress_file import progress_file
+from rosbeat.exercises.solutions import answer_to
+
+HINTS = ("Look at the <timer>.", "Its first argument is a time.")
+ANSWER = answer_to("03a")
+
+
+@pytest.fixture(autouse=True)
+def _home(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
+    exercise = Exercise("03a", None, None, "another sensor", 1, HINTS)
+    monkeypatch.setitem(registry.EXERCISES, "03a", exercise)
+
+
+def test_each_call_gives_one_hint_more_and_the_answer_last():
+    first, second, third, fourth = (hint("03a") for _ in range(4))
+    assert str(first) == (f'• Hint 1 of 2 for exercise 03a: {HINTS[0]}\n  One more: hint("03a")')
+    assert HINTS[1] in str(second)
+    assert HINTS[0] not in str(second)
+    assert str(second).endswith("\n  The next one is the answer.")
+    assert "    class HumiditySensor(Node):\n" in str(third)
+    assert third == fourth
+    assert third.answer == ANSWER
+
+
+def test_the_answer_comes_only_when_its_turn_has_come():
+    for _ in HINTS:
+        assert hint("03a").answer == ""
+        assert hint("03a", again=True).answer == ""
+
+
+def test_those_so_far_are_shown_again_and_not_counted():
+    assert "There was no hint yet" in str(hint("03a", again=True))
+    hint("03a")
+    hint("03a")
+    for _ in range(2):
+        again = str(hint("03a", again=True))
+        assert all(text in again for text in HINTS)
+        assert again.endswith("The next one is the answer.")
+    hint("03a")
+    assert hint("03a", again=True).hints == hint("03a", again=True).hints != ()
+    assert hint("03a", again=True).answer == ANSWER
+
+
+def test_they_are_counted_for_each_exercise_and_kept_in_the_file():
+    hint("03a")
+    hint("03a")
+    hint("00a")
+    for _ in range(5):
+        hint("03a")
+    found = progress_file().standings()
+    assert (found["03a"].hints, found["03a"].answer) == (2, True)
+    assert (found["00a"].hints, found["00a"].answer) == (1, False)
+    assert found["03a"].attempts == 0
+
+
+def test_a_course_with_fewer_hints_than_before_still_answers(monkeypatch):
+    hint("03a")
+    hint("03a")
+    fewer = Exercise("03a", None, None, "another sensor", 1, HINTS[:1])
+    monkeypatch.setitem(registry.EXERCISES, "03a", fewer)
+    assert HINTS[0] in str(hint("03a", again=True))
+    assert hint("03a").answer == ANSWER
+
+
+def test_an_exercise_without_hints_still_says_before_it_answers(monkeypatch):
+    bare = Exercise("03a", None, None)
+    monkeypatch.setitem(registry.EXERCISES, "03a", bare)
+    assert str(hint("03a")).endswith("The next one is the answer.")
+    assert hint("03a").answer == ANSWER
+
+
+def test_an_exercise_without_a_cell_says_where_the_answer_is(monkeypatch):
+    bare = Exercise("system", None, None, "", 1, HINTS)
+    monkeypatch.setitem(registry.EXERCISES, "system", bare)
+    assert "solution page" in [str(hint("system")) for _ in range(3)][-1]
+
+
+def test_an_unknown_exercise_is_refused_with_the_nearest_one(says):
+    with pytest.raises(ExerciseError) as caught:
+        hint("3a")
+    says(caught.value, 'hint("03a")')
+    assert dict(progress_file().standings()) == {}
+
+
+def test_html_says_the_same_escaped():
+    bundles = [hint("03a")._repr_mimebundle_() for _ in range(3)]
+    assert "Look at the &lt;timer&gt;." in bundles[0]["text/html"]
+    assert "The next one is the answer." in bundles[1]["text/html"]
+    assert "<pre>class HumiditySensor(Node):\n" in bundles[2]["text/html"]
+    assert all(set(bundle) == {"text/plain", "text/html"} for bundle in bundles)
+
+
+def test_where_nothing_can_be_written_the_hints_go_on_all_the_same(tmp_path, capsys):
+    (tmp_path / ".rosbeat").write_text("mine")
+    shown = [str(hint("03a")) for _ in range(3)]
+    assert HINTS[1] in shown[1]
+    assert "The answer" in shown[2]
+    assert capsys.readouterr().out.count("cannot be saved") == 1

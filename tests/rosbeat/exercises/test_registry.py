@@ -1,0 +1,76 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from rosbeat.authoring.layout import Course
+from rosbeat.authoring.markers import find_blocks
+from rosbeat.authoring.solved import answer_files
+from rosbeat.errors import ExerciseError
+from rosbeat.exercises.registry import EXERCISES, PAGES, find
+
+COURSE = Course(Path(__file__).parents[3])
+LESSONS = {lesson.number: lesson for lesson in COURSE.lessons()}
+CELLS = {
+    cell.exercise: cell for lesson in LESSONS.values() for cell in lesson.cells if cell.exercise
+}
+each_exercise = pytest.mark.parametrize("exercise", EXERCISES.values(), ids=lambda one: one.id)
+
+
+def squeezed(text):
+    return "".join(text.split()).replace("'", '"')
+
+
+def test_the_pages_are_those_of_the_course_with_their_titles():
+    pages = {page.number: page.title for page in PAGES if page.number}
+    assert pages == {number: lesson.header.title for number, lesson in LESSONS.items()}
+
+
+def test_every_exercise_on_a_page_can_be_checked():
+    on_pages = {one.id: page.number for page in PAGES if page.number for one in page.exercises}
+    assert on_pages == {name: name[:2] for name in CELLS}
+
+
+def test_exercises_of_no_page_come_last():
+    numbered = [bool(page.number) for page in PAGES]
+    assert numbered == sorted(numbered, reverse=True)
+    assert len(EXERCISES) == sum(len(page.exercises) for page in PAGES)
+
+
+@each_exercise
+def test_an_exercise_has_a_title_points_and_two_hints(exercise):
+    assert exercise.title
+    assert exercise.title[0] == exercise.title[0].lower()
+    assert exercise.points >= 1
+    assert len(exercise.hints) >= 2
+    assert len(set(exercise.hints)) == len(exercise.hints)
+
+
+@each_exercise
+def test_no_hint_gives_the_answer_away(exercise):
+    if exercise.id not in CELLS:
+        return
+    lines = [line for block in find_blocks(CELLS[exercise.id].source) for line in block.answer]
+    answers = [squeezed(line) for line in lines if len(squeezed(line)) >= 12]
+    for hint in exercise.hints:
+        assert not [answer for answer in answers if answer in squeezed(hint)]
+
+
+def test_the_answers_are_made_from_the_lessons():
+    wanted = {path.name: text for path, text in answer_files(COURSE, LESSONS.values()).items()}
+    folder = COURSE.root / "src/rosbeat/exercises/solved"
+    found = {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert found == wanted, "an answer is not what its lesson says: run `rosbeat build`"
+
+
+@pytest.mark.parametrize("name", ["03a", " 03A ", "03a\n"])
+def test_an_exercise_is_found_by_its_id(name):
+    assert find(name, "check({})").id == "03a"
+
+
+@pytest.mark.parametrize(("name", "near"), [("3a", "03a"), ("03_a", "03a"), (3, "0"), (None, "0")])
+def test_an_unknown_one_is_refused_with_the_nearest(name, near, says):
+    with pytest.raises(ExerciseError, match="There is no exercise") as caught:
+        find(name, "hint({})")
+    says(caught.value, f'hint("{near}', ", ".join(sorted(EXERCISES)))

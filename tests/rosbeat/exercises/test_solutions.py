@@ -1,0 +1,18 @@
+from rosbeat.exercises.registry import EXERCISES
+from rosbeat.exercises.solutions import answer_to
+
+
+def test_every_exercise_of_a_page_has_an_answer_without_a_blank():
+    for name in EXERCISES:
+        if name[:2].isdigit():
+            assert answer_to(name), name
+            assert "____" not in answer_to(name)
+            assert "# ---" not in answer_to(name)
+
+
+def test_commands_come_with_the_terminal_that_they_are_for():
+    assert answer_to("01b").startswith("%%terminal two\ncd ")
+
+
+def test_what_is_no_exercise_has_none():
+    assert answer_to("99z") == ""

@@ -1,0 +1,198 @@
+"""The whole system: the tutorial's own listings for real, then what may be wrong, as plain data."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import listings  # the folder is put on the path by conftest.py
+import pytest
+
+from rosbeat.diagnosis.mistakes import MISTAKES, Diagnosis
+from rosbeat.exercises.checking import EXERCISES
+from rosbeat.exercises.evidence import from_json, to_json
+from rosbeat.exercises.system_run import MONITOR, SENSOR, run_system
+
+pytestmark = pytest.mark.ros
+
+FINISHED = Path(__file__).parents[3] / "solutions" / "sensor_simulator"
+SYSTEM = EXERCISES["system"]
+CODE = f"src/sensor_simulator/sensor_simulator/{SENSOR}.py"
+
+
+def workspace(place):
+    shutil.copytree(FINISHED, place / "src" / "sensor_simulator")
+    return place
+
+
+@pytest.fixture(scope="module")
+def seen(tmp_path_factory):
+    """What becomes of the tutorial's package."""
+    root = workspace(tmp_path_factory.mktemp("workspace"))
+    package = root / "src" / "sensor_simulator"
+    (package / "sensor_simulator" / f"{SENSOR}.py").write_text(listings.PUBLISHER)
+    (package / "sensor_simulator" / f"{MONITOR}.py").write_text(listings.SUBSCRIBER)
+    (package / "setup.py").write_text(listings.SETUP)
+    before = sorted(root.rglob("*"))
+    made = run_system(root)
+    assert sorted(root.rglob("*")) == before
+    return made
+
+
+def test_the_listings_of_the_tutorial_pass_with_a_remark_on_each_slip(seen):
+    outcome = SYSTEM.judged(seen)
+    assert outcome.status == "passed", (outcome, seen)
+    remarks = " ".join(outcome.remarks)
+    for slip in ("TemperaturSensor", "10.2", "try_shutdown", "leaves its node"):
+        assert slip in remarks
+
+
+def test_the_finished_package_has_fewer_slips(seen):
+    # The same run, with what differs: its sources, and clean ends.
+    clean = {
+        name: replace(getattr(seen, name), output="", exit_code=0) for name in ("sensor", "monitor")
+    }
+    ends = ("init", "spin", "destroy_node", "try_shutdown")
+    sources = tuple(replace(one, classes=(), numbers=(), ends=ends) for one in seen.sources)
+    outcome = SYSTEM.judged(replace(seen, **clean, sources=sources))
+    assert (outcome.status, outcome.remarks) == ("passed", ())
+
+
+def test_the_evidence_survives_as_text(seen):
+    again = from_json(to_json(seen))
+    assert again == seen
+    assert SYSTEM.judged(again) == SYSTEM.judged(seen)
+
+
+def told(seen, value, text):
+    return tuple((one, text if one == value else said) for one, said in seen.answers)
+
+
+def beats(seen, seconds):
+    return tuple((n * seconds, value) for n, (_, value) in enumerate(seen.heard))
+
+
+def numbers(*values):
+    return tuple((float(n), value) for n, value in enumerate(values))
+
+
+def on(seen, **changes):
+    return tuple(replace(one, **changes) for one in seen.publishers)
+
+
+def ended(run, **changes):
+    return replace(run, ended_early=True, exit_code=1, **changes)
+
+
+LINE = "[INFO] [monitor]: Temperature: {} - Status:{}\n"
+WRONG = {
+    "a limit above": (
+        "boundary",
+        lambda s: {"answers": told(s, 26.0, LINE.format("26.00C", "High"))},
+    ),
+    "a limit below": ("boundary", lambda s: {"answers": told(s, 20.0, LINE.format("20.0", "Low"))}),
+    "upside down": ("wrong-state", lambda s: {"answers": told(s, 35.25, LINE.format(1, "Low"))}),
+    "two states": ("wrong-state", lambda s: {"answers": told(s, 22.75, "High, low or Normal\n")}),
+    "mute": ("nothing-logged", lambda s: {"answers": told(s, 26.0, "")}),
+    "deaf": ("no-subscription", lambda s: {"met": False, "answers": ()}),
+    "hasty": ("wrong-rate", lambda s: {"heard": beats(s, 0.5)}),
+    "slow": ("wrong-rate", lambda s: {"heard": beats(s, 2.0)}),
+    "jumping": ("step-too-wide", lambda _: {"heard": numbers(22.0, 24.0, 22.0)}),
+    "starting elsewhere": ("step-too-wide", lambda _: {"heard": numbers(25.0, 25.1, 25.2)}),
+    "hot": ("no-clamp", lambda _: {"heard": numbers(28.0, 28.3, 28.4)}),
+    "constant": ("never-changes", lambda _: {"heard": numbers(22.0, 22.0, 22.0)}),
+    "another topic": (
+        "topic-misspelled",
+        lambda s: {"heard": (), "publishers": on(s, name="/temprature")},
+    ),
+    "another type": (
+        "type-mismatch",
+        lambda s: {"heard": (), "publishers": on(s, type_name="std_msgs/msg/Float64")},
+    ),
+    "silent": ("never-published", lambda _: {"heard": ()}),
+    "no publisher": ("no-publisher", lambda _: {"heard": (), "publishers": ()}),
+    "another number": (
+        "wrong-values",
+        lambda s: {"repeated": s.repeated + LINE.format("3.14C", "Low")},
+    ),
+    "killed": ("ctrl-c-traceback", lambda s: {"monitor": replace(s.monitor, exit_code=None)}),
+    "another traceback": (
+        "ctrl-c-traceback",
+        lambda s: {"sensor": replace(s.sensor, exit_code=1, output="KeyboardInterrupt")},
+    ),
+    "ended at once": ("new-to-me", lambda s: {"sensor": ended(s.sensor, output="bye")}),
+    "ended at once, known": (
+        "name-error",
+        lambda s: {
+            "sensor": ended(s.sensor),
+            "meaning": Diagnosis("name-error", "evidence", "hint"),
+        },
+    ),
+    "not built": ("new-to-me", lambda _: {"build_code": 1, "build_output": "one\n\ntwo\n"}),
+    "never built to the end": ("new-to-me", lambda _: {"build_code": None}),
+    "in another folder": ("wrong-folder", lambda _: {"place": "the workspace itself"}),
+    "for C++": (
+        "build-type",
+        lambda s: {
+            "package": replace(
+                s.package, manifest=replace(s.package.manifest, build_type="ament_cmake")
+            )
+        },
+    ),
+    "without __init__": (
+        "marker-missing",
+        lambda s: {"package": replace(s.package, has_init=False)},
+    ),
+    "without marker": (
+        "marker-missing",
+        lambda s: {"package": replace(s.package, has_marker=False)},
+    ),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_what_is_wrong_is_named(seen, case):
+    mistake, changes = WRONG[case]
+    outcome = SYSTEM.judged(replace(seen, **changes(seen)))
+    assert (outcome.status, outcome.mistake) == ("failed", mistake), outcome
+    assert mistake in MISTAKES or mistake == "new-to-me"
+    assert outcome.evidence
+    assert outcome.hint
+
+
+@pytest.mark.parametrize("text", ["{} is {}", "Reading {:.1f} degrees ({})", "{1}: {0:.3f}"])
+def test_other_words_for_the_same_are_fine(seen, text):
+    answers = tuple((value, text.format(value, state(value))) for value, _ in seen.answers)
+    repeated = "\n".join(text.format(value, state(value)) for _, value in seen.heard)
+    assert SYSTEM.judged(replace(seen, answers=answers, repeated=repeated)).status == "passed"
+
+
+def state(value):
+    return "HIGH" if value > 26 else "low" if value < 20 else "Normal"
+
+
+def test_nothing_is_there(tmp_path):
+    assert SYSTEM.judged(run_system(tmp_path)).status == "not attempted"
+
+
+BROKEN = {
+    "a comma is missing": ("setup.py", ":main',", ":main'", "comma-missing"),
+    "a slash": ("setup.py", f"sensor_simulator.{SENSOR}:", f"sensor_simulator/{SENSOR}:",
+                "slash-in-module"),
+    "no such function": ("setup.py", f"{SENSOR}:main", f"{SENSOR}:mian", "entry-point-target"),
+    "a syntax error": (f"sensor_simulator/{SENSOR}.py", "def main", "fed main", "syntax-error"),
+    "one program": ("setup.py", f"'{SENSOR} =", "'sensor =", None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_what_cannot_be_built_is_not_built(case, tmp_path):
+    file, old, new, mistake = BROKEN[case]
+    path = workspace(tmp_path) / "src" / "sensor_simulator" / file
+    text = path.read_text().replace('"', "'") if file == "setup.py" else path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+    found = run_system(tmp_path)
+    outcome = SYSTEM.judged(found)
+    assert found.build_code is None
+    assert outcome.status == "failed"
+    assert outcome.mistake == (mistake or outcome.mistake) != "new-to-me", outcome

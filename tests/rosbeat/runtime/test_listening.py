@@ -1,0 +1,93 @@
+"""Nodes of other processes: what arrives from them, and whether they answer."""
+
+from functools import partial
+
+import pytest
+
+from nodes import Listener, Talker, Words
+from other_process import other_process
+from rosbeat import Session
+from rosbeat.domains import lease_domain
+
+pytestmark = pytest.mark.ros
+#: The second one is in the graph and nobody spins it.
+NODES = (
+    "Talker(period=0.1), *(kept := [Listener('deaf', 'count'), Talker('quiet', 'hush')])[2:], "
+    "Listener(topic='cuont'), Listener(topic='hush'), Words(topic='words'),"
+)
+
+
+@pytest.fixture(scope="module")
+def domain():
+    lease = lease_domain()
+    with other_process(lease.domain_id, NODES):
+        yield lease.domain_id
+    lease.release()
+
+
+@pytest.fixture
+def joined(domain):
+    with Session(domain_id=domain) as session:
+        yield session
+
+
+def verdicts(found):
+    return [one.mistake for one in found.diagnoses] or [found.verdict]
+
+
+def test_a_node_that_is_not_spun_hears_nothing(joined):
+    found = joined.explain("count", seconds=20)
+    assert verdicts(found) == ["not-spun"]
+    assert found.headlines == ("/deaf does not answer",)
+    assert found.rate_hz > 0
+
+
+def test_a_node_that_is_not_spun_says_nothing(joined):
+    found = joined.explain("hush", seconds=0.5)
+    assert verdicts(found) == ["not-spun"]
+    assert found.headlines == ("/quiet does not answer",)
+
+
+def test_an_own_node_hears_them(joined):
+    listener = joined.add(partial(Listener, "own", "words"))
+    assert listener.heard == []
+    found = joined.explain("words", seconds=20)
+    assert verdicts(found) == ["type-mismatch"]
+    assert "/words publishes String, and /own subscribes to Int32" in found.diagnoses[0].evidence
+
+
+def test_an_own_node_that_nobody_hears(joined):
+    joined.add(partial(Words, name="own", topic="alone"))
+    joined.run(3)
+    assert verdicts(joined.explain("alone")) == ["no-subscription"]
+
+
+def test_two_nodes_of_one_name(joined, eventually):
+    joined.add(Talker)
+    joined.run(1)
+    eventually(lambda: joined.graph().nodes.count("/talker") == 2, 30)
+    found = joined.explain("count", seconds=20)
+    assert "run-twice" in verdicts(found)
+    assert found.headlines[-1] == "2 nodes are called /talker"
+
+
+def test_own_messages_are_not_taken_for_theirs(joined, eventually):
+    joined.add(partial(Talker, "own", "hush", period=0.01))
+    joined.start()
+    found = joined.explain("hush", seconds=1)
+    assert verdicts(found) == ["not-spun"]
+    assert "/quiet publishes Int32 (RELIABLE, VOLATILE): nothing" in " ".join(found.sentences)
+
+
+def test_nothing_is_left_behind(joined, eventually):
+    joined.explain("cuont", seconds=0)
+    known = joined._world.lookout.nodes
+    eventually(lambda: [name for name in known() if name.endswith("_ear")] == [], 30)
+    assert joined.nodes == ()
+
+
+def test_a_private_session_has_nobody_to_listen_to(ros):
+    ros.add(Talker)
+    ros.add(Listener)
+    ros.run(2)
+    assert ros.explain("count").is_well

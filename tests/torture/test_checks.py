@@ -1,0 +1,147 @@
+"""Checks in real kernels, of answers that go wrong in every way: the kernel lives.
+
+`ROSBEAT_TORTURE=full` tries all of them, and 20 interrupts of each kind.
+"""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+import nasty
+from torture.kernel import Kernel
+
+FULL = os.environ.get("ROSBEAT_TORTURE") == "full"
+INTERRUPTS = 20 if FULL else 2
+#: What is promised for one check, where the machine is not busy; else it has to answer at all.
+WITHIN = 6.0 if FULL else 30.0
+AT_ONCE = 0.8 if FULL else 5.0
+
+PRELUDE = """
+import builtins, os, signal, sys, threading, time
+from IPython.core.getipython import get_ipython
+import nasty
+from rosbeat import check
+from rosbeat.runtime import scene, scenario
+
+class Right(nasty.Base):
+    pass
+
+def told(answer):
+    outcome = check("03a", answer).outcome
+    print(outcome.status, outcome.mistake, outcome.evidence)
+"""
+PROBE = """
+told(Right)
+assert print is builtins.print and len("abc") == 3
+"""
+#: Cells, and how each ends.
+CELLS = {
+    "a blank": ("class A(nasty.Base):\n    ____\n", "NameError"),
+    "quit": ("told(nasty.doing(lambda _: quit()))", ""),
+    "exit": ("told(nasty.born(lambda _: exit()))", ""),
+    "a builtin replaced in the cell": ("input = sum = 3\ntold(Right)", ""),
+    "stdout taken away": ("told(nasty.doing(lambda _: setattr(sys, 'stdout', None)))", ""),
+    "a thread in the cell": (
+        "def go():\n    while True:\n        time.sleep(0.01); print(end='')\n"
+        "threading.Thread(target=go, daemon=True).start()\ntold(Right)",
+        "",
+    ),
+    "a busy thread in the cell": (
+        "def go():\n    while True: pass\n"
+        "threading.Thread(target=go, daemon=True).start()\ntold(Right)",
+        "",
+    ),
+    "an interrupt of its own": ("told(nasty.doing(nasty.raising(KeyboardInterrupt())))", ""),
+    "a folder that is gone": (
+        "import tempfile\nplace = tempfile.mkdtemp(); os.chdir(place); os.rmdir(place)\n"
+        "told(Right)\nos.chdir('/')",
+        "",
+    ),
+}
+SOME = ("loop in a callback", "loop that catches everything", "prints",
+        "replaced handlers, then loop")  # fmt: skip
+
+
+def groups():
+    """Some endless ones for each kernel, so that no test takes long."""
+    names = list(nasty.ENDLESS) if FULL else list(SOME)
+    return [names[at : at + 4] for at in range(0, len(names), 4)]
+
+
+@pytest.mark.parametrize("names", groups(), ids=lambda names: names[0])
+def test_a_check_of_what_never_ends_answers_and_the_kernel_lives(names):
+    with Kernel() as kernel:
+        assert kernel.run(PRELUDE).error == ""
+        right = kernel.run(PROBE).text
+        for name in names:
+            reply = kernel.run(f"told(nasty.ENDLESS[{name!r}])")
+            assert reply.error == "", (name, reply)
+            assert reply.text.startswith("failed"), (name, reply)
+            assert reply.seconds < WITHIN, (name, reply)
+            probe = kernel.run(PROBE)
+            assert (probe.error, probe.text) == ("", right), (name, probe)
+        assert kernel.exit() == 0, kernel.log()
+
+
+def test_a_check_of_what_raises_or_does_no_harm_answers_and_the_kernel_lives():
+    with Kernel() as kernel:
+        assert kernel.run(PRELUDE).error == ""
+        right = kernel.run(PROBE).text
+        for group in ("RAISING", "HARMLESS"):
+            for name in getattr(nasty, group):
+                answer = f"nasty.{group}[{name!r}]" + ("[0]" if group == "RAISING" else "")
+                reply = kernel.run(f"told({answer})")
+                assert reply.error == "", (name, reply)
+                verdicts = ("failed",) if group == "RAISING" else ("passed", "from a thread")
+                assert reply.text.startswith(verdicts), (name, reply)
+                probe = kernel.run(PROBE)
+                assert (probe.error, probe.text.replace("from a thread\n", "")) == ("", right), name
+        assert kernel.exit() == 0, kernel.log()
+
+
+def test_cells_that_spoil_the_kernel_do_not_spoil_the_check():
+    with Kernel() as kernel:
+        assert kernel.run(PRELUDE).error == ""
+        right = kernel.run(PROBE).text
+        for name, (cell, error) in CELLS.items():
+            reply = kernel.run(cell)
+            assert reply.error == error, (name, reply)
+            probe = kernel.run(PROBE)
+            assert (probe.error, probe.text) == ("", right), (name, probe)
+        assert kernel.exit() == 0, kernel.log()
+
+
+INTERRUPTED = {
+    "loop": "nasty.loop",
+    "catches everything": "nasty.swallow",
+    "suppresses": "nasty.suppress",
+    "executor of its own": "nasty.spins_alone",
+}
+
+
+@pytest.mark.parametrize("name", INTERRUPTED)
+def test_interrupt_ends_a_check(name):
+    cell = f"""
+def act(node):
+    os.write(ready, b"x")
+    {INTERRUPTED[name]}(node)
+told_ready, ready = os.pipe()
+def tell():
+    os.read(told_ready, 1); out.write("go"); out.flush()
+out = sys.stdout
+threading.Thread(target=tell, daemon=True).start()
+scenario.observe(nasty.doing(act), 5, deadline=60)
+"""
+    with Kernel() as kernel:
+        assert kernel.run(PRELUDE).error == ""
+        right = kernel.run(PROBE).text
+        kernel.run("1 / 0")  # IPython's first traceback takes 0.3 s, whatever it is about
+        for number in range(INTERRUPTS):
+            reply = kernel.interrupt(cell, 0.02 + 0.031 * (number % 7))
+            assert reply.error == "KeyboardInterrupt", (number, reply)
+            assert reply.seconds < AT_ONCE, (number, reply)
+            probe = kernel.run(PROBE)
+            assert (probe.error, probe.text) == ("", right), (number, probe)
+        assert kernel.exit() == 0, kernel.log()
