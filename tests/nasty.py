@@ -193,11 +193,15 @@ def stubborn_publishes(node):
             time.sleep(0.001)
 
 
-def changes_everything(node):
-    sys.stdout = sys.stderr = None
-    sys.excepthook = threading.excepthook = None
+def ignores_signals(node):
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGALRM, signal.SIG_IGN)
+
+
+def changes_everything(node):
+    ignores_signals(node)
+    sys.stdout = sys.stderr = None
+    sys.excepthook = threading.excepthook = None
     os.chdir("/")
     os.environ["ROS_DOMAIN_ID"] = "3"
     builtins.len = builtins.print = 3
@@ -221,7 +225,7 @@ ENDLESS = {
     "logs": doing(logs),
     "publishes": doing(publishes),
     "spins an executor of its own": born(spins_alone),
-    "replaced handlers, then loop": doing(lambda node: (changes_everything(node), loop())),
+    "replaced handlers, then loop": doing(lambda node: (ignores_signals(node), loop())),
 }
 
 #: Those of them that do it in their constructor.

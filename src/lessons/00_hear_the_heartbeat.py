@@ -53,22 +53,26 @@ ros.run(seconds=3)
 # jumps from one event to the next. So a minute takes almost no time, and you get the same result as
 # everybody else.
 #
-# **Predict:** how many messages are there after one more minute? Write a number in place of the blank,
-# then run the cell. Nobody counts how often you are right; what surprises you is what you remember.
+# **Predict:** a second session runs the same thermometer for a whole minute. How many messages does it
+# send? Write a number in place of the blank, then run the cell. To be wrong costs nothing.
 
 # %% predict=true
-ros.run(seconds=60, quiet=True)
+with Session() as minute:
+    minute.add(Thermometer)
+    minute.run(seconds=60, quiet=True)
+    sent = len(minute.messages("temperature"))
+
 # --- answer
-predict("63", len(ros.messages("temperature")))
+predict("60", sent)
 # --- blank
-# predict("____", len(ros.messages("temperature")))
+# predict("____", sent)
 # --- end
 
 # %% [markdown]
-# Three before and sixty now. `quiet=True` only keeps the log lines off the page; the messages were
-# sent, and the session has recorded each of them. `ros.messages` gives them all. Here is the first:
-# when it was sent (in nanoseconds, so a billion is one second), where, what type, from whom, and the
-# data.
+# One each second. `with` closes the session at the end of the block, and `quiet=True` only keeps the log lines
+# off the page; the messages were sent, and a session records each of them. `ros.messages` gives them all. Here is
+# the first one of the first session: when it was sent (in nanoseconds, so a billion is one second), where, what
+# type, from whom, and the data.
 
 # %%
 ros.messages("temperature")[0]
@@ -264,8 +268,9 @@ print(why)
 viz.graph(why)
 
 # %% [markdown]
-# Dashed lines touch a topic that has only one side. Dan listens to `/sport`, and no one is there: the
-# topic is called `/sports`. The cure is one letter.
+# Dan listens to `/sport`, and no one is there: the topic is called `/sports`. Dashed arrows touch a topic that has
+# only one side, and the dashed line between the two boxes says that their names are almost the same. (What stands
+# in brackets behind the type comes on later pages.) The cure is one letter.
 
 # %%
 newsroom.add(Reader("dan", "sports"))
@@ -273,20 +278,20 @@ newsroom.run(seconds=1)
 newsroom.close()
 
 # %% [markdown]
-# In a session, a node of the same name replaces the old one. On a robot both would run, so give each
-# node a name of its own.
+# In a session, a node replaces an older one of its name. On a robot both would run.
 #
 # ## Remember
 #
 # - A **node** is a small part of a robot's software, with one job.
 # - A **publisher** sends messages to a **topic**; a **subscriber** gets them in its **callback**.
 # - They agree on the topic's name and the message type, and need not know each other.
-# - When nothing arrives, look at the graph first.
+# - When nothing arrives, ask `explain`, and look at the graph.
 #
 # Only clock and data are made up. These classes are ordinary ROS 2 code, and the messages
 # went through the **middleware** that robots use: the software that carries them.
 #
-# **Next:** [create a workspace](01_create_a_workspace.ipynb).
+# **Next:** [create a workspace](01_create_a_workspace.ipynb). The last cell draws how far you are; its last row
+# is for the end.
 
 # %%
 progress()

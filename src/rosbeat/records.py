@@ -122,7 +122,8 @@ class Fault(Timed):
         code: That line's text, stripped, or an empty string.
         asked: The call of rclpy that failed, with the types of what it was given, such as
             `create_publisher(message_type[Float32], str)`; empty if it was none. If a callback was
-            called while a call was being prepared, `create(called[...])` with its name.
+            called while a call was being prepared, `create(called[...])` with its name. If a field
+            of a message refused a value, `field(int)` with the value's type.
     """
 
     time_ns: int

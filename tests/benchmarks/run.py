@@ -11,6 +11,7 @@ import os
 import platform
 import time
 
+import checks
 import commands
 import endings
 import live_mode
@@ -30,6 +31,7 @@ BENCHMARKS = {
     "scaling": scaling.measure,
     "commands": commands.measure,
     "endings": endings.measure,
+    "checks": checks.measure,
 }
 
 

@@ -8,7 +8,8 @@ from contextlib import suppress
 from math import isclose, isnan
 from numbers import Real
 
-_TRUTH = {"yes": True, "true": True, "y": True, "no": False, "false": False, "n": False}
+from rosbeat.checks.guesses import range_in, truth_in
+
 _LONGEST = 200
 #: A Float32 carries seven digits: 22.3 comes back as 22.299999237.
 _FLOAT32 = 1e-6
@@ -33,15 +34,26 @@ def agree(guess: object, happened: object, tolerance: object = 0.0) -> bool:
         happened: What happened.
         tolerance: How far apart two numbers may be.
     """
+    return compared(guess, happened, tolerance) is True
+
+
+def compared(guess: object, happened: object, tolerance: object = 0.0) -> bool | None:
+    """Whether a guess says what happened, as `agree`; None if the two cannot be compared.
+
+    A text may say a number or a yes or no in other words: `63 messages`, `about 26`, `No, it does
+    not`; and a range, `20-30`, says every number in it.
+    """
     with suppress(Exception):  # what a learner hands over may do anything when it is compared
-        return _agree(_plain(guess), _plain(happened), _size(tolerance))
+        return _compared(_plain(guess), _plain(happened), _size(tolerance))
     return False
 
 
-def same_number(guess: object, happened: object) -> bool | None:
-    """Whether both are numbers of the same value; None if they are not both numbers."""
-    one, other = _number(_plain(guess)), _number(_plain(happened))
-    return None if one is None or other is None else _near(one, other, 0.0)
+def form_of(happened: object) -> str:
+    """How a guess has to be written that can be compared with what happened."""
+    happened = _plain(happened)
+    if isinstance(happened, bool):
+        return "yes or no"
+    return "a number" if isinstance(happened, Real) else "a list, such as 1, 2, 3"
 
 
 def told(value: object, exact: bool = False) -> str:
@@ -58,24 +70,49 @@ def told(value: object, exact: bool = False) -> str:
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 4]} ..."
 
 
-def _agree(guess: object, happened: object, tolerance: float) -> bool:
+def _compared(guess: object, happened: object, tolerance: float) -> bool | None:
     one, other = _number(guess), _number(happened)
     if one is not None and other is not None:
         return _near(one, other, tolerance)
-    if isinstance(guess, bool) or isinstance(happened, bool):
-        return _truth(guess) is not None and _truth(guess) == _truth(happened)
+    if isinstance(happened, bool):
+        said = _truth(guess)
+        return None if said is None else said == happened
+    if isinstance(happened, Real):
+        return _says_number(guess, happened, tolerance)
+    if isinstance(guess, bool):
+        return _truth(happened) == guess
     if isinstance(guess, str) and isinstance(happened, str):
         return _squeezed(guess) == _squeezed(happened)
     if isinstance(happened, (list, tuple)):
-        return _agree_all(_parts(guess), list(happened), tolerance)
+        return _compared_all(_parts(guess), list(happened), tolerance)
     return bool(guess == happened)
 
 
-def _agree_all(guesses: list[object], happened: list[object], tolerance: float) -> bool:
+def _says_number(guess: object, happened: Real, tolerance: float) -> bool | None:
+    """Whether something that is no plain number says the one that happened."""
+    if isinstance(guess, (list, tuple)) and len(guess) == 1:
+        return _compared(_plain(guess[0]), happened, tolerance)
+    if isinstance(guess, Real) and not isinstance(guess, bool):
+        return guess == happened  # one of them is too large for a float
+    ends, number = range_in(guess) if isinstance(guess, str) else None, _number(happened)
+    if ends is None or number is None:
+        return None
+    inside = ends[0] <= number <= ends[1]
+    return inside or any(_near(end, number, tolerance) for end in ends)
+
+
+def _compared_all(guesses: list[object], happened: list[object], tolerance: float) -> bool | None:
+    if happened and guesses and not any(_is_like(one, happened[0]) for one in guesses):
+        return None
     return len(guesses) == len(happened) and all(
-        _agree(_plain(one), _plain(other), tolerance)
+        _compared(_plain(one), _plain(other), tolerance) is True
         for one, other in zip(guesses, happened, strict=True)
     )
+
+
+def _is_like(guess: object, happened: object) -> bool:
+    """Whether two elements can be compared at all."""
+    return _compared(_plain(guess), _plain(happened), 0.0) is not None
 
 
 def _parts(guess: object) -> list[object]:
@@ -110,11 +147,11 @@ def _size(tolerance: object) -> float:
 def _truth(value: object) -> bool | None:
     if isinstance(value, bool):
         return value
-    return _TRUTH.get(_squeezed(value)) if isinstance(value, str) else None
+    return truth_in(value) if isinstance(value, str) else None
 
 
 def _squeezed(text: str) -> str:
-    return " ".join(text.split()).strip(" .\"'").casefold()
+    return " ".join(text.split()).strip(" .!\"'").casefold()
 
 
 def _plain(value: object) -> object:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rosbeat.checks.frames import OPEN, RIGHT, WRONG, framed, words
-from rosbeat.checks.likeness import agree, is_blank, same_number, told
+from rosbeat.checks.likeness import agree, compared, form_of, is_blank, told
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,8 @@ class Prediction:
     """A prediction beside what happened, as Jupyter and a terminal show it.
 
     Attributes:
-        sign: Whether they agree: a check mark, a cross, or a circle if nothing was predicted.
+        sign: Whether they agree: a check mark, a cross, or a circle if nothing was predicted that
+            can be compared.
         sentence: What was predicted, and what happened.
         because: Why it happened; may be empty.
     """
@@ -52,8 +53,8 @@ def predict(
     """Compare what you expect with what happens.
 
     Args:
-        guess: What you expect, written before the cell runs: a number, a text, `"yes"` or `"no"`,
-            or a list of these. `"____"` is no prediction yet.
+        guess: What you expect, written before the cell runs: a number, a range such as `"20-30"`, a
+            text, `"yes"` or `"no"`, or a list of these. `"____"` is no prediction yet.
         happened: What happened.
         tolerance: How far a number may be away, in the unit of the number.
         because: Why it happens; shown once there is a prediction.
@@ -63,12 +64,16 @@ def predict(
     """
     if is_blank(guess):
         return Prediction(OPEN, f"No prediction yet. It was {told(happened)}.")
-    if not agree(guess, happened, tolerance):
+    agrees = compared(guess, happened, tolerance)
+    if agrees is None:
+        asked = f"write {form_of(happened)}"
+        return Prediction(OPEN, f"That cannot be compared with {told(happened)}: {asked}.")
+    if not agrees:
         said, was = _apart(guess, happened)
         return Prediction(
             WRONG, f"You predicted {said}, and it was {was}. Look at why.", str(because)
         )
-    near = "" if same_number(guess, happened) is not False else " That is close enough."
+    near = "" if agree(guess, happened) else " That is close enough."
     sentence = f"You predicted {told(guess)}, and it was {told(happened)}.{near}"
     return Prediction(RIGHT, sentence, str(because))
 

@@ -12,8 +12,8 @@ PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
 BLANK = "____"
 
 _NEW_TO_ME = (
-    "This one is new to me. The last sentence of an error says what Python met and, often, what it "
-    "expected there; the line says where. Print the values on that line before it runs."
+    "The last sentence of an error says what Python met and, often, what it expected there; the "
+    "line says where. Print the values on that line before it runs."
 )
 _STILL_BLANK = f"There is still a blank, {BLANK}, in the cell above."
 

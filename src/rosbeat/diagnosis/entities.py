@@ -140,10 +140,10 @@ def no_message_type(given: Given | None) -> Meaning:
     what = f"{given}, which" if given is not None else "something that"
     return Meaning(
         "not-a-message-type",
-        f"In the place of the message type stands {what} is none. (Never mind ROS 1 in the error: "
-        "it guesses.)",
+        f"In the place of the message type stands {what} is none.",
         "Message types are classes that are imported from a package of messages. Which one does "
         "this topic carry?",
+        "(Never mind ROS 1 in the error: it guesses.)",
     )
 
 

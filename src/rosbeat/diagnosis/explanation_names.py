@@ -49,5 +49,8 @@ def _tail(name: str) -> str:
 def _letters(one: str, other: str) -> str:
     """How many letters: each that is missing, too much or another one counts."""
     steps = SequenceMatcher(None, one, other, autojunk=False).get_opcodes()
-    number = sum(max(b - a, d - c) for kind, a, b, c, d in steps if kind != "equal")
-    return "one letter" if number == 1 else f"{number} letters"
+    apart = [(one[a:b], other[c:d]) for kind, a, b, c, d in steps if kind != "equal"]
+    number = sum(max(len(here), len(there)) for here, there in apart)
+    # A digit, an underscore and a slash are no letters.
+    noun = "letter" if all((here + there).isalpha() for here, there in apart) else "character"
+    return f"one {noun}" if number == 1 else f"{number} {noun}s"

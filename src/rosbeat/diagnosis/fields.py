@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 
+from rosbeat.diagnosis.calls import asked_of
 from rosbeat.diagnosis.meaning import MESSAGES, Meaning, article, called_by_ros, matched
 from rosbeat.records import Fault
 
@@ -18,7 +19,7 @@ def of_another_type(fault: Fault) -> Meaning | None:
         return None
     name, wanted = found.groups()
     value = _value_for(fault.code, name)
-    got = f"{value} is {_described(value)}" if value else "what it was given is something else"
+    got = f"{value} is {_described(value)}" if value else _given(fault)
     return Meaning(
         "not-a-float",
         f"The field {name} of the message takes {article(wanted)}, and {got}.",
@@ -57,6 +58,17 @@ def _put_in(node: ast.AST, name: str) -> ast.expr | None:
 def _described(constant: str) -> str:
     kind = type(ast.literal_eval(constant)).__name__
     return "nothing at all" if kind == "NoneType" else article(kind)
+
+
+def _given(fault: Fault) -> str:
+    """What is known of a value that the line does not show: its type, where the node ran here."""
+    asked = asked_of(fault)
+    if asked is None or asked.method != "field" or not asked.given:
+        return "what it was given is something else"
+    given = asked.given[0]
+    if given.kind in ("int", "bool", "str", "float", "bytes", "list", "tuple", "dict"):
+        return f"what it was given is {article(given.kind)}"
+    return f"what it was given is {given}"
 
 
 def out_of_range(fault: Fault) -> Meaning | None:

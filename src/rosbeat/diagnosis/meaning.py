@@ -17,11 +17,18 @@ class Meaning:
         mistake: Its id, from `mistakes.MISTAKES`.
         means: What happened, as a sentence or two.
         to_try: Where to look, without the answer, one or two sentences.
+        aside: A sentence about the error's own words, for where they stand above; may be empty.
     """
 
     mistake: str
     means: str
     to_try: str
+    aside: str = ""
+
+    @property
+    def beside_error(self) -> str:
+        """What happened, said where the error's own words can be read."""
+        return f"{self.means} {self.aside}".strip()
 
 
 #: A function that knows one kind of mistake; None if this is none of its kind.

@@ -107,7 +107,7 @@ def no_such_attribute(fault: Fault) -> Meaning | None:
         return Meaning(
             "wrong-attribute",
             f"{owner} has nothing called {name}; it has {meant}.",
-            "Compare the two letter by letter.",
+            "Compare the two letter by letter." if _alike(name, meant) else "Is that the one?",
         )
     return Meaning("wrong-attribute", f"{owner} has nothing called {name}.", _where(fault, found))
 
@@ -120,6 +120,11 @@ def _meant(fault: Fault, owner: str, name: str) -> str:
     plain = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
     near = get_close_matches(plain, of_its_own.get(owner, NODE_METHODS), 1, 0.8)
     return near[0] if near else ""
+
+
+def _alike(name: str, meant: str) -> bool:
+    plain = meant.removeprefix("self.")
+    return bool(get_close_matches(name.lower(), [plain.lower()], 1, 0.7))
 
 
 _LEVELS = ("debug", "info", "warning", "warn", "error", "fatal")

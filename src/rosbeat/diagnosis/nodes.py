@@ -137,7 +137,7 @@ def two_types(fault: Fault) -> Meaning | None:
         return None
     return Meaning(
         "type-mismatch",
-        "What this error means: the topic exists already, with another message type.",
+        "The topic exists already, with another message type.",
         "One topic carries one type. Which one do the others use on this topic?",
     )
 

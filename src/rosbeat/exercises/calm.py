@@ -16,6 +16,7 @@ from rosbeat.records import Observation, Outcome, Sample
 MEAN = Wire("/mean", "std_msgs/msg/Float32")
 STATUS = Wire("/status", "std_msgs/msg/String")
 
+_OF_WHAT = " Is the status found from the reading itself, and not from the mean?"
 _WINDOW = 5
 _START = "Normal"
 _WORDS = ("High", "Low", "Normal")
@@ -57,7 +58,7 @@ def _missing(observation: Observation, wire: Wire) -> Diagnosis | None:
     return why_not_published(observation, wire, (MEAN.topic, STATUS.topic)) or Diagnosis(
         "never-published",
         f"Readings arrived, and nothing was published on {wire.topic}.",
-        "Does the callback come to the line that publishes?",
+        "Does the callback come to the line that publishes?" + _OF_WHAT * (wire == STATUS),
     )
 
 
@@ -90,8 +91,8 @@ def _means(observation: Observation, readings: Sequence[float]) -> Diagnosis | N
 def _wrong_mean(found: dict[float, float], readings: Sequence[float], at: float) -> Diagnosis:
     second = round(at)
     evidence = (
-        f"After {second} readings, {_listed(readings[:second][-6:], second > 6)}, the mean was "
-        f"{found[at]:.3f}."
+        f"After {_counted(second)}, {_listed(readings[:second][-6:], second > 6)}, the mean was "
+        f"{found[at]:.3f}; of the last five it is {_mean(readings[:second][-_WINDOW:]):.3f}."
     )
     return Diagnosis("wrong-window", evidence, _window_hint(found, readings))
 
@@ -120,6 +121,10 @@ def _window_hint(found: dict[float, float], readings: Sequence[float]) -> str:
 
 def _last(readings: Sequence[float], width: int) -> Callable[[int], float]:
     return lambda n: _mean(readings[max(0, n - width) : n])
+
+
+def _counted(number: int) -> str:
+    return "1 reading" if number == 1 else f"{number} readings"
 
 
 def _listed(values: Sequence[float], more: bool) -> str:

@@ -87,6 +87,23 @@ def _group(found: str) -> Diagnosis | None:
     )
 
 
+def diagnose_name(package: Package) -> Diagnosis | None:
+    """Recognise a build script that calls its package by another name than the manifest does.
+
+    Args:
+        package: The package.
+    """
+    name = package.setup.package_name
+    if name in ("", package.name):
+        return None
+    return Diagnosis(
+        "names-differ",
+        f"setup.py calls the package {name}, and package.xml calls it {package.name}.",
+        "A package has one name, the same in both files; setup.py makes names of files of it, too. "
+        "Compare `package_name`, or what stands behind `name=`, with <name> in package.xml.",
+    )
+
+
 def diagnose_entries(package: Package, programs: tuple[str, ...]) -> Diagnosis | None:
     """Recognise what is wrong with the entry points of a package.
 
@@ -95,6 +112,9 @@ def diagnose_entries(package: Package, programs: tuple[str, ...]) -> Diagnosis |
         programs: The executables that are wanted, each like its module in the package, with
             `main` in it.
     """
+    renamed = diagnose_name(package)
+    if renamed:  # first: entries made of the name are wrong only because of it
+        return renamed
     if package.flaws:
         return _flawed(package.flaws[0])
     targets = {one.executable: one for one in package.setup.entry_points}
@@ -185,7 +205,7 @@ def _nothing_installed(name: str) -> Diagnosis:
 
 
 def differences(package: Package) -> tuple[str, ...]:
-    """Return a remark if a build script says something else than its manifest.
+    """Return a remark if a build script says something else than its manifest, besides the name.
 
     Args:
         package: The package.
@@ -195,8 +215,6 @@ def differences(package: Package) -> tuple[str, ...]:
     texts = {"version": manifest.version, "description": manifest.description}
     texts["license"] = manifest.license
     other = [key for key, text in texts.items() if key in said and text and said[key] != text]
-    if package.setup.package_name not in ("", package.name):
-        other.insert(0, "name")
     if not other:
         return ()
     return (

@@ -65,10 +65,11 @@ def look_at_workspace(answer: Any) -> Workspace:  # noqa: ANN401 - whatever a le
     Raises:
         ExerciseError: If that is no folder.
     """
-    root = Path(answer) if isinstance(answer, (str, Path)) else None
+    # An empty text would be the folder of the notebook.
+    root = Path(answer) if isinstance(answer, (str, Path)) and str(answer).strip() else None
     if root is None or not root.is_dir():
         raise ExerciseError(
-            f"There is no workspace at {answer!r}.",
+            f"There is no workspace at {root or repr(answer)}.",
             "This check looks at the folders of your workspace.",
             "Write workspace.folder(), and run the cells above first: they make it.",
         )

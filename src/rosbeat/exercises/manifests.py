@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from difflib import get_close_matches
 
 from packaging.licenses import InvalidLicenseExpression, canonicalize_license_expression
 
@@ -19,6 +20,26 @@ _EMAIL = re.compile(r"[-\w%+]+(\.[-\w%+]+)*@[-\w%]+(\.[-\w%]+)*\.[a-zA-Z]{2,}", 
 _VERSION = re.compile(r"\d+\.\d+\.\d+")
 #: Tags that a manifest needs.
 _TAGS = ("name", "version", "description", "maintainer", "license", "export")
+#: Short names of licences that ROS packages often have, to be compared with a misspelled one.
+_COMMON = (
+    "Apache-2.0", "MIT", "BSD-2-Clause", "BSD-3-Clause", "GPL-3.0-only", "GPL-3.0-or-later",
+    "LGPL-3.0-only", "LGPL-3.0-or-later", "AGPL-3.0-only", "MPL-2.0", "EPL-2.0", "BSL-1.0", "ISC",
+    "CC-BY-4.0", "CC0-1.0", "Unlicense",
+)  # fmt: skip
+
+
+def hint_on_xml(problem: str) -> str:
+    """Return what to do about a manifest that is no XML.
+
+    Args:
+        problem: What the reader of XML says of it.
+    """
+    if "declaration not at start" in problem:
+        return "`<?xml` has to be the very first line, with nothing before it, not even a blank."
+    return (
+        "In XML, what is opened with <tag> is closed with </tag>. `<` and `&` in a text are "
+        "written &lt; and &amp;."
+    )
 
 
 def is_open(text: str) -> bool:
@@ -99,18 +120,26 @@ def diagnose_values(manifest: Manifest) -> Diagnosis | None:
 
 
 def remark_on_license(text: str) -> tuple[str, ...]:
-    """Return a remark if a license is none of the list that programs know, else nothing.
+    """Return a remark if a licence is none of the list that programs know, else nothing.
 
     Args:
-        text: One license, or several with commas between them.
+        text: One licence, or several with commas between them.
     """
     unknown = [one for one in text.split(", ") if not _is_known(one)]
     if not unknown:
         return ()
+    near = _nearest(unknown[0])
+    asked = f"Did you mean {near}? " if near else ""
     return (
-        f"Programs do not know a license {unknown[0]}: spdx.org/licenses lists the short names "
-        "that they know, such as MIT.",
+        f"Programs do not know a licence {unknown[0]}. {asked}spdx.org/licenses lists the short "
+        "names that they know, such as MIT.",
     )
+
+
+def _nearest(text: str) -> str:
+    """The short name that a text may be a misspelling of, or an empty text."""
+    names = {one.lower(): one for one in _COMMON}
+    return next((names[one] for one in get_close_matches(text.lower(), names, 1, 0.75)), "")
 
 
 def _is_known(text: str) -> bool:

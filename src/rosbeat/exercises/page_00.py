@@ -36,7 +36,7 @@ def _judge_reader(observation: Observation) -> Outcome:
         return failed(
             "00a",
             f"The reader heard {len(heard)} of {_ARTICLES} articles on /weather.",
-            "This is new to me. What makes the reader stop? Look at what its callback does.",
+            "What makes the reader stop? Look at what its callback does.",
         )
     if topics == _WEATHER.topic:
         return failed(
@@ -89,6 +89,14 @@ def _wrong_rate(sports: list[Sample]) -> Outcome:
             f"{len(sports)} articles were published while the node was made, and none later.",
             "The constructor runs once. What calls write again and again?",
             "no-timer",
+        )
+    if len({sample.time_ns for sample in sports}) < len(sports):
+        return failed(
+            "00b",
+            f"{len(sports)} articles appeared on /sports, some of them at the same second.",
+            "One article for each tick is enough. Does anything publish twice, or are there two "
+            "timers?",
+            "wrong-rate",
         )
     return failed("00b", *_rate(sports), "wrong-rate")
 

@@ -8,9 +8,19 @@ from rosbeat.checks.verdicts import failed, failed_by, not_attempted, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.looking import TypedIn, Workspace, look_at_terminal, look_at_workspace
-from rosbeat.exercises.paths import alike, commands, is_absolute, led_to, letters, misspelled, moves
+from rosbeat.exercises.paths import (
+    alike,
+    closeness,
+    commands,
+    is_absolute,
+    led_to,
+    letters,
+    misspelled,
+    moves,
+)
 from rosbeat.records import Outcome
 from rosbeat.workspace.place import NAME, workspace
+from rosbeat.workspace.stages import FOLDERS
 
 _WANTED, _PARENT, _CHILD = "resources/sounds/alarm", "sounds", "alarm"
 _START, _GOAL = "resources/images", "src"
@@ -22,9 +32,44 @@ def _judge_folder(seen: Workspace) -> Outcome:
     near = [one for one in seen.folders if _is_near(one)]
     if not near:
         return not_attempted("01a", f"There is no folder {_WANTED} yet.")
-    deepest = max(near, key=lambda one: (letters(one) == letters(_WANTED), one.count("/"), one))
-    mistake, hint = _what_is_wrong(deepest, set(seen.folders))
-    return failed("01a", f"There is {deepest}, but not {_WANTED}.", hint, mistake)
+    nearest = max(near, key=_fitness)
+    mistake, hint = _what_is_wrong(nearest, set(seen.folders))
+    evidence = f"There is {nearest}, but not {_WANTED}."
+    return failed("01a", evidence, hint + _on_what_is_left(near, seen), mistake)
+
+
+def _fitness(folder: str) -> tuple[int, bool, int, str]:
+    """How near a folder is to the right one: a slip of long ago must not hide a better try."""
+    same = letters(folder) == letters(_WANTED)
+    return closeness(folder, _WANTED), same, folder.count("/"), folder
+
+
+def _on_what_is_left(near: list[str], seen: Workspace) -> str:
+    """How to be rid of folders that lead nowhere; none that was there before, nor a package's."""
+    packages = [package.folder.as_posix() for package in seen.packages.values()]
+    astray = sorted({_astray(one) for one in near} - {""})
+    left = [one for one in astray if not any(f"{one}/" in f"{here}/" for here in packages)]
+    if not left:
+        return ""
+    named = " and ".join(_named(one) for one in left)
+    return (
+        f" You do not need {named}: `rmdir` removes an empty folder, and `rm -r` one with all "
+        "that is in it."
+    )
+
+
+def _named(folder: str) -> str:
+    """A folder in words: as a path, it may have the one in it that is asked for."""
+    place, _, name = folder.rpartition("/")
+    return f"{name} in {place}" if place else name
+
+
+def _astray(folder: str) -> str:
+    """The outermost part of a path that is neither of the page nor on the way to the goal."""
+    names = folder.split("/")
+    outer = ["/".join(names[: at + 1]) for at in range(len(names))]
+    known = (*FOLDERS, "resources", f"resources/{_PARENT}")
+    return next((one for one in outer if one not in known), "")
 
 
 def _is_near(folder: str) -> bool:
@@ -76,9 +121,15 @@ def _judge_way(seen: TypedIn) -> Outcome:
     tried = _tried(seen)
     if seen.folder == _GOAL:
         return _judge_kind_of_path(moves(_that_led_away(tried)))
-    if seen.folder == _START and not tried:
-        return not_attempted("01b", f"The terminal is still in {_START}.")
+    if not tried:
+        return not_attempted("01b", _of_no_way(seen.folder))
     return failed_by("01b", _of_a_way(seen, [text for _, text in tried]))
+
+
+def _of_no_way(folder: str) -> str:
+    if folder == _START:
+        return f"The terminal is still in {_START}."
+    return f"The terminal is in {_place(folder)}, and no way from {_START} has been typed yet."
 
 
 def _tried(seen: TypedIn) -> list[tuple[str, str]]:

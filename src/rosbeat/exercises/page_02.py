@@ -11,6 +11,7 @@ from rosbeat.exercises.manifests import (
     diagnose_dependencies,
     diagnose_tags,
     diagnose_values,
+    hint_on_xml,
     is_open,
     remark_on_license,
 )
@@ -31,24 +32,20 @@ def _judge_manifest(seen: Workspace) -> Outcome:
     manifest = here[0].manifest
     if manifest.problem:
         evidence = f"{_MANIFEST} cannot be read: {manifest.problem}."
-        return failed("02a", evidence, _XML, "manifest-unreadable")
-    wanted = {"description": manifest.description, "license": manifest.license}
+        return failed("02a", evidence, hint_on_xml(manifest.problem), "manifest-unreadable")
+    wanted = {"description": manifest.description, "licence": manifest.license}
     todo = [name for name, text in wanted.items() if is_open(text)]
     slip = diagnose_tags(manifest, _MANIFEST)
     if slip:
         return failed_by("02a", slip)
     if len(todo) == len(wanted):
-        return not_attempted("02a", f"{_MANIFEST} has no description and no license yet.")
+        return not_attempted("02a", f"{_MANIFEST} has no description and no licence yet.")
     if todo:
         evidence = f"The {todo[0]} in {_MANIFEST} is still open."
         return failed("02a", evidence, _TODO, "manifest-open")
     return _judge_rest(manifest)
 
 
-_XML = (
-    "In XML, what is opened with <tag> is closed with </tag>. `<` and `&` in a text are "
-    "written &lt; and &amp;."
-)
 _SAME_NAME = f"<name> has to be {_FIRST}, like the folder and the Python package in it."
 _TODO = f"Put a text of your own between <tag> and </tag>, in place of TODO or {BLANK}."
 
@@ -70,7 +67,7 @@ def _another_build_type(found: str) -> Outcome:
     said = f"The build type is {found}." if found else "The build type is gone."
     return failed(
         "02a",
-        f"Description and license are there. {said}",
+        f"Description and licence are there. {said}",
         "<build_type>, between <export> and </export>, tells colcon how to build the package: "
         "here, one for Python.",
         "build-type",
@@ -133,7 +130,7 @@ def _judge_kind(package: Package) -> Outcome:
     again = f"Remove the folder (rm -r src/{_SECOND}) and make the package again, with "
     if manifest.problem:
         evidence = f"The package.xml of {_SECOND} cannot be read: {manifest.problem}."
-        return failed("02b", evidence, _XML, "manifest-unreadable")
+        return failed("02b", evidence, hint_on_xml(manifest.problem), "manifest-unreadable")
     if manifest.build_type != "ament_python":
         kind = manifest.build_type or "of an unknown kind"
         hint = f"{again}--build-type: a Python package was asked for."

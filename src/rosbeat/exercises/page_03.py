@@ -31,7 +31,10 @@ def _fahrenheit(celsius: float) -> float:
 
 
 _ROOM_WALK = Walk(18.0, 28.0, 0.3)
-_GREENHOUSE_WALK = Walk(_fahrenheit(10.2), _fahrenheit(28.0), 0.9)
+_GREENHOUSE_WALK = Walk(
+    *(_fahrenheit(10.2), _fahrenheit(28.0), 0.9, "degrees Fahrenheit"),
+    " (In Celsius, where it walks, steps go up to 0.5, and the limits are 10.2 and 28.0.)",
+)
 
 
 def _judge_beat(observation: Observation) -> Outcome:
@@ -39,7 +42,8 @@ def _judge_beat(observation: Observation) -> Outcome:
     if found:
         return failed_by("03a", found)
     count = len(_on(observation, _HUMIDITY))
-    qos = observation.graph.on(_HUMIDITY.topic, "publisher")[0].qos
+    ends = observation.graph.on(_HUMIDITY.topic, "publisher")
+    qos = next((end.qos for end in ends if end.qos.depth != _DEPTH), ends[0].qos)
     if qos.history == "KEEP_ALL" or qos.depth != _DEPTH:
         depth = "without end" if qos.history == "KEEP_ALL" else str(qos.depth)
         return failed(
@@ -155,6 +159,10 @@ def _beat(observation: Observation, wire: Wire, rate: int) -> Diagnosis | None:
         return None
     if not any(sample.time_ns for sample in heard):
         return _only_at_once(observation, len(heard))
+    if len({sample.time_ns for sample in heard}) < len(heard):
+        return _several_at_once(heard)
+    if not heard[0].time_ns:
+        return _from_the_start(len(heard))
     times = ", ".join(f"{sample.time:g}" for sample in heard[:5])
     return Diagnosis(
         "wrong-rate",
@@ -162,6 +170,25 @@ def _beat(observation: Observation, wire: Wire, rate: int) -> Diagnosis | None:
         f"{times}.",
         f"{_WORDS[rate]} a second is wanted. What does the first argument of create_timer count: "
         "calls in a second, or seconds between two calls?",
+    )
+
+
+def _several_at_once(heard: list[Sample]) -> Diagnosis:
+    times = [sample.time_ns for sample in heard]
+    first = next(sample for sample in heard if times.count(sample.time_ns) > 1)
+    return Diagnosis(
+        "wrong-rate",
+        f"At {first.time:g} s, {times.count(first.time_ns)} readings were published at once.",
+        "One reading for each tick is enough. Does anything publish twice, or are there two "
+        "timers?",
+    )
+
+
+def _from_the_start(count: int) -> Diagnosis:
+    return Diagnosis(
+        "wrong-rate",
+        f"{count} readings appeared, and the first one at 0 s.",
+        "The first tick comes after one period. What publishes while the node is being made?",
     )
 
 

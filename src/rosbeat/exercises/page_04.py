@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -18,12 +19,15 @@ _FRIDGE = {
     5.0: "Fine",
     9.5: "Warm",
     12.5: "Warm",  # a text "12.5" would come before "8.0"
+    100.0: "Warm",
     7.75: "Fine",
     8.0: "Fine",
-    8.25: "Warm",
+    8.015625: "Warm",  # would be 8.0 if it were rounded
+    7.984375: "Fine",
     2.25: "Fine",
     2.0: "Fine",
-    1.75: "Frost",
+    1.984375: "Frost",
+    2.015625: "Fine",
     -18.0: "Frost",
 }
 #: Which of these readings is an alarm; just inside of a limit, at it, and just outside.
@@ -32,33 +36,19 @@ _ROOM = {
     27.5: True,
     25.5: False,
     26.0: False,
-    26.25: True,
+    26.015625: True,
+    100.0: True,
+    28.25: True,
     20.5: False,
     20.0: False,
+    19.984375: True,
     19.75: True,
     -5.0: True,
 }
 #: Every border of a status with hysteresis, from both sides, and jumps across.
 _CALM = (
-    *(
-        22.0,
-        25.5,
-        20.5,
-        26.0,
-        26.5,
-        25.5,
-        26.25,
-        25.0,
-        24.75,
-        25.5,
-        20.0,
-        19.5,
-        20.5,
-        21.0,
-        21.25,
-        20.5,
-    ),
-    *(27.0, 18.0, 30.0, 23.0, 19.0, 25.5, 27.0, 20.5),
+    *(22.0, 25.5, 20.5, 26.0, 26.015625, 25.5, 26.25, 25.0, 24.984375, 25.5, 20.0, 19.984375),
+    *(20.5, 21.0, 21.015625, 20.5, 41.0, -3.5, 30.0, 23.0, 19.0, 25.5, 27.0, 20.5),
 )
 _FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
 _SENSOR = "/temperature_sensor"
@@ -85,7 +75,8 @@ def _judge_states(observation: Observation) -> Outcome:
 
 
 def _wrong_state(value: float, wanted: str, said: list[str]) -> Diagnosis | None:
-    words = [word for word in _WORDS if any(word.lower() in line.lower() for line in said)]
+    text = "\n".join(said)
+    words = [word for word in _WORDS if re.search(rf"(?i)\b{word}\b", text)]
     if words == [wanted]:
         return None
     if not said:
@@ -95,6 +86,9 @@ def _wrong_state(value: float, wanted: str, said: list[str]) -> Diagnosis | None
         )
     found = " and ".join(words) or f"none of {', '.join(_WORDS)}"
     evidence = f"For a reading of {value:g} the node said {found}."
+    if not words:
+        hint = "The three words are Warm, Frost and Fine. Compare them letter by letter."
+        return Diagnosis("wrong-word", evidence, hint)
     if value in (8.0, 2.0) and len(words) == 1:
         hint = f"Exactly {value:g} is {wanted}: above 8 is Warm, below 2 is Frost."
         return Diagnosis("boundary", evidence, hint)

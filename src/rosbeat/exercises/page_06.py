@@ -7,7 +7,7 @@ from typing import Any
 
 from rosbeat.checks.verdicts import failed_by, not_attempted, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.exercises.entries import diagnose_script
+from rosbeat.exercises.entries import diagnose_name, diagnose_script
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.looking import TypedIn, Workspace, look_at_terminal, look_at_workspace
 from rosbeat.exercises.paths import alike
@@ -79,10 +79,24 @@ def _of_name(command: str) -> tuple[str, str]:
     for_ros = command.partition("--ros-args")[2]
     renames = "__node:=" in for_ros or "__name:=" in for_ros
     if renames and re.search(r"(?<!\S)(-r|--remap)\s", for_ros):
-        return "option-misspelled", f"Compare the name behind `:=` with {_NAME}, letter by letter."
+        return _of_new_name(for_ros)
     if renames or (not for_ros and "__node:=" in command):
         return "option-missing", f"An option is missing. {_RENAME}"
     return ("option-misspelled" if "node" in for_ros else "not-renamed"), _RENAME
+
+
+def _of_new_name(for_ros: str) -> tuple[str, str]:
+    """What is wrong where the option is right, and a hint."""
+    given = re.findall(r"__(?:node|name):=[\"']?([^\s\"']*)", for_ros)[-1]
+    if given == _NAME:
+        hint = f"Before `__node`, no other name is needed. {_RENAME}"
+        return "option-misspelled", hint
+    said = f"is {given}" if given else "is missing"
+    return (
+        "wrong-node-name",
+        f"The option is right. The name behind `:=` {said}, and {_NAME} was asked for: compare "
+        "letter by letter.",
+    )
 
 
 _IS_THE_SENSOR_THERE = (
@@ -121,8 +135,8 @@ def _of_build(seen: Workspace, package: Package) -> Diagnosis | None:
             "and build in the workspace.",
         )
     flaw = next((one for one in package.flaws if one.kind in ("missing-comma", "slash")), None)
-    broken = diagnose_script(package.setup) or (diagnose_flaw(flaw) if flaw else None)
-    return broken or _other_package(seen)
+    broken = diagnose_script(package.setup) or diagnose_name(package)
+    return broken or (diagnose_flaw(flaw) if flaw else None) or _other_package(seen)
 
 
 def _other_package(seen: Workspace) -> Diagnosis | None:

@@ -32,6 +32,12 @@ def misspelled(path: str, wanted: str) -> bool:
     return same and all(alike(part, goal) for part, goal in zip(parts, goals, strict=True))
 
 
+def closeness(path: str, wanted: str) -> int:
+    """Return how many parts of a path that was wanted are in another one, nearly or exactly."""
+    parts = path.split("/")
+    return sum(any(alike(part, goal) for part in parts) for goal in wanted.split("/"))
+
+
 def led_to(start: str, path: str) -> str:
     """Return where a relative path leads, relative to the workspace.
 

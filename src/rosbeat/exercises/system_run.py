@@ -6,6 +6,7 @@ comes first and is told some numbers; then comes the sensor, and both the monito
 
 from __future__ import annotations
 
+import re
 import shutil
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -31,6 +32,8 @@ TOLD = (26.0, 20.0, 26.5, 19.5, 35.25, -3.5, 22.75)
 _READINGS = 5
 # Seconds of wall time, for a busy machine; usually it takes a tenth of each.
 _TO_BUILD, _TO_MEET, _TO_ANSWER, _TO_READ = 90.0, 20.0, 2.0, 20.0
+#: A number to knock with, and seconds for the first answer: the monitor may still be starting.
+_KNOCK, _TO_KNOCK = 23.5, 6.0
 
 
 @dataclass(frozen=True)
@@ -130,6 +133,8 @@ class _Play:
             outpost = stack.enter_context(Outpost(self._domain_id, TOPIC))
             met = outpost.wait(lambda: outpost.has_listener() or not monitor.running, _TO_MEET)
             met = met and outpost.has_listener()
+            if met:
+                _knock(outpost, monitor)
             answers = tuple((value, _tell(outpost, monitor, value)) for value in TOLD if met)
             outpost.listen_anew()
             said = len(monitor.output)
@@ -155,6 +160,18 @@ class _Play:
                 known = recognise(command, run.output, code, self._root, self._root)
                 return known or diagnose_output(run.output)
         return None
+
+
+def _knock(outpost: Outpost, monitor: Program) -> None:
+    """Wait until the monitor has answered a number once.
+
+    It listens before its constructor has ended, so what it prints first is no answer yet. A
+    monitor that does not repeat the number is given the time all the same.
+    """
+    sign = re.compile(rf"(?<![\d.]){_KNOCK:g}(?:[.]\d+)?(?!\d).*\n")
+    before = len(monitor.output)
+    outpost.say(_KNOCK)
+    monitor.wait(lambda output: bool(sign.search(output, before)), _TO_KNOCK)
 
 
 def _tell(outpost: Outpost, monitor: Program, value: float) -> str:

@@ -35,7 +35,7 @@ _ADD = (
     "Each reading is drawn anew and does not know the one before. A walk goes on from where it "
     "was: add the step to the old value."
 )
-_WHOLE = "All readings are whole numbers. Leave the digits behind the point as they are."
+_WHOLE = "All readings are whole numbers. Is something rounded, or are the steps whole numbers?"
 _STRANGE = "Among the readings is one that is no finite number."
 
 
@@ -48,12 +48,14 @@ class Walk:
         high: The upper limit.
         step: The widest step.
         unit: What stands behind a number, such as `degrees`.
+        aside: A sentence after hints that name a number, with a blank before it.
     """
 
     low: float
     high: float
     step: float
     unit: str = "degrees"
+    aside: str = ""
 
     def diagnose(self, values: Sequence[float]) -> Diagnosis | None:
         """Say what is wrong with a walk, or None if it is right.
@@ -76,7 +78,7 @@ class Walk:
         """
         low, high = min(values, default=0.0), max(values, default=0.0)
         return all(
-            there or sum(abs(one - end) < _ROUNDING for one in values) >= _AGAIN
+            there or _stays(values, end)
             for end, there in (
                 (low, low <= self.low + self.step),
                 (high, high >= self.high - self.step),
@@ -128,7 +130,8 @@ class Walk:
 
     def _steps(self, values: Sequence[float]) -> tuple[str, str] | None:
         found = widest(values)
-        if _ROUNDING < self._beyond(values) <= self.step + _ROUNDING and found <= 2.01 * self.step:
+        beyond = self._beyond(values)
+        if _ROUNDING < beyond <= self.step + _ROUNDING and not self._cut_off_elsewhere(values):
             return "clamped-too-early", (
                 "It gets past a limit, by less than a step. Which comes first, the step or the "
                 "clamp?"
@@ -138,26 +141,50 @@ class Walk:
         if found > self.step + 10 * _ROUNDING:
             return "step-too-wide", (
                 "A step is too wide. random.uniform(a, b) gives a number between a and b."
+                + self.aside
             )
         moves = [b - a for a, b in pairwise(values)]
         if min(max(moves), -min(moves)) < 0.8 * self.step:
             return "step-too-small", (
                 f"The steps are small. They may be as wide as {self.step:g}, up and down."
+                + self.aside
             )
         return None
+
+    def _cut_off_elsewhere(self, values: Sequence[float]) -> bool:
+        low, high = min(values), max(values)
+        for end, beyond in ((low, self.low - low), (high, high - self.high)):
+            # A whole step beyond is as far as a walk gets that is clamped too early.
+            if _stays(values, end) and _ROUNDING < beyond < self.step - 10 * _ROUNDING:
+                return True
+        return False
 
     def _beyond(self, values: Sequence[float]) -> float:
         return max(max(values) - self.high, self.low - min(values))
 
     def _limits(self, values: Sequence[float]) -> tuple[str, str] | None:
-        if max(values) - self.high > _ROUNDING:
-            return "no-clamp", f"It got above {self.high:g}. Which function cuts off what is above?"
-        if self.low - min(values) > _ROUNDING:
-            return "no-clamp", f"It got below {self.low:g}. Which function cuts off what is below?"
+        for end, limit, where in (
+            (max(values), self.high, "above"),
+            (min(values), self.low, "below"),
+        ):
+            if abs(end - limit) > 10 * _ROUNDING and _stays(values, end) and _is_fine(values):
+                if abs(end - (self.low + self.high - limit)) < _ROUNDING:
+                    return "clamp-swapped", (
+                        f"It never gets {where} {end:g}. Which of the two, min or max, keeps a "
+                        "number below a limit?"
+                    )
+                return "other-limits", (
+                    f"Something cuts it off at {end:g}, and {limit:g} was asked for.{self.aside}"
+                )
+            if (end - limit if where == "above" else limit - end) <= _ROUNDING:
+                continue
+            return "no-clamp", (
+                f"It got {where} {limit:g}. Which function cuts off what is {where}?{self.aside}"
+            )
         if self.high - max(values) > self.step or min(values) - self.low > self.step:
             return "other-limits", (
                 f"It stays inside narrower limits than {self.low:g} and {self.high:g}. Look at the "
-                "two numbers."
+                f"two numbers.{self.aside}"
             )
         return None
 
@@ -208,6 +235,16 @@ def _chance(values: Sequence[float]) -> tuple[str, str] | None:
         "It goes up and down by a rule of its own, every time the same way. Let a random number "
         "decide about each step."
     )
+
+
+def _stays(values: Sequence[float], end: float) -> bool:
+    """Whether a walk meets the very same number again and again: something cuts it off there."""
+    return sum(one == end for one in values) >= _AGAIN
+
+
+def _is_fine(values: Sequence[float]) -> bool:
+    """Whether steps have any width; with a few widths only, all numbers come again and again."""
+    return len({round(one, 4) for one in values}) > len(values) / 4
 
 
 def _longest_stay(values: Sequence[float], limit: float) -> int:

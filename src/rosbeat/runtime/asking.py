@@ -34,6 +34,11 @@ def asked_by(error: BaseException) -> str:
     return str(getattr(error, _NOTE, ""))
 
 
+def value_text(value: object) -> str:
+    """The type of a value that a message's field refused, as `Fault.asked` has it."""
+    return f"field({_kind(value)})"
+
+
 def asked_text(method: str, given: tuple[Any, ...], named: dict[str, Any]) -> str:
     """A call with the types of what it was given, as `Fault.asked` has it."""
     words = [_kind(one) for one in given]

@@ -42,7 +42,7 @@ def fault_text(fault: Fault) -> str:
     return (
         f"{fault.node} stopped at {seconds_text(fault.time_ns)} s, in {fault.callback}: "
         f"{fault.kind}: {first_sentence(fault.text) if known else fault.text}{where}\n"
-        f"  What it means: {f'{known.means} A' if known else 'a'}{_ENDS}\n"
+        f"  What it means: {f'{known.beside_error} A' if known else 'a'}{_ENDS}\n"
         f"  What to try:   {f'{known.to_try} Then ' if known else 'mend that line, then '}{_AGAIN}"
     )
 

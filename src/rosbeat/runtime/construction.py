@@ -78,7 +78,11 @@ def _told(error: BaseException, fault: Fault) -> tuple[str, str, str]:
         return error.what, error.means, error.to_try
     known = meaning_of(fault)
     if known is not None:
-        return first_sentence(fault.text), known.means, f"{known.to_try} Then run the cell again."
+        return (
+            first_sentence(fault.text),
+            known.beside_error,
+            f"{known.to_try} Then run the cell again.",
+        )
     line = f"line {fault.line}, then run the cell again." if fault.line else "`__init__`."
     return fault.text, _NOT_READY, f"Mend {line}"
 

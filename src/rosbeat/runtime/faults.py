@@ -11,7 +11,7 @@ from types import FrameType
 
 from rosbeat.diagnosis.callbacks import CALLED, is_argument
 from rosbeat.records import Fault
-from rosbeat.runtime.asking import asked_by
+from rosbeat.runtime.asking import asked_by, value_text
 from rosbeat.runtime.suggestions import suggestion
 
 # A frame in the standard library, in an installed package or in rosbeat is not the learner's.
@@ -46,6 +46,17 @@ def _own_lines(error: BaseException) -> list[tuple[str, int, str]]:
     ]
 
 
+def _refused_by_field(error: BaseException) -> str:
+    """What a field of a message was given: the generated setter of the field raised."""
+    frames = [frame for frame, _ in walk_tb(error.__traceback__)]
+    if not isinstance(error, AssertionError) or not frames:
+        return ""
+    setter = frames[-1]
+    of_message = ".msg._" in str(setter.f_globals.get("__name__"))
+    known = of_message and "value" in setter.f_locals
+    return value_text(setter.f_locals["value"]) if known else ""
+
+
 def error_text(error: BaseException) -> str:
     """The exception's message, with the proposal that Python makes in a traceback."""
     try:
@@ -60,7 +71,7 @@ def error_text(error: BaseException) -> str:
 def fault_of(error: BaseException, time_ns: int, node: str, callback: str) -> Fault:
     """The record of an exception that left a callback."""
     line, code = learners_line(error)
-    kind, asked = type(error).__name__, asked_by(error)
+    kind, asked = type(error).__name__, asked_by(error) or _refused_by_field(error)
     for (_, at, text), (called, *_) in pairwise(_own_lines(error)):
         # `create_timer(1.0, self.tick())`: what failed in `tick` is not where the mistake is.
         if is_argument(text, called):

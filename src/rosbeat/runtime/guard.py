@@ -32,6 +32,9 @@ import rclpy
 
 from rosbeat.runtime.faults import is_learners
 
+# Kept here: a learner's code may put something else in its place.
+_now = time.monotonic
+
 #: Seconds between the first two shots, and between two looks of the watchdog.
 _EVERY = 0.1
 #: Seconds between later shots.
@@ -85,7 +88,7 @@ class Deadline:
         self._thread = threading.get_ident()
         self._in_main = threading.current_thread() is threading.main_thread()
         self._hooks_before = sys.gettrace(), sys.getprofile()
-        self._began = time.monotonic()
+        self._began = _now()
         self._until, self._spared_until = self._began + self.seconds, 0.0
         self._open = True
         if self._in_main:
@@ -167,11 +170,11 @@ class Deadline:
         (left, again), self._timer_before = self._timer_before, (0.0, 0.0)
         signal.pthread_sigmask(signal.SIG_SETMASK, self._mask)
         if left:  # somebody else's alarm: a test's time limit, say
-            left = max(0.001, left - (time.monotonic() - self._began))
+            left = max(0.001, left - (_now() - self._began))
             signal.setitimer(signal.ITIMER_REAL, left, again)
 
     def _alarm(self, _: int, frame: FrameType | None) -> None:
-        if not self._open or self._aiming or time.monotonic() < self._until:
+        if not self._open or self._aiming or _now() < self._until:
             return
         self._aiming = True  # the next alarm may come while this one is being answered
         try:
@@ -182,15 +185,17 @@ class Deadline:
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         self.interrupted = True
         if self._open:
-            self._until = min(self._until, time.monotonic() + _AFTER_INTERRUPT)
+            self._until = min(self._until, _now() + _AFTER_INTERRUPT)
             signal.setitimer(signal.ITIMER_REAL, _AFTER_INTERRUPT + 0.01, _EVERY)
+        if self._open and self._is_sacred(self._inside(frame)):
+            return  # it is not forgotten: see `__exit__`
         self._interrupt_before(number, frame)  # type: ignore[operator,misc] # it is callable
 
     # Shots.
 
     def _shoot(self, frame: FrameType | None) -> None:
         inside = list(self._inside(frame))
-        if any(one.f_code is Deadline.__exit__.__code__ for one in inside):
+        if self._is_sacred(inside):
             return
         self._note(inside)
         self._shots += 1
@@ -200,6 +205,15 @@ class Deadline:
             self._hook(inside)
         if self._may_be_shot(inside):
             raise DeadlinePassed
+
+    @staticmethod
+    def _is_sacred(inside: Iterable[FrameType]) -> bool:
+        """Whether nothing may be raised at this point: at the end of the block, and in a hook.
+
+        Python asks the hooks also when a `with` of ours gives a lock back: an exception there, and
+        it would be held for ever.
+        """
+        return any(one.f_code in _SACRED for one in inside)
 
     def _note(self, inside: list[FrameType]) -> None:
         if self.passed:
@@ -216,7 +230,7 @@ class Deadline:
         first = next((one for one in inside if is_learners(one) or _is_ours(one)), None)
         if first is not None and is_learners(first):
             return True
-        now = time.monotonic()
+        now = _now()
         if now < self._spared_until:
             return False
         self._spared_until = now + _PATIENCE
@@ -262,7 +276,7 @@ class Deadline:
         while not self._running.acquire(timeout=_EVERY):
             with suppress(Exception):  # whatever the guarded code may have broken
                 self._nudge()
-            late = time.monotonic() - self._until
+            late = _now() - self._until
             if late > (_LOST if self._in_main else 0) and self._is_alarm_lost():
                 self._throw()
 
@@ -287,6 +301,12 @@ class Deadline:
             ctypes.pythonapi.PyThreadState_SetAsyncExc(number, kind)
 
 
+_SACRED = {
+    function.__code__
+    for function in (Deadline.__exit__, Deadline._called, Deadline._line, Deadline._profile)
+}
+
+
 def within(
     seconds: float, noting: Callable[[], object] = bool, nudge: Callable[[], object] = bool
 ) -> Deadline:
@@ -304,6 +324,21 @@ def within(
     return Deadline(seconds, noting, nudge)
 
 
+def apart(do: Callable[[], object]) -> None:
+    """Run code that may be shot at, so that nothing of its exceptions stays.
+
+    An exception that hits the very beginning of an `except` or the end of a `with` leaves Python
+    believing that the one before is still being handled (CPython 3.11): each later traceback of the
+    thread would begin with it. A generator has that memory for itself, and it ends with it.
+    """
+
+    def alone() -> Iterator[None]:
+        do()
+        yield
+
+    next(alone())
+
+
 def _is_ours(frame: FrameType) -> bool:
     return frame.f_code.co_filename.startswith(_OURS)
 
@@ -311,4 +346,4 @@ def _is_ours(frame: FrameType) -> bool:
 def _let_things_in() -> None:
     """Python runs handlers of signals, and raises what was thrown in, between two such steps."""
     for _ in range(3):
-        time.monotonic()
+        _now()

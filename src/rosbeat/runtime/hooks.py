@@ -97,7 +97,8 @@ def _make_alone(make: Callable[[], None]) -> None:
             "A node was made, and no session is open.",
             "A node needs ROS to be running. On a page a session starts it, and the last session "
             "has been closed.",
-            "Run the cell with `Session()` again; or call `rclpy.init()` first, as a program does.",
+            "Run the cell with `Session()` again; or call `rclpy.init()` first, as a program does. "
+            "In a check, hand over the class itself, without brackets.",
         ) from None
 
 

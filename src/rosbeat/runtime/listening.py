@@ -35,6 +35,8 @@ _ENOUGH, _ENOUGH_OF_EACH, _AT_LEAST = 3, 10, 0.5
 #: time passes in which nobody could.
 _PATIENCE, _TURNS = 2.0, 40
 _TURN = 0.02
+#: Seconds after which a question is asked again.
+_ASK_AGAIN = 0.4
 _QUEUE = 1000
 
 
@@ -143,21 +145,30 @@ class _Question:
     def __init__(self, visitor: Node, node: str) -> None:
         self._node = node
         self._client = visitor.create_client(GetParameters, f"{node}/get_parameters")
-        self._future: Any = None
+        self._futures: list[Any] = []
+        self._asked = 0.0
         self._patience: _Patience | None = None
 
     def waits(self) -> bool:
-        """Ask as soon as the node can be asked; whether an answer may still come."""
-        if self._future is None and self._client.service_is_ready():
-            self._future = self._client.call_async(GetParameters.Request())
-            self._patience = None
+        """Ask as soon as the node can be asked; whether an answer may still come.
+
+        It is asked again and again: an answer can be lost while the graph changes, as it does just
+        after another process was killed.
+        """
+        now = time.monotonic()
+        if self._client.service_is_ready() and now - self._asked > _ASK_AGAIN:
+            self._patience = self._patience if self._futures else None
+            self._futures.append(self._client.call_async(GetParameters.Request()))
+            self._asked = now
         self._patience = self._patience or _Patience()
-        answered = self._future is not None and self._future.done()
-        return not answered and self._patience.lasts()
+        return not self._answered() and self._patience.lasts()
+
+    def _answered(self) -> bool:
+        return any(one.done() for one in self._futures)
 
     def condition(self) -> Condition:
         """How the node does; one that could not be asked is believed to run."""
-        silent = self._future is not None and not self._future.done()
+        silent = self._futures and not self._answered()
         return Condition(self._node, SILENT if silent else RUNNING)
 
 

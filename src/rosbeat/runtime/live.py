@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import time
+from contextlib import suppress
 from threading import Event, Thread, current_thread
 from typing import Any, Protocol
 
@@ -105,7 +106,8 @@ class LiveExecutor(SingleThreadedExecutor):
             self._break_off()
             self._thread.join(PATIENCE)
         for task, _, _ in self._tasks:
-            task.cancel()  # a coroutine that still waits; this frees its callback group
+            with suppress(ValueError):  # it does not wait but runs, in a call that nobody can end
+                task.cancel()  # a coroutine that still waits; this frees its callback group
         self.shutdown()
 
     def hurry(self) -> None:

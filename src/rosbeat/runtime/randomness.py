@@ -81,17 +81,17 @@ class SeededRandom:
 
     @contextmanager
     def _exchanged(self) -> Iterator[None]:
-        outer, numpy = random.getstate(), _numpy_random()
+        outer, numpy = _SHARED.getstate(), _numpy_random()
         outer_numpy = numpy.get_state() if numpy else None
-        random.setstate(self._state)
+        _SHARED.setstate(self._state)
         if numpy:
             self._enter_numpy(numpy)
         try:
             yield
         finally:
             _straighten()
-            self._state = random.getstate()
-            random.setstate(outer)
+            self._state = _SHARED.getstate()
+            _SHARED.setstate(outer)
             self._leave_numpy(outer_numpy)
 
     def _enter_numpy(self, numpy: Any) -> None:  # noqa: ANN401

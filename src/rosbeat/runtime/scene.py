@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable, Iterable
-from contextlib import suppress
+from contextlib import AbstractContextManager, suppress
 from itertools import islice
 from typing import Any
 
@@ -15,7 +15,7 @@ from rosbeat.records import NANOSECONDS, CallbackRecord, Fault, GraphSnapshot, O
 from rosbeat.runtime.durations import duration_ns
 from rosbeat.runtime.entities import NodeState
 from rosbeat.runtime.faults import fault_of
-from rosbeat.runtime.guard import Deadline, DeadlinePassed, within
+from rosbeat.runtime.guard import Deadline, DeadlinePassed, apart, within
 from rosbeat.runtime.naps import virtual_sleep
 from rosbeat.runtime.session import Session
 from rosbeat.runtime.staging import Stage
@@ -65,25 +65,31 @@ class Scene:
         Raises:
             KeyboardInterrupt: If Interrupt was pressed.
         """
-        with within(deadline, self._note_stuck, self._wake) as self._limit:
-            try:
-                with virtual_sleep(self._nap, self._world.clock, answer):
-                    self._perform(answer, others)
-            except DeadlinePassed:
-                raise
-            except _Over:
-                return
-            except BaseException as error:  # a learner may raise anything
-                self._faults.append(self._refused(error))
+        # What has to be put back stands outside of the deadline, which hits what it finds.
+        sleep, limit = self._sleeping(answer), within(deadline, self._note_stuck, self._wake)
+        with sleep, self._world.running(), limit as self._limit:
+            apart(lambda: self._try_to_play(answer, others))
+
+    def _sleeping(self, answer: object) -> AbstractContextManager[None]:
+        return virtual_sleep(self._nap, self._world.clock, answer)
+
+    def _try_to_play(self, answer: Any, others: Iterable[Callable[[], Node]]) -> None:  # noqa: ANN401
+        try:
+            self._perform(answer, others)
+        except DeadlinePassed:
+            raise
+        except _Over:
+            return
+        except BaseException as error:  # a learner may raise anything
+            self._faults.append(self._refused(error))
 
     def _perform(self, answer: Any, others: Iterable[Callable[[], Node]]) -> None:  # noqa: ANN401
         self._stage.prepare()
         for other in others:
             self._session.add(other)
         self._add(type(answer) if isinstance(answer, Node) else answer)
-        with self._world.running():
-            self._world.console.begin(quiet=True)
-            self._stage.advance(self._end, self._world.virtual.run_until)
+        self._world.console.begin(quiet=True)
+        self._stage.advance(self._end, self._world.virtual.run_until)
 
     def _add(self, answer: Any) -> None:  # noqa: ANN401
         self._making = True
@@ -200,12 +206,12 @@ class Scene:
         """End the session, whatever the nodes do against it."""
         kinds = [type(node) for node in self._session.nodes]
         with within(_TO_TIDY, nudge=self._wake):
-            self._destroy_nodes()
+            apart(self._destroy_nodes)
         self._session.close()
         del self._session, self._world, self._stage
         if any(hasattr(kind, "__del__") for kind in kinds):
             with within(_TO_TIDY):
-                gc.collect()  # here, where it has a deadline, and not at any later time
+                apart(gc.collect)  # here, where it has a deadline, and not at any later time
 
     def _destroy_nodes(self) -> None:
         self._world.hurry()

@@ -10,7 +10,7 @@ import builtins
 from collections.abc import Iterable, Iterator
 from difflib import SequenceMatcher, get_close_matches
 from traceback import walk_tb
-from types import FrameType, ModuleType
+from types import FrameType, FunctionType, ModuleType
 
 from rclpy.node import Node
 
@@ -28,7 +28,7 @@ def suggestion(error: BaseException) -> str:
     if not isinstance(name, str) or not name.strip("_"):
         return ""  # nothing, or a blank that was not filled in
     if isinstance(error, AttributeError):
-        return _nearest(name, _attributes(error.obj))
+        return _nearest(name, _attributes(error.obj)) or _same_verb(name, error.obj)
     if isinstance(error, NameError) and not isinstance(error, UnboundLocalError):
         return _nearest(name, _names(error, name))
     return ""
@@ -45,6 +45,21 @@ def _nearest(name: str, groups: Iterable[Iterable[str]]) -> str:
             rated = SequenceMatcher(None, near, name).ratio()
             best, likeness = (near, rated) if not best or rated > likeness else (best, likeness)
     return best
+
+
+def _same_verb(name: str, owner: object) -> str:
+    """The only method of the learner's that begins alike: `publish_humidity` for `publish_x`."""
+    if not isinstance(owner, Node):
+        return ""
+    verb, _, rest = name.partition("_")
+    found = {
+        one
+        for kind in type.mro(type(owner))
+        if not kind.__module__.startswith("rclpy.")
+        for one, it in vars(kind).items()
+        if isinstance(it, FunctionType) and verb and rest and one.startswith(f"{verb}_")
+    }
+    return found.pop() if len(found) == 1 else ""
 
 
 def _attributes(owner: object) -> Iterator[Iterable[str]]:

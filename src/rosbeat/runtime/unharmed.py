@@ -5,13 +5,19 @@ from __future__ import annotations
 import builtins
 import gc
 import os
+import random
 import signal
 import sys
 import threading
+import time
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
 from typing import Any, NoReturn
+
+import rclpy
+from rclpy.node import Node
+from rclpy.publisher import Publisher
 
 from rosbeat.runtime.sink import Count, Sink
 
@@ -21,7 +27,8 @@ def unharmed() -> Iterator[Count]:
     """Keep what belongs to the process and not to a node, and put it back afterwards.
 
     That is: standard output and error, the current folder, the environment, Python's built-in
-    names, handlers of signals, hooks for exceptions, filters of warnings, limits. Meanwhile nothing
+    names and those of `time`, `random` and rclpy's nodes, handlers of signals, hooks for exceptions
+    and traces, filters of warnings, limits. Meanwhile nothing
     is printed, nobody types (`input()` raises), and `quit()` does not end the kernel.
 
     Yields:
@@ -54,8 +61,9 @@ def _quietly(put_back: Callable[[], object]) -> None:
 
 def _kept() -> list[Callable[[], object]]:
     """Functions that put things back, to be called from the last to the first."""
-    return [_folder(), _environ(), _limits(), _signals(), _hooks(sys, _SYS_HOOKS),
-            _hooks(threading, ("excepthook",)), _names(builtins)]  # fmt: skip
+    return [_folder(), _environ(), _limits(), _signals(), _timers(), _hooks(sys, _SYS_HOOKS),
+            _hooks(threading, ("excepthook",)), _methods(Node), _methods(Publisher),
+            *(_names(one) for one in (rclpy, random, time, builtins))]  # fmt: skip
 
 
 _SYS_HOOKS = ("excepthook", "unraisablehook", "displayhook", "stdin", "stdout", "stderr")
@@ -92,13 +100,33 @@ def _names(module: Any) -> Callable[[], object]:  # noqa: ANN401 - a module
     return put_back
 
 
+def _methods(kind: type) -> Callable[[], object]:
+    before = dict(vars(kind))
+
+    def put_back() -> None:
+        for name, value in before.items():
+            if vars(kind).get(name) is not value and name not in ("__dict__", "__weakref__"):
+                setattr(kind, name, value)
+
+    return put_back
+
+
+def _timers() -> Callable[[], object]:
+    # The third one, ITIMER_REAL, belongs to the deadline, which puts it back.
+    return lambda: [signal.setitimer(one, 0) for one in (signal.ITIMER_VIRTUAL, signal.ITIMER_PROF)]
+
+
 def _limits() -> Callable[[], object]:
     depth, interval, collecting = sys.getrecursionlimit(), sys.getswitchinterval(), gc.isenabled()
+    threshold, tracing, profiling = gc.get_threshold(), sys.gettrace(), sys.getprofile()
 
     def put_back() -> None:
         sys.setrecursionlimit(depth)
         sys.setswitchinterval(interval)
         (gc.enable if collecting else gc.disable)()
+        gc.set_threshold(*threshold)
+        sys.settrace(tracing)
+        sys.setprofile(profiling)
 
     return put_back
 

@@ -66,7 +66,8 @@ def queue(steps: Sequence[QueueStep], depth: int) -> Picture:
         The picture.
 
     Raises:
-        PictureError: If there are no steps, or the depth is below 1 or below what waited.
+        PictureError: If these are no steps, or there are none, or the depth is below 1 or below
+            what waited.
     """
     _check(steps, depth)
     every = moments(steps)
@@ -88,6 +89,12 @@ def queue(steps: Sequence[QueueStep], depth: int) -> Picture:
 
 
 def _check(steps: Sequence[QueueStep], depth: int) -> None:
+    if not isinstance(steps, Sequence) or not all(isinstance(one, QueueStep) for one in steps):
+        raise PictureError(
+            "A picture of a queue is drawn from its steps, and these are none.",
+            "A step is a `QueueStep`: what came, was taken or was dropped at one moment.",
+            "Make them with `queue_steps(arrivals, takes, depth)`.",
+        )
     if not steps:
         raise PictureError(
             "There are no steps of a queue to draw.",

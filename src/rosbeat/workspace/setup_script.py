@@ -16,6 +16,8 @@ from rosbeat.workspace.seen_values import Seen, entries_of, items_of, keywords_o
 
 #: A name and what stands for an equals sign; `talk ==` is a slip of its own, and one name.
 _NAMED = re.compile(r"[\w.-]+\s*=+")
+#: The line is told beside the problem.
+_DETECTED = re.compile(r" \(detected at line \d+\)")
 _SCRIPTS = "console_scripts"
 #: What a build script says of a package besides its code, and the manifest says, too.
 _ABOUT = ("version", "description", "license")
@@ -127,7 +129,7 @@ def parse_setup(data: bytes) -> SetupScript:
     try:
         return _script(parse(data), decoded(data))
     except SyntaxError as error:
-        return SetupScript(problem=error.msg, line=error.lineno or 0)
+        return SetupScript(problem=_DETECTED.sub("", error.msg), line=error.lineno or 0)
     except (ValueError, RecursionError, MemoryError) as error:
         return SetupScript(problem=str(error) or type(error).__name__)
 

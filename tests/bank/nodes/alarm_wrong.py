@@ -36,6 +36,8 @@ ANSWERS = (
     _wrong("twice", "alert-too-many", (_SEND, f"{_SEND}\n            {_SEND}")),
     _wrong("an upper limit too high", "alert-missing", ("26.0", "27.0")),
     _wrong("a lower limit too low", "alert-missing", ("20.0", "18.0")),
+    _wrong("limits a little off", "alert-missing", ("> 26.0", "> 26.1"), ("< 20.0", "< 19.9")),
+    _wrong("nothing above 28", "alert-missing", ("> 26.0", "> 26.0 and msg.data < 28.0")),
     _wrong("an upper limit too low", "alert-too-many", ("> 26.0", "> 21.0")),
     _wrong("a lower limit too high", "alert-too-many", ("< 20.0", "< 23.0")),
     _wrong("only the first time", "alert-missing",

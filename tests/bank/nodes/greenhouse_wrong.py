@@ -49,7 +49,7 @@ ANSWERS = (
     _either("a step of half a degree Fahrenheit", ("step-too-small",),
             ("self.temperature = 22.0", "self.temperature = 71.6"),
             ("max(10.2, min(28.0, ", "max(50.36, min(82.4, "), (" * 9 / 5 + 32", "")),
-    _either("it starts at 22 Fahrenheit", ("wrong-unit", "no-clamp", "wrong-start"),
+    _either("it starts at 22 Fahrenheit", ("wrong-unit", "no-clamp", "wrong-start", "other-limits"),
             ("(-0.5, 0.5)", "(-0.9, 0.9)"), ("max(10.2, min(28.0, ", "max(10.2, min(82.4, "),
             (" * 9 / 5 + 32", "")),
     # The limits give away that the formula is right.
@@ -71,7 +71,7 @@ ANSWERS = (
                     " for _ in range(4)]")),
     _wrong("no clamp", "no-clamp", (f"        {_CLAMP}\n", "")),
     _wrong("no upper limit", "no-clamp", ("min(28.0, self.temperature)", "self.temperature")),
-    _wrong("a lower limit too low", "no-clamp", ("10.2", "0.2")),
+    _wrong("a lower limit too low", "other-limits", ("10.2", "0.2")),
     _wrong("the living room's limit", "other-limits", ("10.2", "18.0")),
     _either("min and max swapped", ("clamp-swapped", "never-changes"),
             ("max(10.2, min(28.0,", "min(10.2, max(28.0,")),

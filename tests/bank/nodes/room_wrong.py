@@ -21,7 +21,7 @@ def _either(name, mistakes, *edits):
 
 ANSWERS = (
     # The exercise's own mistakes.
-    _wrong("the tutorial's limit", "no-clamp", ("18.0", "10.2")),
+    _wrong("the tutorial's limit", "other-limits", ("18.0", "10.2")),
     _wrong("no upper limit", "no-clamp",
            (_CLAMP, "self.temperature = max(18.0, self.temperature)")),
     _wrong("no lower limit", "no-clamp",
@@ -46,7 +46,9 @@ ANSWERS = (
            ("data=self.temperature", "data=max(18.0, min(28.0, self.temperature))")),
     _wrong("an upper limit too low", "other-limits", ("28.0", "26.0")),
     _wrong("a lower limit too high", "other-limits", ("18.0", "20.0")),
-    _wrong("an upper limit too high", "no-clamp", ("28.0", "30.0")),
+    _wrong("an upper limit too high", "other-limits", ("28.0", "30.0")),
+    _wrong("an upper limit a little too low", "other-limits", ("28.0", "27.8")),
+    _wrong("a lower limit a little too high", "other-limits", ("18.0", "18.25")),
     _wrong("the page's step", "step-too-wide", ("(-0.3, 0.3)", "(-0.5, 0.5)")),
     _wrong("three degrees", "step-too-wide", ("(-0.3, 0.3)", "(-3.0, 3.0)")),
     _wrong("two steps", "step-too-wide", (_STEP, f"{_STEP}\n        {_STEP}")),

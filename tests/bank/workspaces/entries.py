@@ -242,6 +242,27 @@ ANSWERS = (
         "no-setup-call",
         _with(("\nsetup(", "\ndef install():\n  setup(")),
     ),
+    wrong(
+        "05a",
+        "another name of the package",
+        "names-differ",
+        _with(("package_name = 'sensor_simulator'", "package_name = 'sensor'")),
+    ),
+    wrong(
+        "05a", "another name in the call", "names-differ", _with(("name=package_name", "name='x'"))
+    ),
+    wrong(
+        "05a",
+        "another name, and entries made of it",
+        "names-differ",
+        _with(
+            ("package_name = 'sensor_simulator'", "package_name = 'sensor'"),
+            (
+                "'temperature_publisher = sensor_simulator",
+                "f'temperature_publisher = {package_name}",
+            ),
+        ),
+    ),
     wrong("05a", "no setup", "no-setup-call", "x = 1\n"),
     wrong(
         "05a", "a list", "entry-points-hidden entry-point-form", _given(f"[{_FIRST}, {_SECOND}]")

@@ -42,6 +42,18 @@ ANSWERS = (
     wrong("01a", "the other way round", "folders-swapped", "mkdir -p resources/alarm/sounds"),
     wrong(
         "01a",
+        "backslashes, and later a letter wrong",
+        "path-misspelled",
+        "mkdir -p resources\\sounds\\alarm\nmkdir -p resources/sound/alarm",
+    ),
+    wrong(
+        "01a",
+        "backslashes, and later one level",
+        "levels-miscounted",
+        "mkdir -p resources\\sounds\\alarm\nmkdir resources/sounds",
+    ),
+    wrong(
+        "01a",
         "elsewhere, and a letter wrong",
         "wrong-folder path-misspelled",
         "cd src; mkdir -p resources/sounds/alrm",

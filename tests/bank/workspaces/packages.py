@@ -66,6 +66,8 @@ MANIFESTS = (
     wrong("02a", "a bare sign", "manifest-unreadable", _described("readings < 20 & > 26")),
     wrong("02a", "closed as opened", "manifest-unreadable", _with(("</license>", "<license>"))),
     wrong("02a", "a quote", "manifest-unreadable", _with(('format="3"', 'format="3'))),
+    wrong("02a", "a line before the first", "manifest-unreadable", f"\n{_XML}"),
+    right("02a", "a letter in the licence", _licensed("Apahce-2.0")),
     wrong(
         "02a", "another name", "package-renamed", _with(("<name>sensor_simulator", "<name>sensor"))
     ),

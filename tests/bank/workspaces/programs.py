@@ -102,7 +102,7 @@ MONITORS = (
     wrong(
         "06a",
         "another name",
-        "option-misspelled",
+        "wrong-node-name",
         _shown(_RUN.replace("second", "secund"), _FIRST.replace("temperature_", "secund_")),
     ),
     wrong(

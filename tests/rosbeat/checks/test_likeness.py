@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosbeat.checks.likeness import agree, is_blank, same_number, told
+from rosbeat.checks.likeness import agree, compared, form_of, is_blank, told
 
 nan = float("nan")
 
@@ -120,9 +120,39 @@ def test_no_address_of_the_memory_is_told():
     assert " at 0x" not in told([object()])
 
 
-@pytest.mark.parametrize(("one", "other", "same"), [(3, "3", True), (3, 4, False), (3, "a", None)])
-def test_two_numbers_are_the_same_or_not(one, other, same):
-    assert same_number(one, other) is same
+@pytest.mark.parametrize(
+    ("guess", "happened", "other"),
+    [
+        ("63 messages", 63, 64), ("63!", 63, 64), ("sixty-three", 63, 64), ([63], 63, 64),
+        ("[63]", 63, 64), ("1 s", 1, 2), ("one", 1, 2), ("~26", 26, 27), ("about 26", 26, 27),
+        ("20-30", 26, 31), ("no!", False, True), ("No, it does not", False, True),
+        ("yes.", True, False), ("1 s, 2 s", [1, 2], [1, 3]), ("High!", "High", "Low"),
+    ],
+)  # fmt: skip
+def test_an_answer_may_be_said_in_other_words(guess, happened, other):
+    assert compared(guess, happened) is True
+    assert compared(guess, other) is False
+
+
+def test_a_range_is_as_wide_as_the_tolerance_allows():
+    assert compared("20-30", 33) is False
+    assert compared("20-30", 33, 3) is True
+    assert compared("about 26", 27, 1) is True
+
+
+@pytest.mark.parametrize(
+    ("guess", "happened", "form"),
+    [
+        ("?", 63, "a number"), ("yes", 63, "a number"), (True, 1, "a number"),
+        ("26 and 40", 26, "a number"), ([1, 2], 1, "a number"), ([], 1, "a number"),
+        ("perhaps", True, "yes or no"), (1, np.bool_(True), "yes or no"),
+        ("?", [1, 2], "a list, such as 1, 2, 3"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_compared_is_not_wrong(guess, happened, form):
+    assert compared(guess, happened) is None
+    assert not agree(guess, happened)
+    assert form_of(happened) == form
 
 
 def test_what_holds_itself_and_what_is_very_long_are_told_all_the_same():

@@ -39,8 +39,23 @@ def test_two_that_look_alike_show_all_their_digits():
 
 
 def test_odd_guesses_never_end_the_page():
-    for guess in (object(), [], {}, len, predict, b"x", float("nan")):
-        assert str(predict(guess, 63, tolerance="wide", because=3)).startswith("✗ ")
+    for guess in (object(), [], {}, len, predict, b"x"):
+        assert str(predict(guess, 63, tolerance="wide", because=3)).startswith("○ ")
+        assert str(predict(guess, "High", tolerance="wide", because=3)).startswith("✗ ")
+    assert str(predict(float("nan"), 63)).startswith("✗ ")
+
+
+def test_what_cannot_be_compared_is_no_wrong_prediction():
+    prediction = predict("?", 63, because=BECAUSE)
+    assert str(prediction) == "○ That cannot be compared with 63: write a number."
+    assert str(predict("?", False)) == "○ That cannot be compared with no: write yes or no."
+    assert not prediction.was_right
+
+
+def test_a_guess_in_words_is_told_as_it_was_written():
+    assert str(predict("20-30", 26)) == "✓ You predicted 20-30, and it was 26."
+    near = predict("about 60", 63, tolerance=5)
+    assert str(near) == "✓ You predicted about 60, and it was 63. That is close enough."
 
 
 def test_text_and_html_say_the_same_and_are_the_same_every_time():

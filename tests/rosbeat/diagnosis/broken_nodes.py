@@ -79,6 +79,7 @@ def listener(name, mistake, call, method="def listen(self, msg):"):
 
 MESSAGES = (
     tick("an int", "not-a-float", "self.publisher_.publish(Float32(data=25))"),
+    tick("a calculated int", "not-a-float", "self.publisher_.publish(Float32(data=9 * 2))"),
     tick("a text", "not-a-float", "msg = Float32()\nmsg.data = '25'"),
     tick("None", "not-a-float", "msg = Float32()\nmsg.data = None"),
     tick("a number for a text", "not-a-float", "String(data=25.0)"),

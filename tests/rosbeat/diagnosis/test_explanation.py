@@ -133,7 +133,7 @@ def test_the_same_scene_gives_the_same_words():
 
 def test_the_text():
     assert str(explain(TOPIC, SCENES["no-publisher"])).splitlines() == [
-        "\N{MULTIPLICATION SIGN} Nobody publishes on /temperature.",
+        "\N{BALLOT X} Nobody publishes on /temperature.",
         "  Seen: /monitor listens there, and no node publishes. Topics that are published: none.",
         "  Hint: Start the node that publishes, with `ros.add(...)`, and compare the topic's name "
         "in its",

@@ -32,6 +32,10 @@ def test_of_two_the_nearer_one_and_always_the_same():
     assert nearest(NAME, others) == nearest(NAME, reversed(others)) == "/temperatures"
 
 
+def test_a_slash_and_an_underscore_are_no_letters():
+    assert difference("/room/temperature", "/room_temperature").endswith("in one character")
+
+
 @pytest.mark.parametrize(
     ("other", "words"),
     [
@@ -39,6 +43,7 @@ def test_of_two_the_nearer_one_and_always_the_same():
         ("/room/temperature", "before the last slash"),
         ("/temp_erature", "underscores"),
         ("/temprature", "one letter"),
+        ("/temperature1", "one character"),
         ("/temprture", "2 letters"),
     ],
 )

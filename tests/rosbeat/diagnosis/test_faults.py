@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosbeat import diagnosis
-from rosbeat.diagnosis.faults import diagnose_fault, first_sentence
+from rosbeat.diagnosis.faults import diagnose_fault, first_sentence, meaning_of
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.records import Fault
@@ -134,6 +134,36 @@ def test_evidence_is_who_raised_what_it_means_and_the_line():
         "tick raised TypeError. publish was given a bare value, a float, and not a message. "
         "Line 4: `self.publisher_.publish(25.0)`."
     )
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ("field(int)", "is an int."), ("field(NoneType)", "is None."), ("field(str)", "is a str."),
+        ("field(Decimal)", "is an object of type Decimal."), ("", "is something else."),
+    ],
+)  # fmt: skip
+def test_the_type_of_a_value_that_the_line_does_not_show(asked, words):
+    found = diagnose_fault(fault(*KNOWN[0][1:], "msg.data = 9 * 2", asked))
+    assert f"takes a float, and what it was given {words}" in found.evidence
+
+
+def test_the_error_s_own_words_are_spoken_of_only_where_they_stand():
+    one = fault(*KNOWN[10][1:], "self.create_publisher(float, 't', 10)")
+    assert "ROS 1" not in diagnose_fault(one).evidence
+    assert "Never mind ROS 1" in meaning_of(one).beside_error
+
+
+def test_what_is_said_after_a_lead_has_none_of_its_own():
+    two_types = fault("RCLError", "Failed to create subscription: invalid allocator, at /x.c:261")
+    assert meaning_of(two_types).beside_error.startswith("The topic exists already")
+
+
+def test_a_name_that_only_begins_alike_is_asked_about():
+    said = "'A' object has no attribute 'publish_temperature'. Did you mean: 'publish_humidity'?"
+    found = diagnose_fault(fault("AttributeError", said))
+    assert found.evidence.endswith("publish_temperature; it has publish_humidity.")
+    assert found.hint == "Is that the one?"
 
 
 def test_without_a_line_none_is_mentioned():

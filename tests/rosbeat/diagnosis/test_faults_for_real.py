@@ -49,7 +49,8 @@ def test_what_nobody_knows_stays_unnamed(broken):
     outcome = before_judging("03a", observation)
     assert outcome.mistake == "new-to-me"
     assert fault.kind in outcome.evidence
-    assert "new to me" in outcome.hint
+    assert "new to me" not in outcome.hint  # what shows an outcome says that
+    assert "The last sentence of an error" in outcome.hint
 
 
 def test_names_are_unique():
@@ -61,3 +62,9 @@ def test_a_right_node_raises_nothing():
     observation, _ = observation_of(sensor("right", ""))
     assert observation.faults == ()
     assert len(observation.samples) == 2
+
+
+def test_the_type_of_a_value_that_was_calculated_is_known():
+    (broken,) = (one for one in BROKEN if one.name == "a calculated int")
+    found = diagnose_fault(observation_of(broken)[0].faults[0])
+    assert "what it was given is an int." in found.evidence

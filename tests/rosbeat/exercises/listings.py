@@ -52,7 +52,7 @@ if __name__ == '__main__':
     main()
 """
 
-SUBSCRIBER = '''\
+SUBSCRIBER = """\
 #!/usr/bin/env python3
 import rclpy
 from rclpy.node import Node
@@ -98,7 +98,7 @@ def main(args=None):
 
 if __name__ == "__main__":
     main()
-'''
+"""
 
 SETUP = """\
 from setuptools import find_packages, setup

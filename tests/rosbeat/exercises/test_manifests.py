@@ -5,7 +5,12 @@ import re
 import pytest
 from catkin_pkg.package import InvalidPackage, parse_package_string
 
-from rosbeat.exercises.manifests import diagnose_values, is_open, remark_on_license
+from rosbeat.exercises.manifests import (
+    diagnose_values,
+    hint_on_xml,
+    is_open,
+    remark_on_license,
+)
 from rosbeat.workspace.manifest import parse_manifest
 from rosbeat.workspace.stages import finished
 
@@ -31,6 +36,21 @@ def test_a_licence_of_the_list(text):
 def test_another_licence_gets_a_remark(text):
     (said,) = remark_on_license(text)
     assert text.rpartition(", ")[2] in said
+
+
+@pytest.mark.parametrize("text", ["Apahce-2.0", "Apache 2.0", "apache2.0", "MIT, Apache-2"])
+def test_a_licence_that_is_nearly_one_is_asked_after(text):
+    (said,) = remark_on_license(text)
+    assert "Did you mean Apache-2.0?" in said
+
+
+def test_a_licence_like_no_other_is_not_guessed():
+    assert "Did you mean" not in remark_on_license("mine")[0]
+
+
+def test_a_line_before_the_declaration_has_a_hint_of_its_own():
+    assert "very first line" in hint_on_xml(parse_manifest(f"\n{XML}".encode()).problem)
+    assert "</tag>" in hint_on_xml(parse_manifest(XML[:-9].encode()).problem)
 
 
 @pytest.mark.parametrize(

@@ -46,6 +46,31 @@ def test_a_folder_near_by_says_what_is_missing(made, hint):
     assert hint in outcome.hint
 
 
+def test_a_better_try_counts_more_than_what_is_left_of_an_old_one():
+    outcome = judged_folders("resourcessoundsalarm", "resources/sounds")
+    assert outcome.mistake == "levels-miscounted"
+    assert "There is resources/sounds," in outcome.evidence
+    assert "need resourcessoundsalarm: `rmdir`" in outcome.hint
+
+
+@pytest.mark.parametrize(
+    ("made", "left"),
+    [
+        ("resources/Sounds/alarm", "Sounds in resources"),
+        ("src/resources/sounds/alarm", "resources in src"),
+        ("resources/sounds/alarms", "alarms in resources/sounds"),
+        ("ressources/sounds", "ressources"),
+    ],
+)
+def test_what_to_remove_is_only_what_is_not_of_the_page(made, left):
+    assert f"You do not need {left}:" in judged_folders(made).hint
+
+
+def test_what_is_on_the_way_stays():
+    assert "rm" not in judged_folders("resources/sounds").hint.split()
+    assert "`rmdir`" not in judged_folders("resources/sounds").hint
+
+
 @pytest.mark.parametrize(
     "typed", ["cd ../../src", "cd ../..//src", "cd ../../src/", "pushd ../../src"]
 )
@@ -71,6 +96,12 @@ def test_an_absolute_path_is_not_what_was_asked(typed):
 def test_who_has_not_moved_has_not_tried():
     assert judged_way("resources/images").status == NOT_ATTEMPTED
     assert judged_way("resources/images", "pwd").status == NOT_ATTEMPTED
+
+
+@pytest.mark.parametrize("folder", [".", "docs", "resources/images"])
+def test_nothing_typed_is_nothing_tried(folder):
+    outcome = way_01b.judged(TypedIn(folder, (), None, ""))
+    assert (outcome.status, outcome.mistake) == (NOT_ATTEMPTED, "")
 
 
 @pytest.mark.parametrize(

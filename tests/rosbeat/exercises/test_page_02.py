@@ -88,7 +88,7 @@ def test_no_package_is_nothing_tried(judge):
 @pytest.mark.parametrize(
     ("text", "evidence"),
     [
-        (xml(GOOD, license="TODO: License declaration"), "license"),
+        (xml(GOOD, license="TODO: License declaration"), "licence"),
         (xml(GOOD, description="____"), "description"),
         (xml(GOOD, name="sensor"), "sensor"),
         (xml(GOOD, depends="<depend>rclpy</depend>"), "std_msgs"),

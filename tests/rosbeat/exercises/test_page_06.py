@@ -52,6 +52,13 @@ def test_what_else_runs_is_named(text, evidence):
     assert outcome.hint
 
 
+def test_another_name_is_no_wrong_option():
+    run = RUN.replace("second_monitor", "secondmonitor")
+    outcome = judged(run, text="[INFO] [secondmonitor]: Temperature: 22.00C\n")
+    assert outcome.mistake == "wrong-node-name"
+    assert "is secondmonitor, and second_monitor was" in outcome.hint
+
+
 def test_only_the_last_run_counts():
     right = "[INFO] [second_monitor]: Temperature: 22.10C - Status:Normal\n"
     again = RUN.replace("__node", "_node")

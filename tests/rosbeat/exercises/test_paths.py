@@ -1,6 +1,14 @@
 import pytest
 
-from rosbeat.exercises.paths import alike, commands, is_absolute, led_to, misspelled, moves
+from rosbeat.exercises.paths import (
+    alike,
+    closeness,
+    commands,
+    is_absolute,
+    led_to,
+    misspelled,
+    moves,
+)
 
 
 @pytest.mark.parametrize(("one", "other"), [("src", "scr"), ("Src", "src"), ("sounds", "sound")])
@@ -13,6 +21,11 @@ def test_names_that_are_alike(one, other):
 def test_names_that_are_not():
     assert not alike("src", "docs")
     assert not misspelled("a/src", "a/src")
+
+
+def test_how_close_a_path_is():
+    made = ("a\\room\\lamp", "room", "house/rooms", "garden/house/room/lamp")
+    assert [closeness(one, "house/room/lamp") for one in made] == [0, 1, 2, 3]
 
 
 def test_where_a_path_leads():

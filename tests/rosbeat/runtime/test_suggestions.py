@@ -40,6 +40,8 @@ def error_of(call):
     [
         (lambda node: node.temprature, "temperature"),
         (lambda node: node.publisher, "publisher_"),
+        (lambda node: node.publish_pressure, "publish_temperature"),
+        (lambda node: node.read_pressure, ""),
         (lambda node: node.publsh_temperature, "publish_temperature"),
         (lambda node: node.create_publisherr, "create_publisher"),
         (lambda node: node.timerss, ""),

@@ -1,12 +1,17 @@
 import builtins
 import gc
 import os
+import random
 import signal
 import sys
 import threading
+import time
 import warnings
 
 import pytest
+import rclpy
+from rclpy.node import Node
+from rclpy.publisher import Publisher
 
 from rosbeat.runtime.unharmed import unharmed
 
@@ -101,3 +106,27 @@ def _do_harm(place):
     os.chdir("/")
     place.rmdir()
     raise ZeroDivisionError
+
+
+@pytest.mark.parametrize(
+    ("owner", "name"),
+    [(time, "sleep"), (time, "monotonic"), (random, "uniform"), (random, "setstate"),
+     (rclpy, "init"), (Node, "create_timer"), (Publisher, "publish")],
+    ids=lambda one: getattr(one, "__name__", one),
+)  # fmt: skip
+def test_names_of_others_are_put_back(owner, name):
+    before = vars(owner)[name]
+    with unharmed():
+        setattr(owner, name, None)
+    assert vars(owner)[name] is before
+
+
+def test_traces_and_collection_are_put_back():
+    tracing, threshold = sys.gettrace(), gc.get_threshold()
+    with unharmed():
+        sys.settrace(lambda *_: None)
+        gc.set_threshold(1)
+        signal.signal(signal.SIGVTALRM, lambda *_: None)
+        signal.setitimer(signal.ITIMER_VIRTUAL, 60, 60)
+    assert (sys.gettrace(), gc.get_threshold()) == (tracing, threshold)
+    assert signal.getitimer(signal.ITIMER_VIRTUAL) == (0.0, 0.0)

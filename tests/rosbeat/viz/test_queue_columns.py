@@ -47,6 +47,7 @@ def test_too_much_is_cut_and_said(words_in):
 @pytest.mark.parametrize(
     ("steps", "depth", "words"),
     [((), 5, "no steps"), (queue_steps([0, 0], [], 2), 1, "does not fit"),
+     ([1, 2], 10, "from its steps"), (5, 10, "from its steps"), ("ab", 10, "from its steps"),
      (queue_steps([0], [], 1), 0, "does not fit"), (queue_steps([0], [], 1), 2.5, "does not fit")],
 )  # fmt: skip
 def test_bad_input_gets_three_parts(steps, depth, words):

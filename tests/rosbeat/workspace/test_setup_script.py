@@ -4,7 +4,7 @@ from types import ModuleType
 import pytest
 
 from bank.workspaces import entries
-from rosbeat.workspace.setup_script import SetupScript, read_setup
+from rosbeat.workspace.setup_script import SetupScript, parse_setup, read_setup
 from rosbeat.workspace.stages import finished
 
 HEAD = "from setuptools import setup\npackage_name = 'p'\nsetup(name=package_name, entry_points={\n"
@@ -192,3 +192,10 @@ def test_a_dictionary_that_is_added_to_itself(read):
     text = "x = {'console_scripts': ['a = p.a:main']}\n" + "x = x | x\n" * 100
     setup = read(text + "setup(entry_points=x)\n")
     assert [one.executable for one in setup.entry_points] == ["a"]
+
+
+def test_the_line_of_a_problem_is_told_once():
+    script = parse_setup(b'setup(name="a)\n')
+    assert script.line == 1
+    assert script.problem.startswith("unterminated string literal")
+    assert "detected" not in script.problem

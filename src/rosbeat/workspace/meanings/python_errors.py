@@ -32,4 +32,4 @@ def in_a_node(seen: Situation) -> Diagnosis | None:
         return None
     if not seen.about_ros and meaning.mistake not in _PLAIN:
         return None
-    return Diagnosis(meaning.mistake, meaning.means, meaning.to_try)
+    return Diagnosis(meaning.mistake, meaning.beside_error, meaning.to_try)
