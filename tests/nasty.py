@@ -204,7 +204,7 @@ def changes_everything(node):
     sys.excepthook = threading.excepthook = None
     os.chdir("/")
     os.environ["ROS_DOMAIN_ID"] = "3"
-    builtins.len = builtins.print = 3
+    builtins.sum = builtins.print = 3  # not len: the other threads of a kernel need that one
     warnings.simplefilter("error")
     sys.setrecursionlimit(5000)
 

@@ -71,7 +71,9 @@ class WatchedKernel(RunningKernel):
     def leave(self) -> int | None:
         """Ask the kernel to end by itself, and return its exit code."""
         process = self.km.provisioner.process
-        self.kc.shutdown()
+        # Not a shutdown request: ipykernel's control thread flushes once more after it, and waits
+        # for ever if the thread that publishes has ended first (1 time in 60 on a busy machine).
+        self.kc.execute("get_ipython().ask_exit()", store_history=False)
         deadline = time.monotonic() + _LEAVE_WITHIN
         while process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.02)

@@ -88,10 +88,8 @@ class Kernel:
 
     def exit(self, code: str = "") -> int:
         """Ask the kernel to end, or let a cell end it; return the exit code."""
-        if code:
-            self._client.execute(code)
-        else:
-            self._client.shutdown()
+        # Not a shutdown request, which may wait for ever in ipykernel: see notebooks/kernel.py.
+        self._client.execute(code or "get_ipython().ask_exit()")
         return self.process.wait(timeout=DEADLINE)
 
     def log(self) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import rclpy.utilities
@@ -65,6 +67,19 @@ class SessionContext(Context):
         super().try_shutdown()
         self.watcher = None
         _configure_logging(self._previous, self._previous)
+
+    def _call_on_shutdown_callbacks(self) -> None:
+        """Call all that asked to be told, also if one of them raises: the end must be one.
+
+        rclpy's own one for its global executor does, if the node that spun was broken off.
+        """
+        told: list[Callable[[], Any]] = self._callbacks
+        self._callbacks: list[Callable[[], Any]] = []
+        for reference in told:
+            with suppress(Exception):
+                callback = reference()  # a weak reference, or the function itself
+                if callback is not None:
+                    callback()
 
     def install(self) -> Context | None:
         """Become rclpy's default context; return the one that was, for `uninstall`."""

@@ -232,7 +232,7 @@ def assert_all_is_well():
     seen = observe(nasty.Base, 5)
     assert [s.time for s in seen.samples] == BEATS
     assert (seen.faults, seen.printed) == ((), 0)
-    assert len("abc") == 3
+    assert sum([1, 2]) == 3
 
 
 def test_interrupt_in_an_observation_is_an_interrupt():
