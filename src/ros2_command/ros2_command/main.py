@@ -66,7 +66,7 @@ def guarded(action: Callable[[], int]) -> int:
         return 1
     except OSError as error:
         print(_what_the_system_says(error), file=sys.stderr)
-        return 1
+        return _quietly(1)  # what is left in the buffer would fail once more at the very end
     except Exception as error:  # a learner cannot do anything with our stack
         print(f"ros2: unexpected {type(error).__name__}: {error}", file=sys.stderr)
         return 1

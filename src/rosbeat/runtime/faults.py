@@ -24,6 +24,8 @@ _FOREIGN = tuple(
 def is_learners(frame: FrameType) -> bool:
     """Whether a frame runs code that the learner wrote, and not a library or rosbeat."""
     name = frame.f_code.co_filename
+    if name == "<string>":  # code that a library has written, as for a dataclass, is of its module
+        name = str(frame.f_globals.get("__file__", name))
     return not name.startswith(_FOREIGN) and not name.startswith("<frozen")
 
 
