@@ -1,5 +1,6 @@
 """Pages are tests: see `tests/notebooks`."""
 
+import signal
 from collections.abc import Iterator
 
 import pytest
@@ -10,6 +11,36 @@ settings.register_profile("rosbeat", deadline=None)
 settings.load_profile("rosbeat")
 
 pytest_plugins = ["notebooks.plugin", "pytester"]
+
+# A shell lets what it starts with `&` ignore Interrupt, and so would every kernel and program that
+# a test interrupts. Pytest's workers import this, too.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+#: Where the files are that take longest, the longest first: with several workers these begin, and
+#: nobody waits for one of them at the end. (With `--no-loadscope-reorder`; else xdist begins with
+#: the files that have most tests.)
+_LONGEST = (
+    "tests/bank/test_mutants_of_walks.py",
+    *(f"{tree}/{page}" for page in ("07", "06", "09") for tree in ("solutions", "notebooks")),
+    "tests/ros2_command/verbs/test_topic.py",
+    "tests/torture/",
+    "tests/bank/",
+    "solutions/",
+    "notebooks/",
+    "tests/ros2_command/",
+    "tests/rosbeat/workspace/",
+)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with what takes longest; the tests of a file stay together and in their order."""
+    items.sort(key=lambda item: _place(item.nodeid))
+
+
+def _place(nodeid: str) -> int:
+    found = (n for n, start in enumerate(_LONGEST) if nodeid.startswith(start))
+    return next(found, len(_LONGEST))
 
 
 @pytest.fixture(autouse=True, scope="session")

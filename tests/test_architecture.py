@@ -24,7 +24,9 @@ MAY_IMPORT = {
     "environment": set(),
     "domains": {"errors"},
     "records": {"errors"},
-    "observations": {"records", "errors"},
+    "record_columns": set(),
+    "record_json": {"errors", "record_columns"},
+    "observations": {"record_json", "records", "errors"},
     "diagnosis": {"records", "errors"},
     "comparisons": {"records", "errors"},
     "bags": {"records", "errors", "comparisons", "runtime"},
@@ -32,19 +34,35 @@ MAY_IMPORT = {
     "checks": {"records", "errors", "diagnosis"},
     "panel": {"records", "errors", "viz"},
     # A session opens its panel, which knows it only as instruments.
-    "runtime": {"errors", "records", "environment", "domains", "diagnosis", "panel"},
+    "runtime": {
+        "errors",
+        "records",
+        "record_columns",
+        "environment",
+        "domains",
+        "diagnosis",
+        "panel",
+    },
+    "clinic": {"runtime", "diagnosis", "records", "errors"},
+    # Beside a stranger's code: nothing that judges, and no diagnosis, which knows the mistakes.
+    "scenarios": {
+        *("errors", "records", "record_json", "environment", "comparisons", "bags", "runtime"),
+        "workspace",
+    },
     "exercises": {
         *("runtime", "checks", "records", "observations", "errors", "viz", "workspace"),
-        *("diagnosis", "environment", "rosbeat"),
+        *("diagnosis", "environment", "rosbeat", "bags", "clinic", "scenarios"),
     },
     "workspace": {"errors", "records", "environment", "diagnosis"},
     "grading": {
-        *("errors", "records", "observations", "environment", "runtime", "viz", "checks"),
-        *("exercises", "workspace", "diagnosis", "rosbeat"),
+        *("errors", "records", "record_json", "environment", "runtime", "viz", "checks"),
+        *("exercises", "scenarios", "workspace", "diagnosis", "rosbeat"),
     },
     "authoring": {"errors", "domains"},
     # The package itself hands out names of other rooms.
-    "rosbeat": {"checks", "environment", "viz", "runtime", "exercises", "workspace"},
+    "rosbeat": {
+        *("checks", "environment", "viz", "runtime", "exercises", "workspace", "bags", "clinic"),
+    },
 }
 #: `cli` may import everything, and nobody may import `cli`.
 EVERYWHERE = {"cli", "__main__"}
@@ -52,6 +70,7 @@ EVERYWHERE = {"cli", "__main__"}
 THIRD_PARTY = {
     "errors": set(),
     "records": set(),
+    "record_json": set(),
     "observations": set(),
     "comparisons": set(),
     "bags": {"rosbags", "numpy"},
@@ -63,7 +82,10 @@ THIRD_PARTY = {
     "panel": {"anywidget", "traitlets", "IPython"},
     "checks": set(),
     "diagnosis": set(),
+    "clinic": {"rclpy", "std_msgs"},
 }
+#: Nodes of the course's own, for learners to examine: the only code with ROS outside of `runtime`.
+ROS_TOO = {"rosbeat.clinic.nodes"}
 ROS = re.compile(r"rclpy|_rclpy|rcl_interfaces|builtin_interfaces|rosidl\w*|rmw\w*|\w+_(msgs|srvs)")
 MAX_LINES, MEDIAN_LINES = 400, 130
 MEDIAN_BODY, LONG_BODY, SHARE_BELOW = 7, 20, 0.9
@@ -156,7 +178,7 @@ def unknown_rooms(sources):
 
 def ros_outside_runtime(sources):
     return [f"{module} imports {name}" for module, source in sources.items()
-            if room_of(module) != "runtime"
+            if room_of(module) != "runtime" and module not in ROS_TOO
             for name in imports(source, sources) if ROS.fullmatch(name.split(".")[0])]  # fmt: skip
 
 
@@ -316,6 +338,14 @@ BAD = {
         "from rosbeat.authoring import a",
     ),
     "anybody imports cli": (wrong_directions, "rosbeat.grading.a", "from rosbeat.cli import main"),
+    "scenarios import judges": (
+        *(wrong_directions, "rosbeat.scenarios.a"),
+        "from rosbeat.exercises import a",
+    ),
+    "scenarios import diagnosis": (
+        *(wrong_directions, "rosbeat.scenarios.a"),
+        "from rosbeat.diagnosis.wires import Wire",
+    ),
     "a new room": (unknown_rooms, "rosbeat.cellar.a", ""),
     "viz imports rclpy": (ros_outside_runtime, "rosbeat.viz.a", "from rclpy.node import Node"),
     "cli imports messages": (

@@ -33,6 +33,18 @@ _LAB_DEFAULTS = {
     }
 }
 
+# What tests bring along, and learners do not have: JupyterLab stays as learners know it.
+_ONLY_FOR_TESTS = {
+    "servers": (
+        "notebook",
+        "nbgrader.server_extensions.formgrader",
+        "nbgrader.server_extensions.validate_assignment",
+        "nbgrader.server_extensions.assignment_list",
+        "nbgrader.server_extensions.course_list",
+    ),
+    "labs": ("@jupyter/nbgrader", "@jupyter-notebook/lab-extension"),
+}
+
 
 def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     """Install what a level's lock says, and the course's own packages."""
@@ -87,11 +99,20 @@ def write_start_hook(layout: Layout) -> None:
 
 
 def write_lab_defaults(layout: Layout) -> None:
-    """Make a first JupyterLab open without asking anything."""
-    folder = layout.venv / "share" / "jupyter" / "lab" / "settings"
-    folder.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(_LAB_DEFAULTS, indent=2) + "\n"
-    (folder / "overrides.json").write_text(text, encoding="utf-8")
+    """Make a first JupyterLab open without asking anything, and without what is for tests only."""
+    share, etc = layout.venv / "share" / "jupyter", layout.venv / "etc" / "jupyter"
+    off = dict.fromkeys(_ONLY_FOR_TESTS["servers"], False)
+    _write_json(share / "lab" / "settings" / "overrides.json", _LAB_DEFAULTS)
+    # "zz": of files that say different things, the last one in the alphabet counts.
+    server = etc / "jupyter_server_config.d" / "zz_course.json"
+    _write_json(server, {"ServerApp": {"jpserver_extensions": off}})
+    lab = {"disabledExtensions": dict.fromkeys(_ONLY_FOR_TESTS["labs"], True)}
+    _write_json(etc / "labconfig" / "page_config.json", lab)
+
+
+def _write_json(path: Path, content: object) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
 
 
 def link_mode(layout: Layout, environ: Mapping[str, str]) -> str | None:

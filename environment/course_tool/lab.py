@@ -54,8 +54,11 @@ def _terminals(options: Sequence[str]) -> list[str]:
 def _page(layout: Layout, options: Sequence[str]) -> list[str]:
     if any(option.endswith(".ipynb") for option in options):
         return []
-    if (layout.root / FIRST_PAGE).exists():
+    # What an instructor hands out may begin later.
+    pages = sorted((layout.root / FIRST_PAGE.parent).glob("[0-9][0-9]_*.ipynb"))
+    if pages:
+        page = FIRST_PAGE.parent / pages[0].name
         # As an address, not as a file: so it is also in what --no-browser prints.
-        return [f"--LabApp.default_url=/lab/tree/{FIRST_PAGE.as_posix()}"]
+        return [f"--LabApp.default_url=/lab/tree/{page.as_posix()}"]
     say(f"{FIRST_PAGE} is not there; JupyterLab opens on the folder.")
     return []

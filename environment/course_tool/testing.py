@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
 from course_tool import prepare
 from course_tool.layout import Layout
-from course_tool.messages import say
+from course_tool.messages import Problem, say
+
+#: Steps that run at a time, before the tests.
+_AT_ONCE = 2
+#: Each test process may hold several of the 51 domain ids for private sessions.
+_MOST_WORKERS = 6
 
 
 @dataclass(frozen=True)
@@ -43,22 +51,43 @@ class Counts:
 
 def test(layout: Layout, arguments: Sequence[str]) -> int:
     """Run every step, or only pytest when there are arguments for it."""
+    if not (layout.root / "tests").is_dir():
+        raise Problem(
+            "There are no tests in this folder.",
+            "It holds what learners get, and the tests are for those who work on the course.",
+            "./environment/course doctor  looks at what works here.",
+        )
     environ = prepare.ready(layout, "test")
     if arguments:
         return subprocess.call([layout.python, "-m", "pytest", *arguments], env=environ)
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "pytest.xml"
-        verdicts = [_run(step, layout, environ) for step in steps(layout, report)]
+        *short, tests = steps(layout, report)
+        verdicts = [*_side_by_side(short, layout, environ), _run(tests, layout, environ)]
         counts = read_counts(report)
     say(summary(verdicts, counts))
     return 0 if all(verdict.ok for verdict in verdicts) else 1
 
 
+def workers(cores: int | None) -> int:
+    """Return how many processes share the tests: one more than cores, for each waits at times.
+
+    Args:
+        cores: How many cores there are; None if nobody knows.
+    """
+    return min(max(cores or 1, 2) + 1, _MOST_WORKERS)
+
+
 def steps(layout: Layout, report: Path) -> list[Step]:
-    """Return what `course test` runs, in order."""
+    """Return what `course test` runs, in order; the tests are the last."""
     python = str(layout.python)
-    pytest = (python, "-m", "pytest", "-n", "2", "--dist", "loadfile", f"--junitxml={report}")
+    # The order of the files is that of conftest.py, where the longest come first.
+    shared = ("--dist", "loadfile", "--no-loadscope-reorder")
+    number = str(workers(os.cpu_count()))
+    pytest = (python, "-m", "pytest", "-n", number, *shared, f"--junitxml={report}")
     tool = str(layout.environment / "course_tool")
+    # Solution pages are run once, by pytest, which compares them as `build --check` would.
+    unrun = ("build", "--check", "--no-run")
     return [
         Step("lint", (python, "-m", "ruff", "check")),
         Step("format", (python, "-m", "ruff", "format", "--check")),
@@ -66,7 +95,7 @@ def steps(layout: Layout, report: Path) -> list[Step]:
         Step(
             "types of the course tool", (python, "-m", "mypy", "--config-file=", "--strict", tool)
         ),
-        Step("pages are what their sources say", (python, *_rosbeat(layout), "build", "--check")),
+        Step("pages are what their sources say", (python, *_rosbeat(layout), *unrun)),
         Step("tests: units, ROS, pages", pytest),
     ]
 
@@ -102,6 +131,32 @@ def _run(step: Step, layout: Layout, environ: Mapping[str, str]) -> Verdict:
     started = time.monotonic()
     code = subprocess.call(step.command, env=environ, cwd=layout.root)
     return Verdict(step.name, code == 0, time.monotonic() - started)
+
+
+def _side_by_side(
+    steps: Sequence[Step], layout: Layout, environ: Mapping[str, str]
+) -> Iterator[Verdict]:
+    """Run steps that use one core each; what they print comes in their order."""
+    with ThreadPoolExecutor(_AT_ONCE) as pool:
+        ends = pool.map(partial(_captured, layout=layout, environ=environ), steps)
+        for step, (verdict, text) in zip(steps, ends, strict=True):
+            say(f"\n=== {step.name}\n{text.rstrip()}")
+            yield verdict
+
+
+def _captured(step: Step, layout: Layout, environ: Mapping[str, str]) -> tuple[Verdict, str]:
+    started = time.monotonic()
+    done = subprocess.run(
+        step.command,
+        env=environ,
+        cwd=layout.root,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        check=False,
+    )
+    return Verdict(step.name, done.returncode == 0, time.monotonic() - started), done.stdout
 
 
 def _rosbeat(layout: Layout) -> tuple[str, ...]:

@@ -1,20 +1,24 @@
 """rosbeat: learn how robots talk.
 
-A learner needs seven names from here: `Session` runs nodes, `viz` draws what a session recorded,
+A learner needs nine names from here: `Session` runs nodes, `viz` draws what a session recorded,
 `predict` compares what you expect with what happens, `check` looks at the answer to an exercise,
-`hint` helps with it, `progress` shows how far you are, `workspace` is where packages are built.
+`hint` helps with it, `progress` shows how far you are, `workspace` is where packages are built,
+`bags` keeps recordings of runs, `clinic` has broken systems to examine.
 Importing the package is quick and does not import ROS: names load when they are first used
 (PEP 562), so that tools which only build or check pages work where ROS is not installed.
 """
 
 from __future__ import annotations
 
+import os
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from rosbeat import environment
 
 if TYPE_CHECKING:
+    from rosbeat import bags as bags
+    from rosbeat import clinic as clinic
     from rosbeat import viz as viz
     from rosbeat import workspace as workspace
     from rosbeat.checks.predictions import predict as predict
@@ -24,14 +28,18 @@ if TYPE_CHECKING:
     from rosbeat.runtime.session import Session as Session
 
 __version__ = "0.1.0"
-__all__ = ["Session", "check", "hint", "predict", "progress", "viz", "workspace"]
+__all__ = ["Session", "bags", "check", "clinic", "hint", "predict", "progress", "viz", "workspace"]
 
 # Before any message class is imported: the field checks are read at that moment.
 environment.apply()
+if os.environ.get("NBGRADER_EXECUTION"):
+    import_module("rosbeat.workspace.graded_runs").settle_in()
 
 _HOMES = {
     "Session": ("rosbeat.runtime.session", "Session"),
+    "bags": ("rosbeat.bags", None),
     "check": ("rosbeat.exercises.checking", "check"),
+    "clinic": ("rosbeat.clinic", None),
     "hint": ("rosbeat.exercises.hinting", "hint"),
     "predict": ("rosbeat.checks.predictions", "predict"),
     "progress": ("rosbeat.exercises.progress", "progress"),

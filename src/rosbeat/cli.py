@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import difflib
 import sys
+import textwrap
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
 from rosbeat import __version__
-from rosbeat.errors import CommandError, LessonError, RosbeatError
+from rosbeat.errors import CommandError, LessonError, RosbeatError, StoppedError
 
 __all__ = ["COMMANDS", "Command", "main"]
 
@@ -52,9 +53,11 @@ def _build_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _build(options: argparse.Namespace) -> int:
     from rosbeat.authoring import builder, layout
+    from rosbeat.exercises.registry import EXERCISES
 
     course = layout.find_course((options.root or Path.cwd()).resolve())
-    plan = builder.Plan(tuple(options.pages), options.check, not options.no_run, options.fresh)
+    choices = (tuple(options.pages), options.check, not options.no_run, options.fresh)
+    plan = builder.Plan(*choices, {one.id: one.points for one in EXERCISES.values()})
     found = builder.build(course, plan, lambda line: print(line, flush=True))
     changes = [change for change in found if change.matters]
     if not options.check or not changes:
@@ -109,10 +112,55 @@ def _explain(options: argparse.Namespace) -> int:
     return 0 if found.is_well else FAILED
 
 
+def _release_arguments(parser: argparse.ArgumentParser) -> None:
+    from rosbeat.grading import commands
+
+    commands.release_arguments(parser)
+
+
+def _release(options: argparse.Namespace) -> int:
+    from rosbeat.grading import commands
+
+    return commands.run_release(options)
+
+
+def _collect_arguments(parser: argparse.ArgumentParser) -> None:
+    from rosbeat.grading import commands
+
+    commands.collect_arguments(parser)
+
+
+def _collect(options: argparse.Namespace) -> int:
+    from rosbeat.grading import commands
+
+    return commands.run_collect(options)
+
+
+def _grade_arguments(parser: argparse.ArgumentParser) -> None:
+    from rosbeat.grading import grade_options
+
+    grade_options.arguments(parser)
+
+
+def _grade(options: argparse.Namespace) -> int:
+    from rosbeat.grading.unchanged import last_summary
+
+    done = last_summary(options)
+    if done is not None:
+        print(f"Nothing has changed since the last run.\n{done}")
+        return 0
+    from rosbeat.grading import grade_command
+
+    return grade_command.run(options)
+
+
 COMMANDS: tuple[Command, ...] = (
     Command("build", "make the pages from their sources", _build_arguments, _build),
     Command("lint", "check the lesson sources against the rules", _page_arguments, _lint),
     Command("explain", "say why nothing arrives on a topic", _explain_arguments, _explain),
+    Command("release", "make what learners get: pages, no answers", _release_arguments, _release),
+    Command("collect", "say who has handed in what", _collect_arguments, _collect),
+    Command("grade", "judge what a class has handed in", _grade_arguments, _grade),
     Command("progress", "show how far you are with the course", _progress_arguments, _progress),
 )
 
@@ -121,7 +169,14 @@ class _Parser(argparse.ArgumentParser):
     """Reports misuse in three parts instead of argparse's one line."""
 
     def error(self, message: str) -> NoReturn:
-        raise CommandError(f"{message}.", "", f"`{self.prog} --help` says what it knows.")
+        usage = " ".join(self.format_usage().removeprefix("usage: ").split())
+        first, others = (f"\n{' ' * width}" for width in (17, 21))
+        shown = textwrap.wrap(usage, 76, break_long_words=False, break_on_hyphens=False)
+        raise CommandError(
+            f"{message[:1].upper()}{message[1:]}.",
+            "The command cannot know what you want, so nothing was done.",
+            f"`{self.prog} --help` explains each word of it:{first}{others.join(shown)}",
+        )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -139,10 +194,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _run([word for word in typed if word != "--traceback"])
     except CommandError as error:
         return _complain(error, MISUSED)
+    except StoppedError as error:
+        return _complain(error, INTERRUPTED)
     except RosbeatError as error:
         return _complain(error, FAILED)
     except KeyboardInterrupt:
-        return _complain(RosbeatError("interrupted."), INTERRUPTED)
+        return _complain(_interrupted(), INTERRUPTED)
     except BrokenPipeError:
         # Whoever read our output (`| head`) has seen enough; keep Python from flushing into it.
         sys.stdout = None
@@ -184,13 +241,23 @@ def _require_known(typed: list[str]) -> None:
     nearest = difflib.get_close_matches(typed[0], names, n=1, cutoff=0.5)
     meant = f"Did you mean `rosbeat {nearest[0]}`? " if nearest else ""
     raise CommandError(
-        f"rosbeat has no command {typed[0]!r}.", "", f"{meant}The commands are: {', '.join(names)}."
+        f"rosbeat has no command {typed[0]!r}.",
+        "Nothing else was looked at, and nothing was done.",
+        f"{meant}The commands are: {', '.join(names)}.",
     )
 
 
 def _complain(error: RosbeatError, code: int) -> int:
     print(f"rosbeat: {error}", file=sys.stderr)
     return code
+
+
+def _interrupted() -> RosbeatError:
+    return StoppedError(
+        "interrupted.",
+        "You stopped the command before it was done. No file is left half written.",
+        "Type the same command again when you want it done.",
+    )
 
 
 def _system_error(error: OSError) -> RosbeatError:

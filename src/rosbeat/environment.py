@@ -73,6 +73,9 @@ def defaults(prefix: str | None = None) -> dict[str, str]:
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         # Message classes read this when they are imported: `String(data=3)` then says why not.
         "ROS_PYTHON_CHECK_FIELDS": "1",
+        # Each message package imports NumPy, whose second thread spins for a tenth of a second, and
+        # no node of the course multiplies matrices: a third of what it takes to start a node.
+        "OPENBLAS_NUM_THREADS": "1",
         "ROS_DISTRO": "jazzy",
         "ROS_VERSION": "2",
         "ROS_PYTHON_VERSION": "3",

@@ -5,6 +5,7 @@
     RosbeatError                    what happened, what it means, what to try
     ├── SessionError                a session was asked for something it cannot do
     │   ├── NodeClassError          what was added is not a node, or cannot be made into one
+    │   │   └── NoSystemError       what should be a list of nodes is none
     │   ├── NodeConstructionError   the node's own constructor raised
     │   ├── DurationError           a time span that is negative, not finite or not a number
     │   ├── UnknownTopicError       nobody published on that topic
@@ -18,8 +19,10 @@
     ├── TerminalError               a terminal of a page was asked for something it cannot do
     ├── LessonError                 a lesson source breaks a rule of the builder
     ├── BagError                    a recording cannot be written, read, replayed or compared
+    ├── GradingError                submissions cannot be collected, graded or reported
     ├── RecordError                 saved data that does not follow the schema
-    └── CommandError                the command line was used in a way it does not know
+    ├── CommandError                the command line was used in a way it does not know
+    └── StoppedError                a person has stopped a command (Ctrl-C); what is done stays
 
 This module imports nothing of rosbeat, so that every room of the house may raise.
 """
@@ -44,6 +47,10 @@ class RosbeatError(Exception):
         self.means = means
         self.to_try = to_try
 
+    def __reduce__(self) -> tuple[type[RosbeatError], tuple[str, str, str]]:
+        """All three parts go from one process to another."""
+        return type(self), (self.what, self.means, self.to_try)
+
     def __str__(self) -> str:
         rows = [self.what]
         if self.means:
@@ -63,6 +70,10 @@ class SessionError(RosbeatError):
 
 class NodeClassError(SessionError):
     """What was added to a session is not a node, nor something that makes one."""
+
+
+class NoSystemError(NodeClassError):
+    """What should be a list of nodes is none."""
 
 
 class NodeConstructionError(SessionError):
@@ -117,9 +128,17 @@ class BagError(RosbeatError):
     """A recording cannot be written, read, replayed or compared."""
 
 
+class GradingError(RosbeatError):
+    """Submissions cannot be collected, graded or reported."""
+
+
 class RecordError(RosbeatError):
     """Saved data does not follow the schema of the records."""
 
 
 class CommandError(RosbeatError):
     """The command line was used in a way it does not know."""
+
+
+class StoppedError(RosbeatError):
+    """A person has stopped a command; what was done until then stays."""

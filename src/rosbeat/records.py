@@ -11,6 +11,7 @@ property `time` gives the same in seconds. Names of nodes and topics are fully q
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,13 +19,12 @@ NANOSECONDS = 1_000_000_000
 
 #: Topics that every node brings along; pictures and lists leave them out unless asked.
 INFRASTRUCTURE_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
+#: What the topics and services that an action is made of have in their names.
+ACTION_PART = "/_action/"
 
 
 def is_hidden(name: str) -> bool:
-    """Whether a ROS name is hidden: a part of it begins with an underscore.
-
-    Source: ROS 2 design, "Topic and Service name mapping to DDS", hidden names.
-    """
+    """Whether a part of a ROS name begins with an underscore (ROS 2 design: hidden names)."""
     return any(part.startswith("_") for part in name.split("/"))
 
 
@@ -94,11 +94,14 @@ class CallbackRecord(Timed):
     """One run of a callback.
 
     Attributes:
-        time_ns: When it ran, in nanoseconds of virtual time. In virtual time a callback takes none.
+        time_ns: When it began, in nanoseconds of virtual time. It takes none, unless it sleeps.
         node: Full name of the node whose callback it was.
-        kind: `timer`, `subscription`, `service`, `client`, `guard condition`, `waitable` or `task`.
+        kind: `timer`, `subscription`, `service`, `client`, `action server`, `action client`,
+            `event`, `guard condition`, `waitable` or `task`; or `expired`, for a subscription's
+            callback that did not run: its message was older than a lifespan allows.
         name: The callback function's name, such as `publish_temperature`.
-        source: What it answered: the topic or service name; for a timer its period, as in `1 s`.
+        source: What it answered: the topic or service name; for a timer its period, as in `1 s`;
+            for an event of the middleware which one, as in `deadline of /temperature`.
     """
 
     time_ns: int
@@ -110,7 +113,7 @@ class CallbackRecord(Timed):
 
 @dataclass(frozen=True)
 class Fault(Timed):
-    """An exception that left a callback, and so ended its node.
+    """An exception that left a callback, and so ended its node; in the work on a goal, the goal.
 
     Attributes:
         time_ns: When it happened, in nanoseconds of virtual time.
@@ -145,12 +148,18 @@ class QoS:
         durability: `VOLATILE` or `TRANSIENT_LOCAL`.
         history: `KEEP_LAST` or `KEEP_ALL`; `UNKNOWN` in another process, which does not tell.
         depth: Queue length for `KEEP_LAST`, in messages; 0 if unknown.
+        deadline_ns: The longest time from one message to the next that is offered or asked for, in
+            nanoseconds; 0 if there is no such limit.
+        lifespan_ns: How old a message may get, in nanoseconds, before it is dropped from the queue
+            of this endpoint; 0 if there is no such limit.
     """
 
     reliability: str = "RELIABLE"
     durability: str = "VOLATILE"
     history: str = "KEEP_LAST"
     depth: int = 10
+    deadline_ns: int = 0
+    lifespan_ns: int = 0
 
 
 @dataclass(frozen=True)
@@ -161,7 +170,8 @@ class Endpoint:
         node: Full name of the node it belongs to.
         name: Full name of the topic or service.
         type_name: Its type, such as `std_msgs/msg/Float32`.
-        kind: `publisher`, `subscription`, `server` or `client`.
+        kind: `publisher`, `subscription`, `server`, `client`, `action server` or `action client`.
+            After an action's end come those of its services and topics.
         qos: Its quality of service.
         matched: How many endpoints on the other side it is connected to, or -1 if unknown.
     """
@@ -207,14 +217,33 @@ class GraphSnapshot:
     timers: tuple[TimerRecord, ...] = ()
 
     def topics(self, infrastructure: bool = False) -> tuple[str, ...]:
-        """Names of the topics, sorted; with `infrastructure` also those every node brings."""
-        kinds = ("publisher", "subscription")
-        names = {end.name for end in self.endpoints if end.kind in kinds}
-        return tuple(sorted(names if infrastructure else names - INFRASTRUCTURE_TOPICS))
+        """Names of the topics, sorted; with `infrastructure` also what nodes and actions bring."""
+        names = {end.name for end in self.endpoints if end.kind in ("publisher", "subscription")}
+        seen = {name for name in names - INFRASTRUCTURE_TOPICS if ACTION_PART not in name}
+        return tuple(sorted(names if infrastructure else seen))
 
     def on(self, name: str, kind: str) -> tuple[Endpoint, ...]:
         """The endpoints of one kind on one topic or service, in order of creation."""
         return tuple(end for end in self.endpoints if end.name == name and end.kind == kind)
+
+
+@dataclass(frozen=True)
+class Reply(Timed):
+    """What a step of a scenario got that asks for something.
+
+    Attributes:
+        time_ns: When it came, in nanoseconds of virtual time.
+        name: Full name of the service, action or node that was asked.
+        number: Which question to this name it answers, counted from 1.
+        word: `response`, `parameters`, or of an action `goal`, `feedback`, `cancel` or `result`.
+        data: What it holds, as in a `Sample`; of a result also its `status`.
+    """
+
+    time_ns: int
+    name: str
+    number: int
+    word: str
+    data: dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -231,6 +260,7 @@ class Observation(Timed):
         graph: The graph at the end.
         subject: Full name of the node that was looked at, among others; empty if there was none.
         printed: How many characters it printed.
+        replies: What the steps of a scenario got that ask for something, in order.
     """
 
     time_ns: int
@@ -242,6 +272,7 @@ class Observation(Timed):
     graph: GraphSnapshot = GraphSnapshot()
     subject: str = ""
     printed: int = 0
+    replies: tuple[Reply, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -264,6 +295,32 @@ class ProgramRun:
 
 
 @dataclass(frozen=True)
+class Part:
+    """One requirement of an exercise that gives points for each.
+
+    Attributes:
+        id: Its name, such as `R1`.
+        text: What is required, one sentence.
+        met: Whether it is met.
+        evidence: What was observed, one or two sentences.
+        out_of: Points that there are for it; a part that is not met gives none.
+        optional: Whether the exercise can be passed without it.
+    """
+
+    id: str
+    text: str
+    met: bool
+    evidence: str = ""
+    out_of: int = 1
+    optional: bool = False
+
+    @property
+    def points(self) -> int:
+        """Points that were reached."""
+        return self.out_of if self.met else 0
+
+
+@dataclass(frozen=True)
 class Outcome:
     """What a judge says of an observation.
 
@@ -276,6 +333,7 @@ class Outcome:
         points: Points that were reached.
         out_of: Points that there are.
         remarks: What is worth knowing although the answer is right.
+        parts: The requirements, if there are points for each; empty for all or nothing.
     """
 
     exercise: str
@@ -286,6 +344,7 @@ class Outcome:
     points: int = 0
     out_of: int = 1
     remarks: tuple[str, ...] = ()
+    parts: tuple[Part, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -305,9 +364,7 @@ class QueueStep(Timed):
     length: int
 
 
-def queue_steps(
-    arrivals: tuple[int, ...] | list[int], takes: tuple[int, ...] | list[int], depth: int
-) -> tuple[QueueStep, ...]:
+def queue_steps(arrivals: Sequence[int], takes: Sequence[int], depth: int) -> tuple[QueueStep, ...]:
     """Replay a KEEP_LAST queue: what waits, what is taken, what is dropped.
 
     A full queue drops its oldest message to make room for the newest; that is what the history

@@ -39,3 +39,16 @@ def subject(exercise: str) -> str:
     """What the exercise's check cell hands over: the class's name in the reference solution."""
     (cell,) = (cell for cell in lesson(exercise[:2]).cells if cell.check == exercise)
     return cell.source.rpartition(",")[2].strip(" )\n")
+
+
+@cache
+def references_of(exercise: str) -> str:
+    """The reference solution of an exercise that builds on its page: all code of it up to there.
+
+    Cells of that page which only show something are left out; what they define is kept.
+    """
+    page = exercise[:2]
+    known = {exercise, *(page + letter for letter in "abc" if page + letter < exercise)}
+    parts = [markers.solution(c.source) for c in lesson(page).cells if c.exercise in known]
+    profiles = [c.source for c in lesson(page).cells if c.source.startswith("LATCHED")]
+    return "\n\n\n".join([*profiles, *parts]) + "\n"

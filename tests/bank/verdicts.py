@@ -1,13 +1,14 @@
 """What must hold of what `check` says of the answers to exercises about nodes."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 from unittest.mock import patch
 
 from bank.answer import Answer
 from bank.running import outcome_of
-from rosbeat.diagnosis.mistakes import UNKNOWN
+from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
+from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import Outcome
 from rosbeat.runtime.scenario import observe
 
@@ -34,9 +35,8 @@ _SHORT = 2.0
 def outcome(answer: Answer) -> Outcome:
     """What `check` says of an answer."""
     assert observe.__kwdefaults__ is not None
-    patience = (
-        _SHORT if "callback-blocks" in answer.mistakes else observe.__kwdefaults__["deadline"]
-    )
+    blocks = {"callback-blocks", "constructor-blocks"} & set(answer.mistakes)
+    patience = _SHORT if blocks else observe.__kwdefaults__["deadline"]
     with patch.dict(observe.__kwdefaults__, deadline=patience):
         return outcome_of(answer.exercise, answer.text, answer.subject)
 
@@ -46,7 +46,7 @@ def is_single(answer: Answer) -> bool:
     return len(answer.mistakes) == 1
 
 
-def assert_told(answer: Answer) -> None:
+def assert_told(answer: Answer, secrets: Mapping[str, tuple[str, ...]] = SECRETS) -> None:
     """Check the outcome of an answer, and the mistake that is named.
 
     One in twenty may be new to the judge (`assert_named`); a wrong name is never right.
@@ -57,13 +57,13 @@ def assert_told(answer: Answer) -> None:
     assert found.mistake in (answer.mistakes + unnamed or ("",)), found
     assert found.evidence
     assert bool(found.hint) == (found.status == "failed"), found
-    assert not leaks(answer.exercise, found.hint), found
+    assert not leaks(answer.exercise, found.hint, secrets), found
 
 
-def leaks(exercise: str, hint: str) -> list[str]:
+def leaks(exercise: str, hint: str, secrets: Mapping[str, tuple[str, ...]] = SECRETS) -> list[str]:
     """The pieces of the answer that a hint gives away."""
     text = re.sub(r"\s", "", hint)
-    return [secret for secret in SECRETS[exercise] if secret in text]
+    return [secret for secret in secrets[exercise] if secret in text]
 
 
 def assert_named(answers: Iterable[Answer]) -> None:
@@ -76,3 +76,23 @@ def assert_named(answers: Iterable[Answer]) -> None:
 def assert_sorted_out(answers: Iterable[Answer]) -> None:
     """Check that no right answer is refused and no wrong one accepted."""
     assert [one.id for one in answers if outcome(one).status != one.status] == []
+
+
+def assert_wide(
+    page: str, answers: Iterable[Answer], secrets: Mapping[str, tuple[str, ...]]
+) -> None:
+    """Check that each exercise of a page beyond 06 has right answers, wrong ones and pairs."""
+    answers = list(answers)
+    mine = [name for name in EXERCISES if name.startswith(page)]
+    assert sorted({one.exercise for one in answers}) == mine == sorted(secrets)
+    assert len({one.id for one in answers}) == len(answers)
+    assert {name for one in answers for name in one.mistakes} - {UNKNOWN} <= set(MISTAKES)
+    for exercise in mine:
+        here = [one for one in answers if one.exercise == exercise]
+        counts = (
+            sum(one.status == "passed" for one in here),
+            sum(len(one.mistakes) == 1 for one in here),
+            sum(len(one.mistakes) > 1 for one in here),
+        )
+        wanted = (6, 12, 3)
+        assert all(count >= least for count, least in zip(counts, wanted, strict=True)), counts

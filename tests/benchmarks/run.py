@@ -14,6 +14,8 @@ import time
 import checks
 import commands
 import endings
+import grading
+import growth
 import live_mode
 import memory
 import panel
@@ -32,6 +34,8 @@ BENCHMARKS = {
     "commands": commands.measure,
     "endings": endings.measure,
     "checks": checks.measure,
+    "grading": grading.measure,
+    "growth": growth.measure,
 }
 
 

@@ -11,6 +11,33 @@ import nbformat
 #: Milliseconds of patience with what a click does, and with a whole page that runs.
 PATIENCE, LONG_PATIENCE = 60_000, 240_000
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+#: Notes when a command of JupyterLab, the next one of this name, is done.
+WATCH = """command => {
+    const { commands } = window.jupyterapp;
+    const done = () => { window.rosbeatDone = true; };
+    const hear = (_, { id, result }) => {
+        if (id !== command) return;
+        commands.commandExecuted.disconnect(hear);
+        Promise.resolve(result).then(done, done);
+    };
+    window.rosbeatDone = false;
+    commands.commandExecuted.connect(hear);
+}"""
+#: What code cells have raised, from the notebook itself: number of the cell, and the error.
+RAISED = """() => window.jupyterapp.shell.currentWidget.context.model.toJSON().cells
+    .filter(cell => cell.cell_type === 'code')
+    .flatMap((cell, number) => cell.outputs.filter(one => one.output_type === 'error')
+        .map(one => [number, `${one.ename}: ${one.evalue}`]))"""
+
+#: Whether every cell is on the page; JupyterLab adds those of a long notebook bit by bit.
+DRAWN = """() => {
+    const { content } = window.jupyterapp.shell.currentWidget;
+    const all = (what) => [...content.node.querySelectorAll(what)];
+    return content.model.cells.length === all('.jp-Cell').length
+        && all('.jp-CodeCell').every(cell => cell.querySelector('.cm-content'))
+        && all('.jp-MarkdownCell').every(cell => cell.querySelector('.jp-RenderedMarkdown > *'))
+        && all('img').every(one => one.complete);
+}"""
 
 
 def browser_path():
@@ -43,13 +70,11 @@ class Notebook:
 
     def run_all(self):
         """Click Run, Run All Cells, and wait until the last one has run."""
-        self._menu("Run", "Run All Cells")
-        self._wait_for_idle()
+        self._finish("notebook:run-all-cells", lambda: self._menu("Run", "Run All Cells"))
 
     def run(self, cell):
         """Run one cell, as Shift-Enter does, and wait for it."""
-        self.start(cell)
-        self._wait_for_idle()
+        self._finish("notebook:run-cell", lambda: self.start(cell))
 
     def start(self, cell):
         """Run one cell and do not wait."""
@@ -74,8 +99,24 @@ class Notebook:
 
     def says(self, number, text):
         """Wait until a text is in a cell's output."""
+        from playwright.sync_api import TimeoutError as Late
+
         output = self.cell(number).locator(".jp-OutputArea", has_text=text)
-        output.wait_for(state="attached", timeout=PATIENCE)
+        try:
+            output.wait_for(state="attached", timeout=PATIENCE)
+        except Late:
+            said = self.cell(number).inner_text()
+            raise AssertionError(f"cell {number} does not say {text!r}, but: {said}") from None
+
+    def _finish(self, command, act):
+        """Start a command of JupyterLab as a person does, and wait until it is done.
+
+        The prompts alone do not tell: some time passes between a click and the first `[*]`.
+        """
+        self.page.evaluate(WATCH, command)
+        act()
+        self.page.wait_for_function("() => window.rosbeatDone", timeout=LONG_PATIENCE)
+        self._wait_for_idle()
 
     def _wait_for_idle(self):
         # The prompt is [*] while a cell waits or runs; the status bar says what the kernel does.
@@ -90,9 +131,8 @@ class Notebook:
         )
 
     def errors(self):
-        """What cells have raised."""
-        mark = '.jp-OutputArea-output[data-mime-type="application/vnd.jupyter.error"]'
-        return self.page.locator(mark).all_inner_texts()
+        """What code cells have raised: number of the cell, and the error."""
+        return dict(self.page.evaluate(RAISED))
 
     def interrupt(self):
         """Interrupt the kernel, and wait until it is idle."""
@@ -109,6 +149,10 @@ class Notebook:
         self._do("apputils:change-theme", theme=f"JupyterLab {name.title()}")
         wanted = "true" if name == "light" else "false"
         self.page.wait_for_selector(f"body[data-jp-theme-light='{wanted}']", state="attached")
+
+    def wait_until_drawn(self):
+        """Wait until all cells and pictures are on the page; it has to fit on the screen."""
+        self.page.wait_for_function(DRAWN, timeout=PATIENCE)
 
     def picture(self, name, element, folder):
         """Save a picture of an element; return its path."""

@@ -1,4 +1,4 @@
-"""Pages 00 to 06 as a learner opens them: Run All, then an answer, then the check."""
+"""Every page as a learner opens it: Run All, then an answer, then the check."""
 
 import json
 import shutil
@@ -11,60 +11,89 @@ from browser.notebook import Notebook
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(400)]
 
 ROOT = Path(__file__).parents[2]
-PAGES = sorted(path.name for path in (ROOT / "notebooks").glob("0[0-6]_*.ipynb"))
-BLANK = "____"
+PAGES = sorted(path.name for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+LESSONS = sorted(path.stem for path in (ROOT / "src" / "lessons").glob("[0-9][0-9]_*.py"))
 #: Which exercise of a page is done; the first of page 06 needs nodes that Run All has ended.
 RANKS = {"06": 1}
+#: In how many pixels of height a whole page can be seen at once.
+TALL = 16_000
 
 
 def code_cells(path):
+    """The code cells of a page: what the lesson says about each, and its source."""
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
-    return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    return [
+        (cell["metadata"].get("rosbeat", {}), "".join(cell["source"]))
+        for cell in cells
+        if cell["cell_type"] == "code"
+    ]
 
 
-def an_exercise(name):
-    """The cell to fill in, what is right there, and the check cell after it."""
-    asked = code_cells(ROOT / "notebooks" / name)
-    check = checks(name)[RANKS.get(name[:2], 0)]
-    blank = next(k for k in range(check - 1, -1, -1) if BLANK in asked[k])
-    return blank, code_cells(ROOT / "solutions" / name)[blank], check
+def meant_to_fail(path):
+    """The code cells of a page that have to raise."""
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    code = [cell for cell in cells if cell["cell_type"] == "code"]
+    return {k for k, c in enumerate(code) if "raises-exception" in c["metadata"].get("tags", [])}
 
 
-def checks(name):
-    """Which cells check an exercise."""
-    sources = code_cells(ROOT / "notebooks" / name)
-    return [k for k, source in enumerate(sources) if source.startswith("check(")]
+def checks(cells):
+    """The cells that check an exercise: number of the cell, and the exercise."""
+    return [(k, about["check"]) for k, (about, _) in enumerate(cells) if "check" in about]
+
+
+def answer_to(exercise, name):
+    """What the solution page has in the cell of an exercise."""
+    cells = code_cells(ROOT / "solutions" / name)
+    return next(source for about, source in cells if about.get("exercise") == exercise)
 
 
 @pytest.fixture
 def open_page(page, lab):
     made = []
 
-    def open_one(name):
-        shutil.copy(ROOT / "notebooks" / name, lab.root / name)
+    def open_one(name, tree="notebooks"):
+        shutil.copy(ROOT / tree / name, lab.root / name)
         made.append(Notebook(page, lab, name))
-        return made[-1]
+        return made[-1], code_cells(lab.root / name)
 
     yield open_one
     for one in made:
         one.shut_down()
 
 
-def test_there_are_seven_pages():
-    assert [name[:2] for name in PAGES] == [f"0{number}" for number in range(7)]
+def test_there_is_a_page_for_each_lesson():
+    assert [Path(name).stem for name in PAGES] == LESSONS
+    assert len(PAGES) >= 7
 
 
 @pytest.mark.parametrize("name", PAGES)
 def test_a_page_runs_and_an_exercise_is_checked(open_page, name):
-    notebook = open_page(name)
+    notebook, cells = open_page(name)
+    raising = meant_to_fail(ROOT / "notebooks" / name)
     notebook.run_all()
-    assert notebook.errors() == []
-    assert len(checks(name)) >= 2
-    for number in checks(name):
+    assert notebook.errors().keys() == raising, notebook.errors()
+    assert len(checks(cells)) >= 2
+    for number, _ in checks(cells):
         notebook.says(number, "not attempted yet")
-    blank, answer, check = an_exercise(name)
-    notebook.write(blank, answer)
+    check, exercise = checks(cells)[RANKS.get(name[:2], 0)]
+    blank = next(k for k, (about, _) in enumerate(cells) if about.get("exercise") == exercise)
+    notebook.write(blank, answer_to(exercise, name))
     notebook.run(blank)
     notebook.run(check)
     notebook.says(check, ": passed")
-    assert notebook.errors() == []
+    assert notebook.errors().keys() == raising, notebook.errors()
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_solved_page_can_be_looked_at(open_page, page, name, tmp_path):
+    """Saves what a person sees who opens a solution and runs nothing."""
+    page.set_viewport_size({"width": 1280, "height": TALL})
+    notebook, _ = open_page(name, "solutions")
+    shown = page.locator(".jp-Notebook")
+    for theme in ("light", "dark"):
+        notebook.theme(theme)
+        notebook.wait_until_drawn()
+        path = notebook.picture(f"{Path(name).stem}-{theme}", shown, tmp_path)
+        assert path.stat().st_size > 50_000
+    broken = "all => all.filter(one => one.complete && !one.naturalWidth).length"
+    assert page.eval_on_selector_all(".jp-Notebook img", broken) == 0

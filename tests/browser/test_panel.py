@@ -45,6 +45,29 @@ import threading, comm
 (sum(t.name == "rosbeat panel" for t in threading.enumerate()), len(ros.nodes),
  len(comm.get_comm_manager().comms))
 """
+#: A chain of topics whose names need several lines each.
+LONG = """
+for k, name in enumerate(["the_window_state_of_the_north", "the_door_state_of_the_south", "sums"]):
+    node = ros.add(Node(f"node_{k}"))
+    node.create_publisher(Float32, name, 10)
+    node.create_subscription(Float32, before if k else "status_of_all_the_rooms", print, 10)
+    before = name
+"""
+#: Looks at pulses in the moment in which they are added, before the browser draws anything.
+PULSES = """panel => {
+    window.pulses = [];
+    new MutationObserver(changes => {
+        for (const change of changes) for (const dot of change.addedNodes) {
+            if (!dot.classList?.contains('rb-pulse')) continue;
+            const place = dot.transform.baseVal.consolidate()?.matrix;
+            const point = new DOMPoint(place?.e ?? 0, place?.f ?? 0);
+            const edges = [...dot.ownerSVGElement.querySelectorAll('.rb-edge')];
+            const start = edges.map(edge => edge.getPointAtLength(0));
+            const far = start.map(one => Math.hypot(one.x - point.x, one.y - point.y));
+            window.pulses.push(Math.min(...far));
+        }
+    }).observe(panel, { childList: true, subtree: true });
+}"""
 PANEL = ".rosbeat-panel"
 
 
@@ -109,6 +132,26 @@ def test_a_slider_changes_what_the_monitor_says(notebook, page):
     log = page.locator(f"{PANEL} .rb-log")
     log.get_by_text("[monitor]: Low").first.wait_for()
     assert "instrument_panel" in page.locator(f"{PANEL} .rb-graph svg").get_attribute("aria-label")
+
+
+def test_a_pulse_is_on_its_arrow_from_the_beginning(notebook, page):
+    page.eval_on_selector(PANEL, PULSES)
+    page.wait_for_function("() => window.pulses.length >= 20", timeout=PATIENCE)
+    assert max(page.evaluate("() => window.pulses")) < 1
+
+
+@pytest.mark.parametrize("notebook", [(LONG,)], indirect=True)
+def test_a_name_in_several_lines_looks_like_one_name(notebook, page, tmp_path):
+    notebook.run(2)
+    page.locator(f"{PANEL} [data-name='/sums']").wait_for()
+    shown = page.eval_on_selector_all(
+        f"{PANEL} svg g",
+        """all => all.map(one => [one.dataset.name,
+            [...one.querySelectorAll('.rb-name')].map(line => line.textContent)])""",
+    )
+    assert [name for name, _ in shown] == ["".join(rows) for _, rows in shown]
+    assert max(len(rows) for _, rows in shown) > 1
+    notebook.picture("panel-long", page.locator(f"{PANEL} .rb-graph"), tmp_path)
 
 
 def test_nodes_stop_and_start(notebook, page):

@@ -1,4 +1,5 @@
 import ast
+import subprocess
 
 import pytest
 
@@ -26,6 +27,15 @@ def test_lab_opens_the_folder_when_the_page_is_not_there(layout, capsys):
     command = lab.lab_command(layout, [], root_user=False)
     assert len(command) == 5
     assert "is not there" in capsys.readouterr().out
+
+
+def test_lab_opens_the_first_page_that_there_is(layout):
+    for name in ("04_listen.ipynb", "03_write.ipynb", "notes.ipynb"):
+        page = layout.root / "notebooks" / name
+        page.parent.mkdir(exist_ok=True)
+        page.touch()
+    command = lab.lab_command(layout, [], root_user=False)
+    assert command[5:] == ["--LabApp.default_url=/lab/tree/notebooks/03_write.ipynb"]
 
 
 def test_lab_opens_another_page_when_asked(layout):
@@ -56,7 +66,12 @@ def test_test_runs_every_kind_of_check(layout, tmp_path):
     commands = [" ".join(step.command) for step in steps]
     for words in ("ruff check", "ruff format --check", "mypy", "rosbeat build --check", "pytest"):
         assert any(words in command for command in commands)
-    assert "-n 2 --dist loadfile" in commands[-1]
+    assert "--dist loadfile" in commands[-1]
+
+
+@pytest.mark.parametrize(("cores", "number"), [(None, 3), (1, 3), (2, 3), (4, 5), (64, 6)])
+def test_one_more_process_than_cores_shares_the_tests(cores, number):
+    assert testing.workers(cores) == number
 
 
 def test_pytests_report_is_read(tmp_path):
@@ -88,26 +103,40 @@ def test_a_crash_of_pytest_itself_is_a_failure():
 
 def test_every_step_runs_and_one_failure_is_enough(layout, monkeypatch, capsys):
     ran = []
+    (layout.root / "tests").mkdir()
 
     def call(command, env, cwd):
         ran.append(command)
-        return 1 if "ruff" in command else 0
+        return 0
+
+    def run(command, **_):
+        ran.append(command)
+        bad = "ruff" in command
+        return subprocess.CompletedProcess(command, int(bad), f"what {command[2]} says\n")
 
     monkeypatch.setattr(prepare, "ready", lambda layout, level: {"LEVEL": level})
     monkeypatch.setattr(testing.subprocess, "call", call)
+    monkeypatch.setattr(testing.subprocess, "run", run)
     assert testing.test(layout, []) == 1
     assert len(ran) == 6
     out = capsys.readouterr().out
     assert "FAILED" in out
+    assert "=== lint\nwhat ruff says\n\n=== format\nwhat ruff says\n\n=== types\n" in out
     assert out.splitlines()[-1] == "3 passed, 3 failed, 0 skipped"
 
 
 def test_arguments_go_to_pytest_alone(layout, monkeypatch):
     ran = []
+    (layout.root / "tests").mkdir()
     monkeypatch.setattr(prepare, "ready", lambda layout, level: {})
     monkeypatch.setattr(testing.subprocess, "call", lambda command, env: ran.append(command) or 5)
     assert testing.test(layout, ["-k", "clock"]) == 5
     assert ran == [[layout.python, "-m", "pytest", "-k", "clock"]]
+
+
+def test_without_tests_nothing_is_installed(layout):
+    with pytest.raises(Problem, match="no tests in this folder"):
+        testing.test(layout, [])
 
 
 def test_the_shell_is_told_only_what_differs():

@@ -155,3 +155,15 @@ def test_jupyterlab_opens_without_questions(made):
     written = made.venv / "share" / "jupyter" / "lab" / "settings" / "overrides.json"
     (settings,) = json.loads(written.read_text()).values()
     assert settings == {"checkForUpdates": False, "fetchNews": "false"}
+
+
+def test_jupyterlab_stays_without_what_tests_bring_along(made):
+    installing.write_lab_defaults(made)
+    folder = made.venv / "etc" / "jupyter"
+    files = sorted((folder / "jupyter_server_config.d").glob("*.json"))
+    assert [path.name for path in files][-1] == "zz_course.json"
+    server = json.loads(files[-1].read_text())["ServerApp"]["jpserver_extensions"]
+    assert "nbgrader.server_extensions.formgrader" in server
+    assert set(server.values()) == {False}
+    lab = json.loads((folder / "labconfig" / "page_config.json").read_text())
+    assert lab["disabledExtensions"]["@jupyter/nbgrader"] is True

@@ -51,3 +51,10 @@ def test_tests_run_on_the_versions_that_learners_get():
     packages = {name for name, _ in learners}
     different = {p for p in packages if versions(learners, p) != versions(tests, p)}
     assert different == set()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_is_overridden_stays_away(name):
+    overridden = re.findall(r"^([\w-]+) ;", (FOLDER / "override.in").read_text(), re.MULTILINE)
+    assert len(overridden) >= 3
+    assert not {package for package, _ in pins(name)} & set(overridden)

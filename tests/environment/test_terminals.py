@@ -157,6 +157,8 @@ async def typed_in_lab(server, text, until):
         kind, *rest = json.loads(await connection.read_message())
         shown += rest[0] if kind == "stdout" else ""
     connection.close()
+    while await connection.read_message() is not None:
+        pass  # the socket is closed when the other side has said goodbye, too
     return shown
 
 

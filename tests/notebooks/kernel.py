@@ -21,10 +21,16 @@ class KernelDiedError(Exception):
 
 
 class WatchedKernel(RunningKernel):
-    """A kernel of this interpreter that is missed as soon as it dies."""
+    """A kernel of this interpreter that is missed as soon as it dies.
+
+    Attributes:
+        reply: What it said at the end of the last cell.
+        asked: The id of the message that made it run the last cell.
+    """
 
     def __init__(self, cwd: str, startup_timeout: float) -> None:
         self.reply: dict[str, Any] = {}
+        self.asked = ""
         self._stack = ExitStack()
         # PYTEST_CURRENT_TEST stays behind, and the sockets are files: see rosbeat.authoring.kernel.
         self.place = self._stack.enter_context(kernel_place())
@@ -42,9 +48,10 @@ class WatchedKernel(RunningKernel):
 
     def execute_cell_input(self, cell_input: str, allow_stdin: bool | None = None) -> str:
         # With history, as in JupyterLab: without it a trailing `;` silences nothing.
-        return self.kc.execute(
+        self.asked = self.kc.execute(
             cell_input, store_history=True, allow_stdin=allow_stdin, stop_on_error=False
         )
+        return self.asked
 
     def await_reply(self, msg_id: str, timeout: float | None = None) -> None:
         deadline = time.monotonic() + (timeout or 0)

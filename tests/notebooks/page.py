@@ -9,9 +9,12 @@ from typing import Any, NoReturn
 import pytest
 from nbval.plugin import IPyNbCell, IPyNbFile
 
+from notebooks.built import Ran, difference, source_of
 from notebooks.comparison import Watch, comparable, missing_outputs
 from notebooks.kernel import KernelDiedError, WatchedKernel
 from notebooks.outcomes import wrong_outcome
+from rosbeat.errors import LessonError
+from rosbeat.exercises.registry import EXERCISES
 
 _OUTPUT_TIMEOUT = 10
 # How long a thread that died with the last cell has to say so.
@@ -26,6 +29,8 @@ class Page(IPyNbFile):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self.watch = Watch()
+        self.runs: dict[int, Ran] = {}
+        self.ran = Ran()
 
     def collect(self) -> Iterator[pytest.Item]:
         cells = list(super().collect())
@@ -35,6 +40,8 @@ class Page(IPyNbFile):
             yield Cell.from_parent(
                 self, name=cell.name, cell_num=cell.cell_num, cell=cell.cell, options=cell.options
             )
+        if self.compare_outputs and source_of(self.path):
+            yield AsBuilt.from_parent(self, name="as it is built")
         yield EndOfPage.from_parent(self, name="end of the page")
 
     def setup(self) -> None:
@@ -50,6 +57,8 @@ class Page(IPyNbFile):
     def get_kernel_message(self, timeout: float | None = None, stream: str = "iopub") -> Any:
         message = super().get_kernel_message(timeout, stream)
         self.watch.see(message)
+        if self.kernel and message["parent_header"].get("msg_id") == self.kernel.asked:
+            self.ran.see(message)
         return message
 
 
@@ -62,6 +71,7 @@ class Cell(IPyNbCell):
 
     def runtest(self) -> None:
         self.parent.watch.replaced = ""
+        self.parent.runs[self.cell_num] = self.parent.ran = Ran()
         try:
             super().runtest()
         except KernelDiedError as death:
@@ -107,6 +117,20 @@ class StoredOutputs(PageItem):
         problem = missing_outputs(self.parent.nb.cells)
         if problem:
             self.fail(f"{problem} Nothing can be compared; build the page with its outputs.")
+
+
+class AsBuilt(PageItem):
+    """What was just run is what the page stores, as `rosbeat build --check` would find."""
+
+    def runtest(self) -> None:
+        points = {one.id: one.points for one in EXERCISES.values()}
+        runs = [self.parent.runs[number] for number in sorted(self.parent.runs)]
+        try:
+            change = difference(self.path, source_of(self.path), runs, points)
+        except (LessonError, ValueError) as error:
+            self.fail(f"it could not be built of this run: {error}")
+        if change:
+            self.fail(f"a build would change it.\n{change.diff}")
 
 
 class EndOfPage(PageItem):

@@ -12,8 +12,10 @@ from rosbeat.authoring.files import compare, stale_pages
 from rosbeat.authoring.layout import Course
 from rosbeat.authoring.lint import check_lessons
 from rosbeat.authoring.source import read_lesson
+from rosbeat.exercises.registry import EXERCISES
 
 COURSE = Course(Path(__file__).parents[2])
+POINTS = {one.id: one.points for one in EXERCISES.values()}
 SOURCES = sorted(COURSE.sources.glob("*.py"))
 each_source = pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.stem)
 
@@ -34,14 +36,14 @@ def test_the_source_keeps_the_rules(source):
 @each_source
 def test_the_learners_page_is_built_from_the_source(source):
     page = COURSE.notebooks / f"{source.stem}.ipynb"
-    change = compare(page, pages.to_bytes(pages.notebook_page(read_lesson(source))))
+    change = compare(page, pages.to_bytes(pages.notebook_page(read_lesson(source), POINTS)))
     assert change is None or not change.matters, BUILD
 
 
 @each_source
 def test_the_solution_page_is_built_from_the_source(source):
     stored = nbformat.read(COURSE.solutions / f"{source.stem}.ipynb", as_version=4)
-    draft = pages.solution_draft(read_lesson(source))
+    draft = pages.solution_draft(read_lesson(source), POINTS)
     assert without_outputs(stored) == without_outputs(draft), BUILD
 
 

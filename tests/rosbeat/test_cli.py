@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from rosbeat import __version__, cli
-from rosbeat.errors import RosbeatError
+from rosbeat.errors import RosbeatError, StoppedError
 
 
 @pytest.fixture
@@ -54,6 +54,23 @@ def test_misuse_says_what_to_try_and_ends_with_2(arguments, expected, capsys):
     said = capsys.readouterr().err
     assert expected in said
     assert "Traceback" not in said
+    assert all(part in said for part in ("What it means:", "What to try:"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["release"], "The following arguments are required: DIR."),
+        (["grade", "x", "--out", "y", "--points"], "Argument --points: expected one argument."),
+        (["grade", "x", "--out", "y", "--sample", "x"], "'x' is no whole number from 0 on."),
+    ],
+)
+def test_an_argument_that_is_missing_or_wrong_is_told_in_three_parts(arguments, expected, capsys):
+    assert cli.main(arguments) == cli.MISUSED
+    said = capsys.readouterr().err
+    assert all(part in said for part in (expected, "What it means:", "What to try:"))
+    assert f"\n{' ' * 17}rosbeat {arguments[0]} " in said
+    assert max(map(len, said.splitlines())) <= 100
 
 
 def test_an_empty_course_builds_and_lints(course, capsys):
@@ -83,7 +100,8 @@ def test_an_error_of_ours_has_three_parts(course, capsys):
         (RosbeatError("no.", "means", "try"), cli.FAILED, "What to try:   try"),
         (PermissionError(13, "Permission denied", "x.ipynb"), cli.FAILED, "(x.ipynb)"),
         (KeyError("lost"), cli.FAILED, "a mistake in rosbeat"),
-        (KeyboardInterrupt(), cli.INTERRUPTED, "interrupted"),
+        (KeyboardInterrupt(), cli.INTERRUPTED, "What it means: You stopped the command"),
+        (StoppedError("stopped.", "kept", "again"), cli.INTERRUPTED, "What to try:   again"),
     ],
 )
 def test_no_error_ends_in_a_traceback(error, code, expected, capsys, monkeypatch):

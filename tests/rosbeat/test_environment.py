@@ -50,6 +50,7 @@ def test_the_values():
     assert values["RMW_IMPLEMENTATION"] == "rmw_fastrtps_cpp"
     assert values["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
     assert values["ROS_PYTHON_CHECK_FIELDS"] == "1"
+    assert values["OPENBLAS_NUM_THREADS"] == "1"
     assert values["ROS_DISTRO"] == "jazzy"
 
 

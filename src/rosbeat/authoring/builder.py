@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-
-from nbformat import NotebookNode
 
 from rosbeat.authoring import pages
 from rosbeat.authoring.files import Change, compare, stale_pages, write
@@ -16,6 +15,7 @@ from rosbeat.authoring.lint import check_lessons
 from rosbeat.authoring.package import package_files, stale_files
 from rosbeat.authoring.solved import answer_files
 from rosbeat.authoring.source import Lesson
+from rosbeat.authoring.together import solutions
 from rosbeat.errors import LessonError
 
 
@@ -28,12 +28,14 @@ class Plan:
         check: Compare only; nothing on disk changes.
         run: Build the solution pages too, which means running them.
         fresh: Store new outputs where outputs are not compared, too.
+        points: What each exercise is worth, by its id; nbgrader is told so.
     """
 
     names: tuple[str, ...] = ()
     check: bool = False
     run: bool = True
     fresh: bool = False
+    points: Mapping[str, int] = field(default_factory=dict)
 
 
 def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> list[Change]:
@@ -55,8 +57,10 @@ def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> li
     # The package first: a page that runs may need what an earlier page saves.
     for path, content in package.items():
         changes += _derive(course, path, content, plan, tell)
-    for path, make in _pages(course, chosen, plan):
-        changes += _derive(course, path, pages.to_bytes(make()), plan, tell)
+    runs = solutions(chosen if plan.run else [], course.solutions, plan.fresh, plan.points)
+    with runs as solution:
+        for path, make in _pages(course, chosen, plan, solution):
+            changes += _derive(course, path, make(), plan, tell)
     for change in [] if plan.names else _all_stale(course, lessons, package, plan.check):
         tell(_line(course, change.path, change))
         changes.append(change)
@@ -74,7 +78,7 @@ def _derive(
     return [change] if change else []
 
 
-Make = Callable[[], NotebookNode]
+Make = Callable[[], bytes]
 
 
 def _refuse_findings(course: Course, lessons: list[Lesson], chosen: list[Lesson]) -> None:
@@ -87,20 +91,18 @@ def _refuse_findings(course: Course, lessons: list[Lesson], chosen: list[Lesson]
         )
 
 
-def _pages(course: Course, chosen: list[Lesson], plan: Plan) -> Iterator[tuple[Path, Make]]:
+def _pages(
+    course: Course, chosen: list[Lesson], plan: Plan, solution: Callable[[Lesson], bytes]
+) -> Iterator[tuple[Path, Make]]:
     for lesson in chosen:
         file = f"{lesson.name}.ipynb"
-        yield course.notebooks / file, _notebook(lesson)
+        yield course.notebooks / file, partial(_notebook, lesson, plan.points)
         if plan.run:
-            yield course.solutions / file, _solution(lesson, course.solutions, plan.fresh)
+            yield course.solutions / file, partial(solution, lesson)
 
 
-def _notebook(lesson: Lesson) -> Make:
-    return lambda: pages.notebook_page(lesson)
-
-
-def _solution(lesson: Lesson, folder: Path, fresh: bool) -> Make:
-    return lambda: pages.solution_page(lesson, folder, fresh=fresh)
+def _notebook(lesson: Lesson, points: Mapping[str, int]) -> bytes:
+    return pages.to_bytes(pages.notebook_page(lesson, points))
 
 
 def _replace(course: Course, path: Path, content: bytes, tell: Callable[[str], None]) -> None:

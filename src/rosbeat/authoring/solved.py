@@ -11,7 +11,7 @@ from rosbeat.authoring.source import Lesson
 
 
 def answer_files(course: Course, lessons: Iterable[Lesson]) -> dict[Path, bytes]:
-    """Return the file of every answer, with its content: the cell as the solution page has it.
+    """Return the file of every answer, with its content: the cells as the solution page has them.
 
     Args:
         course: Where they belong.
@@ -19,12 +19,13 @@ def answer_files(course: Course, lessons: Iterable[Lesson]) -> dict[Path, bytes]
     """
     if not folder_of(course).parent.is_dir():  # such a course has no package to give hints
         return {}
-    return {
-        folder_of(course) / f"{cell.exercise}.txt": (solution(cell.page_text) + "\n").encode()
-        for lesson in lessons
-        for cell in lesson.cells
-        if cell.exercise
-    }
+    texts: dict[str, list[str]] = {}
+    for cell in (cell for lesson in lessons for cell in lesson.cells):
+        if cell.exercise:
+            texts.setdefault(cell.exercise, []).append(solution(cell.page_text))
+    # The parts of an exercise in several cells stand as far apart as classes in a file.
+    files = {name: "\n\n\n".join(parts) + "\n" for name, parts in texts.items()}
+    return {folder_of(course) / f"{name}.txt": text.encode() for name, text in files.items()}
 
 
 def folder_of(course: Course) -> Path:

@@ -11,10 +11,12 @@ from rosbags.interfaces import (
     QosTime,
 )
 
-from rosbeat.records import QoS
+from rosbeat.records import NANOSECONDS, QoS
 
 # How ROS writes "no limit": the longest time that it can express.
 _UNLIMITED = QosTime(9223372036, 854775807)
+#: From so many seconds on, sixty years, nobody has meant a limit.
+_YEARS = 60 * 365 * 24 * 3600
 
 
 def stored(qos: QoS) -> Qos:
@@ -24,8 +26,8 @@ def stored(qos: QoS) -> Qos:
         qos.depth,
         QosReliability[qos.reliability],
         QosDurability[qos.durability],
-        _UNLIMITED,
-        _UNLIMITED,
+        _time(qos.deadline_ns),
+        _time(qos.lifespan_ns),
         QosLiveliness.AUTOMATIC,
         _UNLIMITED,
         False,
@@ -34,4 +36,20 @@ def stored(qos: QoS) -> Qos:
 
 def read(qos: Qos) -> QoS:
     """Quality of service as a bag stores it, as a record."""
-    return QoS(qos.reliability.name, qos.durability.name, qos.history.name, qos.depth)
+    return QoS(
+        qos.reliability.name,
+        qos.durability.name,
+        qos.history.name,
+        qos.depth,
+        _limit_ns(qos.deadline),
+        _limit_ns(qos.lifespan),
+    )
+
+
+def _time(limit_ns: int) -> QosTime:
+    return QosTime(*divmod(limit_ns, NANOSECONDS)) if limit_ns else _UNLIMITED
+
+
+def _limit_ns(time: QosTime) -> int:
+    # The middleware rounds "no limit" to what it can express, in some versions: 68 years.
+    return 0 if time.sec >= _YEARS else time.sec * NANOSECONDS + time.nsec

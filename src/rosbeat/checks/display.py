@@ -9,7 +9,7 @@ from typing import Any
 from rosbeat.checks.frames import OPEN, RIGHT, WRONG, framed, indented, words
 from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.records import Outcome
+from rosbeat.records import Outcome, Part
 
 #: The record of an outcome in a cell's output, for programs.
 MIME = "application/vnd.rosbeat.outcome+json"
@@ -47,8 +47,9 @@ class Shown:
 
     def record(self) -> dict[str, Any]:
         """The outcome as JSON-like data, with the version of its form."""
-        remarks = list(self.outcome.remarks)
-        return {"version": VERSION, **asdict(self.outcome), "remarks": remarks}
+        said = {"version": VERSION, **asdict(self.outcome), "remarks": list(self.outcome.remarks)}
+        parts = list(said.pop("parts"))
+        return {**said, "parts": parts} if parts else said
 
     @property
     def _look(self) -> tuple[str, str]:
@@ -70,6 +71,8 @@ class Shown:
 
     def _details(self) -> Iterator[tuple[str, str]]:
         """What comes below the head: a label, which may be empty, and a text."""
+        for part in self.outcome.parts:
+            yield _looked_at(part)
         if self.outcome.status == FAILED:
             yield _named(self.outcome.mistake)
         if self.outcome.hint:
@@ -81,6 +84,14 @@ class Shown:
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"text/plain": str(self), "text/html": self.html(), MIME: self.record()}
+
+
+def _looked_at(part: Part) -> tuple[str, str]:
+    """A requirement: what is required if it is met, and what was seen instead if it is not."""
+    word = "met" if part.met else "not yet"
+    extra = ", optional" if part.optional else ""
+    head = f"{RIGHT if part.met else WRONG} {part.id} {word}, {part.points} of {part.out_of}{extra}"
+    return head, part.text if part.met else part.evidence
 
 
 def _named(mistake: str) -> tuple[str, str]:

@@ -11,7 +11,8 @@ PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
 #: What a learner replaces; the name is never defined, so running it raises a NameError.
 BLANK = "____"
 
-_NEW_TO_ME = (
+#: What to do about an exception that has no name here.
+NEW_TO_ME = (
     "The last sentence of an error says what Python met and, often, what it expected there; the "
     "line says where. Print the values on that line before it runs."
 )
@@ -68,5 +69,5 @@ def _raised(exercise: str, fault: Fault) -> Outcome:
     return failed(
         exercise,
         f"{fault.callback} raised {fault.kind}: {first_sentence(fault.text)}.{line_of(fault)}",
-        _NEW_TO_ME,
+        NEW_TO_ME,
     )

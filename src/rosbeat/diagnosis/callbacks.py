@@ -108,7 +108,11 @@ def is_argument(code: str, name: str) -> bool:
         name: The method.
     """
     call = rf"\.{re.escape(name)}\([^()]*\)"
-    return re.search(rf"create_\w+\(.*{call}|^\w+{call},$|^callback=\w+{call}", code) is not None
+    at_once = r"(?:(?!\blambda\b).)*"  # what stands in a lambda is called later
+    return (
+        re.search(rf"create_\w+\({at_once}{call}|^\w+{call},$|^callback=\w+{call}", code)
+        is not None
+    )
 
 
 def nothing_to_call(fault: Fault) -> Meaning | None:
@@ -168,7 +172,7 @@ def _bad_period(period: Given) -> Meaning:
 def blocks(fault: Fault) -> Meaning | None:
     """A callback or a constructor that does not return (row 16)."""
     if fault.kind == "DeadlinePassed":
-        return _stuck(fault)
+        return _stuck_making(fault) if fault.callback == "__init__" else _stuck(fault)
     if not matched(fault, r"was called (from )?inside|spin_once was called for", "SessionError"):
         return None
     call = matched(fault, r"`?(rclpy\.\w+|[\w.]+)`? was called")
@@ -182,15 +186,31 @@ def blocks(fault: Fault) -> Meaning | None:
 
 
 def _stuck(fault: Fault) -> Meaning:
-    where = "The constructor" if fault.callback == "__init__" else fault.callback or "The program"
+    where = fault.callback or "The program"
     to_try = "While it runs, the node can do nothing else. What ends it?"
-    if re.search(r"\b(sleep|wait|input|join)\(", fault.code):
+    if _waits(fault):
         to_try = "A callback must not wait: the node is deaf meanwhile. What comes later, or again "
         to_try += "and again, is a timer's business."
-    elif re.match(r"(while|for)\b", fault.code):
+    elif _loops(fault):
         to_try = "A callback does its work once and returns. What is to happen again and again is "
         to_try += "a timer's business."
     return Meaning("callback-blocks", f"{where} does not return: {fault.text}.", to_try)
+
+
+def _stuck_making(fault: Fault) -> Meaning:
+    to_try = "There is no node before its constructor has returned. What ends it?"
+    if _waits(fault) or _loops(fault):
+        to_try = "A constructor sets the node up and returns; only then do callbacks run. What "
+        to_try += "comes later, or again and again, is a timer's business."
+    return Meaning("constructor-blocks", f"The constructor does not return: {fault.text}.", to_try)
+
+
+def _waits(fault: Fault) -> bool:
+    return re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
+
+
+def _loops(fault: Fault) -> bool:
+    return re.match(r"(while|for)\b", fault.code) is not None
 
 
 def endless(fault: Fault) -> Meaning | None:

@@ -20,7 +20,7 @@ from rosbeat.diagnosis.explanation_parts import (
     verb,
 )
 from rosbeat.diagnosis.mistakes import UNKNOWN
-from rosbeat.diagnosis.qos import incompatible, rule
+from rosbeat.diagnosis.qos import incompatible, rule, words
 from rosbeat.diagnosis.situation import Scene
 from rosbeat.records import Endpoint, GraphSnapshot, is_hidden
 
@@ -117,8 +117,8 @@ def _clash(publisher: Endpoint, subscription: Endpoint) -> tuple[str, ...]:
 
 def _quality(publisher: Endpoint, subscription: Endpoint, marked: Endpoint) -> Finding:
     policies = _clash(publisher, subscription)
-    offers = listing(getattr(publisher.qos, one) for one in policies)
-    asks = listing(getattr(subscription.qos, one) for one in policies)
+    offers = listing(words(publisher.qos, one) for one in policies)
+    asks = listing(words(subscription.qos, one) for one in policies)
     rules = "; ".join(f"{one}: {rule(one)}" for one in policies)
     return finding(
         "qos-mismatch",

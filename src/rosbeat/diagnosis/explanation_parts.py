@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.records import Endpoint, QoS
+from rosbeat.records import NANOSECONDS, Endpoint, QoS
 
 #: Kinds of marks.
 LINK, NODE, TWINS, NEAR, TOPIC = "link", "node", "twins", "near", "topic"
@@ -104,8 +104,10 @@ def comes(rate_hz: float, one: str, many: str) -> str:
 
 def qos_words(qos: QoS) -> str:
     """What matters of a quality of service."""
-    depth = f", depth {qos.depth}" if qos.depth else ""
-    return f"{qos.reliability}, {qos.durability}{depth}"
+    said = [qos.reliability, qos.durability, *([f"depth {qos.depth}"] if qos.depth else [])]
+    for name, limit in (("deadline", qos.deadline_ns), ("lifespan", qos.lifespan_ns)):
+        said += [f"{name} {limit / NANOSECONDS:g} s"] if limit else []
+    return ", ".join(said)
 
 
 def seconds(value: float) -> str:

@@ -7,7 +7,17 @@ What none of them recognises stays unnamed.
 
 from __future__ import annotations
 
-from rosbeat.diagnosis import callbacks, entities, fields, names, nodes, values
+from rosbeat.diagnosis import (
+    answers,
+    callbacks,
+    entities,
+    fields,
+    names,
+    nodes,
+    parameters,
+    profiles,
+    values,
+)
 from rosbeat.diagnosis.meaning import Meaning, Recogniser, called_by_ros, matched
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.records import Fault
@@ -33,6 +43,27 @@ _RECOGNISERS: tuple[Recogniser, ...] = (
     callbacks.wrong_timer,
     callbacks.called_with_others,
     callbacks.nothing_to_call,
+    answers.no_response,
+    answers.no_result,
+    answers.not_feedback,
+    answers.bad_transition,
+    answers.not_whole,
+    answers.called_with_more,
+    parameters.of_another_type,
+    parameters.no_value,
+    parameters.name_last,
+    parameters.asked_with_more,
+    parameters.not_declared,
+    parameters.declared_twice,
+    parameters.taken_for_its_value,
+    profiles.no_depth,
+    profiles.without_a_name,
+    profiles.of_another_name,
+    profiles.of_another_kind,
+    profiles.no_such_policy,
+    profiles.event_callback_called,
+    profiles.no_events,
+    profiles.events_of_the_other_side,
     fields.of_another_type,
     fields.out_of_range,
     fields.of_another_name,
@@ -49,6 +80,7 @@ _RECOGNISERS: tuple[Recogniser, ...] = (
     names.no_such_attribute,
     names.not_importable,
     values.text_and_number,
+    values.nothing_compared,
     values.bad_format,
     values.logged,
     values.too_much_given,
@@ -56,6 +88,7 @@ _RECOGNISERS: tuple[Recogniser, ...] = (
     values.by_zero,
     values.no_such_place,
     values.without_self,
+    values.method_wants_more,
     values.constructor_wants_more,
     values.too_deep,
 )

@@ -20,6 +20,12 @@ def of_another_type(fault: Fault) -> Meaning | None:
     name, wanted = found.groups()
     value = _value_for(fault.code, name)
     got = f"{value} is {_described(value)}" if value else _given(fault)
+    if "a message of type" in got:
+        return Meaning(
+            "message-for-value",
+            f"The field {name} of the message takes {article(wanted)}, and {got}.",
+            "The message is an envelope: what it carries is in one of its fields.",
+        )
     return Meaning(
         "not-a-float",
         f"The field {name} of the message takes {article(wanted)}, and {got}.",

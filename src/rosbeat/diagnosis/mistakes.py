@@ -9,20 +9,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-
-@dataclass(frozen=True)
-class Mistake:
-    """A mistake that has a name.
-
-    Attributes:
-        id: Its name in records and tests, such as `topic-misspelled`.
-        title: Its name for people, a few words in lower case.
-        row: Its number in the table of thirty, or 0.
-    """
-
-    id: str
-    title: str
-    row: int = 0
+from rosbeat.diagnosis.beyond import (
+    grading,
+    page_07,
+    page_08,
+    page_09,
+    page_10,
+    page_11,
+    page_12,
+    page_13,
+)
+from rosbeat.diagnosis.mistake import Mistake as Mistake
 
 
 @dataclass(frozen=True)
@@ -63,6 +60,7 @@ _OF_THE_TABLE = (
     Mistake("type-mismatch", "two message types on one topic", 15),
     Mistake("not-spun", "nobody runs the callbacks", 16),
     Mistake("callback-blocks", "a callback that does not return", 16),
+    Mistake("constructor-blocks", "a constructor that does not return", 16),
     Mistake("not-initialised", "a node before rclpy.init", 17),
     Mistake("initialised-twice", "rclpy.init a second time", 17),
     Mistake("shut-down-twice", "rclpy.shutdown a second time", 17),
@@ -171,6 +169,7 @@ _OTHERS = (
     Mistake("no-function", "something that is no function"),
     Mistake("does-not-return", "a function that does not come back"),
     Mistake("returns-nothing", "a function without a return"),
+    Mistake("not-plain", "a result that is no plain data"),
     Mistake("not-a-text", "something else than the text that was asked for"),
     Mistake("f-missing", "a text with braces and no f before it"),
     Mistake("stray-characters", "more characters than belong to a text"),
@@ -211,7 +210,13 @@ _OTHERS = (
     Mistake("other-package", "another package than asked for"),
 )
 
-MISTAKES: dict[str, Mistake] = {one.id: one for one in (*_OF_THE_TABLE, *_OTHERS)}
+_BEYOND = tuple(
+    one
+    for page in (page_07, page_08, page_09, page_10, page_11, page_12, page_13, grading)
+    for one in page.MISTAKES
+)
+
+MISTAKES: dict[str, Mistake] = {one.id: one for one in (*_OF_THE_TABLE, *_OTHERS, *_BEYOND)}
 
 
 def mistake(name: str) -> Mistake:

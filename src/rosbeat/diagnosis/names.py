@@ -57,6 +57,12 @@ def not_assigned_yet(fault: Fault) -> Meaning | None:
         return None
     found = matched(fault, r"variable '(\w+)'")
     name = found[1] if found else "A variable"
+    if re.search(rf"^{name} = .*\(\s*{name}\b", fault.code):
+        return Meaning(
+            "no-value-yet",
+            f"{name} has no value yet: this line asks for it, and only then gives it one.",
+            "If its name is meant, it is a text, and a text needs quotes.",
+        )
     return Meaning(
         "no-value-yet",
         f"{name} has no value yet at this line.",

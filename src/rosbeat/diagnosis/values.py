@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from rosbeat.diagnosis.meaning import Meaning, called_by_ros, matched
 from rosbeat.records import Fault
 
@@ -23,6 +25,19 @@ def text_and_number(fault: Fault) -> Meaning | None:
         "text-and-number",
         "A text and a number stand side by side where Python wants two of a kind.",
         "An f-string puts a number into a text. A number in quotes is a text.",
+    )
+
+
+def nothing_compared(fault: Fault) -> Meaning | None:
+    """`msg.data > high`, where `high` is None."""
+    said = r"not supported between instances of (?:'NoneType' and '\w+'|'\w+' and 'NoneType')"
+    if not matched(fault, said, "TypeError"):
+        return None
+    return Meaning(
+        "none-used",
+        "One of the two things that are compared on this line is None: it has no value.",
+        "Where does it get its value? A function without return gives None, and so does a "
+        "parameter that was declared without a first value.",
     )
 
 
@@ -110,6 +125,19 @@ def without_self(fault: Fault) -> Meaning | None:
         "self-missing",
         f"{found[1]} takes no parameter, and Python hands every method its own object.",
         "Compare its `def` line with those of the other methods of a class.",
+    )
+
+
+def method_wants_more(fault: Fault) -> Meaning | None:
+    """`self.change()`, where `def change(self, mode)` wants a mode."""
+    said = r"(\w+)\(\) missing \d required positional arguments?: (.+)"
+    found = matched(fault, said, "TypeError")
+    if not found or not re.search(rf"\bself\.{found[1]}\(\)", fault.code):
+        return None
+    return Meaning(
+        "argument-missing",
+        f"{found[1]} wants {found[2].replace(chr(39), '')}, and is called with empty brackets.",
+        f"Look at the line that begins with def {found[1]}: what does it take besides self?",
     )
 
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from rosbeat.diagnosis.explanation_names import difference, nearest
 from rosbeat.diagnosis.faults import diagnose_fault
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.qos import incompatible, rule
-from rosbeat.records import INFRASTRUCTURE_TOPICS, Endpoint, Observation
+from rosbeat.diagnosis.qos import incompatible, rule, words
+from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Observation
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,9 @@ def why_not_heard(observation: Observation, wire: Wire) -> Diagnosis | None:
     if found:
         return found
     made = _made(observation, "subscription")
-    here = [end for end in made if end.name == wire.topic]
+    # Not of `made`: a node may be asked to listen to a topic that every node brings along.
+    there = observation.graph.on(wire.topic, "subscription")
+    here = [end for end in there if end.node == _subject(observation)]
     if here:
         return (
             _wrong_type(here[0], wire)
@@ -99,6 +101,7 @@ def _made(observation: Observation, kind: str) -> list[Endpoint]:
         for end in observation.graph.endpoints
         if end.kind == kind
         and end.name not in INFRASTRUCTURE_TOPICS
+        and ACTION_PART not in end.name
         and end.node == _subject(observation)
     ]
 
@@ -219,8 +222,8 @@ def _unfit(observation: Observation, end: Endpoint) -> Diagnosis | None:
         for policy in incompatible(publisher.qos, end.qos):
             return Diagnosis(
                 "qos-mismatch",
-                f"The subscription to {end.name} asks for {getattr(end.qos, policy)}, and "
-                f"{publisher.node} offers {getattr(publisher.qos, policy)}, so they are not "
+                f"The subscription to {end.name} asks for {words(end.qos, policy)}, and "
+                f"{publisher.node} offers {words(publisher.qos, policy)}, so they are not "
                 "connected.",
                 f"The rule of {policy}: {rule(policy)}.",
             )

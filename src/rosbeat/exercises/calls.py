@@ -1,61 +1,12 @@
-"""A function that writes entry points: called with several arguments, and judged by its texts."""
+"""A function that writes entry points, judged by its texts."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from importlib.metadata import EntryPoint
-from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.runtime.guard import within
-
-
-@dataclass(frozen=True)
-class Calls:
-    """What a function gave back.
-
-    Attributes:
-        results: Arguments and result of each call, as text.
-        problem: The exception that ended the calls, or empty.
-        kinds: The type of each result.
-    """
-
-    results: tuple[tuple[tuple[str, ...], str], ...]
-    problem: str = ""
-    kinds: tuple[str, ...] = ()
-
-
-#: How long all calls together may take, in seconds.
-_SECONDS = 2.0
-_LATE = "DeadlinePassed"
-_ARGUMENTS = (
-    ("talk", "rosie", "voice"),
-    ("watch_room", "house", "monitor", "start"),
-    ("a", "b", "c", "d"),
-)
-
-
-def call(answer: Any) -> Calls:  # noqa: ANN401 - whatever a learner hands over
-    """Call a function that writes entry points, with several arguments.
-
-    Args:
-        answer: The function.
-    """
-    done: list[tuple[tuple[str, ...], str]] = []
-    kinds: list[str] = []
-    problem = ""
-    with within(_SECONDS) as deadline:
-        try:
-            for arguments in _ARGUMENTS:
-                result = answer(*arguments)
-                done.append((arguments, str(result)))
-                kinds.append(type(result).__name__)
-        except (Exception, SystemExit) as error:  # whatever a learner's function does is evidence
-            problem = f"{type(error).__name__}: {error}"
-    if deadline.passed:
-        problem = f"{_LATE}: it was still running after {_SECONDS:g} s"
-    return Calls(tuple(done), problem, tuple(kinds[: len(done)]))
+from rosbeat.scenarios.calls import ARGUMENTS, LATE, Calls
 
 
 def diagnose_calls(seen: Calls) -> Diagnosis | None:
@@ -67,7 +18,8 @@ def diagnose_calls(seen: Calls) -> Diagnosis | None:
     if seen.problem:
         mistake, hint = _of_problem(seen)
         return Diagnosis(mistake, _said(seen.problem), hint)
-    for (arguments, result), kind in zip(seen.results, seen.kinds, strict=True):
+    # Whatever the evidence says of the arguments: these are what the function was called with.
+    for arguments, (_, result), kind in zip(ARGUMENTS, seen.results, seen.kinds, strict=True):
         wrong = _of_kind(kind) or _of_text(arguments, result)
         if wrong:
             mistake, hint = wrong
@@ -76,8 +28,8 @@ def diagnose_calls(seen: Calls) -> Diagnosis | None:
 
 
 def _said(problem: str) -> str:
-    late = problem.startswith(_LATE)
-    return f"It does not end{problem.removeprefix(_LATE)}." if late else f"It raised {problem}."
+    late = problem.startswith(LATE)
+    return f"It does not end{problem.removeprefix(LATE)}." if late else f"It raised {problem}."
 
 
 _HAND_OVER = 'Hand over the function itself, by its name: check("05b", entry_point).'
@@ -85,7 +37,7 @@ _GIVES_TEXT = 'The function gives back one text. f"{executable} ..." puts values
 
 
 def _of_problem(seen: Calls) -> tuple[str, str]:
-    if seen.problem.startswith(_LATE):
+    if seen.problem.startswith(LATE):
         return "does-not-return", "The function needs no loop: it returns one text."
     if seen.problem.startswith("SystemExit"):
         return "exits", "A function ends with return; exit would end the whole program."

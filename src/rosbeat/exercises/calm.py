@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_published
-from rosbeat.records import Observation, Outcome, Sample
+from rosbeat.diagnosis.wires import Wire
+from rosbeat.exercises.heard import missing, on
+from rosbeat.records import Observation, Outcome
 
 MEAN = Wire("/mean", "std_msgs/msg/Float32")
 STATUS = Wire("/status", "std_msgs/msg/String")
@@ -37,29 +38,17 @@ def judge_calm(exercise: str, observation: Observation, readings: Sequence[float
     wrong = wrong or _missing(observation, STATUS) or _statuses(observation, readings)
     if wrong:
         return failed_by(exercise, wrong)
-    changes = len(_on(observation, STATUS))
+    changes = len(on(observation, STATUS))
     return passed(exercise, f"{len(readings)} readings, as many means, {changes} changes.")
 
 
-def _on(observation: Observation, wire: Wire) -> list[Sample]:
-    return [sample for sample in observation.samples if sample.topic == wire.topic]
-
-
 def _missing(observation: Observation, wire: Wire) -> Diagnosis | None:
-    found = _on(observation, wire)
-    if found and found[0].type_name != wire.type_name:
-        return Diagnosis(
-            "type-mismatch",
-            f"The messages on {wire.topic} are of type {found[0].type_name}.",
-            f"Here they are {wire.type_name}: both sides of a topic must agree on it.",
-        )
-    if found:
-        return None
-    return why_not_published(observation, wire, (MEAN.topic, STATUS.topic)) or Diagnosis(
+    silent = Diagnosis(
         "never-published",
-        f"Readings arrived, and nothing was published on {wire.topic}.",
+        "Readings arrived, and nothing was published on {topic}.",
         "Does the callback come to the line that publishes?" + _OF_WHAT * (wire == STATUS),
     )
+    return missing(observation, wire, (MEAN.topic, STATUS.topic), silent)
 
 
 # The mean.
@@ -70,12 +59,12 @@ def _mean(values: Sequence[float]) -> float:
 
 
 def _means(observation: Observation, readings: Sequence[float]) -> Diagnosis | None:
-    found = {sample.time: float(sample.value) for sample in _on(observation, MEAN)}
+    found = {sample.time: float(sample.value) for sample in on(observation, MEAN)}
     wanted = {
         float(second): _mean(readings[max(0, second - _WINDOW) : second])
         for second in range(1, len(readings) + 1)
     }
-    count = len(_on(observation, MEAN))
+    count = len(on(observation, MEAN))
     if sorted(found) != sorted(wanted) or count != len(wanted):
         first = next((second for second in wanted if second not in found), None)
         late = f" The first one that is missing is for reading {first:g}." if first else ""
@@ -157,7 +146,7 @@ def _plain(value: float) -> str:
 
 
 def _statuses(observation: Observation, readings: Sequence[float]) -> Diagnosis | None:
-    changes = [_Change(one.time, str(one.value).strip()) for one in _on(observation, STATUS)]
+    changes = [_Change(one.time, str(one.value).strip()) for one in on(observation, STATUS)]
     strange = next((one for one in changes if one.word.capitalize() not in _WORDS), None)
     if strange:
         return Diagnosis(

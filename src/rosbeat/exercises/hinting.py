@@ -9,7 +9,7 @@ from rosbeat.checks.frames import HELP, code, framed, words
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.progress_file import progress_file
 from rosbeat.exercises.registry import find
-from rosbeat.exercises.solutions import answer_to
+from rosbeat.exercises.solutions import answer_to, are_here
 from rosbeat.exercises.standing import Standing
 
 #: For an exercise that has no hint of its own.
@@ -17,6 +17,9 @@ _READ_AGAIN = (
     "Read once more what the exercise asks for, word by word, and compare it with what the check "
     "says.",
 )
+
+#: Where there are no answers, as in what an instructor releases to a class.
+_LAST = "This was the last one. Who teaches the course can tell you more."
 
 
 @dataclass(frozen=True)
@@ -86,13 +89,13 @@ def hint(exercise: str, *, again: bool = False) -> Hint:
 def _one_more(before: Standing, there_are: int) -> Standing:
     if before.hints < there_are:
         return replace(before, hints=before.hints + 1)
-    return replace(before, answer=True)
+    return replace(before, answer=True) if are_here() else before
 
 
 def _newest(exercise: Exercise[object], texts: tuple[str, ...], standing: Standing) -> Hint:
-    if standing.answer:
+    if standing.answer and are_here():
         return Hint(exercise.id, answer=_answer(exercise.id))
-    number = standing.hints
+    number = min(standing.hints, len(texts))
     return Hint(
         exercise.id,
         (_numbered(exercise.id, texts, number),),
@@ -103,7 +106,7 @@ def _newest(exercise: Exercise[object], texts: tuple[str, ...], standing: Standi
 def _all_so_far(exercise: str, texts: tuple[str, ...], standing: Standing) -> Hint:
     used = min(standing.hints, len(texts))
     shown = tuple(_numbered(exercise, texts, number) for number in range(1, used + 1))
-    if standing.answer:
+    if standing.answer and are_here():
         return Hint(exercise, shown, _answer(exercise))
     return Hint(exercise, shown, next=_next(texts, used, exercise))
 
@@ -114,7 +117,7 @@ def _numbered(exercise: str, texts: tuple[str, ...], number: int) -> tuple[str, 
 
 def _next(texts: tuple[str, ...], used: int, exercise: str) -> str:
     if used >= len(texts):
-        return "The next one is the answer."
+        return "The next one is the answer." if are_here() else _LAST
     what = "One more" if used else "There was no hint yet. The first one"
     return f'{what}: hint("{exercise}")'
 

@@ -2,46 +2,37 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from rosbeat.checks.verdicts import failed, failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.diagnosis.wires import Wire, why_not_heard
+from rosbeat.exercises.beats import diagnose_beat
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.running import feeder, observe
-from rosbeat.records import NANOSECONDS, Observation, Outcome, Sample
+from rosbeat.exercises.heard import missing
+from rosbeat.records import Observation, Outcome
+from rosbeat.scenarios.page_00 import ARTICLES, SCENARIOS, STRING
 
-_ARTICLES = 3
-_STRING = "std_msgs/msg/String"
-_WEATHER, _SPORTS = Wire("/weather", _STRING), Wire("/sports", _STRING)
-_TOPICS = ("weather", "sports", "politics")
-
-
-def _among_reporters(answer: Any) -> Observation:  # noqa: ANN401
-    reporters = [
-        feeder(f"{topic}_reporter", topic, _STRING, [f"{topic} {n}" for n in range(_ARTICLES)])
-        for topic in _TOPICS
-    ]
-    return observe(answer, 5, others=reporters)
+_WEATHER, _SPORTS = Wire("/weather", STRING), Wire("/sports", STRING)
+#: Seconds from one article of 00b to the next.
+_PERIOD = 2.0
 
 
 def _judge_reader(observation: Observation) -> Outcome:
     heard = [call.source for call in observation.callbacks if call.kind == "subscription"]
-    if heard == [_WEATHER.topic] * _ARTICLES:
-        return passed("00a", f"The reader got all {_ARTICLES} articles on /weather and no others.")
+    if heard == [_WEATHER.topic] * ARTICLES:
+        return passed("00a", f"The reader got all {ARTICLES} articles on /weather and no others.")
     if not heard:
         return failed_by("00a", _deaf_reader(observation))
     topics = ", ".join(sorted(set(heard)))
-    if topics == _WEATHER.topic and len(heard) < _ARTICLES:
+    if topics == _WEATHER.topic and len(heard) < ARTICLES:
         return failed(
             "00a",
-            f"The reader heard {len(heard)} of {_ARTICLES} articles on /weather.",
+            f"The reader heard {len(heard)} of {ARTICLES} articles on /weather.",
             "What makes the reader stop? Look at what its callback does.",
         )
     if topics == _WEATHER.topic:
         return failed(
             "00a",
-            f"There were {_ARTICLES} articles, and the reader's callback ran {len(heard)} times.",
+            f"There were {ARTICLES} articles, and the reader's callback ran {len(heard)} times.",
             "One subscription is enough. Is create_subscription there twice?",
             "wrong-rate",
         )
@@ -61,68 +52,25 @@ def _deaf_reader(observation: Observation) -> Diagnosis:
     )
 
 
-def _alone(answer: Any) -> Observation:  # noqa: ANN401
-    return observe(answer, 9)
-
-
 def _judge_reporter(observation: Observation) -> Outcome:
-    sports = [sample for sample in observation.samples if sample.topic == _SPORTS.topic]
-    if not sports:
-        return failed_by("00b", _silent_reporter(observation))
-    if sports[0].type_name != _STRING:
-        return failed(
-            "00b",
-            f"The messages on /sports are of type {sports[0].type_name}.",
-            "An article is a String: both sides of a topic have to agree on the type.",
-            "type-mismatch",
-        )
-    times = [sample.time_ns for sample in sports]
-    if times == [second * NANOSECONDS for second in (2, 4, 6, 8)]:
-        return passed("00b", "Four articles in nine seconds on /sports, one every two seconds.")
-    return _wrong_rate(sports)
+    wrong = missing(observation, _SPORTS, otherwise=_SILENT)
+    wrong = wrong or diagnose_beat(observation, _SPORTS, _PERIOD, "articles")
+    if wrong:
+        return failed_by("00b", wrong)
+    return passed("00b", "Four articles in nine seconds on /sports, one every two seconds.")
 
 
-def _wrong_rate(sports: list[Sample]) -> Outcome:
-    if not any(sample.time_ns for sample in sports):
-        return failed(
-            "00b",
-            f"{len(sports)} articles were published while the node was made, and none later.",
-            "The constructor runs once. What calls write again and again?",
-            "no-timer",
-        )
-    if len({sample.time_ns for sample in sports}) < len(sports):
-        return failed(
-            "00b",
-            f"{len(sports)} articles appeared on /sports, some of them at the same second.",
-            "One article for each tick is enough. Does anything publish twice, or are there two "
-            "timers?",
-            "wrong-rate",
-        )
-    return failed("00b", *_rate(sports), "wrong-rate")
-
-
-def _rate(sports: list[Sample]) -> tuple[str, str]:
-    seconds = ", ".join(f"{sample.time:g}" for sample in sports[:6])
-    return (
-        f"In nine seconds {len(sports)} articles appeared on /sports, at these seconds: {seconds}.",
-        "One every two seconds is wanted. The first argument of create_timer is the time between "
-        "two calls, in seconds.",
-    )
-
-
-def _silent_reporter(observation: Observation) -> Diagnosis:
-    return why_not_published(observation, _SPORTS) or Diagnosis(
-        "new-to-me",
-        "Nobody published on /sports in nine seconds.",
-        "create_publisher takes the message type, the topic's name and the queue depth, in this "
-        "order.",
-    )
+_SILENT = Diagnosis(
+    "new-to-me",
+    "Nobody published on /sports in nine seconds.",
+    "create_publisher takes the message type, the topic's name and the queue depth, in this order.",
+)
 
 
 EXERCISES = (
     Exercise(
         "00a",
-        _among_reporters,
+        SCENARIOS["00a"],
         _judge_reader,
         "read the weather",
         1,
@@ -134,7 +82,7 @@ EXERCISES = (
     ),
     Exercise(
         "00b",
-        _alone,
+        SCENARIOS["00b"],
         _judge_reporter,
         "report on sports",
         1,

@@ -7,7 +7,6 @@ from typing import Any
 from rosbeat.checks.verdicts import failed, failed_by, not_attempted, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.looking import TypedIn, Workspace, look_at_terminal, look_at_workspace
 from rosbeat.exercises.paths import (
     alike,
     closeness,
@@ -19,7 +18,9 @@ from rosbeat.exercises.paths import (
     moves,
 )
 from rosbeat.records import Outcome
-from rosbeat.workspace.place import NAME, workspace
+from rosbeat.scenarios.looking import TypedIn, Workspace
+from rosbeat.scenarios.page_01 import SCENARIOS
+from rosbeat.workspace.place import NAME
 from rosbeat.workspace.stages import FOLDERS
 
 _WANTED, _PARENT, _CHILD = "resources/sounds/alarm", "sounds", "alarm"
@@ -111,10 +112,6 @@ def _misplaced(near: str, folders: set[str]) -> tuple[str, str]:
     if near == f"resources/{_CHILD}":
         return "levels-miscounted", "One level is missing: what lies between the two?"
     return "wrong-folder", _PWD
-
-
-def _in_terminal(answer: Any) -> TypedIn:  # noqa: ANN401 - whatever a learner hands over
-    return look_at_terminal(answer, workspace())
 
 
 def _judge_way(seen: TypedIn) -> Outcome:
@@ -212,7 +209,7 @@ def _judge_kind_of_path(went: list[list[str]]) -> Outcome:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "01a",
-        look_at_workspace,
+        SCENARIOS["01a"],
         _judge_folder,
         title="a folder in a folder",
         points=1,
@@ -224,7 +221,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "01b",
-        _in_terminal,
+        SCENARIOS["01b"],
         _judge_way,
         title="from here to there",
         points=1,

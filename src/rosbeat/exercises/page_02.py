@@ -6,7 +6,6 @@ from typing import Any
 
 from rosbeat.checks.verdicts import BLANK, failed, failed_by, not_attempted, passed
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.looking import Workspace, look_at_workspace
 from rosbeat.exercises.manifests import (
     diagnose_dependencies,
     diagnose_tags,
@@ -17,6 +16,8 @@ from rosbeat.exercises.manifests import (
 )
 from rosbeat.exercises.paths import alike
 from rosbeat.records import Outcome
+from rosbeat.scenarios.looking import Workspace
+from rosbeat.scenarios.page_02 import SCENARIOS
 from rosbeat.workspace.manifest import Manifest
 from rosbeat.workspace.packages import Package
 
@@ -163,7 +164,7 @@ def _judge_files(package: Package) -> Outcome:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "02a",
-        look_at_workspace,
+        SCENARIOS["02a"],
         _judge_manifest,
         title="fill in the manifest",
         points=2,
@@ -177,7 +178,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "02b",
-        look_at_workspace,
+        SCENARIOS["02b"],
         _judge_second,
         title="a second package",
         points=2,

@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from rosbeat.checks.verdicts import failed, failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_published
+from rosbeat.diagnosis.wires import Wire
+from rosbeat.exercises.beats import diagnose_beat
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.running import observe
-from rosbeat.exercises.walks import PHASE, Walk, watch_walk
-from rosbeat.records import NANOSECONDS, Observation, Outcome, Sample
+from rosbeat.exercises.heard import missing, on
+from rosbeat.exercises.walks import Walk
+from rosbeat.records import Observation, Outcome
+from rosbeat.scenarios.page_03 import GREENHOUSE, GREENHOUSE_RATE, ROOM, SCENARIOS, SECONDS
+from rosbeat.scenarios.walks import PHASE
 
 _FLOAT = "std_msgs/msg/Float32"
 _HUMIDITY = Wire("/humidity", _FLOAT)
-_ROOM = Wire("/temperature", _FLOAT)
-_GREENHOUSE = Wire("/greenhouse/temperature", _FLOAT)
-
-#: Seconds to look at a beat of two a second.
-_SECONDS = 5
+_ROOM, _GREENHOUSE = Wire(ROOM, _FLOAT), Wire(GREENHOUSE, _FLOAT)
 _DEPTH = 5
-_FAHRENHEIT_RATE = 4
-#: Seconds of wall time for a walk that wanders freely; about one is needed.
-_PATIENCE = 30.0
 
 
 def _fahrenheit(celsius: float) -> float:
@@ -38,10 +33,10 @@ _GREENHOUSE_WALK = Walk(
 
 
 def _judge_beat(observation: Observation) -> Outcome:
-    found = _missing(observation, _HUMIDITY) or _beat(observation, _HUMIDITY, 2)
+    found = missing(observation, _HUMIDITY) or diagnose_beat(observation, _HUMIDITY, 0.5)
     if found:
         return failed_by("03a", found)
-    count = len(_on(observation, _HUMIDITY))
+    count = len(on(observation, _HUMIDITY))
     ends = observation.graph.on(_HUMIDITY.topic, "publisher")
     qos = next((end.qos for end in ends if end.qos.depth != _DEPTH), ends[0].qos)
     if qos.history == "KEEP_ALL" or qos.depth != _DEPTH:
@@ -53,7 +48,7 @@ def _judge_beat(observation: Observation) -> Outcome:
             "wrong-depth",
         )
     remark = _BEST_EFFORT if qos.reliability == "BEST_EFFORT" else ""
-    evidence = f"{count} readings in {_SECONDS} seconds on /humidity."
+    evidence = f"{count} readings in {SECONDS} seconds on /humidity."
     return passed("03a", evidence, *([remark] if remark else []))
 
 
@@ -64,24 +59,26 @@ _BEST_EFFORT = (
 
 
 def _judge_room(observation: Observation) -> Outcome:
-    found = _missing(observation, _ROOM)
+    found = missing(observation, _ROOM)
     if found:
         return failed_by("03b", found)
     values = _values(observation, _ROOM)
-    wrong = _beat(observation, _ROOM, 1) or _ROOM_WALK.diagnose(values)
-    return failed_by("03b", wrong) if wrong else passed("03b", _ROOM_WALK.evidence(values))
+    walk = _ROOM_WALK.decisive(values)
+    wrong = diagnose_beat(observation, _ROOM, 1.0) or _ROOM_WALK.diagnose(walk)
+    return failed_by("03b", wrong) if wrong else passed("03b", _ROOM_WALK.evidence(walk))
 
 
 def _judge_greenhouse(observation: Observation) -> Outcome:
-    found = _missing(observation, _GREENHOUSE)
+    found = missing(observation, _GREENHOUSE)
     if found:
         return failed_by("03c", found)
     values = _values(observation, _GREENHOUSE)
-    wrong = _beat(observation, _GREENHOUSE, _FAHRENHEIT_RATE)
-    wrong = wrong or _unit(values) or _GREENHOUSE_WALK.diagnose(values) or _start(values[0])
+    walk = _GREENHOUSE_WALK.decisive(values)
+    wrong = diagnose_beat(observation, _GREENHOUSE, 1 / GREENHOUSE_RATE)
+    wrong = wrong or _unit(values) or _GREENHOUSE_WALK.diagnose(walk) or _start(values[0])
     if wrong:
         return failed_by("03c", wrong)
-    return passed("03c", f"Four readings a second. {_GREENHOUSE_WALK.evidence(values)}")
+    return passed("03c", f"Four readings a second. {_GREENHOUSE_WALK.evidence(walk)}")
 
 
 def _unit(values: Sequence[float]) -> Diagnosis | None:
@@ -121,107 +118,14 @@ def _start(first: float) -> Diagnosis | None:
     )
 
 
-# What all three share.
-
-
-def _on(observation: Observation, wire: Wire) -> list[Sample]:
-    return [sample for sample in observation.samples if sample.topic == wire.topic]
-
-
 def _values(observation: Observation, wire: Wire) -> list[float]:
-    return [float(sample.value) for sample in _on(observation, wire)]
-
-
-def _missing(observation: Observation, wire: Wire) -> Diagnosis | None:
-    """Why there is too little to judge on a topic, or None if there is enough."""
-    heard = _on(observation, wire)
-    if heard and heard[0].type_name != wire.type_name:
-        return Diagnosis(
-            "type-mismatch",
-            f"The messages on {wire.topic} are of type {heard[0].type_name}.",
-            f"Publisher and subscriber must agree on the type: here it is {wire.type_name}.",
-        )
-    if heard:
-        return None
-    return why_not_published(observation, wire) or Diagnosis(
-        "new-to-me",
-        f"Nothing was published on {wire.topic}.",
-        "Follow the data: what calls the callback, and does the callback call publish?",
-    )
-
-
-def _beat(observation: Observation, wire: Wire, rate: int) -> Diagnosis | None:
-    """Whether readings came `rate` times a second, first after one period."""
-    heard = _on(observation, wire)
-    period, seconds = NANOSECONDS // rate, observation.time
-    count = observation.time_ns // period
-    if [sample.time_ns for sample in heard] == [n * period for n in range(1, count + 1)]:
-        return None
-    if not any(sample.time_ns for sample in heard):
-        return _only_at_once(observation, len(heard))
-    if len({sample.time_ns for sample in heard}) < len(heard):
-        return _several_at_once(heard)
-    if not heard[0].time_ns:
-        return _from_the_start(len(heard))
-    times = ", ".join(f"{sample.time:g}" for sample in heard[:5])
-    return Diagnosis(
-        "wrong-rate",
-        f"In {seconds:g} seconds {len(heard)} readings appeared, the first ones at these seconds: "
-        f"{times}.",
-        f"{_WORDS[rate]} a second is wanted. What does the first argument of create_timer count: "
-        "calls in a second, or seconds between two calls?",
-    )
-
-
-def _several_at_once(heard: list[Sample]) -> Diagnosis:
-    times = [sample.time_ns for sample in heard]
-    first = next(sample for sample in heard if times.count(sample.time_ns) > 1)
-    return Diagnosis(
-        "wrong-rate",
-        f"At {first.time:g} s, {times.count(first.time_ns)} readings were published at once.",
-        "One reading for each tick is enough. Does anything publish twice, or are there two "
-        "timers?",
-    )
-
-
-def _from_the_start(count: int) -> Diagnosis:
-    return Diagnosis(
-        "wrong-rate",
-        f"{count} readings appeared, and the first one at 0 s.",
-        "The first tick comes after one period. What publishes while the node is being made?",
-    )
-
-
-def _only_at_once(observation: Observation, count: int) -> Diagnosis:
-    return Diagnosis(
-        "no-timer",
-        f"{count} readings were published while the node was made, and none later.",
-        "The constructor runs once. What calls the method again and again?",
-    )
-
-
-_WORDS = {1: "One", 2: "Two", 4: "Four"}
-
-
-def _five_seconds(answer: Any) -> Observation:  # noqa: ANN401
-    return observe(answer, _SECONDS)
-
-
-def _walking(answer: Any, walk: Walk, wire: Wire, rate: int) -> Observation:  # noqa: ANN401
-    def look(seconds: float, others: list[Any]) -> tuple[Observation, list[float]]:
-        # Without the drift it is a long look, and a busy machine takes its time.
-        patience = {} if others else {"deadline": _PATIENCE}
-        seen = observe(answer, seconds, others=others, seed=3, **patience)
-        return seen, _values(seen, wire)
-
-    found: Observation = watch_walk(walk, rate, look)
-    return found
+    return [float(sample.value) for sample in on(observation, wire)]
 
 
 EXERCISES = (
     Exercise(
         "03a",
-        _five_seconds,
+        SCENARIOS["03a"],
         _judge_beat,
         "another sensor",
         2,
@@ -236,7 +140,7 @@ EXERCISES = (
     ),
     Exercise(
         "03b",
-        lambda answer: _walking(answer, _ROOM_WALK, _ROOM, 1),
+        SCENARIOS["03b"],
         _judge_room,
         "a living room",
         2,
@@ -250,7 +154,7 @@ EXERCISES = (
     ),
     Exercise(
         "03c",
-        lambda answer: _walking(answer, _GREENHOUSE_WALK, _GREENHOUSE, _FAHRENHEIT_RATE),
+        SCENARIOS["03c"],
         _judge_greenhouse,
         "a greenhouse, alone",
         4,

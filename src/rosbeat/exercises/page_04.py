@@ -3,75 +3,40 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from typing import Any
 
-from rosbeat.checks.verdicts import failed, failed_by, passed
+from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.diagnosis.wires import Wire, why_not_heard
 from rosbeat.exercises.calm import judge_calm
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.running import feeder, observe
+from rosbeat.exercises.heard import missing, on
 from rosbeat.records import Observation, Outcome
+from rosbeat.scenarios.page_04 import CALM, FLOAT, FRIDGE, ROOM, SCENARIOS, TOPIC
 
-#: What is fed in, and what it is. A float32 holds each of these numbers exactly.
-_FRIDGE = {
-    5.0: "Fine",
-    9.5: "Warm",
-    12.5: "Warm",  # a text "12.5" would come before "8.0"
-    100.0: "Warm",
-    7.75: "Fine",
-    8.0: "Fine",
-    8.015625: "Warm",  # would be 8.0 if it were rounded
-    7.984375: "Fine",
-    2.25: "Fine",
-    2.0: "Fine",
-    1.984375: "Frost",
-    2.015625: "Fine",
-    -18.0: "Frost",
-}
-#: Which of these readings is an alarm; just inside of a limit, at it, and just outside.
-_ROOM = {
-    22.0: False,
-    27.5: True,
-    25.5: False,
-    26.0: False,
-    26.015625: True,
-    100.0: True,
-    28.25: True,
-    20.5: False,
-    20.0: False,
-    19.984375: True,
-    19.75: True,
-    -5.0: True,
-}
-#: Every border of a status with hysteresis, from both sides, and jumps across.
-_CALM = (
-    *(22.0, 25.5, 20.5, 26.0, 26.015625, 25.5, 26.25, 25.0, 24.984375, 25.5, 20.0, 19.984375),
-    *(20.5, 21.0, 21.015625, 20.5, 41.0, -3.5, 30.0, 23.0, 19.0, 25.5, 27.0, 20.5),
-)
-_FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
-_SENSOR = "/temperature_sensor"
-_TEMPERATURE, _ALERT = Wire("/temperature", _FLOAT), Wire("/alert", _STRING)
+_TEMPERATURE, _ALERT = Wire(TOPIC, FLOAT), Wire("/alert", "std_msgs/msg/String")
 _WORDS = ("Warm", "Frost", "Fine")
 
 
-def _fed(answer: Any, values: Iterable[float]) -> Observation:  # noqa: ANN401
-    readings = list(values)
-    sensor = feeder(_SENSOR.strip("/"), "temperature", _FLOAT, readings)
-    return observe(answer, len(readings) + 1, others=[sensor])
+def _state_of(value: float) -> str:
+    """What a fridge of this temperature is."""
+    return "Warm" if value > 8.0 else "Frost" if value < 2.0 else "Fine"
+
+
+def _is_alarming(value: float) -> bool:
+    """Whether a room of this temperature wants an alert."""
+    return value > 26.0 or value < 20.0
 
 
 def _judge_states(observation: Observation) -> Outcome:
-    deaf = _deaf(observation, len(_FRIDGE))
+    deaf = _deaf(observation, len(FRIDGE))
     if deaf:
         return failed_by("04a", deaf)
-    for second, (value, wanted) in enumerate(_FRIDGE.items(), 1):
+    for second, value in enumerate(FRIDGE, 1):
         said = [log.text for log in observation.logs if log.time == second]
-        wrong = _wrong_state(value, wanted, said)
+        wrong = _wrong_state(value, _state_of(value), said)
         if wrong:
             return failed_by("04a", wrong)
-    return passed("04a", f"All {len(_FRIDGE)} readings got the right state, 8.0 and 2.0 too.")
+    return passed("04a", f"All {len(FRIDGE)} readings got the right state, 8.0 and 2.0 too.")
 
 
 def _wrong_state(value: float, wanted: str, said: list[str]) -> Diagnosis | None:
@@ -97,57 +62,51 @@ def _wrong_state(value: float, wanted: str, said: list[str]) -> Diagnosis | None
 
 
 def _judge_alarm(observation: Observation) -> Outcome:
-    found = _deaf(observation, len(_ROOM))
-    alerts = [sample for sample in observation.samples if sample.topic == _ALERT.topic]
-    found = found or (None if alerts else _silent(observation))
+    found = _deaf(observation, len(ROOM)) or _silent(observation)
     if found:
         return failed_by("04b", found)
-    if alerts[0].type_name != _STRING:
-        return failed(
-            "04b",
-            f"The alerts are messages of type {alerts[0].type_name}.",
-            "An alert is a String: the first argument of create_publisher, and what you publish.",
-            "type-mismatch",
-        )
-    wanted = [second for second, alarming in enumerate(_ROOM.values(), 1) if alarming]
-    times = [sample.time for sample in alerts]
+    wanted = [second for second, value in enumerate(ROOM, 1) if _is_alarming(value)]
+    times = [sample.time for sample in on(observation, _ALERT)]
     if times == wanted:
-        return passed("04b", f"{len(_ROOM)} readings, {len(times)} alerts: none too many.")
+        return passed("04b", f"{len(ROOM)} readings, {len(times)} alerts: none too many.")
     return failed_by("04b", _alarms(times, wanted))
 
 
-def _silent(observation: Observation) -> Diagnosis:
-    if any(end.name == _ALERT.topic for end in observation.graph.endpoints):
+def _silent(observation: Observation) -> Diagnosis | None:
+    made = any(end.name == _ALERT.topic for end in observation.graph.endpoints)
+    if made and not on(observation, _ALERT):
         return Diagnosis(
             "never-published",
             "Readings were too high and too low, and no alert was published.",
             "Is your condition ever true? No reading is above 26 and below 20 at once. And is "
             "there a publish behind it?",
         )
-    return why_not_published(observation, _ALERT) or Diagnosis(
-        "no-publisher",
-        "Readings were too high and too low, and nothing was published on /alert.",
-        "Make a publisher in __init__ and call its publish in the callback.",
-    )
+    return missing(observation, _ALERT, otherwise=_NO_ALERTS)
+
+
+_NO_ALERTS = Diagnosis(
+    "no-publisher",
+    "Readings were too high and too low, and nothing was published on /alert.",
+    "Make a publisher in __init__ and call its publish in the callback.",
+)
 
 
 def _alarms(times: list[float], wanted: list[int]) -> Diagnosis:
-    values = list(_ROOM)
-    stray = [at for at in times if at not in range(1, len(values) + 1)]
+    stray = [at for at in times if at not in range(1, len(ROOM) + 1)]
     if stray:
         return Diagnosis(
             "alert-too-many",
             f"An alert was published at {stray[0]:g} s, and no reading came then.",
             "Publish in the callback of the subscription: it runs when a reading comes.",
         )
-    extra = [values[round(at) - 1] for at in times if at not in wanted]
+    extra = [ROOM[round(at) - 1] for at in times if at not in wanted]
     if extra:
         return Diagnosis(
             "boundary" if extra[0] in (26.0, 20.0) else "alert-too-many",
             f"An alert was published for a reading of {extra[0]:g}.",
             "Publish only if the reading is above 26 or below 20; the limits are still fine.",
         )
-    missed = [values[at - 1] for at in wanted if at not in times]
+    missed = [ROOM[at - 1] for at in wanted if at not in times]
     if missed:
         evidence = f"No alert for a reading of {missed[0]:g}."
         return Diagnosis("alert-missing", evidence, "Both above 26 and below 20 count.")
@@ -168,14 +127,14 @@ def _deaf(observation: Observation, count: int) -> Diagnosis | None:
 
 
 def _judge_monitor(observation: Observation) -> Outcome:
-    deaf = _deaf(observation, len(_CALM))
-    return failed_by("04c", deaf) if deaf else judge_calm("04c", observation, _CALM)
+    deaf = _deaf(observation, len(CALM))
+    return failed_by("04c", deaf) if deaf else judge_calm("04c", observation, CALM)
 
 
 EXERCISES = (
     Exercise(
         "04a",
-        lambda answer: _fed(answer, _FRIDGE),
+        SCENARIOS["04a"],
         _judge_states,
         "watch a fridge",
         1,
@@ -186,7 +145,7 @@ EXERCISES = (
     ),
     Exercise(
         "04b",
-        lambda answer: _fed(answer, _ROOM),
+        SCENARIOS["04b"],
         _judge_alarm,
         "raise the alarm",
         2,
@@ -200,7 +159,7 @@ EXERCISES = (
     ),
     Exercise(
         "04c",
-        lambda answer: _fed(answer, _CALM),
+        SCENARIOS["04c"],
         _judge_monitor,
         "a calm monitor, alone",
         4,

@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from rosbeat.checks.verdicts import BLANK, failed_by, not_attempted, passed
-from rosbeat.exercises.calls import Calls, call, diagnose_calls
+from rosbeat.exercises.calls import diagnose_calls
 from rosbeat.exercises.entries import diagnose_entries, diagnose_script, differences
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.looking import Workspace, look_at_workspace
 from rosbeat.records import Outcome
+from rosbeat.scenarios.calls import Calls
+from rosbeat.scenarios.looking import Workspace
+from rosbeat.scenarios.page_05 import SCENARIOS
 from rosbeat.workspace.packages import Package
 
 _PACKAGE = "sensor_simulator"
@@ -49,7 +51,7 @@ def _judge_calls(seen: Calls) -> Outcome:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "05a",
-        look_at_workspace,
+        SCENARIOS["05a"],
         _judge_setup,
         title="two programs",
         points=2,
@@ -63,7 +65,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "05b",
-        call,
+        SCENARIOS["05b"],
         _judge_calls,
         title="write entry points",
         points=1,

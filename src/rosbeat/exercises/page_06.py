@@ -9,27 +9,23 @@ from rosbeat.checks.verdicts import failed_by, not_attempted, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.exercises.entries import diagnose_name, diagnose_script
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.looking import TypedIn, Workspace, look_at_terminal, look_at_workspace
+from rosbeat.exercises.meanings import diagnosis_of
 from rosbeat.exercises.paths import alike
 from rosbeat.records import Outcome
+from rosbeat.scenarios.looking import TypedIn, Workspace
+from rosbeat.scenarios.page_06 import RUN, SCENARIOS
 from rosbeat.workspace.meanings.flaws import diagnose_flaw
 from rosbeat.workspace.packages import Package
-from rosbeat.workspace.place import workspace
 
 _NAME = "second_monitor"
 #: As ROS prints a log line, with a stamp or without: [INFO] [1732212345.123] [name]: text.
 _LOG = re.compile(r"^\[[A-Z]+\] (?:\[[\d.]+\] )?\[([\w./]+)\]: (.*)", re.MULTILINE)
 _PACKAGE = "sensor_simulator"
 _SENSOR = "Publishing"
-_RUN = "ros2 run"
-
-
-def _in_terminal(answer: Any) -> TypedIn:  # noqa: ANN401 - whatever a learner hands over
-    return look_at_terminal(answer, workspace(), _RUN)
 
 
 def _judge_monitor(seen: TypedIn) -> Outcome:
-    runs = [text for _, text in seen.commands if _RUN in text]
+    runs = [text for _, text in seen.commands if RUN in text]
     if not runs:
         return _judge_other_commands(seen)
     # What the nodes have said since a command was typed for the last time.
@@ -43,8 +39,9 @@ def _judge_monitor(seen: TypedIn) -> Outcome:
 def _judge_other_commands(seen: TypedIn) -> Outcome:
     """Nothing was run: perhaps because the command was not one."""
     typed = seen.commands[-1][1] if seen.commands else ""
-    if seen.meaning and alike(typed[: len(_RUN)], _RUN):
-        return failed_by("06a", seen.meaning)
+    meaning = diagnosis_of(seen.meaning)
+    if meaning and alike(typed[: len(RUN)], RUN):
+        return failed_by("06a", meaning)
     return not_attempted("06a", "Nothing was run in this terminal yet.")
 
 
@@ -56,10 +53,8 @@ def _of_run(seen: TypedIn, command: str, said: list[tuple[str, str]]) -> Diagnos
         found = ", ".join(names)
         mistake, hint = _of_name(command)
         return Diagnosis(mistake, f"The node that runs here is called {found}.", hint)
-    if seen.meaning:
-        return seen.meaning
     evidence = f"No node has started here. The last line typed: {command}"
-    return Diagnosis(UNKNOWN, evidence, _WHICH)
+    return diagnosis_of(seen.meaning) or Diagnosis(UNKNOWN, evidence, _WHICH)
 
 
 def _deaf(said: list[str]) -> Diagnosis:
@@ -153,7 +148,7 @@ def _other_package(seen: Workspace) -> Diagnosis | None:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "06a",
-        _in_terminal,
+        SCENARIOS["06a"],
         _judge_monitor,
         title="one more monitor",
         points=1,
@@ -165,7 +160,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "06b",
-        look_at_workspace,
+        SCENARIOS["06b"],
         _judge_links,
         title="link instead of copy",
         points=1,

@@ -7,7 +7,23 @@ from difflib import get_close_matches
 from typing import Any
 
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises import page_00, page_01, page_02, page_03, page_04, page_05, page_06, system
+from rosbeat.exercises import (
+    page_00,
+    page_01,
+    page_02,
+    page_03,
+    page_04,
+    page_05,
+    page_06,
+    page_07,
+    page_08,
+    page_09,
+    page_10,
+    page_11,
+    page_12,
+    page_13,
+    system,
+)
 from rosbeat.exercises.exercise import Exercise
 
 
@@ -34,6 +50,13 @@ PAGES = (
     Page("04", "Write a subscriber", page_04.EXERCISES),
     Page("05", "Set the entry points", page_05.EXERCISES),
     Page("06", "Build, source, run", page_06.EXERCISES),
+    Page("07", "Look inside the graph", page_07.EXERCISES),
+    Page("08", "Tune quality of service", page_08.EXERCISES),
+    Page("09", "Test the five claims", page_09.EXERCISES),
+    Page("10", "Find the fault", page_10.EXERCISES),
+    Page("11", "Record and replay", page_11.EXERCISES),
+    Page("12", "Go beyond topics", page_12.EXERCISES),
+    Page("13", "Build your own", page_13.EXERCISES),
     Page("", "The whole system", system.EXERCISES),
 )
 
@@ -56,6 +79,7 @@ def find(exercise: object, example: str) -> Exercise[Any]:
     found = EXERCISES.get(name)
     if found is None:
         near = get_close_matches(name, EXERCISES, 1) or sorted(EXERCISES)[:1]
+        near = [f"0{name}"] if f"0{name}" in EXERCISES else near  # 3a is as near to 13a
         raise ExerciseError(
             f"There is no exercise {exercise!r}.",
             f"The exercises are: {', '.join(sorted(EXERCISES))}.",

@@ -10,11 +10,14 @@ from typing import Any
 
 from rosbeat.checks.verdicts import failed_by, not_attempted, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.exercises.entries import diagnose_entries, diagnose_script
 from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.meanings import diagnosis_of
 from rosbeat.exercises.system_remarks import ends_by_the_tutorial, remarks_on
-from rosbeat.exercises.system_run import MONITOR, PACKAGE, SENSOR, TOPIC, SystemRun, run_system
 from rosbeat.records import Outcome, ProgramRun
+from rosbeat.scenarios.system import SCENARIOS
+from rosbeat.scenarios.system_run import MONITOR, PACKAGE, SENSOR, TOPIC, SystemRun
 
 ID = "system"
 _FLOAT = "std_msgs/msg/Float32"
@@ -78,7 +81,7 @@ def _build(seen: SystemRun) -> Diagnosis | None:
     said = f"ended with {seen.build_code}"
     if seen.build_code is None:
         said = "took too long" if seen.build_output else "was not even tried, as the package is"
-    return seen.meaning or Diagnosis(
+    return diagnosis_of(seen.meaning) or Diagnosis(
         UNKNOWN,
         f"colcon build {said}: {_last_line(seen.build_output)}",
         "Run colcon build in a terminal, and read the first error that it prints.",
@@ -88,14 +91,17 @@ def _build(seen: SystemRun) -> Diagnosis | None:
 def _start(seen: SystemRun) -> Diagnosis | None:
     for run in (seen.monitor, seen.sensor):
         if run is not None and run.ended_early:
-            return seen.meaning or Diagnosis(
-                UNKNOWN,
-                f"{run.program} ended by itself, with exit code {run.exit_code}: "
-                f"{_last_line(run.output)}",
-                f"Start it with ros2 run {PACKAGE} {run.program} and read what it prints. A node "
-                "runs until Ctrl+C: does main call rclpy.spin?",
-            )
+            return diagnosis_of(seen.meaning) or diagnose_output(run.output) or _ended(run)
     return None
+
+
+def _ended(run: ProgramRun) -> Diagnosis:
+    return Diagnosis(
+        UNKNOWN,
+        f"{run.program} ended by itself, with exit code {run.exit_code}: {_last_line(run.output)}",
+        f"Start it with ros2 run {PACKAGE} {run.program} and read what it prints. A node runs "
+        "until Ctrl+C: does main call rclpy.spin?",
+    )
 
 
 def _last_line(text: str) -> str:
@@ -244,7 +250,7 @@ def _ending(run: ProgramRun) -> Diagnosis | None:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         ID,
-        run_system,
+        SCENARIOS[ID],
         _judge,
         title="the whole system",
         points=5,

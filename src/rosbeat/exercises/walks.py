@@ -1,36 +1,22 @@
 """Random walks between two limits: what a sensor's readings show of how they were made.
 
-Pure functions, but for `weather`, which makes the scenario's drift. The walk is driven up, then
-down, and then left alone (see `runtime.drift`). So both limits are met, and a walk that is still
-beyond a limit when the drift has turned gives itself away: what is published was cut off, and what
-is kept was not.
+Pure functions. How the walk was driven, and for how long, stands in `scenarios.walks`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 from math import isfinite
-from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.exercises.running import drift
+from rosbeat.scenarios.walks import LONG, PHASE, READINGS, stays, widest
 
-#: Readings while the drift goes in one direction.
-PHASE = 600
-#: Exponents of the drift: readings tend upwards, downwards, nowhere.
-UP, DOWN, FREE = 1 / 3, 3.0, 1.0
-#: Readings of a whole run: drift up, drift down, and then none.
-READINGS = 6 * PHASE
-#: Readings of a run without drift; a walk misses a limit in one of 10,000 of them.
-LONG = 8 * READINGS
 #: Room for rounding to 32 bits.
 _ROUNDING = 1e-4
 #: A walk that has turned leaves a limit within a few steps; more than this many are no chance.
 _STUCK = 60
-#: How often a walk meets the very same number at its end if something cuts it off there.
-_AGAIN = 5
 _ADD = (
     "Each reading is drawn anew and does not know the one before. A walk goes on from where it "
     "was: add the step to the old value."
@@ -70,6 +56,19 @@ class Walk:
         found = found or self._memory(values) or self._limits(values) or _chance(values)
         return Diagnosis(found[0], self.evidence(values), found[1]) if found else None
 
+    def decisive(self, values: Sequence[float]) -> Sequence[float]:
+        """The readings that decide: those with the drift, or all after them that were needed.
+
+        Args:
+            values: Its readings, as many as `scenarios.walks.watch_walk` has asked for.
+        """
+        if len(values) != READINGS + LONG:
+            return values
+        first = values[:READINGS]
+        found = self.diagnose(first)
+        is_open = found is not None and found.mistake == "other-limits" and not self.is_met(first)
+        return values[READINGS:] if is_open else first
+
     def is_met(self, values: Sequence[float]) -> bool:
         """Whether these readings show both ends of the range, wherever the node has put them.
 
@@ -78,7 +77,7 @@ class Walk:
         """
         low, high = min(values, default=0.0), max(values, default=0.0)
         return all(
-            there or _stays(values, end)
+            there or stays(values, end)
             for end, there in (
                 (low, low <= self.low + self.step),
                 (high, high >= self.high - self.step),
@@ -155,7 +154,7 @@ class Walk:
         low, high = min(values), max(values)
         for end, beyond in ((low, self.low - low), (high, high - self.high)):
             # A whole step beyond is as far as a walk gets that is clamped too early.
-            if _stays(values, end) and _ROUNDING < beyond < self.step - 10 * _ROUNDING:
+            if stays(values, end) and _ROUNDING < beyond < self.step - 10 * _ROUNDING:
                 return True
         return False
 
@@ -167,7 +166,7 @@ class Walk:
             (max(values), self.high, "above"),
             (min(values), self.low, "below"),
         ):
-            if abs(end - limit) > 10 * _ROUNDING and _stays(values, end) and _is_fine(values):
+            if abs(end - limit) > 10 * _ROUNDING and stays(values, end) and _is_fine(values):
                 if abs(end - (self.low + self.high - limit)) < _ROUNDING:
                     return "clamp-swapped", (
                         f"It never gets {where} {end:g}. Which of the two, min or max, keeps a "
@@ -199,32 +198,6 @@ class Walk:
         return None
 
 
-def watch_walk(
-    walk: Walk, rate: int, look: Callable[[float, list[Any]], tuple[Any, Sequence[float]]]
-) -> Any:  # noqa: ANN401 - whatever `look` makes
-    """Look at a walk until it has shown both of its ends.
-
-    Args:
-        walk: What is asked of it.
-        rate: Readings a second.
-        look: Takes seconds and further nodes, and gives what was seen, and the readings in it.
-    """
-    seen, values = look(READINGS / rate, [weather(rate)])
-    found = walk.diagnose(values) if len(values) == READINGS else None
-    if found and found.mistake == "other-limits" and not walk.is_met(values):
-        seen, _ = look(LONG / rate, [])
-    return seen
-
-
-def weather(rate: int) -> Callable[[], Any]:
-    """The drift that goes with `Walk.diagnose`, as a node for `observe`.
-
-    Args:
-        rate: Readings a second.
-    """
-    return drift([(PHASE / rate, UP), (PHASE / rate, DOWN), (0, FREE)])
-
-
 def _chance(values: Sequence[float]) -> tuple[str, str] | None:
     """Whether chance decides: then about every second step turns round."""
     moves = [b - a for a, b in pairwise(values[2 * PHASE :]) if a != b]
@@ -237,11 +210,6 @@ def _chance(values: Sequence[float]) -> tuple[str, str] | None:
     )
 
 
-def _stays(values: Sequence[float], end: float) -> bool:
-    """Whether a walk meets the very same number again and again: something cuts it off there."""
-    return sum(one == end for one in values) >= _AGAIN
-
-
 def _is_fine(values: Sequence[float]) -> bool:
     """Whether steps have any width; with a few widths only, all numbers come again and again."""
     return len({round(one, 4) for one in values}) > len(values) / 4
@@ -250,8 +218,3 @@ def _is_fine(values: Sequence[float]) -> bool:
 def _longest_stay(values: Sequence[float], limit: float) -> int:
     runs = groupby(values, lambda one: abs(one - limit) < _ROUNDING)
     return max((len(list(run)) for same, run in runs if same), default=0)
-
-
-def widest(values: Sequence[float]) -> float:
-    """The widest step between two readings that follow each other; 0 for fewer than two."""
-    return max((abs(b - a) for a, b in pairwise(values)), default=0.0)

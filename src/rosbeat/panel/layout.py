@@ -25,9 +25,9 @@ def layout(shown: Wiring) -> dict[str, Any]:
         shown: The graph.
 
     Returns:
-        `width` and `height` in CSS pixels; `boxes` with key, kind, name, lines of text and place;
-        `edges` with the keys of their ends, what is wrong there, and the path as SVG writes it;
-        `words` that say the same.
+        `width` and `height` in CSS pixels; `boxes` with key, kind, name, lines of text, how many
+        of them, from the top, are the name (`rows`), and place; `edges` with the keys of their
+        ends, what is wrong there, and the path as SVG writes it; `words` that say the same.
     """
     plan, labels = _plan(shown), _labels(shown, _LIMITS[0])
     for limit in _LIMITS:
@@ -72,6 +72,7 @@ def _box(key: str, name: str, label: Label, box: Box) -> dict[str, Any]:
         "kind": "node" if label.is_node else "topic",
         "name": name,
         "lines": [line.words for line in label.lines],
+        "rows": sum(line.colour == theme.INK for line in label.lines),
         "broken": label.broken,
         "x": round(box.along + theme.MARGIN, 1),
         "y": round(box.across + theme.MARGIN, 1),

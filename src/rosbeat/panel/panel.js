@@ -165,7 +165,8 @@ function graphView() {
     );
     box.lines.forEach((line, rank) => {
       const at = y + (rank - (box.lines.length - 1) / 2) * 17;
-      const kind = rank && box.kind === "topic" ? "rb-small" : "rb-name";
+      // A long name takes several lines; only what stands below it, type and fault, is small.
+      const kind = rank < box.rows ? "rb-name" : "rb-small";
       group.append(draw("text", { x, y: at, class: kind }, line));
     });
     return group;
@@ -176,9 +177,16 @@ function graphView() {
     edge.last = now;
     if (calm.matches) return;
     edge.length = edge.length || edge.element.getTotalLength();
-    const dot = draw("circle", { r: 5, class: "rb-pulse" });
-    svg.append(dot);
-    pulses.push({ edge, dot, begin: now, onward });
+    const pulse = { edge, dot: draw("circle", { r: 5, class: "rb-pulse" }), begin: now, onward };
+    // Some screens are drawn before the next paint of ours; without a place it stands in the corner.
+    move(pulse, 0);
+    svg.append(pulse.dot);
+    pulses.push(pulse);
+  }
+
+  function move({ edge, dot }, part) {
+    const at = edge.element.getPointAtLength(part * edge.length);
+    dot.setAttribute("transform", `translate(${at.x},${at.y})`);
   }
 
   return {
@@ -200,8 +208,7 @@ function graphView() {
           const next = edges.filter((edge) => edge.from === pulse.onward);
           for (const edge of next) launch(edge, now, "");
         } else {
-          const at = pulse.edge.element.getPointAtLength(part * pulse.edge.length);
-          pulse.dot.setAttribute("transform", `translate(${at.x},${at.y})`);
+          move(pulse, Math.max(part, 0)); // the time of a paint may lie before that of a frame
         }
       }
       pulses = pulses.filter((pulse) => now - pulse.begin < PULSE);

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from rclpy.clock import ClockType, ROSClock
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.time import Time
+
+_POINT = rclpy_implementation.rcl_time_point_t
 
 
 class SessionClock(ROSClock):
@@ -31,8 +34,10 @@ class SessionClock(ROSClock):
 
     def advance(self, time_ns: int) -> None:
         """Move virtual time to `time_ns` nanoseconds."""
-        now = Time(nanoseconds=time_ns, clock_type=ClockType.ROS_TIME)
-        ROSClock.set_ros_time_override(self, now)  # once an instant, so without super()'s detour
+        # Once an instant, so without the detour through `Time` and the method of rclpy's clock.
+        handle = self.handle
+        with handle:
+            handle.set_ros_time_override(_POINT(time_ns, ClockType.ROS_TIME))
 
 
 def make_clock() -> SessionClock:

@@ -30,6 +30,10 @@ _ENDS = (
     "n exception that leaves a callback ends its node, as it would end the node's process. The "
     "other nodes go on."
 )
+_GIVES_UP = (
+    "n exception in the work on a goal aborts that goal: the client gets an empty result. The node "
+    "goes on."
+)
 _MEANS = "\n  What it means: "
 _AGAIN = "run the cell that adds the node again."
 
@@ -43,6 +47,18 @@ def fault_text(fault: Fault) -> str:
         f"{fault.node} stopped at {seconds_text(fault.time_ns)} s, in {fault.callback}: "
         f"{fault.kind}: {first_sentence(fault.text) if known else fault.text}{where}\n"
         f"  What it means: {f'{known.beside_error} A' if known else 'a'}{_ENDS}\n"
+        f"  What to try:   {f'{known.to_try} Then ' if known else 'mend that line, then '}{_AGAIN}"
+    )
+
+
+def work_text(fault: Fault) -> str:
+    """An exception in the work on a goal, in three parts."""
+    where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+    known = None if _MEANS in fault.text else meaning_of(fault)
+    return (
+        f"{fault.node} gave a goal up at {seconds_text(fault.time_ns)} s, in {fault.callback}: "
+        f"{fault.kind}: {first_sentence(fault.text) if known else fault.text}{where}\n"
+        f"  What it means: {f'{known.beside_error} A' if known else 'a'}{_GIVES_UP}\n"
         f"  What to try:   {f'{known.to_try} Then ' if known else 'mend that line, then '}{_AGAIN}"
     )
 
@@ -76,6 +92,10 @@ class Console:
     def fault(self, fault: Fault) -> None:
         """Print an exception that left a callback."""
         print(fault_text(fault), file=sys.stderr)
+
+    def work(self, fault: Fault) -> None:
+        """Print an exception that left the work on a goal."""
+        print(work_text(fault), file=sys.stderr)
 
     def end(self) -> None:
         """Say how many lines were not printed."""

@@ -14,7 +14,9 @@ from rosbeat.diagnosis.faults import first_sentence, meaning_of
 from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError
 from rosbeat.records import Fault
 from rosbeat.runtime.faults import fault_of
+from rosbeat.runtime.launch import Launch
 from rosbeat.runtime.message_classes import mend_message_classes
+from rosbeat.runtime.watching import Watching
 
 Buildable = type[Node] | Node | Callable[[], Node]
 
@@ -42,6 +44,28 @@ def build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
     if not isinstance(made, Node):
         raise _not_a_node(f"What {_name(target)}() returned, {made!r},", made)
     return made
+
+
+def build_in(world: Watching, target: Any, start: Launch) -> Node:  # noqa: ANN401
+    """Make a node in a session; if that fails, nothing of it is left there.
+
+    Args:
+        world: The session's.
+        target: A class, a factory, or a node.
+        start: How it is started.
+
+    Raises:
+        NodeClassError, NodeConstructionError: As `build_node` does.
+    """
+    before = world.states()
+    try:
+        with world.starting(start):
+            return build_node(target)
+    except BaseException:  # Interrupt, too
+        for state in world.states():
+            if state not in before:
+                world.destroy(state)
+        raise
 
 
 def _not_a_node(subject: str, found: object) -> NodeClassError:

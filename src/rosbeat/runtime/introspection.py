@@ -11,12 +11,18 @@ from rclpy.qos import QoSProfile
 from rosbeat.records import Endpoint, GraphSnapshot, QoS, TimerRecord
 from rosbeat.runtime.entities import Entry, NodeState
 from rosbeat.runtime.messages import type_name
+from rosbeat.runtime.stretching import limit_ns
 
 
 def qos_of(profile: QoSProfile) -> QoS:
     """A QoS profile as plain data."""
     return QoS(
-        profile.reliability.name, profile.durability.name, profile.history.name, profile.depth
+        profile.reliability.name,
+        profile.durability.name,
+        profile.history.name,
+        profile.depth,
+        limit_ns(profile.deadline),
+        limit_ns(profile.lifespan),
     )
 
 
@@ -39,6 +45,9 @@ def _endpoints(state: NodeState) -> Iterator[Endpoint]:
         yield _service(state, service, "server")
     for client in node.clients:
         yield _service(state, client, "client")
+    for action in state.actions:
+        if action.exists:
+            yield from action.endpoints()
 
 
 def _is_alive(entity: Any) -> bool:  # noqa: ANN401

@@ -9,6 +9,7 @@ so lines are taken one step earlier, from the node's own logger, and go on to `/
 
 from __future__ import annotations
 
+import inspect
 import os
 import sys
 from collections.abc import Callable
@@ -73,7 +74,7 @@ class SessionLogger(RcutilsLogger):
         place = (frame.f_code, frame.f_lasti)
         known = not options and self._places.get(place) == severity
         if not (self._repeat(message, severity, frame) if known else self._first(
-            message, severity, options
+            message, severity, frame, options
         )):  # fmt: skip
             return False
         self._places[place] = severity
@@ -81,9 +82,14 @@ class SessionLogger(RcutilsLogger):
         self._listener(level, name, str(message), frame.f_code.co_name, frame.f_lineno)
         return True
 
-    def _first(self, message: str, severity: LoggingSeverity, options: dict[str, Any]) -> bool:
+    def _first(
+        self, message: str, severity: LoggingSeverity, frame: FrameType, options: dict[str, Any]
+    ) -> bool:
         if "throttle_duration_sec" in options:
             options.setdefault("throttle_time_source_type", self._clock)
+        # rclpy looks for its caller's module, and would ask each of a thousand: a cell has none.
+        module = str(frame.f_globals.get("__name__", ""))
+        inspect.modulesbyfile.setdefault(frame.f_code.co_filename, module)
         return bool(super().log(message, severity, **options))
 
     def _repeat(self, message: str, severity: LoggingSeverity, frame: FrameType) -> bool:

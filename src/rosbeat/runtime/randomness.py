@@ -15,6 +15,8 @@ from typing import Any
 
 #: The generator behind the functions of `random`: `random.uniform` is a method of it.
 _SHARED: random.Random = random.uniform.__self__  # type: ignore[attr-defined]
+#: The same function again, and not an equal one: nothing is different after a session.
+_PLAIN = random.random
 
 
 def _numpy_random() -> Any:  # noqa: ANN401 - a module
@@ -47,7 +49,7 @@ def tilt(exponent: float) -> None:
 def _straighten() -> None:
     for name in ("random", "_randbelow"):
         vars(_SHARED).pop(name, None)
-    random.random = _SHARED.random
+    random.random = _PLAIN
 
 
 class SeededRandom:

@@ -8,13 +8,17 @@ from __future__ import annotations
 
 from array import array
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from threading import Lock
 from typing import Any
 
+from rosbeat.record_columns import records_of
 from rosbeat.records import CallbackRecord, Fault, LogRecord, Sample
 from rosbeat.runtime.messages import Memory
+
+#: Records that are made at a time; whoever wants only the first ones does not pay for all.
+_BATCH = 1_000
 
 
 @dataclass(frozen=True)
@@ -118,11 +122,23 @@ class Recorder:
     def samples(self, topic: str | None = None) -> Iterator[Sample]:
         """Messages in order of publishing, of one topic or of all."""
         wanted = {c.number for c in self._channels if topic in (None, c.topic)}
-        for at, number, copy in zip(
-            self._sample_times, self._sample_channels, self._sample_copies, strict=False
-        ):
-            if number in wanted:
-                yield self._sample(at, self._channels[number], copy)
+        for part in _parts(len(self._sample_copies)):  # the column that grows last
+            numbers = self._sample_channels[part]
+            rows = [part.start + k for k, number in enumerate(numbers) if number in wanted]
+            if rows:
+                yield from self._samples_at(rows)
+
+    def _samples_at(self, rows: list[int]) -> Iterable[Sample]:
+        channels = [self._channels[self._sample_channels[k]] for k in rows]
+        copies = [self._sample_copies[k] for k in rows]
+        return records_of(
+            Sample,
+            [self._sample_times[k] for k in rows],
+            [channel.topic for channel in channels],
+            [channel.type_name for channel in channels],
+            [channel.node for channel in channels],
+            [one.memory.plain(copy) for one, copy in zip(channels, copies, strict=True)],
+        )
 
     @staticmethod
     def _sample(at: int, channel: Channel, copy: Any) -> Sample:  # noqa: ANN401
@@ -131,9 +147,16 @@ class Recorder:
 
     def callbacks(self) -> Iterator[CallbackRecord]:
         """Runs of callbacks in order."""
-        for at, number in zip(self._callback_times, self._callback_labels, strict=False):
-            label = self._labels[number]
-            yield CallbackRecord(at, label.node, label.kind, label.name, label.source)
+        for part in _parts(len(self._callback_labels)):
+            labels = [self._labels[number] for number in self._callback_labels[part]]
+            yield from records_of(
+                CallbackRecord,
+                self._callback_times[part],
+                [label.node for label in labels],
+                [label.kind for label in labels],
+                [label.name for label in labels],
+                [label.source for label in labels],
+            )
 
     def since(self, mark: int) -> tuple[int, list[tuple[Channel, int, Sample]]]:
         """What has come since a mark: for each channel how many messages, and the newest.
@@ -168,6 +191,11 @@ class Recorder:
         columns = zip(self._sample_channels, self._sample_times, strict=False)
         return [(k, nodes[n], at) for k, (n, at) in enumerate(columns) if n in nodes]
 
+    def sent(self, channel: Channel) -> list[int]:
+        """When each message of one publisher was published, in nanoseconds, in order."""
+        columns = zip(self._sample_channels, self._sample_times, strict=False)
+        return [at for number, at in columns if number == channel.number]
+
     def last_run(self, label: int) -> int:
         """When a callback ran last, in nanoseconds; -1 if never."""
         labels = self._callback_labels
@@ -181,3 +209,8 @@ class Recorder:
     def topics(self) -> set[str]:
         """Every topic that ever had a publisher."""
         return {channel.topic for channel in self._channels}
+
+
+def _parts(count: int) -> Iterator[slice]:
+    """So many rows in parts."""
+    return (slice(k, min(k + _BATCH, count)) for k in range(0, count, _BATCH))

@@ -102,6 +102,15 @@ def node_has_ended(name: str) -> SessionError:
     )
 
 
+def is_made_already(node: Node) -> SessionError:
+    """`add` of a node with a new name or remappings."""
+    return SessionError(
+        f"The node {_name(node)} is made already and cannot be started in another way.",
+        "Its name, topics and parameters are settled while it is made.",
+        "Hand over its class, without brackets: the session then makes the node.",
+    )
+
+
 def foreign_node(node: Node, name: str | None = None) -> NodeClassError:
     """A node of another context, or a destroyed one whose name is remembered."""
     return NodeClassError(

@@ -10,6 +10,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 
 from rosbeat.errors import BagError
 from rosbeat.records import QoS
+from rosbeat.runtime.feeding import limits
 from rosbeat.runtime.scenario import message_class
 
 #: Makes a node; `Session.add` takes it.
@@ -112,4 +113,5 @@ def _profile(qos: QoS) -> QoSProfile:
         durability=DurabilityPolicy.TRANSIENT_LOCAL if stored else DurabilityPolicy.VOLATILE,
         history=HistoryPolicy.KEEP_ALL if qos.history == "KEEP_ALL" else HistoryPolicy.KEEP_LAST,
         depth=qos.depth or _DEPTH,
+        **limits(qos),
     )

@@ -15,6 +15,8 @@ from rclpy.node import Node
 from rosbeat.records import Observation
 from rosbeat.runtime.feeding import feeder as feeder
 from rosbeat.runtime.feeding import message_class as message_class
+from rosbeat.runtime.launch import Launch as Launch
+from rosbeat.runtime.launch import Maker as Maker
 from rosbeat.runtime.scene import Scene
 from rosbeat.runtime.steps import Step
 from rosbeat.runtime.unharmed import unharmed
@@ -27,7 +29,8 @@ def observe(
     answer: Any,  # noqa: ANN401 - whatever a learner hands over
     seconds: float,
     *,
-    others: Iterable[Callable[[], Node]] = (),
+    others: Iterable[Callable[[], Node] | Maker] = (),
+    start: Launch | None = None,
     seed: int = 0,
     steps: Iterable[Step] = (),
     deadline: float = DEADLINE,
@@ -39,7 +42,8 @@ def observe(
             is taken.
         seconds: Virtual seconds to run.
         others: Nodes to run beside it. They are added first, so that what clashes with them is
-            raised by the answer's own line.
+            raised by the answer's own line. A `Maker` also says how a node is started.
+        start: How the answer is started: under which name, with which topics and parameters.
         seed: Seed of the random numbers that nodes draw.
         steps: What is done while it runs; each that was done is a callback of the kind `step`.
         deadline: Seconds of wall time after which it is broken off.
@@ -55,7 +59,7 @@ def observe(
     scene = Scene(seed, seconds, steps)
     try:
         with unharmed() as count:
-            scene.play(answer, others, deadline)
+            scene.play(Maker(answer, start or Launch()), others, deadline)
         # What the learner's code has changed is put back before anything else is done.
         with unharmed():
             return scene.observation(count.characters)

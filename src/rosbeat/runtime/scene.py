@@ -6,16 +6,17 @@ import gc
 from collections.abc import Callable, Iterable
 from contextlib import AbstractContextManager, suppress
 from itertools import islice
-from typing import Any
 
 from rclpy.node import Node
 
 from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError
 from rosbeat.records import NANOSECONDS, CallbackRecord, Fault, GraphSnapshot, Observation
+from rosbeat.runtime.dozing import resting
 from rosbeat.runtime.durations import duration_ns
 from rosbeat.runtime.entities import NodeState
 from rosbeat.runtime.faults import fault_of
 from rosbeat.runtime.guard import Deadline, DeadlinePassed, apart, within
+from rosbeat.runtime.launch import Maker
 from rosbeat.runtime.naps import virtual_sleep
 from rosbeat.runtime.session import Session
 from rosbeat.runtime.staging import Stage
@@ -24,6 +25,8 @@ from rosbeat.runtime.steps import Step
 #: Records of one kind that an observation holds at most; and one that was broken off: a callback
 #: that publishes or logs without end fills no memory with them, and takes no time.
 MOST_RECORDS, MOST_OF_BROKEN_OFF = 100_000, 2_000
+#: What may run beside an answer.
+Others = Iterable[Callable[[], Node] | Maker]
 #: Seconds of wall time in which a graph is read and nodes are destroyed, at most.
 _TO_TIDY = 1.0
 
@@ -59,21 +62,21 @@ class Scene:
 
     # Running.
 
-    def play(self, answer: Any, others: Iterable[Callable[[], Node]], deadline: float) -> None:  # noqa: ANN401
+    def play(self, answer: Maker, others: Others, deadline: float) -> None:
         """Run everything, at most `deadline` seconds of wall time; whatever is raised is a fault.
 
         Raises:
             KeyboardInterrupt: If Interrupt was pressed.
         """
         # What has to be put back stands outside of the deadline, which hits what it finds.
-        sleep, limit = self._sleeping(answer), within(deadline, self._note_stuck, self._wake)
+        sleep, limit = self._sleeping(answer.make), within(deadline, self._note_stuck, self._wake)
         with sleep, self._world.running(), limit as self._limit:
             apart(lambda: self._try_to_play(answer, others))
 
     def _sleeping(self, answer: object) -> AbstractContextManager[None]:
-        return virtual_sleep(self._nap, self._world.clock, answer)
+        return virtual_sleep(self._nap, self._world.clock, [answer])
 
-    def _try_to_play(self, answer: Any, others: Iterable[Callable[[], Node]]) -> None:  # noqa: ANN401
+    def _try_to_play(self, answer: Maker, others: Others) -> None:
         try:
             self._perform(answer, others)
         except DeadlinePassed:
@@ -83,20 +86,22 @@ class Scene:
         except BaseException as error:  # a learner may raise anything
             self._faults.append(self._refused(error))
 
-    def _perform(self, answer: Any, others: Iterable[Callable[[], Node]]) -> None:  # noqa: ANN401
+    def _perform(self, answer: Maker, others: Others) -> None:
         self._stage.prepare()
         for other in others:
-            self._session.add(other)
-        self._add(type(answer) if isinstance(answer, Node) else answer)
+            made = other if isinstance(other, Maker) else Maker(other)
+            self._session.add(made.make, **made.start.options())
+        self._add(answer)
         self._world.console.begin(quiet=True)
         self._stage.advance(self._end, self._world.virtual.run_until)
 
-    def _add(self, answer: Any) -> None:  # noqa: ANN401
+    def _add(self, answer: Maker) -> None:
+        make = type(answer.make) if isinstance(answer.make, Node) else answer.make
         self._making = True
         # A node of the same name would make room: here it is another process, and stays.
         self._world.node_begins = _let_be  # type: ignore[method-assign]
         try:
-            made = self._session.add(answer)
+            made = self._session.add(make, **answer.start.options())
             self.subject = self._stage.subject = self._world.name_of(made) or ""
         finally:
             del self._world.node_begins
@@ -122,11 +127,10 @@ class Scene:
 
     def _doze(self, state: NodeState, span: int) -> None:
         virtual = self._world.virtual
-        calling, until = virtual.calling, virtual.now + span
+        until = virtual.now + span
         self._busy_since.setdefault((state.number, calls_of(state)), virtual.now)
-        with self._stage.resting(state):
+        with resting(self._world, state):
             self._stage.advance(min(until, self._end), virtual.run_nested)
-        virtual.current, virtual.calling = state, calling
         if until > self._end:
             self._end_of_sleep(self._busy_since[state.number, calls_of(state)], until)
 
@@ -194,6 +198,7 @@ class Scene:
             graph,
             self.subject,
             printed,
+            self._stage.replies,
         )
 
     def _graph(self) -> GraphSnapshot:

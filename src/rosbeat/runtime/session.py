@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 from weakref import finalize
@@ -11,16 +11,18 @@ from rclpy.node import Node
 
 from rosbeat.diagnosis.explanation import Explanation
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
-from rosbeat.runtime import explaining, learner_calls, lookups, refusals, waiting
+from rosbeat.runtime import explaining, launch, learner_calls, lookups, refusals, waiting
 from rosbeat.runtime import hooks as _hooks  # noqa: F401 - makes nodes watchable
-from rosbeat.runtime.construction import build_node
+from rosbeat.runtime.construction import build_in
+from rosbeat.runtime.dozing import run_until
 from rosbeat.runtime.durations import duration_ns
-from rosbeat.runtime.entities import NodeState
 from rosbeat.runtime.instruments import open_panel
 from rosbeat.runtime.interrupts import show_briefly
 from rosbeat.runtime.world import World
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
     from rosbeat.panel.panel import Panel
 
 SomeNode = TypeVar("SomeNode", bound=Node)
@@ -43,9 +45,8 @@ class Session:
     milliseconds and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes
     run against the wall clock, and other processes in the same domain can talk to them.
 
-    A session ends with its `with` block, with `close()`, when nothing refers to it any more, or
-    with the kernel; it leaves nothing behind. While it is open, a node that is made without a
-    context belongs to the session opened last.
+    It ends with its `with` block, with `close()`, when nothing refers to it or with the kernel, and
+    leaves nothing behind. While it is open, a node without a context belongs to the last session.
 
     Args:
         seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
@@ -105,17 +106,30 @@ class Session:
 
     # Nodes.
 
-    @overload
-    def add(self, node: Callable[[], SomeNode]) -> SomeNode: ...  # a class is one, too
+    @overload  # a class is a function that makes one, too
+    def add(self, node: Callable[[], SomeNode], **start: Unpack[launch.Start]) -> SomeNode: ...
     @overload
     def add(self, node: SomeNode) -> SomeNode: ...
-    def add(self, node: Any) -> Any:
+    def add(
+        self,
+        node: Any,
+        *,
+        name: str | None = None,
+        namespace: str | None = None,
+        remappings: Mapping[str, str] | None = None,
+        parameters: Mapping[str, Any] | None = None,
+    ) -> Any:
         """Make a node and run its callbacks from now on.
 
-        A node of the same name that runs in this session is replaced.
+        A node of the same name that runs in this session is replaced. The other arguments do what
+        `ros2 run` does behind `--ros-args`, with `-r` and `-p`; the class stays as it is.
 
         Args:
             node: A node class, a function that returns a node, or a node made in this session.
+            name: The node's name, in the place of its own.
+            namespace: A namespace before its name and its relative topics, such as `greenhouse`.
+            remappings: New names of topics and services: `{"temperature": "humidity"}`.
+            parameters: Values of parameters that the node declares: `{"high": 60.0}`.
 
         Returns:
             The node.
@@ -123,25 +137,21 @@ class Session:
         Raises:
             NodeClassError: If it is none of these, or belongs to another context.
             NodeConstructionError: If the constructor raises.
+            SessionError: If it cannot be started so, or exists already and is to be renamed.
             ClosedSessionError: If the session has ended.
         """
+        start = launch.checked(name, namespace, remappings, parameters)
         with self._running("add"):
-            before = self._world.states()
-            try:
-                made = build_node(node)
-            except BaseException:  # Interrupt, too
-                self._clear_away(before)
-                raise
+            if start and isinstance(node, Node):
+                raise refusals.is_made_already(node)
+            made = build_in(self._world, node, start)
             self._world.spin_node(lookups.state_of(self._world, made))
             if made is not node:
-                self._world.makers[made] = node
+                self._world.makers[made] = launch.Maker(node, start)
         return made
 
     def remove(self, node: Node | str) -> None:
-        """Destroy a node.
-
-        Args:
-            node: The node, or its name.
+        """Destroy a node, given itself or by name.
 
         Raises:
             SessionError: If the session has no such node.
@@ -186,6 +196,7 @@ class Session:
         """Advance virtual time and run every callback that is due.
 
         Timers due exactly at the end run too: a 1 Hz timer fires 60 times in the first 60 seconds.
+        `time.sleep` in a callback takes virtual time; beyond the end it prolongs the run.
 
         Args:
             seconds: Virtual seconds, 0 or more.
@@ -202,7 +213,7 @@ class Session:
                 raise refusals.session_is_live()
             self._world.console.begin(quiet)
             try:
-                self._world.virtual.run_until(refusals.check_end(self._world.now() + span))
+                run_until(self._world, refusals.check_end(self._world.now() + span))
             except KeyboardInterrupt as interrupt:
                 show_briefly(interrupt, f"stopped at {self.time:g} s; the session goes on.")
                 raise
@@ -265,11 +276,7 @@ class Session:
         self._world.refuse_in_callback("ros.wait_for_nodes")
         wanted = ["/" + refusals.check_name("wait_for_nodes", name).lstrip("/") for name in names]
         seconds = duration_ns(timeout, "wait_for_nodes(timeout=...)") / 1e9
-        try:
-            waiting.wait_for_nodes(self._world, wanted, seconds)
-        except KeyboardInterrupt as interrupt:
-            show_briefly(interrupt, "you stopped waiting; the session goes on.")
-            raise
+        waiting.wait_for_nodes(self._world, wanted, seconds)
 
     def stop(self) -> None:
         """End live mode; virtual time goes on from here. Does nothing if the session is not live.
@@ -389,8 +396,3 @@ class Session:
         if self._world.closed:
             raise refusals.session_has_ended()
         self._world.show_faults()
-
-    def _clear_away(self, before: list[NodeState]) -> None:
-        for state in self._world.states():
-            if state not in before:
-                self._world.destroy(state)

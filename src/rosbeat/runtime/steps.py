@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from rosbeat.records import NANOSECONDS, QoS
+from rosbeat.runtime.launch import Launch
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,60 @@ class SetParameter(Step):
 
 
 @dataclass(frozen=True)
+class SetParameters(Step):
+    """Set parameters, all at once or none.
+
+    Attributes:
+        values: Their new values by their names.
+    """
+
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Call(Step):
+    """Call a service from a node `/tester`; the answer is a `Reply`.
+
+    Attributes:
+        service: Which.
+        type_name: Its type, such as `std_srvs/srv/Trigger`.
+        values: The fields of the request.
+    """
+
+    service: str = ""
+    type_name: str = "std_srvs/srv/Trigger"
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class SendGoal(Step):
+    """Send a goal from a node `/tester`; what comes back are `Reply`s.
+
+    Attributes:
+        action: To which action.
+        type_name: Its type, such as `test_msgs/action/Fibonacci`.
+        goal: The fields of the goal.
+        cancel_after: After how many seconds it is canceled, if it was accepted; None for never.
+    """
+
+    action: str = ""
+    type_name: str = "test_msgs/action/Fibonacci"
+    goal: dict[str, Any] = field(default_factory=dict)
+    cancel_after: float | None = None
+
+
+@dataclass(frozen=True)
+class Cancel(Step):
+    """Cancel a goal; a `SendGoal` with `cancel_after` brings it along.
+
+    Attributes:
+        sent: The step that sent it.
+    """
+
+    sent: SendGoal = field(default_factory=lambda: SendGoal(0))
+
+
+@dataclass(frozen=True)
 class Remove(Step):
     """Destroy a node."""
 
@@ -77,6 +132,8 @@ class Add(Step):
 
     Attributes:
         make: A node class, or a function that returns a node.
+        start: How it is started.
     """
 
     make: Any = None
+    start: Launch = field(default_factory=Launch)

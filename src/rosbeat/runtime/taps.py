@@ -10,14 +10,29 @@ from collections.abc import Callable
 from typing import Any
 
 from rclpy.client import Client
+from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSCompatibility, QoSProfile, qos_check_compatible
+from rclpy.qos import (
+    DurabilityPolicy,
+    QoSCompatibility,
+    QoSProfile,
+    ReliabilityPolicy,
+    qos_check_compatible,
+)
 from rclpy.serialization import deserialize_message
 from rclpy.timer import Rate, Timer
 
 from rosbeat.runtime.asking import asking
 from rosbeat.runtime.messages import Memory, Raw
+from rosbeat.runtime.recorder import Channel
+from rosbeat.runtime.stretching import limit_ns
+
+# Fast DDS hands stored messages to reliable subscriptions only. By its own default, a subscription
+# is neither that nor transient-local. A test tries all combinations.
+_ASK_FOR_STORED = {DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.BEST_AVAILABLE}
+_ASK_AGAIN = {ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_AVAILABLE}
+_AT_ONCE = Duration()._duration_handle
 
 
 class PublisherTap:
@@ -31,13 +46,18 @@ class PublisherTap:
     Attributes:
         topic: Full topic name.
         count: Messages published so far.
+        channel: Where its messages are recorded; None if they are not.
+        lifespan_ns: How long it stores a message; 0 without a limit.
     """
 
     def __init__(self, publisher: Publisher, memory: Memory, heard: Callable[[Any], None]) -> None:
         self.topic: str = publisher.topic_name
         self.count = 0
+        self.channel: Channel | None = None
         self._handle = handle = publisher.handle
         self._qos: QoSProfile = publisher.qos_profile
+        self._type = publisher.msg_type
+        self.lifespan_ns = limit_ns(self._qos.lifespan)
         send, take, message_type = publisher.publish, memory.take, publisher.msg_type
         # What rclpy's own `publish` does for a message; going through it costs a message's tenth.
         send_message = handle.publish
@@ -60,17 +80,48 @@ class PublisherTap:
         publish.__qualname__ = send.__qualname__  # for the errors of a call with other arguments
         publisher.publish = publish
 
-    def stored_for(self, qos: QoSProfile) -> int:
-        """How many stored messages a new subscription of this QoS gets from this publisher."""
-        policies = (self._qos.durability, qos.durability)
-        if any(policy != DurabilityPolicy.TRANSIENT_LOCAL for policy in policies):
-            return 0
-        if not self._is_alive():
-            return 0
+        def listen(further: Callable[[], None]) -> None:
+            nonlocal heard
+            before = heard
+
+            def both(copy: Any) -> None:  # noqa: ANN401
+                before(copy)
+                further()
+
+            heard = both
+
+        self._listen = listen
+
+    def listen(self, further: Callable[[], None]) -> None:
+        """Call this, too, after each message; it costs nothing as long as nobody asks for it."""
+        self._listen(further)
+
+    def fits(self, subscription: Any) -> bool:  # noqa: ANN401 - rclpy is untyped
+        """Whether a subscription of this topic is connected to this publisher."""
+        return self._type is subscription.msg_type and self._offers(subscription.qos_profile)
+
+    def stores_for(self, qos: QoSProfile) -> bool:
+        """Whether a new subscription of this QoS gets stored messages from this publisher."""
+        own = self._qos
+        if not self.count or own.durability == DurabilityPolicy.VOLATILE:
+            return False
+        if qos.durability not in _ASK_FOR_STORED or qos.reliability not in _ASK_AGAIN:
+            return False
+        if own.reliability == ReliabilityPolicy.BEST_EFFORT:
+            return False
+        return self._is_alive() and self._offers(qos)
+
+    def has_delivered(self) -> bool:
+        """Whether each of its subscriptions has all that it is to get, as far as is known now."""
+        try:
+            with self._handle:
+                return bool(self._handle.wait_for_all_acked(_AT_ONCE))
+        except InvalidHandle:  # destroyed by another thread: nothing more will come
+            return True
+
+    def _offers(self, qos: QoSProfile) -> bool:
         compatible, _ = qos_check_compatible(self._qos, qos)
-        if compatible == QoSCompatibility.ERROR:
-            return 0
-        return min(self.count, self._qos.depth or self.count)
+        return bool(compatible != QoSCompatibility.ERROR)
 
     def _is_alive(self) -> bool:
         try:

@@ -13,6 +13,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
+from importlib import import_module
 from typing import Any, NoReturn
 
 import rclpy
@@ -136,14 +137,19 @@ def _hooks(module: Any, names: tuple[str, ...]) -> Callable[[], object]:  # noqa
     return lambda: vars(module).update(before)
 
 
+_SIGNALS = tuple(map(int, signal.valid_signals()))
+# The C function: `signal.getsignal` makes an enum of each answer, which is half of all this.
+_handler: Callable[[int], Any] = import_module("_signal").getsignal
+
+
 def _signals() -> Callable[[], object]:
     if threading.current_thread() is not threading.main_thread():
         return bool  # only the main thread can change them
-    before = {number: signal.getsignal(number) for number in signal.valid_signals()}
+    before = [(number, _handler(number)) for number in _SIGNALS]
 
     def put_back() -> None:
-        for number, handler in before.items():
-            if handler is not None and signal.getsignal(number) is not handler:
+        for number, handler in before:
+            if handler is not None and _handler(number) is not handler:
                 signal.signal(number, handler)
 
     return put_back

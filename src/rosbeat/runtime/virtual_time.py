@@ -6,7 +6,8 @@ the next. At each instant one timer runs, then all that follows from it, until n
 do; then the next timer of that instant, in order of (deadline, creation).
 
 What follows is known without waiting: within one participant Fast DDS hands a message over inside
-`publish()`, so when `publish()` has returned, the subscriptions of that topic can take it.
+`publish()`, so when `publish()` has returned, the subscriptions of that topic can take it. What was
+stored for late joiners is there when their subscription has been made; see `late_joiners`.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from rosbeat.runtime.agenda import Agenda
 from rosbeat.runtime.chains import MOST_TURNS, SUSPICIOUS, ChainGuard
 from rosbeat.runtime.clock import SessionClock
 from rosbeat.runtime.coroutines import Coroutines, Waiting
+from rosbeat.runtime.deadlines import Deadlines
 from rosbeat.runtime.entities import Entry, NodeState
 from rosbeat.runtime.interrupts import Interrupts
 from rosbeat.runtime.recorder import CallbackLabel, Recorder
@@ -47,6 +49,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         running: Whether `run_until` is at work.
         calling: The callback that is running, or ran last; None before the first.
         elsewhere: What threads of the nodes' own have published since the last step.
+        deadlines: How long publishers and subscriptions may stay without a message.
     """
 
     def __init__(
@@ -56,9 +59,11 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.running = False
         self.calling: CallbackLabel | None = None
         self.elsewhere: deque[Callable[[], None]] = deque()
+        self.deadlines = Deadlines()
         # Not `_clock`: rclpy's executor has a steady clock of that name.
         self._session_clock, self._host = clock, host
         self._note_time, self._note_label = recorder.callback_columns()
+        self._label = recorder.label
         self._agenda = Agenda()
         self._chain = ChainGuard()
         self._interrupts = Interrupts()
@@ -129,6 +134,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         """Look at everything again: the clock was changed from outside, or a run was broken off."""
         states = self._host.states()
         self._agenda.rebuild([e for s in states for e in s.entries if e.kind == "timer"], self.now)
+        self.deadlines.look_anew()
         self._ready.clear()
         for state in states:
             self.resume(state)
@@ -167,10 +173,22 @@ class VirtualTimeExecutor(WaitSetExecutor):
             if self.elsewhere:
                 self._take_from_elsewhere()
             deadline = self._agenda.next_deadline(self.now)
+            if self.deadlines and self._miss_one(deadline, end):
+                continue
             if deadline is None or deadline > end:
                 self._advance(max(end, self.now))  # a callback may have slept
                 return
             self._step(deadline)
+
+    def _miss_one(self, timer: int | None, end: int) -> bool:
+        """Let a deadline for messages pass, if one does before the next timer, and say so."""
+        due = self.deadlines.next_due()
+        if due is None or due > end or (timer is not None and due >= timer):
+            return False
+        self._advance(max(due, self.now))
+        self._ready.append((self.deadlines.pass_next(), 1))
+        self._drain()
+        return True
 
     def _take_from_elsewhere(self) -> None:
         while self.elsewhere:
@@ -241,7 +259,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if work is None:
             entry.backlog = False
             return
-        if entry.backlog or entry.owed:
+        if entry.backlog:
             self._ready.appendleft((entry, self._chain.depth))
         callback, arguments = work
         self._call(entry, callback, arguments)
@@ -285,6 +303,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.current = waiting.state
         if waiting.entry is not None:
             self.calling = waiting.entry.label
+        elif waiting.state is not None:
+            self.calling = self._label(waiting.state.name, "task", waiting.name, "")
         try:
             waiting.task()
         except SystemExit as error:

@@ -72,6 +72,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
         """One pass of rclpy's own wait set; say whether anything came of it."""
         nodes = self._nodes_for_wait_set()
         progress = False
+        self._cb_iter = None  # that of a callback which sleeps: it would hand out that node's, too
         while nodes:
             try:
                 handler, entity, node = self.wait_for_ready_callbacks(timeout_sec=0, nodes=nodes)
@@ -108,11 +109,15 @@ class WaitSetExecutor(SingleThreadedExecutor):
 
     def _nodes_for_wait_set(self) -> list[Node]:
         if not self._changed:
-            return self._wait_set_nodes
+            return self._wait_set_nodes and self._those_that_spin()
         self._changed = False
         nodes = self.get_nodes()
         self._wait_set_nodes = list(_with_waitables(nodes))
         return nodes
+
+    def _those_that_spin(self) -> list[Node]:
+        spinning = self.get_nodes()
+        return [node for node in self._wait_set_nodes if node in spinning]
 
 
 def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
@@ -123,6 +128,8 @@ def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
 
 def waitable_kind(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
     """What kind of callback it has, as `CallbackRecord` names it."""
+    if isinstance(entity, EventHandler):
+        return "event"
     return "guard condition" if isinstance(entity, GuardCondition) else "waitable"
 
 

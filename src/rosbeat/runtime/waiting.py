@@ -75,7 +75,11 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     if world.lookout is None:
         raise refusals.nobody_else_here()
     look = _Look(world, world.lookout, names)
-    poll(look.is_enough, time.monotonic() + seconds)
+    try:
+        poll(look.is_enough, time.monotonic() + seconds)
+    except KeyboardInterrupt as interrupt:
+        show_briefly(interrupt, "you stopped waiting; the session goes on.")
+        raise
     missing = [name for name in names if name not in look.graph.nodes]
     if missing:
         raise refusals.nodes_did_not_come(missing, look.graph.nodes, seconds, world.domain_id or 0)

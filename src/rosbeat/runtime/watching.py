@@ -3,24 +3,28 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from functools import partial
 from threading import get_ident
 from typing import Any
-from weakref import WeakKeyDictionary
+from weakref import WeakKeyDictionary, WeakSet
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 
 from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, GraphSnapshot, LogRecord
+from rosbeat.runtime.acting import Acting
 from rosbeat.runtime.arrivals import Arrivals
 from rosbeat.runtime.clock import SessionClock
 from rosbeat.runtime.console import note
 from rosbeat.runtime.direct import TAKERS
 from rosbeat.runtime.entities import Entry, NodeState, callback_name, full_name, period_text
 from rosbeat.runtime.introspection import snapshot
+from rosbeat.runtime.late_joiners import wait_for_stored
+from rosbeat.runtime.launch import Launch
+from rosbeat.runtime.limits import Limits
 from rosbeat.runtime.live import LiveExecutor
 from rosbeat.runtime.logger import SessionLogger
 from rosbeat.runtime.messages import Memory, type_name
@@ -30,7 +34,7 @@ from rosbeat.runtime.taps import PublisherTap, tap_client, tap_rate, tap_timer
 from rosbeat.runtime.virtual_time import VirtualTimeExecutor
 
 
-class Watching:
+class Watching(Acting):
     """What the hooks tell of new nodes and entities; see `hooks.Watcher`.
 
     Attributes:
@@ -39,8 +43,11 @@ class Watching:
         arrivals: Records what comes from outside; None in a private domain.
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
+        start: How the node that is being made is started.
+        limits: The deadlines and lifespans that the session counts.
     """
 
+    limits: Limits
     clock: SessionClock
     recorder: Recorder
     arrivals: Arrivals | None
@@ -51,7 +58,9 @@ class Watching:
         self._states: dict[Node, NodeState] = {}
         self._entries: dict[Any, Entry] = {}
         self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
+        self._made: WeakSet[Any] = WeakSet()
         self._count = 0
+        self.start = Launch()
         self._rosout_heard: Callable[[], None] | None = None
 
     @abstractmethod
@@ -103,6 +112,15 @@ class Watching:
             with suppress(AttributeError, InvalidHandle):
                 Node.destroy_node(state.node)
             self.node_ends(state.node)
+
+    @contextmanager
+    def starting(self, start: Launch) -> Iterator[None]:
+        """Nodes that are made in this block are started so."""
+        before, self.start = self.start, start
+        try:
+            yield
+        finally:
+            self.start = before
 
     # What the hooks tell.
 
@@ -192,6 +210,16 @@ class Watching:
                 "own. To do something again and again, create a timer.",
             )
 
+    @property
+    def counts_limits(self) -> bool:
+        """Whether deadlines and lifespans of what is made now are counted here; see `limits`."""
+        return self.live is None and self.arrivals is None
+
+    def next_number(self) -> int:
+        """The place of a new entity in the order of creation."""
+        self._count += 1
+        return self._count
+
     # How it works.
 
     def _watch(self, state: NodeState, kind: str, entity: Any) -> None:  # noqa: ANN401
@@ -199,8 +227,7 @@ class Watching:
         source = period_text(entity.timer_period_ns) if kind == "timer" else name
         called = "answer" if kind == "client" else callback_name(entity.callback)
         label = self.recorder.label(state.name, kind, called, source)
-        self._count += 1
-        entry = Entry(self._count, state, kind, entity, name, label, TAKERS.get(kind))
+        entry = Entry(self.next_number(), state, kind, entity, name, label, TAKERS.get(kind))
         state.entries.append(entry)
         self._entries[entity] = entry
         prepare = {"timer": self._timer, "subscription": self._subscription, "client": self._client}
@@ -241,8 +268,9 @@ class Watching:
         entry.born = self.recorder.mark()
         qos = entry.entity.qos_profile
         taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
-        stored = sum(tap.stored_for(qos) for tap in taps)
-        entry.owed = min(stored, qos.depth or stored)
+        wait_for_stored(taps, qos)
+        if self.counts_limits:
+            self.limits.subscription_made(entry)
         if self.arrivals is not None:
             self.arrivals.watch_subscription(entry.entity)
 
@@ -257,7 +285,11 @@ class Watching:
         kind = type_name(publisher.msg_type)
         channel = self.recorder.channel(topic, kind, state.name, memory)
         heard = self._published(happened, self.recorder.sampler(channel))
-        state.taps.append(PublisherTap(publisher, memory, heard))
+        tap = PublisherTap(publisher, memory, heard)
+        tap.channel = channel
+        state.taps.append(tap)
+        if self.counts_limits:
+            self.limits.publisher_made(state, publisher, tap)
         if self.arrivals is not None:
             self.arrivals.watch_publisher(publisher)
 

@@ -13,12 +13,17 @@ from rclpy.node import Node
 
 from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.records import GraphSnapshot
+from rosbeat.runtime.actions import action_of
 from rosbeat.runtime.arrivals import Arrivals
 from rosbeat.runtime.clock import make_clock
 from rosbeat.runtime.console import Console
 from rosbeat.runtime.context import SessionContext
+from rosbeat.runtime.dozing import run_until
 from rosbeat.runtime.entities import Entry, NodeState
+from rosbeat.runtime.events import event_source, topic_of
 from rosbeat.runtime.faults import fault_of
+from rosbeat.runtime.launch import Maker
+from rosbeat.runtime.limits import Limits
 from rosbeat.runtime.live import LiveExecutor
 from rosbeat.runtime.lookout import Lookout
 from rosbeat.runtime.message_classes import mend_message_classes
@@ -58,7 +63,7 @@ class World(Watching):
         lookout: Sees the other processes; None in a private domain, where there are none.
         closed: Whether `close` was called.
         panel: The instrument panel, or None.
-        makers: What the session was handed to make each node.
+        makers: What the session was handed to make each node, and how it was started.
     """
 
     def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
@@ -72,9 +77,10 @@ class World(Watching):
         self.context = SessionContext(self, self.domain_id or 0)
         self.virtual = VirtualTimeExecutor(self.context, self.clock, self.recorder, self)
         self.live: LiveExecutor | None = None
+        self.limits = Limits(self)
         self.closed = False
         self.panel: Closable | None = None
-        self.makers: WeakKeyDictionary[Node, Callable[[], Node]] = WeakKeyDictionary()
+        self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
         self._random = SeededRandom(seed)
         self._live_since = 0
         self._shown_logs = 0
@@ -119,7 +125,11 @@ class World(Watching):
             label = entry.label
         elif state is not None:
             kind, name = waitable_kind(entity), waitable_name(entity)
-            label = self.recorder.label(state.name, kind, name, "")
+            source = event_source(entity, topic_of(entity, node)) if kind == "event" else ""
+            if action_of(entity, state):
+                return  # which tells when it knows what it was
+            label = self.recorder.label(state.name, kind, name, source)
+            self.virtual.calling = label
         else:
             return
         with self.recorder.lock:
@@ -142,6 +152,19 @@ class World(Watching):
             state.ended = True
         if self.live is None:
             self.show_news()
+
+    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
+        """A callback of an action is about to run."""
+        self.virtual.calling = label = self.recorder.label(state.name, kind, name, source)
+        with self.recorder.lock:
+            self.recorder.add_callback(self.now(), label.number)
+
+    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
+        """An exception left the work on a goal: record it; rclpy aborts the goal and logs it."""
+        fault = fault_of(error, self.now(), state.name, name)
+        self.recorder.faults.append(fault)
+        self._shown_faults += 1
+        self.console.work(fault)
 
     def show_news(self) -> None:
         """Print the log lines and faults that have not been printed yet."""
@@ -177,12 +200,13 @@ class World(Watching):
         """Run virtual time until `done` is true, at most so many seconds (default one hour)."""
         limit = LONGEST_WAIT if seconds is None or seconds < 0 else seconds
         with self.running():
-            self.virtual.run_until(self.virtual.now + round(limit * 1e9), done)
+            run_until(self, self.virtual.now + round(limit * 1e9), done)
         return bool(done())
 
     def go_live(self) -> None:
         """Run the nodes against the wall clock, in a background thread."""
         self.live = LiveExecutor(self.context, self)
+        self.virtual.deadlines.forget()
         self._live_since = time.monotonic_ns()
         self.clock.follow_wall()
         self._change_over(self.live, virtual=False)
@@ -225,6 +249,7 @@ class World(Watching):
         self._last_graph = self.graph()
         for state in reversed(self.states()):
             self.destroy(state)
+        self.destroy_actions()
         if self.lookout is not None:
             self.lookout.destroy_node()
         self.virtual.shutdown()

@@ -31,11 +31,17 @@ def left_out(shown: Happenings) -> str:
 
 def _lane(shown: Happenings, node: str) -> str:
     kinds = Counter(one.kind for one in shown.callbacks if one.node == node)
-    done = [count(total, f"{kind} callback") for kind, total in kinds.items()]
+    done = [_runs(kind, total) for kind, total in kinds.items()]
     logs = sum(node_of(one) == node for one in shown.logs)
     if logs:
         done.append(count(logs, "log line"))
     return f"{node}: {listing(done) or 'nothing happens'}."
+
+
+def _runs(kind: str, total: int) -> str:
+    if kind == "expired":  # a callback that did not run
+        return count(total, "message too old", "messages too old")
+    return count(total, f"{kind} callback")
 
 
 def _topic(shown: Happenings, topic: str) -> list[str]:

@@ -19,7 +19,7 @@ from rosbeat.viz.marked import Marked, has_head, marked, say
 from rosbeat.viz.notes import Note
 from rosbeat.viz.picture import Picture
 from rosbeat.viz.placement import Placement, needed, place
-from rosbeat.viz.wiring import describe, node_key, topic_key, wiring
+from rosbeat.viz.wiring import Edge, describe, node_key, topic_key, wiring
 
 #: Widest line of a name in CSS pixels and font size in points, tried in this order.
 _FITS = ((200.0, 10.0), (150.0, 10.0), (115.0, 10.0), (115.0, 9.0), (95.0, 8.5))
@@ -56,6 +56,9 @@ def graph(
 ) -> Picture:
     """Draw which nodes publish to which topics and which nodes subscribe.
 
+    Services and actions have boxes, too, with what they are below their names; an arrow leads from
+    who uses one to who offers it. What every node brings along is left out.
+
     An arrow is dashed where nothing passes: nobody is on the other side, the qualities of service
     do not match, or the types differ. Nodes whose name has a part that begins with `_` are left
     out. Of an explanation the causes are marked where they are, in words, and its topic is drawn
@@ -80,7 +83,8 @@ def graph(
             "Add a node to the session first.",
         )
     names = [highlight] if isinstance(highlight, str) else list(highlight)
-    known = (*shown.wiring.nodes, *shown.wiring.topics)
+    offered = (offer.name for offer in shown.wiring.offers)
+    known = (*shown.wiring.nodes, *shown.wiring.topics, *offered)
     strong = {sources.known_name(name, known, "node or topic") for name in names}
     if isinstance(source, Explanation):
         strong |= {source.topic} & set(shown.wiring.topics)
@@ -104,13 +108,23 @@ def _layout(shown: Marked, strong: set[str]) -> _Layout:
     starts = {node_key(name): 0 for name in shown.wiring.nodes}
     starts.update((topic_key(name), 1) for name in shown.wiring.topics)
     starts.update(dict.fromkeys(shown.notes, 1))
-    plan = layering(starts, [(edge.source, edge.target) for edge in shown.wiring.edges])
+    starts.update((offer.key, 1) for offer in shown.wiring.offers)
+    plan = layering(starts, [(edge.source, edge.target) for edge in _edges(shown)])
     tries = [(down, *fit) for down in (False, True) for fit in _FITS]
     for down, limit, size in tries:
         layout = _attempt(plan, _labels(shown, strong, limit, size), down)
         if layout and layout.size[0] <= theme.WIDTH:
             return layout
     return layout or _forced(plan, _labels(shown, strong, *_FITS[-1]))
+
+
+def _edges(shown: Marked) -> list[Edge]:
+    """All arrows: along topics, and from clients to those who offer what they use."""
+    edges = list(shown.wiring.edges)
+    for offer in shown.wiring.offers:
+        edges += [Edge(node_key(name), offer.key) for name in offer.clients]
+        edges += [Edge(offer.key, node_key(name)) for name in offer.servers]
+    return edges
 
 
 def _attempt(plan: Layering, labels: dict[str, Label | Note], down: bool) -> _Layout | None:
@@ -142,12 +156,15 @@ def _labels(shown: Marked, strong: set[str], limit: float, size: float) -> dict[
         said = shown.plain.faults(name) or unused
         look = (limit, size, name in strong, bool(unused))
         labels[topic_key(name)] = topic_label(name, types, said, *look)
+    for offer in shown.wiring.offers:
+        look = (limit, size, offer.name in strong, False)
+        labels[offer.key] = topic_label(offer.name, (offer.kind,), (), *look)
     return labels
 
 
 def _draw(canvas: Canvas, shown: Marked, layout: _Layout) -> None:
     place_of = layout.placement
-    for edge in shown.wiring.edges:
+    for edge in _edges(shown):
         stroke, head = arrows.BROKEN if edge.fault else arrows.PLAIN, has_head(edge)
         link = (edge.source, edge.target)
         if link in place_of.routes:

@@ -24,6 +24,8 @@ _BENT = 14.0
 _CALLBACKS = {
     "timer": ("timer callback", theme.Style(theme.BLUE, "s", "")),
     "subscription": ("subscription callback", theme.Style(theme.TAKEN, "o", "")),
+    "event": ("event callback", theme.Style(theme.PURPLE, "v", "")),
+    "expired": ("message too old", theme.Style(theme.ALERT, "x", "")),
 }
 _OTHER = ("other callback", theme.Style(theme.PURPLE, "D", ""))
 _LOG = theme.Style(theme.MUTED, "|", "")
@@ -157,8 +159,9 @@ def _draw_callbacks(canvas: Canvas, shown: Happenings, plan: _Plan) -> None:
     alike = Counter((one.node, one.time, one.kind) for one in shown.callbacks)
     for node, time, kind in alike:
         _, look = _CALLBACKS.get(kind, _OTHER)
-        # A timer's mark is the larger, so that a callback it caused at once stays visible in it.
-        _mark(canvas, plan.scale(time), plan.levels[node], look, 10 if kind == "timer" else 7)
+        # The larger ones stay visible around what they caused, or came with, at the same instant.
+        size = 10 if kind in ("timer", "expired") else 7
+        _mark(canvas, plan.scale(time), plan.levels[node], look, size)
     for (node, time), number in _crowds(alike).items():
         if number > 1:
             x, y = plan.scale(time) + 8, plan.levels[node] + 12
@@ -181,7 +184,7 @@ def _mark(canvas: Canvas, x: float, y: float, look: theme.Style, size: float) ->
 
 def _rim(look: theme.Style) -> str:
     """A rim in the card's colour keeps overlapping marks apart; a bare line has none."""
-    return look.colour if look.marker == "|" else theme.CARD
+    return look.colour if look.marker in ("|", "x") else theme.CARD
 
 
 def _key(shown: Happenings) -> list[key.Entry]:

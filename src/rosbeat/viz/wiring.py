@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from rosbeat.records import INFRASTRUCTURE_TOPICS, Endpoint, GraphSnapshot, is_hidden
+from rosbeat.records import (
+    ACTION_PART,
+    INFRASTRUCTURE_TOPICS,
+    Endpoint,
+    GraphSnapshot,
+    is_hidden,
+)
+from rosbeat.viz.offers import Offer, offers_of, say_offers
 from rosbeat.viz.words import count, listing, sentence_case
 
 _OTHER = {"publisher": "subscription", "subscription": "publisher"}
@@ -39,12 +46,14 @@ class Wiring:
         edges: The arrows. A topic may have the name of a node, so ends are keys made by
             `node_key` and `topic_key`.
         hidden: Names of nodes left out because a part of their name begins with `_`.
+        offers: Services and actions that a node offers or uses, those of every node left out.
     """
 
     nodes: tuple[str, ...]
     topics: dict[str, tuple[str, ...]]
     edges: tuple[Edge, ...]
     hidden: tuple[str, ...] = ()
+    offers: tuple[Offer, ...] = ()
 
     def around(self, topic: str) -> tuple[list[Edge], list[Edge]]:
         """The edges into a topic and those out of it."""
@@ -80,15 +89,20 @@ def wiring(graph: GraphSnapshot, infrastructure: bool = False) -> Wiring:
     nodes = tuple(name for name in names if not is_hidden(name))
     skipped = frozenset() if infrastructure else INFRASTRUCTURE_TOPICS
     ends = [end for end in graph.endpoints if end.kind in _OTHER and end.name not in skipped]
+    if not infrastructure:
+        ends = [end for end in ends if ACTION_PART not in end.name]
     shown = [end for end in ends if end.node in nodes]
-    return Wiring(nodes, _topics(shown), _edges(shown, ends), tuple(filter(is_hidden, names)))
+    hidden, offers = tuple(filter(is_hidden, names)), offers_of(graph, nodes)
+    return Wiring(nodes, _topics(shown), _edges(shown, ends), hidden, offers)
 
 
 def describe(shown: Wiring) -> str:
     """The wiring in whole sentences."""
     head = f"{count(len(shown.nodes), 'node')} and {count(len(shown.topics), 'topic')}."
     said = [sentence_case(head), *(_topic_words(shown, topic) for topic in shown.topics)]
+    said += say_offers(shown.offers)
     busy = {end for edge in shown.edges for end in (edge.source, edge.target)}
+    busy |= {node_key(name) for offer in shown.offers for name in offer.nodes}
     alone = [name for name in shown.nodes if node_key(name) not in busy]
     if alone:
         verb = "uses" if len(alone) == 1 else "use"

@@ -98,7 +98,7 @@ ANSWERS = (
             (_TIMER, "for _ in range(10):\n            self.publish_humidity()")),
     _wrong("it sleeps for ever", "callback-blocks",
            (_SEND, f"{_SEND}\n        import time\n        time.sleep(10_000)")),
-    _wrong("a loop without end in the constructor", "callback-blocks",
+    _wrong("a loop without end in the constructor", "constructor-blocks",
            (_TIMER, f"while True:\n            {_SEND}")),
     _wrong("it exits", "exits", (_SEND, f"{_SEND}\n        raise SystemExit(0)")),
     _wrong("no node", "no-node", ("(Node)", ""), (_SUPER, "pass")),

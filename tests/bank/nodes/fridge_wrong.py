@@ -99,7 +99,7 @@ ANSWERS = (
     _wrong("no self before the callback", "name-error", (", self.temp", ", temp")),
     _wrong("no else", "no-value-yet", (_ELSE, "")),
     _wrong("nothing that listens", "no-subscription", (_CALL, "pass")),
-    _wrong("it spins before it listens", "callback-blocks",
+    _wrong("it spins before it listens", "constructor-blocks",
            (_CALL, f"while True:\n            pass\n        {_CALL}")),
     _wrong("it sleeps for ever", "callback-blocks",
            ("temp = msg.data", "temp = msg.data\n        import time\n        time.sleep(10_000)")),

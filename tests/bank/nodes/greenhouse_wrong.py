@@ -130,7 +130,7 @@ ANSWERS = (
            ("data=fahrenheit", "data=farenheit")),
     _wrong("no brackets at self", "name-error",
            (_CONVERT, "fahrenheit = temperature * 9 / 5 + 32")),
-    _wrong("a loop instead of a timer", "callback-blocks",
+    _wrong("a loop instead of a timer", "constructor-blocks",
            (_TIMER, "self.temperature = 22.0\n        import time\n        while True:\n"
                     "            self.publish_temperature()\n            time.sleep(0.25)")),
     _wrong("it exits", "exits", (_SEND, f"{_SEND}\n        raise SystemExit")),

@@ -78,7 +78,7 @@ ANSWERS = (
     _wrong("no node", "no-node", ("(Node)", ""), (_SUPER, "pass")),
     _wrong("it exits", "exits", (_LOG, "import sys\n        sys.exit()")),
     _wrong("a loop without end", "callback-blocks", (_LOG, "while True:\n            pass")),
-    _wrong("a loop without end in the constructor", "callback-blocks",
+    _wrong("a loop without end in the constructor", "constructor-blocks",
            (_CALL, f"{_CALL}\n        while True:\n            pass")),
     _wrong("it sleeps for ever", "callback-blocks",
            (_LOG, "import time\n        time.sleep(10_000)")),

@@ -71,3 +71,24 @@ def test_a_page_that_was_worked_in_is_kept_before_it_is_replaced(checkout, told)
     assert (page.parent / "kept" / "00_hear_it-1.ipynb").read_text() == worked
     assert any(line.startswith("kept     notebooks/kept/00_hear_it-1.ipynb") for line in told)
     assert '"execution_count": 1' not in page.read_text()
+
+
+EXERCISE = """
+# %% exercise="00a"
+def f():
+    # --- answer
+    return 7
+    # --- blank
+    # return ____
+    # --- end
+
+# %% check="00a"
+f()
+"""
+
+
+def test_both_trees_say_what_an_exercise_is_worth(checkout, told):
+    checkout.write(EXERCISE, filler=True)
+    build(checkout, told, points={"00a": 11})
+    assert len(contents(checkout)) == 2
+    assert all(b'"points": 11' in text for text in contents(checkout).values())

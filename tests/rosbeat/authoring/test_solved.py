@@ -64,3 +64,31 @@ def test_the_builder_writes_them_checks_them_and_removes_what_is_stale(checkout)
     assert build(check=True) == {"00a.txt": "changed", "00z.txt": "stale"}
     assert build() == {"00a.txt": "changed", "00z.txt": "stale"}
     assert sorted(path.name for path in folder.iterdir()) == ["00a.txt", "00b.txt"]
+
+
+SEVERAL = """
+    # %% exercise="00a"
+    def f():
+        # --- answer
+        return 17 + 4
+        # --- blank
+        # return ____
+        # --- end
+
+    # %% exercise="00a"
+    def g():
+        # --- answer
+        return f() + 21
+        # --- blank
+        # return ____
+        # --- end
+
+    # %% check="00a"
+    g
+"""
+
+
+def test_an_exercise_in_several_cells_has_one_answer(checkout):
+    place(checkout)
+    (text,) = answer_files(checkout.course, [checkout.lesson(SEVERAL)]).values()
+    assert text == b"def f():\n    return 17 + 4\n\n\ndef g():\n    return f() + 21\n"

@@ -5,7 +5,7 @@ import pytest
 from rosbeat.checks.display import MIME, Shown
 from rosbeat.checks.verdicts import failed, not_attempted, passed
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.records import Outcome
+from rosbeat.records import Outcome, Part
 
 OUTCOMES = {
     "passed": passed("03a", "Ten readings.", "There is a shorter way."),
@@ -98,3 +98,30 @@ def test_the_record_is_the_whole_outcome_as_json():
     record = json.loads(json.dumps(Shown(outcome)._repr_mimebundle_()[MIME]))
     assert record.pop("version") == 1
     assert Outcome(**{**record, "remarks": tuple(record["remarks"])}) == outcome
+
+
+PARTS = Outcome(
+    *("13b", "failed", "1 of 3 requirements are met.", "Look.", "boundary", 3, 6),
+    parts=(
+        Part("R1", "It opens.", True, "", 3),
+        Part("R2", "It closes.", False, "It stayed <open>.", 2),
+        Part("R3", "It is calm.", False, "It was not.", 1, optional=True),
+    ),
+)
+
+
+def test_each_requirement_has_a_row_with_a_sign_and_a_word():
+    text = str(Shown(PARTS))
+    assert "  ✓ R1 met, 3 of 3: It opens." in text
+    assert "  ✗ R2 not yet, 0 of 2: It stayed <open>." in text
+    assert "  ✗ R3 not yet, 0 of 1, optional: It was not." in text
+    html = Shown(PARTS).html()
+    assert "✗ R2 not yet, 0 of 2:" in html
+    assert "It stayed &lt;open&gt;." in html
+
+
+def test_the_record_holds_the_parts_if_there_are_any():
+    record = json.loads(json.dumps(Shown(PARTS).record()))
+    assert [part["id"] for part in record["parts"]] == ["R1", "R2", "R3"]
+    assert tuple(Part(**part) for part in record["parts"]) == PARTS.parts
+    assert "parts" not in Shown(OUTCOMES["passed"]).record()

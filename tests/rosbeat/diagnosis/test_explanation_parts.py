@@ -48,6 +48,8 @@ def test_numbers_types_and_times():
 def test_an_unknown_depth_is_left_out():
     assert parts.qos_words(QoS()) == "RELIABLE, VOLATILE, depth 10"
     assert parts.qos_words(QoS(depth=0)) == "RELIABLE, VOLATILE"
+    limited = QoS(deadline_ns=500_000_000, lifespan_ns=2_000_000_000)
+    assert parts.qos_words(limited).endswith("depth 10, deadline 0.5 s, lifespan 2 s")
 
 
 def test_a_finding_and_its_mark():

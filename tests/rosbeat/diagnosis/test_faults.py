@@ -61,6 +61,12 @@ KNOWN = [
     ("message-for-value", "TypeError", "must be real number, not Float32"),
     ("callback-parameters", "TypeError", "S.tick() missing 1 required positional argument: 'msg'"),
     ("callback-called", "TypeError", "'NoneType' object is not callable"),
+    ("none-used", "TypeError",
+     "'>' not supported between instances of 'float' and 'NoneType'"),
+    ("arguments-swapped", "TypeError",
+     "First element 20.0 at index 0 in parameters list is not a str"),
+    ("wrong-argument", "TypeError",
+     "Node.get_parameter() takes 2 positional arguments but 3 were given"),
     ("index-error", "IndexError", "pop from an empty deque"),
     ("index-error", "IndexError", "pop from empty list"),
     ("wrong-rate", "EndlessChainError", "A timer of /s fired 10000 times and no time passed."),
@@ -108,6 +114,19 @@ NOT_KNOWN = [
     ("TypeError", "unsupported operand type(s) for +: 'float' and 'list'", "x + y"),
     ("OSError", "[Errno 28] No space left on device", "open('x')"),
 ]
+
+
+def test_a_method_of_one_s_own_that_wants_more_is_told_what():
+    missing = "M.change() missing 1 required positional argument: 'mode'"
+    found = diagnose_fault(fault("TypeError", missing, "self.change()"))
+    assert found.mistake == "argument-missing"
+    assert "change wants mode" in found.evidence
+
+
+def test_a_name_that_is_asked_for_on_its_own_line_may_lack_its_quotes():
+    said = "cannot access local variable 'low' where it is not associated with a value"
+    found = diagnose_fault(fault("UnboundLocalError", said, "low = self.get_parameter(low).value"))
+    assert (found.mistake, "quotes" in found.hint) == ("no-value-yet", True)
 
 
 @pytest.mark.parametrize(("kind", "text", "code"), NOT_KNOWN)
@@ -175,6 +194,19 @@ def test_a_deadline_is_no_exception_of_the_learner_s():
     assert diagnose_fault(late).evidence == (
         "tick does not return: still running after 5 s. Line 4: `while True:`."
     )
+
+
+@pytest.mark.parametrize(
+    ("code", "hint"),
+    [("while True:", "timer"), ("time.sleep(9)", "timer"), ("x = solve(y)", "What ends it?")],
+)
+def test_a_constructor_that_does_not_return_is_no_callback(code, hint):
+    late = fault("DeadlinePassed", "still running after 5 s", code, callback="__init__")
+    found = diagnose_fault(late)
+    assert found.mistake == "constructor-blocks"
+    assert found.evidence.startswith("The constructor does not return: still running after 5 s.")
+    assert hint in found.hint
+    assert "A callback" not in found.hint
 
 
 def test_the_first_tick_raised_and_not_a_callback_called_nothing():

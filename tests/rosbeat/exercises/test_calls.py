@@ -1,25 +1,13 @@
-"""Calls of a learner's function; what they are told for is in the bank of answers."""
+"""What is said of calls; which answers it is said of is in the bank of answers."""
 
 import pytest
 
-from rosbeat.exercises.calls import Calls, call, diagnose_calls
+from rosbeat.exercises.calls import diagnose_calls
+from rosbeat.scenarios.calls import Calls, call
 
 
-def test_every_call_is_written_down():
-    seen = call(lambda *given: " ".join(given))
-    assert seen.results[0] == (("talk", "rosie", "voice"), "talk rosie voice")
-    assert len(seen.results) == len(seen.kinds) == 3
-    assert seen.problem == ""
-
-
-def test_an_object_that_cannot_be_shown_is_evidence():
-    class Shy:
-        def __str__(self):
-            raise ValueError("no")
-
-    seen = call(lambda *_: Shy())
-    assert seen == Calls((), "ValueError: no", ())
-    assert diagnose_calls(seen).mistake == "raised"
+def test_an_object_that_cannot_be_shown():
+    assert diagnose_calls(Calls((), "ValueError: no", ())).mistake == "raised"
 
 
 @pytest.mark.parametrize("answer", [None, 3, "text", [], object()])
@@ -27,5 +15,20 @@ def test_what_is_no_function(answer):
     assert diagnose_calls(call(answer)).mistake == "no-function"
 
 
+def right(executable, package, module, function="main"):
+    return f"{executable}={package}.{module}:{function}"
+
+
 def test_a_function_that_is_right():
-    assert diagnose_calls(call(lambda e, p, m, f="main": f"{e}={p}.{m}:{f}")) is None
+    assert diagnose_calls(call(right)) is None
+
+
+def test_evidence_does_not_choose_the_arguments():
+    same = ("a", "b", "c")
+    forged = Calls(((same, right(*same)),) * 3, "", ("str",) * 3)
+    assert diagnose_calls(forged) is not None
+
+
+def test_evidence_of_fewer_calls_than_were_made_is_refused():
+    with pytest.raises(ValueError, match="zip"):
+        diagnose_calls(Calls(()))

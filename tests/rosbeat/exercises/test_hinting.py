@@ -84,6 +84,25 @@ def test_an_exercise_without_a_cell_says_where_the_answer_is(monkeypatch):
     assert "solution page" in [str(hint("system")) for _ in range(3)][-1]
 
 
+def test_without_answers_the_last_hint_stays(monkeypatch):
+    hint("03a")
+    monkeypatch.setattr("rosbeat.exercises.hinting.are_here", lambda: False)
+    second, third = str(hint("03a")), str(hint("03a"))
+    assert HINTS[1] in second
+    assert second == third
+    assert second.endswith("This was the last one. Who teaches the course can tell you more.")
+    assert not progress_file().standings()["03a"].answer
+
+
+def test_an_answer_that_was_seen_elsewhere_is_not_promised_here(monkeypatch):
+    for _ in range(3):
+        hint("03a")
+    monkeypatch.setattr("rosbeat.exercises.hinting.are_here", lambda: False)
+    for found in (hint("03a"), hint("03a", again=True)):
+        assert found.answer == ""
+        assert HINTS[1] in str(found)
+
+
 def test_an_unknown_exercise_is_refused_with_the_nearest_one(says):
     with pytest.raises(ExerciseError) as caught:
         hint("3a")

@@ -3,8 +3,8 @@
 import pytest
 
 from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.exercises.looking import TypedIn, Workspace
 from rosbeat.exercises.page_01 import EXERCISES
+from rosbeat.scenarios.looking import TypedIn, Workspace
 
 FOLDERS = ("docs", "resources", "resources/images", "scripts", "src")
 folder_01a, way_01b = EXERCISES

@@ -3,8 +3,8 @@
 import pytest
 
 from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.exercises.looking import TypedIn
 from rosbeat.exercises.page_06 import EXERCISES
+from rosbeat.scenarios.looking import TypedIn
 
 monitor_06a, links_06b = EXERCISES
 PLACE = "ROS2_and_RL_Tutorials"

@@ -1,5 +1,5 @@
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.exercises.solutions import answer_to
+from rosbeat.exercises.solutions import answer_to, are_here
 
 
 def test_every_exercise_of_a_page_has_an_answer_without_a_blank():
@@ -16,3 +16,10 @@ def test_commands_come_with_the_terminal_that_they_are_for():
 
 def test_what_is_no_exercise_has_none():
     assert answer_to("99z") == ""
+
+
+def test_whether_there_are_answers_at_all(monkeypatch, tmp_path):
+    assert are_here()
+    monkeypatch.setattr("rosbeat.exercises.solutions.files", lambda _: tmp_path)
+    assert not are_here()
+    assert answer_to("03a") == ""

@@ -7,10 +7,11 @@ from pathlib import Path
 import listings  # the folder is put on the path by conftest.py
 import pytest
 
-from rosbeat.diagnosis.mistakes import MISTAKES, Diagnosis
+from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.checking import EXERCISES
-from rosbeat.exercises.evidence import from_json, to_json
-from rosbeat.exercises.system_run import MONITOR, SENSOR, run_system
+from rosbeat.scenarios.evidence import from_json, to_json
+from rosbeat.scenarios.looking import CommandMeaning
+from rosbeat.scenarios.system_run import MONITOR, SENSOR, run_system
 
 pytestmark = pytest.mark.ros
 
@@ -84,6 +85,11 @@ def ended(run, **changes):
 
 
 LINE = "[INFO] [monitor]: Temperature: {} - Status:{}\n"
+TRACEBACK = f"""Traceback (most recent call last):
+  File "/home/you/install/{CODE.removeprefix("src/")}", line 9, in main
+    node = TemperatureSensor(nme)
+NameError: name 'nme' is not defined
+"""
 WRONG = {
     "a limit above": (
         "boundary",
@@ -124,7 +130,18 @@ WRONG = {
         "name-error",
         lambda s: {
             "sensor": ended(s.sensor),
-            "meaning": Diagnosis("name-error", "evidence", "hint"),
+            "meaning": CommandMeaning("name-error", "evidence", "hint"),
+        },
+    ),
+    "ended at once, as only its output shows": (
+        "name-error",
+        lambda s: {"sensor": ended(s.sensor, output=TRACEBACK)},
+    ),
+    "ended at once, forged": (
+        "new-to-me",
+        lambda s: {
+            "sensor": ended(s.sensor),
+            "meaning": CommandMeaning("passed", "evidence", "hint"),
         },
     ),
     "not built": ("new-to-me", lambda _: {"build_code": 1, "build_output": "one\n\ntwo\n"}),

@@ -2,11 +2,11 @@
 
 import math
 import random
-from itertools import pairwise
 
 import pytest
 
-from rosbeat.exercises.walks import DOWN, FREE, LONG, PHASE, READINGS, UP, Walk, watch_walk, widest
+from rosbeat.exercises.walks import Walk
+from rosbeat.scenarios.walks import DOWN, FREE, LONG, PHASE, READINGS, UP, is_open
 
 ROOM = Walk(18.0, 28.0, 0.3)
 
@@ -104,33 +104,29 @@ def test_readings_around_one_value_forget_themselves():
     assert named([22.0 + 0.6 * drawn(n) - 0.3 for n in range(READINGS)]) == "forgets-itself"
 
 
-def looks(*runs):
-    """A `look` that gives these readings one after the other, and what it was asked."""
-    asked, left = [], list(runs)
-
-    def look(seconds, others):
-        asked.append((seconds, len(others)))
-        return len(asked), left.pop(0)
-
-    return look, asked
+def test_readings_with_the_drift_decide_if_nothing_more_was_asked_for():
+    values = walk()
+    assert ROOM.decisive(values) is values
 
 
-def test_a_walk_that_meets_both_limits_is_looked_at_once():
-    look, asked = looks(walk())
-    assert watch_walk(ROOM, 2, look) == 1
-    assert asked == [(READINGS / 2, 1)]
+def test_they_decide_too_if_they_show_both_ends():
+    values = walk()
+    assert ROOM.decisive(values + [22.0] * LONG) == values
 
 
-def test_a_walk_that_has_not_met_a_limit_yet_is_looked_at_for_longer():
-    look, asked = looks(walk(clamp=lambda x: max(18.0, min(28.0, x)))[:1] + FAR, walk())
-    assert watch_walk(ROOM, 1, look) == 2
-    assert asked == [(READINGS, 1), (LONG, 0)]
+def test_those_after_them_decide_if_a_limit_was_not_met():
+    rest = [20.0] * LONG
+    assert is_open(wandering())
+    assert ROOM.decisive(wandering() + rest) == rest
 
 
-def test_a_walk_that_something_cuts_off_is_not():
-    look, asked = looks(walk(clamp=lambda x: max(18.0, min(27.0, x))))
-    assert watch_walk(ROOM, 1, look) == 1
-    assert len(asked) == 1
+def test_a_walk_that_something_cuts_off_is_decided_with_the_drift():
+    values = walk(clamp=lambda x: max(18.0, min(27.0, x)))
+    assert ROOM.decisive(values + [22.0] * LONG) == values
+
+
+def wandering():
+    return walk(clamp=lambda x: max(18.0, min(28.0, x)))[:1] + FAR
 
 
 #: It wanders about in the middle, and nothing holds it there.
@@ -139,9 +135,3 @@ FAR = [22.0 + 2.0 * math.asin(math.sin(n * math.sqrt(2) / 10)) for n in range(RE
 
 def test_rounding_to_32_bits_is_no_step_too_wide():
     assert named([value + 1e-5 * (-1) ** n for n, value in enumerate(walk())]) == ""
-
-
-def test_the_widest_step():
-    assert widest([1.0]) == 0
-    assert widest([1.0, 3.0, 2.5]) == 2.0
-    assert widest(walk()) == max(abs(b - a) for a, b in pairwise(walk()))

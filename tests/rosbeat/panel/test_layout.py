@@ -62,6 +62,17 @@ def test_what_is_wrong_is_marked_and_said():
     assert "nobody subscribes" in placed["words"]
 
 
+def test_a_name_in_several_lines_is_still_the_name_and_what_is_below_is_not():
+    name, kind = "/window_state_of_the_greenhouse_in_the_north", "std_msgs/msg/Bool"
+    lonely = Endpoint("/window", name, kind, "publisher", None, 0)
+    placed = layout(wiring(GraphSnapshot(("/window",), (lonely,))))
+    node, topic = sorted(placed["boxes"], key=lambda box: box["kind"])
+    assert topic["rows"] > 1
+    assert "".join(topic["lines"][: topic["rows"]]) == name
+    assert topic["lines"][topic["rows"] :] == ["Bool", "nobody subscribes"]
+    assert (node["lines"], node["rows"]) == (["/window"], 1)
+
+
 def test_only_numbers_are_offered_to_the_slider():
     assert layout(ring(2))["numeric"] == ["/ring0", "/ring1"]
     assert layout(ring(2, "std_msgs/msg/String"))["numeric"] == []

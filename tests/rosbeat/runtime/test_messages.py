@@ -9,7 +9,7 @@ from geometry_msgs.msg import Point, Polygon, PoseStamped, TwistWithCovariance
 from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.node import Node
-from rclpy.serialization import serialize_message
+from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import (
     Bool,
@@ -80,6 +80,49 @@ def test_float32_is_what_a_subscriber_receives(value):
 @given(st.floats(allow_nan=False, min_value=-3e38, max_value=3e38))
 def test_float32_rounds(value):
     assert remembered(Float32(data=value))["data"] == float(numpy.float32(value))
+
+
+def by_the_wire(message):
+    return plain(deserialize_message(serialize_message(message), type(message)))
+
+
+class Celsius(float):
+    """A number of a kind of its own."""
+
+
+TEXTS = st.text() | st.sampled_from(["", "a\0b", "grüß", "\ud800", "°C"])
+
+
+@given(st.sampled_from([String, Header]), TEXTS)
+def test_a_text_is_what_the_wire_makes_of_it(kind, text):
+    message = kind(**{"data" if kind is String else "frame_id": text})
+    try:
+        expected = by_the_wire(message)
+    except Exception as error:
+        with pytest.raises(type(error)):
+            remembered(message)
+    else:
+        assert remembered(message) == expected
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        Float32(data=Celsius(0.1)),
+        Float64(data=Celsius(0.1)),
+        Float32(data=-0.0),
+        Int8(data=-128),
+        UInt8(data=255),
+        Int8(data=True),
+        ColorRGBA(r=0.1, a=Celsius(1 / 3)),
+    ],
+    ids=repr,
+)
+def test_other_values_are_what_the_wire_makes_of_them(message):
+    expected = by_the_wire(message)
+    found = remembered(message)
+    assert repr(found) == repr(expected)
+    assert list(map(type, found.values())) == list(map(type, expected.values()))
 
 
 def test_names_of_types():

@@ -90,7 +90,7 @@ def test_two_nodes_of_one_name_are_two(joined):
 def test_the_picture_shows_them(joined):
     assert picture(joined.graph()).description == (
         "3 nodes and 1 topic. /count (Int32): published by /talker, subscribed to by /listener. "
-        "/server uses no topic."
+        "/ask (Trigger) is a service: offered by /server, used by nobody."
     )
 
 

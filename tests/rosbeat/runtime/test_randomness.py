@@ -7,7 +7,7 @@ import pytest
 from rclpy.node import Node
 
 from rosbeat import Session
-from rosbeat.runtime.randomness import SeededRandom
+from rosbeat.runtime.randomness import SeededRandom, tilt
 
 
 class Dice(Node):
@@ -75,3 +75,11 @@ def test_lending_twice_changes_nothing():
             return first, random.random()
 
     assert draw(True) == draw(False)
+
+
+def test_after_a_run_the_very_same_function_stands_there_again():
+    before = random.random
+    with SeededRandom(1).lent():
+        tilt(2.0)
+        assert random.random is not before
+    assert random.random is before

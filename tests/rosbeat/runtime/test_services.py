@@ -4,6 +4,7 @@ from functools import partial
 
 import pytest
 import rclpy
+from action_msgs.msg import GoalStatus
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import GetParameters
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
@@ -12,6 +13,7 @@ from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
 from std_srvs.srv import SetBool, Trigger
 
+from action_nodes import Heater, Sender
 from nodes import SECOND, AsyncDoer, Doer, Server, Ticker
 from rosbeat.errors import EndlessChainError, NodeConstructionError, SessionError
 
@@ -341,8 +343,17 @@ def test_an_exception_in_a_guard_condition(ros, capsys):
     capsys.readouterr()
 
 
-def test_actions():
-    pytest.importorskip("example_interfaces", reason="the wheels bring no action interface")
+def test_actions(ros):
+    server = ros.add(Heater)
+    client = ros.add(Sender)
+    client.send(3)
+    ros.run(10)
+    assert client.log == [
+        (0, "accepted"),
+        *((second, [*range(1, second + 1)]) for second in (1, 2, 3)),
+        (3, (GoalStatus.STATUS_SUCCEEDED, [1, 2, 3])),
+    ]
+    assert server.done == 1
 
 
 def test_rate_sleeps_in_virtual_time(ros):

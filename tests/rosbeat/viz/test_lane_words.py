@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 from rosbeat.records import NANOSECONDS, Fault, LogRecord, Observation
 from rosbeat.viz.happenings import happenings
 from rosbeat.viz.lane_words import describe, left_out
@@ -37,3 +39,12 @@ def test_a_fault(make):
 def test_what_is_left_out(make):
     assert said(make.pair(30)).endswith("30 later messages and callbacks are not shown.")
     assert left_out(happenings(make.pair(3), ("/temperature",), None)) == ""
+
+
+def test_events_and_messages_that_were_too_old(make):
+    rare = tuple(
+        replace(make.heard(2), kind=kind) for kind in ("event", "event", "expired", "expired")
+    )
+    seen = Observation(2 * NANOSECONDS, 7, (make.sample(1, 1.0),), callbacks=rare)
+    assert "/monitor: 2 event callbacks and 2 messages too old." in said(seen)
+    assert "reaches nobody" in said(seen)

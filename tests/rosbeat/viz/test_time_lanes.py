@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 
 from rosbeat.errors import PictureError
@@ -40,6 +42,14 @@ def test_a_lost_message_looks_different(make, words_in):
     picture = timeline(Observation(NANOSECONDS, 7, (make.sample(1, 1.0),)))
     assert "message nobody took" in words_in(picture)
     assert [line.get_linestyle() for line in picture.figure.axes[0].patches[:1]] == ["--"]
+
+
+def test_events_and_messages_that_were_too_old_have_marks_of_their_own(make, words_in, is_tidy):
+    calls = [replace(make.heard(2), kind=kind) for kind in ("event", "expired", "task")]
+    picture = timeline(Observation(NANOSECONDS, 7, (make.sample(1, 1.0),), callbacks=tuple(calls)))
+    assert {"event callback", "message too old", "other callback"} <= set(words_in(picture))
+    assert [len(marks(picture, one)) for one in "vxD"] == [1, 1, 1]
+    assert is_tidy(picture)
 
 
 def test_the_messages_of_no_topic_look_like_lost_ones(make):

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rosbeat.authoring.lint.desk import Desk, Finding, learner_text, prose_lines
+from rosbeat.authoring.lint.exercises import first_cells
 from rosbeat.authoring.markers import solution
 from rosbeat.authoring.source import SourceCell
 
@@ -68,7 +69,7 @@ def page_budget(desk: Desk) -> Iterator[Finding]:
     """A page is long enough to teach something and short enough to finish."""
     budgets = budgets_for(desk)
     words = sum(_words(cell) for cell in desk.markdown)
-    exercises = sum(1 for cell in desk.code if cell.exercise)
+    exercises = len(first_cells(desk))
     for count, unit, (least, most) in (
         (len(desk.learner_cells), "cells", budgets.page_cells),
         (words, "words", budgets.page_words),

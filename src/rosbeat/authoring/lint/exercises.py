@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from rosbeat.authoring.lint.desk import Desk, Finding
 from rosbeat.authoring.markers import find_blocks
+from rosbeat.authoring.source import SourceCell
 
 
 def answer_outside_exercise(desk: Desk) -> Iterator[Finding]:
@@ -27,13 +28,27 @@ def answer_outside_exercise(desk: Desk) -> Iterator[Finding]:
 
 
 def exercise_names(desk: Desk) -> Iterator[Finding]:
-    """Exercises are named NNa, NNb, NNc, in order, each once."""
-    cells = [cell for cell in desk.lesson.cells if cell.exercise]
-    for cell, letter in zip(cells, "abcdefghijklmnopqrstuvwxyz", strict=False):
+    """Exercises are named NNa, NNb, NNc, in order; several cells before one check may share one."""
+    for cell, letter in zip(first_cells(desk), "abcdefghijklmnopqrstuvwxyz", strict=False):
         expected = desk.lesson.number + letter
         if cell.exercise != expected:
             what = f"exercise {cell.exercise} would be {expected} by its place on the page."
             yield desk.finding("exercise-names", cell.line, what, "Rename it, and its check.")
+
+
+def first_cells(desk: Desk) -> list[SourceCell]:
+    """The first cell of each exercise: an exercise may have several, one after the other.
+
+    Args:
+        desk: The lesson among its neighbours.
+    """
+    found, before = [], None
+    for cell in desk.lesson.cells:
+        if cell.exercise and cell.exercise != before:
+            found.append(cell)
+        if cell.exercise or cell.check:
+            before = cell.exercise
+    return found
 
 
 def exercise_pairs(desk: Desk) -> Iterator[Finding]:

@@ -14,6 +14,8 @@ from rosbeat.authoring.source import SourceCell
 
 # Shorter lines (`pass`, `return`, `count = 0`) are everybody's.
 _SHORTEST = 12
+# So is this one: an answer that is a whole class begins with it, like any class.
+_EVERYBODYS = {"def__init__(self):"}
 
 
 def leaked_answer(desk: Desk) -> Iterator[Finding]:
@@ -35,7 +37,7 @@ def _distinctive(cell: SourceCell) -> Iterator[tuple[str, str]]:
     for block in find_blocks(cell.source):
         for line in block.answer:
             key = _squeeze(_without_comment(line))
-            if len(key) >= _SHORTEST:
+            if len(key) >= _SHORTEST and key not in _EVERYBODYS:
                 yield key, line
 
 

@@ -31,6 +31,7 @@ VERBS = frozenset(
         "fix",
         "follow",
         "give",
+        "go",
         "handle",
         "hear",
         "inspect",

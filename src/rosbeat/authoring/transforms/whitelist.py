@@ -7,7 +7,7 @@ from typing import Any
 from nbformat import NotebookNode
 
 _PAGE = ("kernelspec", "language_info", "title", "rosbeat")
-_CELL = ("rosbeat", "tags")
+_CELL = ("nbgrader", "rosbeat", "tags")
 
 
 def keep_known_metadata(page: NotebookNode) -> NotebookNode:

@@ -305,9 +305,10 @@ class Commands:
                 return True
             if left <= 0:
                 return False
-            if key == "^C" and self._shell.missed(before):
-                before = self._shell.in_front()
-                self._shell.interrupt()
+            missed = self._shell.missed(before) if key == "^C" else 0
+            if missed:
+                before = missed
+                self._shell.interrupt(missed)
 
     def _drop(self) -> None:
         """Leave an unfinished command."""

@@ -228,23 +228,25 @@ class Shell:
         """Return the process group of the program that has the terminal; 0 if unknown."""
         return group(self._process.fd)
 
-    def missed(self, before: int) -> bool:
-        """Tell whether Ctrl+C has reached nobody, so that it has to be pressed again.
+    def missed(self, before: int) -> int:
+        """Return the program that Ctrl+C has not reached and is to be pressed for again; or 0.
 
-        Args:
-            before: Who had the terminal when it was pressed.
+        It is never bash: with its prompt on its way, that would change the exit code. `before` is
+        who had the terminal when it was pressed.
         """
         now = self.in_front()
-        return self.state == BUSY and now > 0 and (now != before or would_have_ended(now))
+        runs = self.state == BUSY and now > 0 and now != self._process.pid
+        return now if runs and (now != before or would_have_ended(now)) else 0
 
-    def interrupt(self) -> None:
+    def interrupt(self, group: int = 0) -> None:
         """Do what Ctrl+C does.
 
         The key itself makes the terminal throw away what is on its way, after the signal: output
         would be lost now and then, our mark among it. Only a program that wants keys gets the key.
+        `group` is the process group that is meant; by default the one in front.
         """
         if self._local_modes() & termios.ISIG:
-            self._signal(signal.SIGINT)
+            self._signal(signal.SIGINT, group)
         else:
             self.write("\x03")
 
@@ -265,10 +267,10 @@ class Shell:
         """Kill the program in the foreground; the shell itself if it is that."""
         self._signal(signal.SIGKILL)
 
-    def _signal(self, number: int) -> None:
+    def _signal(self, number: int, group: int = 0) -> None:
         with self._changed, suppress(OSError):
             if self.state != ENDED:
-                os.killpg(os.tcgetpgrp(self._process.fd), number)
+                os.killpg(group or os.tcgetpgrp(self._process.fd), number)
 
     def hang_up(self) -> None:
         """Kill the shell, whose programs are expected to be gone, and wait for its end."""

@@ -124,6 +124,10 @@ KEPT = [
     '# %% exercise="00a"\nf = 1\n'
     + ANSWER.format("g = lambda x: x + 1", "# g = lambda x: ____")
     + '# %% check="00a"\nf',
+    '# %% exercise="00a"\n'
+    + ANSWER.format("class A:\n    def __init__(self):\n        pass", "# # class ____:")
+    + '# %% check="00a"\nf\n# %%\nclass B:\n    def __init__(self):\n        self.x = 1',
+    EXERCISE.split("# %% check")[0] * 4 + '# %% check="00a"\nf',
     PREDICTION,
     "# %%\n# One remark.\nx = 1",
     "# %%\n%matplotlib inline\n!ls\nx = 1",

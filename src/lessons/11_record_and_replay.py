@@ -1,0 +1,418 @@
+# ---
+# title: Record and replay
+# minutes: 45
+# needs: ["04", "07"]
+# summary: Keep a run in a bag, play it again, break it on purpose, and write nodes that notice.
+# ---
+
+# %% [markdown]
+# # Record and replay
+#
+# **Goal:** you keep a run of the sensor in a file, play it to the monitor again, break it on purpose, and
+# write nodes that notice.
+#
+# **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
+# [look inside the graph](07_look_inside_the_graph.ipynb).
+#
+# A fault that happened once, on a robot, yesterday, is hard to find. A fault that you can play again is
+# not. This is where you are going:
+#
+# ```text
+# sensor ---> bag ---> replay ---> monitor
+#                        ^
+#                        faults, put in by you
+# ```
+
+# %%
+import math
+import random
+import sqlite3
+import struct
+
+from rclpy.node import Node
+from std_msgs.msg import Float32, String
+
+from rosbeat import Session, bags, check, hint, predict, progress, viz, workspace
+
+# %% [markdown]
+# ## Bring both nodes
+#
+# The sensor is that of page 03, the monitor that of page 04. The sensor does not log here.
+
+# %%
+class TemperatureSensor(Node):
+    def __init__(self):
+        super().__init__("temperature_sensor")
+        self.publisher_ = self.create_publisher(Float32, "temperature", 10)
+        self.timer = self.create_timer(1.0, self.publish_temperature)
+        self.temperature = 22.0
+
+    def publish_temperature(self):
+        self.temperature += random.uniform(-0.5, 0.5)
+        self.temperature = max(10.2, min(28.0, self.temperature))
+        self.publisher_.publish(Float32(data=self.temperature))
+
+# %%
+class TemperatureMonitor(Node):
+    def __init__(self):
+        super().__init__("temperature_monitor")
+        self.create_subscription(Float32, "temperature", self.temperature_callback, 10)
+
+    def temperature_callback(self, msg):
+        temp = msg.data
+        if temp > 26.0:
+            status = "High"
+        elif temp < 20.0:
+            status = "Low"
+        else:
+            status = "Normal"
+        self.get_logger().info(f"Temperature: {temp:.2f}C - Status:{status}")
+
+# %% [markdown]
+# ## Record a run
+#
+# ROS calls a recording a **bag**. It holds every message that was published, and when. `bags.record` writes
+# one from a session. It goes into your workspace, which `catch_up` makes if it is missing.
+
+# %%
+workspace.catch_up("02")
+folder = workspace.folder() / "resources" / "bags"
+
+with Session(seed=8) as ros:
+    ros.add(TemperatureSensor)
+    ros.add(TemperatureMonitor)
+    ros.run(seconds=300, quiet=True)
+    first = ros.observation()
+
+bag = bags.record(first, folder / "first_run", keep_old=True)
+bag
+
+# %% [markdown]
+# 300 messages on one topic, with their type, their publisher and its quality of service. (If you run the
+# cell again, `keep_old=True` renames the older bag.) What the monitor logged is not in it: by default only
+# topics of your own are recorded.
+#
+# A bag is a folder with two files:
+
+# %%
+for file in sorted(bag.folder.iterdir()):
+    print(f"{file.name:14} {file.stat().st_size:6} bytes")
+
+about = (bag.folder / "metadata.yaml").read_text()
+print(about[about.index("  storage_identifier"):about.index("      offered_qos")])
+
+# %% [markdown]
+# `metadata.yaml` says in plain text what the bag holds. The messages are in the other file, in a format
+# called **MCAP**, which ROS 2 Jazzy uses by default. It also keeps what a `Float32` is made of, so a
+# program that has never heard of it can read it.
+#
+# `messages` gives them back, each with its time in seconds and its value:
+
+# %%
+[(one.time, one.value) for one in bag.messages("temperature")[:3]]
+
+# %% [markdown]
+# ## Read it with another tool
+#
+# Is it all there? Do not ask the library that wrote it. The other format for bags is a **SQLite** database,
+# and Python brings a reader of its own for these. A bag can be recorded from a bag:
+
+# %%
+copy = bags.record(bag, folder / "first_run_sqlite", storage="sqlite3", keep_old=True)
+
+database = sqlite3.connect(copy.folder / "messages.db3")
+rows = database.execute("SELECT timestamp, data FROM messages ORDER BY id").fetchall()
+database.close()
+len(rows), rows[0]
+
+# %% [markdown]
+# Each row has a time in nanoseconds, and a message as it crosses the wire: four bytes that say how it is
+# written, and four for the number. `struct` makes a number of those: `"<f"` means a float with its last byte
+# first. **Predict** `yes` or `no`: are all 300 times and values the same as above?
+
+# %% predict=true
+found = [(at / 1e9, struct.unpack("<f", data[4:])[0]) for at, data in rows]
+kept = [(one.time, one.value) for one in bag.messages("temperature")]
+# --- answer
+predict("yes", found == kept)
+# --- blank
+# predict("____", found == kept)
+# --- end
+
+# %% [markdown]
+# Not one bit is lost.
+#
+# ## Replay it
+#
+# `bags.replay` makes a node that publishes a recording again, each message at its time. The function below
+# plays the bag to a monitor and gives back what was observed; `lines` takes the log out of it.
+
+# %%
+def play(monitor, *faults, speed=1):
+    with Session() as ros:
+        ros.add(bags.replay(bag, faults=faults, speed=speed))
+        ros.add(monitor)
+        ros.run(seconds=bag.seconds / speed, quiet=True)
+        return ros.observation()
+
+def lines(observation):
+    return [line.text for line in observation.logs]
+
+again = play(TemperatureMonitor)
+viz.graph(again.graph)
+
+# %% [markdown]
+# Another node stands in the sensor's place, and nothing in this session is random. **Predict:** does the
+# monitor log the same 300 lines as in the first run?
+
+# %% predict=true
+print(lines(again)[-1])
+# --- answer
+predict("yes", lines(again) == lines(first))
+# --- blank
+# predict("____", lines(again) == lines(first))
+# --- end
+
+# %% [markdown]
+# It cannot tell the difference: a subscriber knows a topic, not who publishes there. Faster works, too. With
+# `speed=10` the five minutes take 30 seconds of virtual time:
+
+# %%
+fast = play(TemperatureMonitor, speed=10)
+fast.time, lines(fast) == lines(first)
+
+# %% [markdown]
+# ## Compare two runs
+#
+# `bags.compare` puts two runs side by side. Here is the bag beside its replay, and then beside a new run
+# with other random numbers.
+
+# %%
+print(bags.compare(bag, again, "temperature", names=("the bag", "the replay")))
+
+with Session(seed=9) as other:
+    other.add(TemperatureSensor)
+    other.run(seconds=300)
+
+seeds = bags.compare(bag, other, "temperature", names=("seed 8", "seed 9"))
+viz.differences(seeds, label="temperature", unit="°C")
+
+# %% [markdown]
+# A new run answers another question. If you change the *monitor*, replay the old run: whatever differs then
+# comes from your change. Here *High* begins at 25 degrees instead of 26. How many lines does that change?
+
+# %%
+class StrictMonitor(TemperatureMonitor):
+    def temperature_callback(self, msg):
+        status = "High" if msg.data > 25.0 else "Low" if msg.data < 20.0 else "Normal"
+        self.get_logger().info(f"Temperature: {msg.data:.2f}C - Status:{status}")
+
+strict = lines(play(StrictMonitor))
+changed = [(old, new) for old, new in zip(lines(first), strict) if old != new]
+len(changed), changed[0]
+
+# %% [markdown]
+# ## Break it on purpose
+#
+# Sensors fail. A fault goes into the replay, and the bag stays as it is (all times are in seconds):
+#
+# - `stuck`: the sensor hangs and repeats its last reading;
+# - `dropouts`: messages get lost on the way, some at random, or all in a span of time;
+# - `drift`: each reading is off by more and more, by so many degrees each second;
+# - `with_nan`: the reading is **NaN**, "not a number". That is what floats have for a result that there is
+#   not, and many drivers send it if a measurement fails.
+
+# %%
+sick = play(
+    TemperatureMonitor,
+    bags.stuck(at=60, seconds=50),
+    bags.dropouts(spans=[(140, 170)]),
+    bags.with_nan(at=200, seconds=20),
+    bags.drift(0.05, at=230),
+)
+broken = bags.compare(bag, sick, "temperature", names=("the bag", "with faults"))
+viz.differences(broken, label="temperature", unit="°C")
+
+# %% [markdown]
+# From left to right: a flat line, rings where messages are missing, crosses for NaN, and a line that leaves the
+# other one.
+#
+# Now each fault alone. What does the monitor make of it? **Predict:** which status does it log for a NaN?
+
+# %% predict=true
+def statuses(*faults):
+    said = [line.split("Status:")[1] for line in lines(play(TemperatureMonitor, *faults))]
+    return {word: said.count(word) for word in ("Low", "Normal", "High")}
+
+print("as it was", statuses())
+print("stuck    ", statuses(bags.stuck(at=60)))
+print("dropouts ", statuses(bags.dropouts(0.3, seed=1)))
+print("drift    ", statuses(bags.drift(0.01, at=60)))
+print("NaN      ", statuses(bags.with_nan(at=0, seconds=None)))
+# --- answer
+predict("Normal", lines(play(TemperatureMonitor, bags.with_nan(at=0)))[0].split(":")[-1])
+# --- blank
+# predict("____", lines(play(TemperatureMonitor, bags.with_nan(at=0)))[0].split(":")[-1])
+# --- end
+
+# %% [markdown]
+# The monitor never complains. A hanging sensor looks perfectly well. A drift looks like weather. A lost
+# message is no message, so nobody is called. And a dead sensor, NaN for five minutes, is *Normal* 300 times:
+# `nan > 26.0` is false, `nan < 20.0` is false, and `else` gets the rest.
+#
+# ## What went wrong: NaN is not equal to NaN
+#
+# Somebody writes a monitor that only looks for NaN. **Predict:** how many of the 300 NaN does this monitor notice?
+
+# %% predict=true
+class HopefulMonitor(TemperatureMonitor):
+    def temperature_callback(self, msg):
+        if msg.data == math.nan:
+            self.get_logger().error("The sensor is broken.")
+
+noticed = lines(play(HopefulMonitor, bags.with_nan(at=0, seconds=None)))
+print(math.nan == math.nan, math.isnan(math.nan))
+# --- answer
+predict("0", len(noticed))
+# --- blank
+# predict("____", len(noticed))
+# --- end
+
+# %% [markdown]
+# **Symptom:** a condition that is never true. **Instrument:** a replay with `with_nan`. **Cause:** `<`, `>`
+# and `==` are false whenever one side is NaN, even if both are. **Cure:** `math.isnan(value)`.
+#
+# ## Try it: look into a bag
+#
+# Complete a function that is given a bag. It finds three things about the topic `temperature`:
+#
+# - `messages`: how many there are, NaN included;
+# - `gap`: the longest time between two messages that follow each other, in seconds;
+# - `mean`: the mean of all readings that are numbers.
+#
+# The check hands over bags that you have not seen.
+
+# %% exercise="11a"
+def look_into(bag):
+    readings = bag.messages("temperature")
+    # --- answer
+    gaps = [later.time - one.time for one, later in zip(readings, readings[1:])]
+    numbers = [one.value for one in readings if not math.isnan(one.value)]
+    mean = sum(numbers) / len(numbers)
+    return {"messages": len(readings), "gap": max(gaps), "mean": mean}
+    # --- blank
+    # return {"messages": ____, "gap": ____, "mean": ____}
+    # --- end
+
+# %% check="11a"
+check("11a", look_into)
+
+# %% [markdown]
+# ## Try it: notice a sick sensor
+#
+# This node publishes one word on `fault` at each of these:
+#
+# - `nan`: for each reading that is no number;
+# - `jump`: a reading is more than 5 degrees away from the last number before it;
+# - `stuck`: the last of five readings in a row that are exactly equal; then not again until the reading has
+#   changed.
+#
+# The very first reading is never a fault unless it is NaN.
+
+# %% exercise="11b"
+class Watchdog(Node):
+    def __init__(self):
+        super().__init__("watchdog")
+        self.create_subscription(Float32, "temperature", self.listen, 10)
+        self.faults = self.create_publisher(String, "fault", 10)
+        self.last = None  # the last number
+        self.equal = 1  # how many in a row were equal to it
+
+    def say(self, word):
+        self.faults.publish(String(data=word))
+
+    def listen(self, msg):
+        # --- answer
+        if math.isnan(msg.data):
+            self.say("nan")
+            return
+        if self.last is not None and abs(msg.data - self.last) > 5.0:
+            self.say("jump")
+        self.equal = self.equal + 1 if msg.data == self.last else 1
+        if self.equal == 5:
+            self.say("stuck")
+        self.last = msg.data
+        # --- blank
+        # ____
+        # --- end
+
+# %% check="11b"
+check("11b", Watchdog)
+
+# %% [markdown]
+# ## Try it: compare two sensors, alone
+#
+# Nobody can see a drift in one sensor. With a second one you can. Write a node that listens to `temperature`
+# and to `reference`. Each reading of `temperature` makes a pair with the newest reading of `reference`, if
+# there was one. A pair with NaN does not count.
+#
+# The difference in a pair is the temperature minus the reference. When the mean of the last ten differences
+# is more than 1 degree away from 0, the sensor drifts: publish `drift` on `fault`, once. Publish it again
+# only after the mean has been back within 1 degree. With fewer than ten pairs nothing is said.
+
+# %% exercise="11c"
+class DriftWatch(Node):
+    def __init__(self):
+        # --- answer
+        super().__init__("drift_watch")
+        self.create_subscription(Float32, "reference", self.remember, 10)
+        self.create_subscription(Float32, "temperature", self.compare, 10)
+        self.alarms = self.create_publisher(String, "fault", 10)
+        self.reference = math.nan
+        self.last = []
+        self.drifts = False
+
+    def remember(self, msg):
+        self.reference = msg.data
+
+    def compare(self, msg):
+        difference = msg.data - self.reference
+        if math.isnan(difference):
+            return
+        self.last = [*self.last, difference][-10:]
+        mean = sum(self.last) / len(self.last)
+        drifts = len(self.last) == 10 and abs(mean) > 1.0
+        if drifts and not self.drifts:
+            self.alarms.publish(String(data="drift"))
+        self.drifts = drifts
+        # --- blank
+        # ____
+        # --- end
+
+# %% check="11c"
+check("11c", DriftWatch)
+
+# %% [markdown]
+# ## Remember
+#
+# - A bag keeps every message with its time; a replay publishes them again.
+# - Same recording, same readings: what differs comes from your change.
+# - A recording with faults in it is a test that you can keep.
+# - NaN is neither above nor below nor equal to anything. Ask with `math.isnan`.
+#
+# ## Outside of the notebook
+#
+# On a full ROS 2 installation these commands do the same (the packages of this course have no `ros2 bag`):
+#
+# ```bash
+# ros2 bag record -o first_run /temperature
+# ros2 bag info first_run
+# ros2 bag play first_run --rate 10
+# ```
+#
+# Your bag has the format that they use: version 9 of rosbag2, as in Jazzy.
+#
+# **Next:** [beyond topics](12_beyond_topics.ipynb): ask and be answered.
+
+# %%
+progress()

@@ -1,0 +1,466 @@
+# ---
+# title: Build your own
+# minutes: 90
+# needs: ["04", "07", "08", "09"]
+# summary: A greenhouse of at least four nodes, designed by you and judged by what it does.
+# ---
+
+# %% [markdown]
+# # Build your own
+#
+# **Goal:** you design a greenhouse of at least four nodes, build it, and have it tested on good days and on
+# bad ones.
+#
+# **Time:** 90 minutes, in as many sittings as you like. **You need:**
+# [write a subscriber](04_write_a_subscriber.ipynb), [look inside the graph](07_look_inside_the_graph.ipynb),
+# [tune quality of service](08_tune_quality_of_service.ipynb) and
+# [test the five claims](09_test_the_five_claims.ipynb).
+#
+# This page has no lines to complete. It has requirements: sentences that say what must be true when you are
+# done. How you get there is your decision.
+
+# %%
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import Bool, Float32, String
+
+from rosbeat import Session, check, hint, predict, progress, viz
+from rosbeat.exercises.greenhouse import requirements, weather
+
+# %% [markdown]
+# ## Agree on the edge
+#
+# A greenhouse has a thermometer and a hygrometer, which measures humidity. Both speak once a second. On the
+# other side are a vent, a pump, a display for alarms and a display for reports. The names and types of these
+# six topics are the **interface**: what both sides have agreed on. Nothing else is.
+#
+# Here is the interface as one node, an empty box.
+
+# %%
+class Box(Node):
+    def __init__(self):
+        super().__init__("your_greenhouse")
+        for topic in ("temperature", "humidity"):
+            self.create_subscription(Float32, topic, lambda msg: None, 10)
+        self.create_publisher(Bool, "vent", 10)
+        self.create_publisher(Bool, "pump", 10)
+        self.create_publisher(String, "alarm", 10)
+        self.create_publisher(Float32, "report", 10)
+
+# %% [markdown]
+# `weather()` gives you the two sensors, as classes. They say the same each time. Their plain day lasts 170
+# seconds.
+
+# %%
+ros = Session()
+for sensor in weather("plain day"):
+    ros.add(sensor)
+ros.add(Box)
+ros.run(seconds=171)
+viz.graph(ros.graph())
+
+# %% [markdown]
+# Two topics go in, four come out. You will take the box apart, into at least four nodes.
+#
+# ## Read what is required
+#
+# The same list is what the check judges, sentence by sentence, with these points.
+
+# %%
+requirements()
+
+# %% [markdown]
+# Five things hold besides:
+#
+# - whatever has to happen has two seconds to happen;
+# - `True` on `vent` opens it and `True` on `pump` starts it; until the first command both are off;
+# - a limit itself is on the quiet side: exactly 28 opens nothing;
+# - without a temperature in 10 s there is no mean: the report may say nothing then, and its node goes on;
+# - an optional requirement gives its points, and you can pass without it.
+#
+# ## Look at the weather
+#
+# The plain day has a part for the vent, a part for the pump, and a part for both.
+
+# %%
+limits = {"stays as it is": (26.0, 28.0)}
+viz.values(ros.observation(), "temperature", bands=limits)
+
+# %%
+viz.values(ros.observation(), "humidity", bands={"dry": (None, 40.0)})
+
+# %% [markdown]
+# The other day is for R4 and R5: its sensors talk nonsense, then one is silent for a while, and then both.
+#
+# **Predict:** the longest pause between two temperatures, in seconds. R4 says what the least is.
+
+# %% predict=true
+with Session() as ros:
+    for sensor in weather("broken sensors"):
+        ros.add(sensor)
+    ros.run(seconds=120)
+    readings = ros.messages("temperature")
+
+times = [one.time for one in readings]
+longest = max(later - before for before, later in zip(times, times[1:]))
+print("strange:", [one.value for one in readings if not -20 <= one.value <= 60])
+# --- answer
+predict("10-30", longest)
+# --- blank
+# predict("____", longest)
+# --- end
+
+# %% [markdown]
+# Long enough for an alarm, for a second one that nobody wants, and for a report without a single reading.
+# `nan` means *not a number*. It is neither above nor below anything: `<`, `>` and `==` with it give False.
+
+# %% [markdown]
+# ## Draw before you write
+#
+# Take a sheet of paper. Draw the six topics at the edges and your nodes in the middle. For each node write down
+# three things: what it hears, what it says, and its one task. These questions help:
+#
+# - Which requirement belongs to which node? (R8 wants each output to have its own.)
+# - Which node has to know what another one has decided? Along which topic?
+# - Who looks whether a reading can be? One node for all, or each for itself?
+# - If this node ends, who else stops? (R9)
+
+# %% [markdown]
+# A table says the same as a drawing. This one describes pages 03 and 04; make one for your greenhouse.
+#
+# | node | hears | says | task |
+# |---|---|---|---|
+# | `temperature_sensor` | | `temperature` | measures once a second |
+# | `temperature_monitor` | `temperature` | | tells whether it is too hot |
+
+# %% [markdown]
+# ## Try it: the vent alone
+#
+# Begin with one box. This node has R1 and R7 to meet, and two lines prepare it for more:
+#
+# - its limits are **parameters**, as on page 07: values that whoever starts a node can change. `declare_parameter`
+#   gives one its name and default, `get_parameter(...).value` asks for it;
+# - `LATCHED` is a profile that keeps the last message for subscribers that come late and ask for it (page 08).
+#
+# Write the rest of the callback.
+
+# %%
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+# %% exercise="13a"
+class VentControl(Node):
+    def __init__(self):
+        super().__init__("vent_control")
+        self.declare_parameter("open_above", 28.0)
+        self.declare_parameter("close_below", 26.0)
+        self.publisher_ = self.create_publisher(Bool, "vent", LATCHED)
+        self.create_subscription(Float32, "temperature", self.temperature_callback, 10)
+        self.is_open = False
+
+    def temperature_callback(self, msg):
+        above = self.get_parameter("open_above").value
+        below = self.get_parameter("close_below").value
+        # --- answer
+        if msg.data > above:
+            wanted = True
+        elif msg.data < below:
+            wanted = False
+        else:
+            wanted = self.is_open
+        if wanted != self.is_open:
+            self.is_open = wanted
+            self.publisher_.publish(Bool(data=wanted))
+        # --- blank
+        # ____
+        # --- end
+
+# %% check="13a"
+check("13a", VentControl)
+
+# %% [markdown]
+# You can give the weather yourself, and that is how you try one requirement at a time: a short day that asks one
+# question. None is a second of silence. **Predict:** when does the vent get which command?
+
+# %%
+with Session() as ros:
+    for sensor in weather(temperature=[25.0, 29.0, 27.0, None, 25.0]):
+        ros.add(sensor)
+    ros.add(VentControl)
+    ros.run(seconds=6)
+    print([(one.time, one.value) for one in ros.messages("vent")])
+
+# %% [markdown]
+# ## Measure a silence
+#
+# When a sensor is silent, no callback runs: nothing happens. So something else must look, once in a while. A node
+# has a clock. Two of its times have a difference, and that is a duration.
+
+# %%
+class Stopwatch(Node):
+    def __init__(self):
+        super().__init__("stopwatch")
+        self.create_subscription(Float32, "humidity", self.note_time, 10)
+        self.create_timer(4.0, self.tell)
+        self.heard_at = self.get_clock().now()
+
+    def note_time(self, msg):
+        self.heard_at = self.get_clock().now()
+
+    def tell(self):
+        age = self.get_clock().now() - self.heard_at
+        self.get_logger().info(f"{age.nanoseconds / 1e9:.0f} s since the last one")
+
+with Session() as ros:
+    for sensor in weather(humidity=[50.0, 51.0, 52.0]):
+        ros.add(sensor)
+    ros.add(Stopwatch)
+    ros.run(seconds=12)
+
+# %% [markdown]
+# The sensor stopped after three seconds, and the timer noticed. Ask the node's clock and not `time.time()`: these
+# twelve seconds took no time on your computer. `timer.reset()` begins a timer's period anew; with it a timer
+# can also run out, like an egg timer. It then runs again and again, until you `cancel()` it.
+
+# %% [markdown]
+# ## Try it: the whole greenhouse
+#
+# Write your nodes into the next cells, or into new ones beside them. `greenhouse` at the end returns the list of
+# what is to be started, as a launch file does. A member is a class, or a pair of a class and how to start it, with
+# what `ros.add` knows: `name`, `namespace`, `remappings`, `parameters`. For example
+# `(Monitor, {"remappings": {"temperature": "checked/temperature"}})`.
+#
+# Check early: a greenhouse of one node gives its points, too. If you are stuck, `hint("13b")` helps.
+
+# %% exercise="13b"
+# --- answer
+class Guard(Node):
+    """Passes on what can be, on topics of its own."""
+
+    def __init__(self):
+        super().__init__("guard")
+        self.pass_on("temperature", -20.0, 60.0)
+        self.pass_on("humidity", 0.0, 100.0)
+
+    def pass_on(self, topic, low, high):
+        out = self.create_publisher(Float32, f"checked/{topic}", 10)
+
+        def listen(msg):
+            if low <= msg.data <= high:
+                out.publish(msg)
+
+        self.create_subscription(Float32, topic, listen, 10)
+
+
+class Reporter(Node):
+    def __init__(self):
+        super().__init__("reporter")
+        self.means = self.create_publisher(Float32, "report", 10)
+        self.create_subscription(Float32, "temperature", self.collect, 10)
+        self.create_timer(10.0, self.report)
+        self.values = []
+
+    def collect(self, msg):
+        self.values.append(msg.data)
+
+    def report(self):
+        if self.values:
+            self.means.publish(Float32(data=sum(self.values) / len(self.values)))
+        self.values = []
+# --- blank
+# # class ____(Node):
+# --- end
+
+# %% exercise="13b"
+# --- answer
+class PumpControl(Node):
+    """Is ready, runs, or rests; a timer leads from one to the next."""
+
+    def __init__(self):
+        super().__init__("pump_control")
+        self.declare_parameter("dry_below", 40.0)
+        self.pump = self.create_publisher(Bool, "pump", LATCHED)
+        self.create_subscription(Float32, "humidity", self.hear_humidity, 10)
+        self.create_subscription(Bool, "vent", self.hear_vent, LATCHED)
+        self.run_time = self.create_timer(5.0, self.stop)
+        self.rest_time = self.create_timer(20.0, self.be_ready)
+        self.state, self.vent_is_open = "ready", False
+
+    def hear_humidity(self, msg):
+        is_dry = msg.data < self.get_parameter("dry_below").value
+        if self.state == "ready" and is_dry and not self.vent_is_open:
+            self.state = "running"
+            self.run_time.reset()
+            self.pump.publish(Bool(data=True))
+
+    def hear_vent(self, msg):
+        self.vent_is_open = msg.data
+        if msg.data:
+            self.stop()
+
+    def stop(self):
+        if self.state == "running":
+            self.state = "resting"
+            self.rest_time.reset()
+            self.pump.publish(Bool(data=False))
+
+    def be_ready(self):
+        if self.state == "resting":
+            self.state = "ready"
+# --- blank
+# # class ____(Node):
+# --- end
+
+# %% exercise="13b"
+# --- answer
+class Watch(Node):
+    """Says when a sensor falls silent, and when it is back."""
+
+    def __init__(self):
+        super().__init__("watch")
+        self.alarms = self.create_publisher(String, "alarm", 10)
+        self.last, self.silent = {}, set()
+        for topic in ("humidity", "temperature"):
+            self.last[topic] = self.get_clock().now()
+            self.create_subscription(Float32, topic, self.hearing(topic), 10)
+        self.create_timer(0.5, self.look)
+
+    def hearing(self, topic):
+        def hear(msg):
+            self.last[topic] = self.get_clock().now()
+            if topic in self.silent:
+                self.silent.remove(topic)
+                self.alarms.publish(String(data=f"{topic} back"))
+
+        return hear
+
+    def look(self):
+        now = self.get_clock().now()
+        for topic in sorted(set(self.last) - self.silent):
+            if (now - self.last[topic]).nanoseconds >= 5e9:
+                self.silent.add(topic)
+                self.alarms.publish(String(data=f"{topic} silent"))
+# --- blank
+# # class ____(Node):
+# --- end
+
+# %% exercise="13b"
+def greenhouse():
+    # --- answer
+    checked = {topic: f"checked/{topic}" for topic in ("temperature", "humidity")}
+    start = {"remappings": checked}
+    return [Guard, (VentControl, start), (PumpControl, start), (Reporter, start), Watch]
+    # --- blank
+    # return [____]
+    # --- end
+
+# %% check="13b"
+check("13b", greenhouse)
+
+# %% [markdown] only="solution"
+# One greenhouse among many. Here five nodes do it: `guard` keeps nonsense away from three others, which need not
+# know of it: their topic is renamed where they are started. `watch` listens to the sensors themselves, since
+# nonsense is a sign of life, too.
+
+# %% only="solution"
+with Session() as ros:
+    for sensor in weather("plain day"):
+        ros.add(sensor)
+    for member in greenhouse():
+        node, start = member if isinstance(member, tuple) else (member, {})
+        ros.add(node, **start)
+    ros.run(seconds=171, quiet=True)
+    seen = ros.observation()
+viz.graph(seen.graph)
+
+# %% [markdown]
+# ## What went wrong: two controllers, one vent
+#
+# It rains into the greenhouse. So somebody adds a node that closes the vent when the air is very humid, and
+# changes nothing else. **Predict:** how many commands does the vent get in ten hot and
+# humid seconds?
+
+# %% predict=true
+class HeatVent(Node):
+    def __init__(self):
+        super().__init__("heat_vent")
+        self.vent = self.create_publisher(Bool, "vent", 10)
+        self.create_subscription(Float32, "temperature", self.decide, 10)
+
+    def decide(self, msg):
+        self.vent.publish(Bool(data=msg.data > 28.0))
+
+class RainVent(HeatVent):
+    def __init__(self):
+        Node.__init__(self, "rain_vent")
+        self.vent = self.create_publisher(Bool, "vent", 10)
+        self.create_subscription(Float32, "humidity", self.decide, 10)
+
+    def decide(self, msg):
+        if msg.data > 90.0:
+            self.vent.publish(Bool(data=False))
+
+with Session() as ros:
+    for node in (*weather(temperature=[31.0] * 10, humidity=[97.0] * 10), HeatVent, RainVent):
+        ros.add(node)
+    ros.run(seconds=10)
+    commands = ros.messages("vent")
+    graph = ros.graph()
+# --- answer
+predict("20", len(commands))
+# --- blank
+# predict("____", len(commands))
+# --- end
+
+# %%
+print([one.value for one in commands])
+print([end.node for end in graph.on("/vent", "publisher")])
+
+# %% [markdown]
+# **Symptom:** the vent opens and closes every second, and ends up closed on a hot day. Neither node has a fault.
+# **Instrument:** the graph, where two nodes publish on `vent`. **Cause:** a topic may have many publishers, and a
+# subscriber obeys whoever spoke last; nobody decides between them. **Cure:** one node decides. The others tell it
+# what they want, on topics of their own.
+
+# %% [markdown]
+# ## Make it real
+#
+# Nothing in your nodes belongs to this page. They become a package like the one of pages 02 to 06:
+#
+# ```
+# cd "$ROS2_WORKSPACE/src"
+# ros2 pkg create greenhouse --build-type ament_python --dependencies rclpy std_msgs
+# ```
+#
+# Each node gets a file with a `main`, and a line in `entry_points`. A **launch file** starts them all, and says
+# what your list says:
+#
+# ```python
+# from launch import LaunchDescription
+# from launch_ros.actions import Node
+#
+# def generate_launch_description():
+#     return LaunchDescription([
+#         Node(package="greenhouse", executable="vent_control",
+#              parameters=[{"open_above": 27.0}],
+#              remappings=[("temperature", "checked/temperature")]),
+#     ])
+# ```
+#
+# Where `launch_ros` is installed (this course leaves it out), `ros2 launch greenhouse greenhouse.launch.py` runs it. Then only the sensors
+# are pretend: a driver that publishes a `Float32` on `temperature` takes their place, and no other node notices.
+
+# %% [markdown]
+# ## Remember
+#
+# - First the interface, then the requirements, then the drawing, then the code.
+# - One task, one node; one actuator, one node that decides.
+# - A silence is no event: a timer looks.
+# - A reading is believed after somebody has looked at it.
+# - Try one requirement at a time, with a day that asks for it.
+#
+# **Next:** your own robot. The [documentation of ROS 2](https://docs.ros.org/en/jazzy/) goes on where this course
+# ends: [launch files](https://docs.ros.org/en/jazzy/Tutorials/Intermediate/Launch/Launch-Main.html), and
+# [robots you can simulate](https://docs.ros.org/en/jazzy/Tutorials/Advanced/Simulators/Simulation-Main.html).
+
+# %%
+progress()

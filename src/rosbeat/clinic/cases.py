@@ -1,0 +1,161 @@
+"""The cases of the clinic: which faults there are, alone and in pairs, and what the owner says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from random import Random
+
+from rosbeat.clinic import faults, faults_heard
+from rosbeat.clinic.faults import Fault
+from rosbeat.clinic.houses import house, with_humidity, with_teacher
+from rosbeat.clinic.plans import DIARY, DISPLAY, GUARD, SENSOR, Plan, Truth
+
+House = Callable[[Random, str], Plan]
+
+#: Levels: something is silent; nothing is silent and something is wrong; two faults.
+SILENT, HEARD, PAIR = "silent", "heard", "pair"
+
+
+@dataclass(frozen=True)
+class Case:
+    """A kind of patient.
+
+    Attributes:
+        name: What it is called in tests.
+        level: `SILENT`, `HEARD` or `PAIR`.
+        faults: Its faults, one after the other, each with the roles at which it may be.
+        complaint: What the owner says, without the cause, by the role of the (first) fault.
+        house: Draws the healthy system.
+    """
+
+    name: str
+    level: str
+    faults: tuple[tuple[Fault, tuple[str, ...]], ...]
+    complaint: Callable[[str], str]
+    house: House = house
+
+    def drawn(self, rng: Random, place: str) -> Ill:
+        """Draw a patient of this kind."""
+        plan, truths, first = self.house(rng, place), [], ""
+        for fault, roles in self.faults:
+            role = rng.choice(roles)
+            first = first or role
+            plan, truth = fault(plan, role, rng)
+            truths.append(truth)
+        names = {part.role: part.name for part in reversed(plan.parts)}
+        return Ill(self.name, plan, tuple(truths), self.complaint(first).format(**names))
+
+
+@dataclass(frozen=True)
+class Ill:
+    """A system with a fault or two.
+
+    Attributes:
+        case: The name of its case.
+        plan: The system.
+        truths: What is the matter with it.
+        complaint: What its owner says.
+    """
+
+    case: str
+    plan: Plan
+    truths: tuple[Truth, ...]
+    complaint: str
+
+
+def _bursts(rng: Random, place: str) -> Plan:
+    return house(rng, place, burst=5)
+
+
+def _humid(rng: Random, place: str) -> Plan:
+    return with_humidity(house(rng, place))
+
+
+def _taught(rng: Random, place: str) -> Plan:
+    return with_teacher(house(rng, place))
+
+
+_DARK = {
+    SENSOR: "{display} stays dark, and {diary} has nothing.",
+    GUARD: "{display} stays dark. {diary} is fine.",
+    DISPLAY: "{display} stays dark. {diary} is fine.",
+    DIARY: "{diary} has nothing. {display} is fine.",
+}
+_FADED = {
+    SENSOR: "It began well. Then {display} stood still, and {diary} got nothing new.",
+    GUARD: "It began well. Then {display} stood still. {diary} is fine.",
+    DIARY: "It began well. Then {diary} got nothing new. {display} is fine.",
+}
+
+
+def _said(text: str) -> Callable[[str], str]:
+    return lambda _: text
+
+
+_ANYWHERE = (SENSOR, GUARD, DISPLAY, DIARY)
+
+_SILENT = (
+    ("misspelled", faults.misspelled, (SENSOR, DISPLAY, DIARY), _DARK.__getitem__, house),
+    ("namespaced", faults.namespaced, (DISPLAY, DIARY), _DARK.__getitem__, house),
+    ("unfit", faults.unfit, _ANYWHERE, _DARK.__getitem__, house),
+    ("ended", faults.ended, (SENSOR, GUARD, DIARY), _FADED.__getitem__, house),
+    ("mute", faults.mute, (SENSOR, GUARD), _DARK.__getitem__, house),
+    ("unspun", faults.unspun, _ANYWHERE, _DARK.__getitem__, house),
+    ("quiet", faults.quiet, (SENSOR, GUARD), _FADED.__getitem__, house),
+    ("late", faults.late, (DISPLAY,), _said(
+        "The plate is to show the rule, and it stays empty. All the others are fine."), _taught),
+)  # fmt: skip
+_HEARD = (
+    ("two sources", faults_heard.two_sources, (SENSOR,), _said(
+        "The readings jump up and down, as if there were two rooms."), house),
+    ("wrong unit", faults_heard.wrong_unit, (SENSOR,), _said(
+        "{display} says High, day and night. It does not feel like that at all."), house),
+    ("short queue", faults_heard.short_queue, (GUARD, DIARY), {
+        GUARD: "{display} shows fewer readings than {diary} has.",
+        DIARY: "There are gaps in what {diary} has. {display} has shown more than that.",
+    }.__getitem__, _bursts),
+    ("other topic", faults_heard.other_topic, (GUARD, DIARY), {
+        GUARD: "{display} says High all the time. The readings of {diary} are fine.",
+        DIARY: "What {diary} has is not at all what {display} shows.",
+    }.__getitem__, _humid),
+    ("unclamped", faults_heard.unclamped, (SENSOR,), _said(
+        "{diary} has readings that {sensor} should never give."), house),
+    ("clamped first", faults_heard.clamped_first, (SENSOR,), _said(
+        "{diary} has a few readings that {sensor} should never give."), house),
+    ("other rate", faults_heard.other_rate, (SENSOR,), _said(
+        "I cannot say what it is. {diary} does not have as many lines as I expected."), house),
+    ("at the limit", faults_heard.at_the_limit, (GUARD,), _said(
+        "Now and then, {display} and I do not agree. Most of the time we do."), house),
+    ("stuck", faults_heard.stuck, (SENSOR,), _said(
+        "{display} says Normal, always. I do not believe it."), house),
+)  # fmt: skip
+_PAIRS: tuple[tuple[str, Fault, str, Fault, str, str, House], ...] = (
+    ("misspelled, unfit", faults.misspelled, DIARY, faults.unfit, DISPLAY,
+     "{display} stays dark, and {diary} has nothing.", house),
+    ("unfit, unspun", faults.unfit, GUARD, faults.unspun, DISPLAY,
+     "{display} stays dark. I changed {guard} a little, and it is still dark.", house),
+    ("ended, namespaced", faults.ended, GUARD, faults.namespaced, DISPLAY,
+     "{display} never showed anything, not even in the first seconds.", house),
+    ("mute, misspelled", faults.mute, GUARD, faults.misspelled, DISPLAY,
+     "{display} stays dark. {diary} is fine.", house),
+    ("other topic, unclamped", faults_heard.other_topic, GUARD, faults_heard.unclamped, SENSOR,
+     "{display} says High all the time, and {diary} has strange readings.", _humid),
+    ("two sources, stuck", faults_heard.two_sources, SENSOR, faults_heard.stuck, SENSOR,
+     "I do not trust the readings: some are good, and others are all alike.", house),
+    ("short queue, wrong unit", faults_heard.short_queue, DIARY, faults_heard.wrong_unit, SENSOR,
+     "{diary} has gaps, and what it has is hard to believe.", _bursts),
+    ("at the limit, namespaced", faults_heard.at_the_limit, GUARD, faults.namespaced, DISPLAY,
+     "{display} stays dark. Before we moved it, it was wrong now and then.", house),
+    ("other rate, ended", faults_heard.other_rate, SENSOR, faults.ended, DIARY,
+     "{diary} gets nothing new. And something was odd with it before.", house),
+)  # fmt: skip
+
+CASES: tuple[Case, ...] = (
+    *(Case(name, SILENT, ((make, roles),), says, home)
+      for name, make, roles, says, home in _SILENT),
+    *(Case(name, HEARD, ((make, roles),), says, home)
+      for name, make, roles, says, home in _HEARD),
+    *(Case(name, PAIR, ((one, (here,)), (other, (there,))), _said(text), home)
+      for name, one, here, other, there, text, home in _PAIRS),
+)  # fmt: skip

@@ -1,0 +1,19 @@
+"""The diagnoses that a doctor of this clinic knows."""
+
+from __future__ import annotations
+
+from rosbeat.diagnosis.mistakes import mistake
+
+#: More than ever occur.
+KNOWN = (
+    *("topic-misspelled", "wrong-namespace", "wrong-topic"),
+    *("qos-mismatch", "type-mismatch", "depth-too-small", "first-messages-lost"),
+    *("not-spun", "callback-blocks", "node-ended", "never-published", "gone-quiet"),
+    *("run-twice", "two-sources", "wrong-rate"),
+    *("wrong-unit", "never-changes", "no-clamp", "clamped-too-early", "boundary"),
+)
+
+
+def names() -> dict[str, str]:
+    """Every diagnosis that may be given, with what it means; more than ever occur."""
+    return {name: mistake(name).title for name in KNOWN}

@@ -1,0 +1,84 @@
+"""The ward: eleven patients, drawn by a seed."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from random import Random
+
+from rosbeat.clinic.cases import CASES, HEARD, PAIR, SILENT, Ill
+from rosbeat.clinic.charts import Chart
+from rosbeat.clinic.houses import PLACES
+from rosbeat.clinic.patients import Patient, examined
+from rosbeat.errors import ExerciseError
+
+#: How many patients of each level there are, in this order.
+_BEDS = ((SILENT, 4), (HEARD, 4), (PAIR, 3))
+
+
+class Ward:
+    """A clinic for broken systems. The same seed is the same ward, always.
+
+    Patients 1 to 4 have one fault, and something is silent. Patients 5 to 8 have one fault, and
+    nothing is silent. Patients 9 to 11 have two faults.
+
+    Args:
+        seed: Draws which fault each patient has, and all names and numbers.
+
+    Raises:
+        ExerciseError: If the seed is not a whole number from 0 up.
+    """
+
+    def __init__(self, seed: int = 7) -> None:
+        if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**32:
+            raise ExerciseError(
+                f"There is no ward {seed!r}.",
+                "A ward is drawn by its number, a whole one from 0 up.",
+                "Write for example clinic.Ward(seed=7).",
+            )
+        self.seed = seed
+
+    def __len__(self) -> int:
+        return sum(count for _, count in _BEDS)
+
+    def __repr__(self) -> str:
+        places = [f"  {at}: {ill.plan.place}" for at, ill in enumerate(self._ill, 1)]
+        return "\n".join([f"Ward {self.seed}, {len(self)} patients", *places])
+
+    def patient(self, number: int) -> Patient:
+        """One patient, whose session is a new one.
+
+        Args:
+            number: Its number, from 1.
+
+        Raises:
+            ExerciseError: If there is no such patient.
+        """
+        return Patient(number, self._at(number), self.seed)
+
+    def chart(self, number: int) -> Chart:
+        """What the instruments show of a patient, as plain data, with what is the matter.
+
+        Raises:
+            ExerciseError: If there is no such patient.
+        """
+        return examined(self._at(number), self.seed, number)
+
+    def _at(self, number: int) -> Ill:
+        if type(number) is not int or not 1 <= number <= len(self):
+            raise ExerciseError(
+                f"There is no patient {number!r}.",
+                f"The patients of this ward are numbered from 1 to {len(self)}.",
+                "Write for example ward.patient(1).",
+            )
+        return self._ill[number - 1]
+
+    @cached_property
+    def _ill(self) -> tuple[Ill, ...]:
+        rng = Random(self.seed)
+        places = rng.sample(PLACES, len(self))
+        kinds = [
+            case
+            for level, count in _BEDS
+            for case in rng.sample([one for one in CASES if one.level == level], count)
+        ]
+        return tuple(case.drawn(rng, place) for case, place in zip(kinds, places, strict=True))

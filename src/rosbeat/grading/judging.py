@@ -1,0 +1,183 @@
+"""From what came out of a sandbox to an outcome. Nothing of a submission runs here.
+
+What came out is read as JSON and checked field by field; the judge of the exercise, a pure
+function, says what it is worth. If nothing usable came out, how the run ended says why.
+"""
+
+from __future__ import annotations
+
+import gc
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+from rosbeat.checks.verdicts import before_judging, failed, not_attempted
+from rosbeat.diagnosis.faults import first_sentence
+from rosbeat.errors import RecordError
+from rosbeat.exercises.exercise import Exercise
+from rosbeat.grading.jobs import FORGED, LOST, Observed
+from rosbeat.records import Fault, Observation, Outcome
+from rosbeat.scenarios.evidence import from_json
+
+_WHERE = "the cell"
+#: What is said of an answer that took its watchers along; the next run tries it again.
+WATCHER_LOST = "The process that watched the answer was lost."
+#: Ids of what is said of a run that did not come to its end; see `diagnosis.beyond.grading`.
+TIME, MEMORY, OUTPUT, CRASH = "too-long", "too-much-memory", "too-much-output", "crashed"
+LEFT, TAMPERED, UNREADABLE = "left-early", "changes-the-course", "evidence-unreadable"
+NO_PYTHON = "unreadable-cell"
+#: What Python raises before the first line of a cell runs, and where to look then.
+_UNREAD = {
+    "SyntaxError": "Look at this line and at the end of the line above it: is there a colon, a "
+    "bracket, a comma or a quotation mark too few, or one too many?",
+    "IndentationError": "Lines that belong together begin in the same column, and those after a "
+    "colon stand further to the right.",
+    "TabError": "Lines that belong together begin with the same blanks, not here with a tab and "
+    "there with blanks.",
+}
+
+
+def judge(exercise: Exercise[Any], observed: Observed) -> Outcome:
+    """Say what an answer is worth.
+
+    Args:
+        exercise: The exercise.
+        observed: What came out of the sandbox; not trusted.
+    """
+    outcome = _before_reading(exercise.id, observed) or _read(exercise, observed)
+    return replace(outcome, out_of=exercise.points)
+
+
+def _before_reading(exercise: str, observed: Observed) -> Outcome | None:
+    """What can be said without evidence; None if there is some."""
+    if observed.changed and observed.how == "ended":
+        return _tampered(exercise, observed.changed)
+    if observed.how == "ended" and observed.evidence:
+        return None
+    if observed.how == "ended" and observed.raised:
+        return _raised(exercise, observed)
+    return _ENDINGS.get(observed.how, _left)(exercise, observed)
+
+
+def _read(exercise: Exercise[Any], observed: Observed) -> Outcome:
+    try:
+        with _uncollected():
+            return exercise.judged(from_json(observed.evidence))
+    except RecordError as error:
+        return _forged(exercise.id, str(error.what))
+    except Exception as error:  # a judge may meet evidence that no scenario would have written
+        return _forged(exercise.id, f"it has led to {type(error).__name__}")
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Look for no garbage meanwhile: evidence is plain data, and much of it, and has no cycles."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
+
+
+def _raised(exercise: str, observed: Observed) -> Outcome:
+    """The cell itself could not be run; what is said is what is said of any exception."""
+    if observed.raised in _UNREAD:
+        return _unread(exercise, observed)
+    fault = Fault(
+        *(0, "", _WHERE, observed.raised, observed.text, observed.line, observed.code),
+    )
+    outcome = before_judging(exercise, Observation(0, 0, faults=(fault,)))
+    assert outcome is not None  # there is an exception
+    return outcome
+
+
+def _unread(exercise: str, observed: Observed) -> Outcome:
+    """Python has refused the cell as a whole; on the page, running it shows where."""
+    says = first_sentence(observed.text) or observed.raised
+    where = f" Line {observed.line}: `{observed.code}`." if observed.line and observed.code else ""
+    return failed(
+        exercise,
+        f"Python says: {says}.{where} So nothing of the cell has run.",
+        _UNREAD[observed.raised],
+        NO_PYTHON,
+    )
+
+
+def _tampered(exercise: str, changed: tuple[str, ...]) -> Outcome:
+    return failed(
+        exercise,
+        f"The answer changes what observes it: {', '.join(changed)}.",
+        "An answer is a program of its own. Leave the course, ROS and Python as they are.",
+        TAMPERED,
+    )
+
+
+def _forged(exercise: str, why: str) -> Outcome:
+    return failed(
+        exercise,
+        f"What the run has left cannot be what the course has written: {why}.",
+        "Nothing was judged. An answer needs no files, pipes or processes of its own.",
+        UNREADABLE,
+    )
+
+
+def _too_long(exercise: str, _: Observed) -> Outcome:
+    return failed(
+        exercise,
+        "The answer does not come to an end, and was stopped.",
+        "Look for a loop that nothing ends, or a call that waits: spin, sleep, input.",
+        TIME,
+    )
+
+
+def _too_large(exercise: str, observed: Observed) -> Outcome:
+    what, where = ("memory", "a list that only grows, or a loop that makes nodes")
+    if observed.how != "memory":
+        what, where = ("output", "a loop that prints or publishes without end")
+    name = MEMORY if observed.how == "memory" else OUTPUT
+    return failed(exercise, f"The answer used too much {what}.", f"Look for {where}.", name)
+
+
+def _by_signal(exercise: str, observed: Observed) -> Outcome:
+    if observed.number == signal.SIGXCPU:
+        return _too_long(exercise, observed)
+    try:
+        name = signal.Signals(observed.number).name
+    except ValueError:
+        name = f"signal {observed.number}"
+    hint = "Something ended the process from below Python, or the answer ended it itself."
+    return failed(exercise, f"The process of the answer died ({name}).", hint, CRASH)
+
+
+def _left(exercise: str, observed: Observed) -> Outcome:
+    how = (
+        f"with exit code {observed.number}" if observed.number else "before anything could be seen"
+    )
+    hint = "Take out what ends the program: exit, quit, os._exit. The check runs the node."
+    return failed(exercise, f"The answer ended its process {how}.", hint, LEFT)
+
+
+def _lost(exercise: str, _: Observed) -> Outcome:
+    hint = "It was tried more than once. Your instructor can look at it."
+    return failed(exercise, WATCHER_LOST, hint, CRASH)
+
+
+_ENDINGS: dict[str, Callable[[str, Observed], Outcome]] = {
+    "deadline": _too_long,
+    "memory": _too_large,
+    "output": _too_large,
+    "result": _too_large,
+    "signal": _by_signal,
+    "exit": _left,
+    FORGED: lambda exercise, _: _forged(exercise, "it bears no seal"),
+    LOST: _lost,
+}
+
+
+def untouched(exercise: Exercise[Any]) -> Outcome:
+    """The outcome of a cell that nobody has filled in."""
+    return replace(not_attempted(exercise.id), out_of=exercise.points)

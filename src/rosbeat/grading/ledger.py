@@ -1,0 +1,129 @@
+"""What has been judged already, so that nothing is observed twice.
+
+A line of JSON for each answer, added and brought to the disk as soon as it is judged: whoever pulls
+the plug loses the answers that were being observed, and no others. An answer is known by all that
+decides about it: its job, and the version of the course.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from hashlib import sha256
+from pathlib import Path
+from types import TracebackType
+from typing import Any, BinaryIO
+
+from rosbeat.errors import GradingError, RecordError
+from rosbeat.grading.jobs import Job, write_line
+from rosbeat.grading.remarks import printable
+from rosbeat.record_json import record, write
+from rosbeat.records import Outcome
+
+FILE = "judged.jsonl"
+_PACKAGE = Path(__file__).resolve().parents[1]
+_SOURCES = ("*.py", "*.json", "*.txt", "*.bash")
+
+
+def course_version() -> str:
+    """A digest of all that observes and judges: another one gives other marks, perhaps."""
+    digest = sha256()
+    for pattern in _SOURCES:
+        for path in sorted(_PACKAGE.rglob(pattern)):
+            digest.update(path.relative_to(_PACKAGE).as_posix().encode() + b"\0")
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def key_of(job: Job, version: str) -> str:
+    """What an answer is known by.
+
+    Args:
+        job: All that decides what is observed.
+        version: The version of the course that judges.
+    """
+    return sha256(f"{version}\n{write_line(job)}".encode("utf-8", "backslashreplace")).hexdigest()
+
+
+class Ledger:
+    """Outcomes by key, in a file; usable in a `with` block.
+
+    Args:
+        path: The file; it is made if it is not there.
+
+    Raises:
+        GradingError: If it cannot be read or written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._known: dict[str, Outcome] = {}
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._file: BinaryIO = path.open("ab+")
+            self._read()
+        except OSError as error:
+            raise self._trouble(error) from error
+
+    def __enter__(self) -> Ledger:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._file.close()
+
+    def __len__(self) -> int:
+        return len(self._known)
+
+    def get(self, key: str) -> Outcome | None:
+        """The outcome of an answer, if it has been judged."""
+        return self._known.get(key)
+
+    def add(self, key: str, outcome: Outcome, stays: bool = True) -> None:
+        """Keep an outcome.
+
+        Args:
+            key: What the answer is known by.
+            outcome: What was said of it.
+            stays: Whether it is kept for later runs, too.
+
+        Raises:
+            GradingError: If it cannot be written.
+        """
+        self._known[key] = outcome
+        if not stays:
+            return
+        line = write(outcome, {"key": key})
+        try:
+            self._file.write(line.encode("ascii") + b"\n")
+            self._file.flush()
+            os.fdatasync(self._file.fileno())
+        except OSError as error:
+            raise self._trouble(error) from error
+
+    def _read(self) -> None:
+        self._file.seek(0)
+        data = self._file.read()
+        for line in data.splitlines():
+            self._take(line)
+        if data and not data.endswith(b"\n"):  # somebody pulled the plug in the middle of a line
+            self._file.write(b"\n")
+
+    def _take(self, line: bytes) -> None:
+        try:
+            body: Any = json.loads(line)
+            key = body.pop("key")
+            self._known[str(key)] = record(Outcome, body, "outcome")
+        except (ValueError, KeyError, AttributeError, TypeError, RecursionError, RecordError):
+            return  # half a line, or one of an older version: it is judged again
+
+    def _trouble(self, error: OSError) -> GradingError:
+        return GradingError(
+            f"{printable(str(self._path))} cannot be used: {error.strerror or error}.",
+            "It keeps what is judged already, so that nothing is done twice.",
+            "Make room, or give another folder with --out.",
+        )

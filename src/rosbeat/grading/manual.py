@@ -1,0 +1,275 @@
+"""What a person gives by hand: points and comments that stay, however often a class is graded.
+
+`manual.csv` has the columns `learner,exercise,points,comment`, in any order and with others between
+them. Points may be empty: then those of the judge stay. The exercise may be empty: then the comment
+is about the whole. Nothing here writes into a file that a person has written in, and a line that
+cannot be used is told and costs no other line.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from rosbeat.errors import GradingError
+from rosbeat.grading.cells import csv_text, number
+from rosbeat.grading.marks import HELD, LOOKED_AT, Gradebook, Graded, Mark
+from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.roll import Roll, UnusableError
+from rosbeat.grading.sheets import Row, read_sheet
+from rosbeat.grading.weights import DIGITS
+from rosbeat.grading.writing import write_whole
+
+FILE = "manual.csv"
+COLUMNS = ("learner", "exercise", "points", "comment")
+#: The template has the name as well: who knows learner 4711?
+_TEMPLATE = ("learner", "name", "exercise", "points", "comment")
+#: What is said of an answer that was held, when it has points.
+_LOOKED_AT = "Looked at by the instructor."
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of the file, as it stands there.
+
+    Attributes:
+        number: Which line of the file it is, from 1.
+        learner: Whom it is about.
+        exercise: The exercise, or empty.
+        points: The points, or empty.
+        comment: What to tell the learner, or empty.
+    """
+
+    number: int
+    learner: str
+    exercise: str
+    points: str
+    comment: str
+
+
+@dataclass(frozen=True)
+class Manual:
+    """All that stands in the file.
+
+    Attributes:
+        lines: Its lines, those without points and comment left out.
+        remarks: What could not be read.
+    """
+
+    lines: tuple[Line, ...] = ()
+    remarks: tuple[Remark, ...] = ()
+
+
+def read_manual(path: Path) -> Manual:
+    """Read what was given by hand; nothing, if there is no file.
+
+    Args:
+        path: The file `manual.csv`.
+
+    Raises:
+        GradingError: If there is such a file and it cannot be opened.
+    """
+    if not path.exists():
+        return Manual()
+    sheet = read_sheet(_bytes(path), COLUMNS)
+    remarks = [_remark(line, text) for line, text in sheet.problems]
+    if not {"points", "comment"} & set(sheet.header):
+        remarks.append(_remark(1, "There is no column points and none comment."))
+    lines = [_line(row) for row in sheet.rows]
+    return Manual(tuple(one for one in lines if one.points or one.comment), tuple(remarks))
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise GradingError(
+            f"{printable(str(path))} cannot be read: {error.strerror or error}.",
+            "Points and comments that you gave by hand would be missing in every result.",
+            "Close the file where it is open, look at its rights, and run the command again.",
+        ) from error
+
+
+def _line(row: Row) -> Line:
+    return Line(row.line, *(row.cells.get(name, "") for name in COLUMNS))
+
+
+def _remark(line: int, text: str) -> Remark:
+    return Remark("manual", f"{FILE}, line {line}", text)
+
+
+# Applying.
+
+
+@dataclass(frozen=True)
+class _Given:
+    """What was given for one exercise, or for the whole."""
+
+    points: float | None = None
+    comment: str = ""
+
+
+def apply_manual(
+    gradebook: Gradebook, manual: Manual, before: Gradebook | None = None
+) -> Gradebook:
+    """Put points and comments that were given by hand into a gradebook.
+
+    An exercise that was held for a person to look at has been looked at then, and says nothing else
+    any more. `judged` stays what the judge gave. Points are points: they stay what was written when
+    an exercise gets another worth, and a remark says so.
+
+    Args:
+        gradebook: What was judged.
+        manual: What stands in the file.
+        before: The results of the last time, from which is known what exercises were worth.
+
+    Returns:
+        The gradebook with both; lines that could not be used are among its remarks.
+    """
+    roll = Roll(gradebook.learners)
+    given: dict[tuple[str, str], _Given] = {}
+    remarks = list(manual.remarks)
+    worth = _worth(before) if before else {}
+    for line in manual.lines:
+        try:
+            graded, mark = roll.learner(line.learner), None
+            mark = _mark(graded, line.exercise) if line.exercise else None
+        except UnusableError as error:
+            said = f"{error} Nothing is taken from this line. {error.to_try}"
+            remarks.append(_remark(line.number, said))
+            continue
+        place = graded.learner, mark.exercise if mark else ""
+        now = _read(line, mark, remarks)
+        given[place] = _merged(given.get(place, _Given()), now, line, remarks)
+        if mark and now.points is not None and worth.get(place, mark.out_of) != mark.out_of:
+            remarks.append(_remark(line.number, _of_another_worth(mark, worth[place], now.points)))
+    learners = [_with(one, given) for one in gradebook.learners]
+    return replace(gradebook, learners=tuple(learners), remarks=(*gradebook.remarks, *remarks))
+
+
+def _worth(before: Gradebook) -> dict[tuple[str, str], float]:
+    """What exercises were worth when points were given by hand, by learner and exercise."""
+    return {
+        (graded.learner, mark.exercise): mark.out_of
+        for graded in before.learners
+        for mark in graded.marks
+        if mark.manual
+    }
+
+
+def _of_another_worth(mark: Mark, before: float, points: float) -> str:
+    return (
+        f"{mark.exercise} was worth {number(before)} the last time and is worth "
+        f"{number(mark.out_of)} now. The points of this line stay {number(points)}: look whether "
+        "that is still what you mean."
+    )
+
+
+def _mark(graded: Graded, exercise: str) -> Mark:
+    wanted = exercise.strip("' ").casefold()
+    for mark in graded.marks:
+        if mark.exercise in (wanted, f"0{wanted}"):  # 3a and 03a
+            return mark
+    shown = printable(exercise, 40)
+    graded_are = ", ".join(mark.exercise for mark in graded.marks) or "none"
+    raise UnusableError(
+        f"There is no exercise {shown!r} among those that are graded.",
+        f"Write one of these, or leave it empty for a comment about the whole: {graded_are}.",
+    )
+
+
+def _read(line: Line, mark: Mark | None, remarks: list[Remark]) -> _Given:
+    try:
+        points = _points(line.points, mark) if line.points else None
+    except UnusableError as error:
+        said = f"{error} The points stay as they were judged. {error.to_try}"
+        remarks.append(_remark(line.number, said))
+        points = None
+    return _Given(points, line.comment)
+
+
+def _points(text: str, mark: Mark | None) -> float:
+    shown = printable(text, 40)
+    if mark is None:
+        raise UnusableError(
+            f"Points ({shown}) belong to an exercise, and none is named.",
+            "Write the exercise, such as 03a, or leave the points empty.",
+        )
+    to_try = f"Write a number from 0 to {number(mark.out_of)}, or nothing."
+    try:
+        points = float(text.replace(",", "."))
+    except ValueError:
+        raise UnusableError(f"{shown!r} is no number of points.", to_try) from None
+    if not 0 <= points <= mark.out_of:  # which no NaN is
+        top = number(mark.out_of)
+        raise UnusableError(f"{mark.exercise} has points from 0 to {top}, not {shown}.", to_try)
+    return round(points, DIGITS)
+
+
+def _merged(before: _Given, now: _Given, line: Line, remarks: list[Remark]) -> _Given:
+    if before != _Given():
+        about = "This learner and exercise have an earlier line too; the later one counts."
+        remarks.append(_remark(line.number, about))
+    points = before.points if now.points is None else now.points
+    return _Given(points, now.comment or before.comment)
+
+
+def _with(graded: Graded, given: dict[tuple[str, str], _Given]) -> Graded:
+    marks = [
+        _marked(mark, given.get((graded.learner, mark.exercise), _Given())) for mark in graded.marks
+    ]
+    whole = given.get((graded.learner, ""), _Given())
+    return replace(graded, marks=tuple(marks), comment=whole.comment or graded.comment)
+
+
+def _marked(mark: Mark, given: _Given) -> Mark:
+    commented = replace(mark, comment=given.comment or mark.comment)
+    if given.points is None:
+        return commented
+    settled = replace(commented, points=given.points, manual=True)
+    if mark.status == HELD:
+        said = replace(settled, status=LOOKED_AT, cause=_LOOKED_AT)
+        return replace(said, evidence="", hint="", mistake="")
+    cause = f"Set by hand to {number(given.points)} of {number(mark.out_of)}. {mark.cause}".strip()
+    return replace(settled, cause=cause)
+
+
+# The template.
+
+
+def template(gradebook: Gradebook) -> str:
+    """A file to fill in, with a line for each exercise that is held for a person to look at.
+
+    Args:
+        gradebook: What was judged.
+    """
+    rows: list[tuple[str, ...]] = [_TEMPLATE]
+    for graded in gradebook.learners:
+        held = [mark for mark in graded.marks if mark.status == HELD]
+        rows += [(graded.learner, graded.name, mark.exercise, "", "") for mark in held]
+    return "\ufeff" + csv_text(rows)
+
+
+def write_template(path: Path, gradebook: Gradebook) -> bool:
+    """Write the template, unless a person has written something into the file.
+
+    Args:
+        path: The file `manual.csv`.
+        gradebook: What was judged.
+
+    Returns:
+        Whether the file is now the template.
+
+    Raises:
+        GradingError: If it cannot be read or written.
+    """
+    if path.exists() and not _is_untouched(_bytes(path)):
+        return False
+    write_whole(path, template(gradebook))
+    return True
+
+
+def _is_untouched(data: bytes) -> bool:
+    sheet = read_sheet(data, COLUMNS)
+    written = [row for row in sheet.rows if row.cells.get("points") or row.cells.get("comment")]
+    return sheet.header == _TEMPLATE and not written and not sheet.problems

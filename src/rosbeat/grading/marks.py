@@ -1,0 +1,126 @@
+"""What grading gives: the mark of each exercise, and all of a learner's and of a class together.
+
+Plain data, made from outcomes. Every file that `rosbeat grade` writes is made from these records.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rosbeat.grading.remarks import Remark
+from rosbeat.records import Part
+
+#: What may be said of an exercise besides the three statuses of an outcome: its page was not handed
+#: in; it has no points yet, because a person has to look at it or the file breaks off before it; a
+#: person has looked at it and given points.
+MISSING, HELD, LOOKED_AT = "missing", "held", "looked at"
+
+
+@dataclass(frozen=True)
+class Mark:
+    """One exercise of one learner.
+
+    Attributes:
+        exercise: The exercise's id, such as `03a`.
+        title: What the exercise is about.
+        page: The lesson's name, such as `03_write_a_publisher`.
+        status: `passed`, `failed`, `not attempted`, `missing`, `held` or `looked at`.
+        points: Points that count, a manual mark included.
+        out_of: Points that there are.
+        cause: Why these points, one sentence for a table.
+        mistake: Id of the mistake, empty if there is none.
+        evidence: What was observed.
+        hint: What to think about next.
+        remarks: What is worth knowing although the answer is right.
+        parts: The requirements, if there are points for each.
+        repairs: What was done to find the answer on the page, a sentence each.
+        judged: Points before a manual mark.
+        manual: Whether a person has set the points.
+        comment: What a person has written to the learner.
+        late: Whether the page was handed in late.
+        seconds: How long it was observed, by the clock on the wall.
+        answer: The text of an answer that a person has to look at, or has looked at.
+        file: The file that an exercise which is or was held was handed in with.
+    """
+
+    exercise: str
+    title: str
+    page: str
+    status: str
+    points: float
+    out_of: float
+    cause: str
+    mistake: str = ""
+    evidence: str = ""
+    hint: str = ""
+    remarks: tuple[str, ...] = ()
+    parts: tuple[Part, ...] = ()
+    repairs: tuple[str, ...] = ()
+    judged: float = 0.0
+    manual: bool = False
+    comment: str = ""
+    late: bool = False
+    seconds: float = 0.0
+    answer: str = ""
+    file: str = ""
+
+    @property
+    def waits_for_its_file(self) -> bool:
+        """Whether it has no points yet because its file breaks off before it."""
+        return self.status == HELD and bool(self.file) and not self.answer
+
+
+@dataclass(frozen=True)
+class Graded:
+    """One learner.
+
+    Attributes:
+        learner: What tells this learner from others.
+        name: What the learner is called.
+        system: Where the submission came from: `moodle`, `canvas` or `folder`.
+        marks: One for each exercise that was graded for, in the order of the course.
+        remarks: What is worth telling about the files.
+        comment: What a person has written to the learner about the whole.
+    """
+
+    learner: str
+    name: str
+    system: str
+    marks: tuple[Mark, ...]
+    remarks: tuple[Remark, ...] = ()
+    comment: str = ""
+
+    @property
+    def called(self) -> str:
+        """The name, with what tells the learner from others of that name."""
+        return self.name if self.name == self.learner else f"{self.name} ({self.learner})"
+
+    @property
+    def points(self) -> float:
+        """The sum of the points that count."""
+        return round(sum(mark.points for mark in self.marks), 6)
+
+    @property
+    def out_of(self) -> float:
+        """The sum of the points that there are."""
+        return round(sum(mark.out_of for mark in self.marks), 6)
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether all points are known: no exercise is held."""
+        return all(mark.status != HELD for mark in self.marks)
+
+
+@dataclass(frozen=True)
+class Gradebook:
+    """A class.
+
+    Attributes:
+        course: The version of the course that has judged.
+        learners: One for each learner, sorted by `learner`.
+        remarks: About files that belong to no learner.
+    """
+
+    course: str
+    learners: tuple[Graded, ...]
+    remarks: tuple[Remark, ...] = ()

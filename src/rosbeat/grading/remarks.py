@@ -1,0 +1,45 @@
+"""What is worth telling an instructor about a file that was handed in."""
+
+from __future__ import annotations
+
+import unicodedata
+from dataclasses import dataclass
+
+#: Characters of a name that a report shows.
+_MOST = 120
+
+
+@dataclass(frozen=True)
+class Remark:
+    """Something about one file.
+
+    Attributes:
+        about: What it is: `late`, `duplicate`, `renamed`, `empty`, `half-uploaded`, `mended`,
+            `wrong-course`, `unreadable`, `too-large`, `refused` or `left-out`; or `manual`, a line
+            of `manual.csv`; or `sample`, an answer of which a kernel shows something else.
+        path: The file, as it was named, made safe to print.
+        text: One sentence about what was found and what was done.
+    """
+
+    about: str
+    path: str
+    text: str
+
+
+def printable(name: str, most: int = _MOST) -> str:
+    r"""A name without characters that would change a terminal, a table or the direction of text.
+
+    Control, format and unassigned characters (Unicode categories C*) are written as `\u....`.
+
+    Args:
+        name: Any text, such as the name of a file that a stranger has chosen.
+        most: Characters to show at most.
+    """
+    shown = name[: most + 1]
+    if not shown.isprintable():  # most names are, and the rest takes its time
+        shown = "".join(map(_shown, shown))
+    return shown if len(shown) <= most else shown[: most - 3] + "..."
+
+
+def _shown(one: str) -> str:
+    return f"\\u{ord(one):04x}" if unicodedata.category(one).startswith("C") else one

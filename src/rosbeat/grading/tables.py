@@ -1,0 +1,175 @@
+"""The tables that `rosbeat grade` writes: one to look at, and one for each system to upload.
+
+Where the forms come from:
+
+- Moodle: the offline grading worksheet. `mod/assign/feedback/offline/importgradeslib.php` wants the
+  columns `Identifier` (`Participant` and the number that is in the names of downloaded files),
+  `Grade` and `Last modified (grade)`, in the language that Moodle is shown in, and takes `Feedback
+  comments`, which `mod/assign/feedback/comments/locallib.php` stores as HTML. `locallib.php` beside
+  the first leaves a row out, without a word, if its grade is empty or above the maximum.
+- Canvas: the gradebook. `lib/gradebook_importer.rb` wants `Student`, `ID`, ... `Section` first. It
+  finds a learner by the ID, which is in the names of downloaded files, and the assignment by its
+  title, or by the number in brackets behind it. A row that begins with `Points Possible` says what
+  the assignment is worth.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from html import escape
+
+from rosbeat.errors import GradingError
+from rosbeat.grading.cells import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number
+from rosbeat.grading.learners import own_path
+from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
+from rosbeat.grading.remarks import Remark, printable
+
+#: Excel takes a file for UTF-8 only if it begins with this; others skip it.
+_BYTE_ORDER_MARK = "\ufeff"
+_GRADES = (
+    *("learner", "name", "system", "page", "exercise", "title", "status", "points", "out_of"),
+    *("cause", "mistake", "late", "judged", "manual", "comment", "repairs"),
+)
+_MOODLE = (
+    *("Identifier", "Full name", "Email address", "Status", "Grade", "Maximum Grade"),
+    *("Grade can be changed", "Last modified (submission)", "Last modified (grade)"),
+    "Feedback comments",
+)
+_CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+_POINTS_POSSIBLE = "Points Possible"
+#: Columns of which Canvas makes no assignment, because its own export has them.
+_CANVAS_S_OWN = re.compile(
+    r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)", re.IGNORECASE
+)
+#: Signs of formulas as HTML, so that the file is harmless in a spreadsheet too.
+_AS_HTML = {ord(sign): f"&#{ord(sign)};" for sign in FORMULA_SIGNS}
+#: Characters of one sentence or comment in Moodle's feedback.
+_MOST_OF_A_LINE = 2_000
+#: Remarks about files in Moodle's feedback.
+_MOST_FILES = 10
+
+
+def grades_csv(gradebook: Gradebook) -> str:
+    """A row for each learner and exercise, with the cause, to open in a spreadsheet.
+
+    It begins with a byte order mark: without one, Excel shows every name that is not ASCII wrong.
+
+    Args:
+        gradebook: A class.
+    """
+    rows = [_GRADES, *(_row(one, mark) for one in gradebook.learners for mark in one.marks)]
+    return _BYTE_ORDER_MARK + csv_text(rows)
+
+
+def _row(graded: Graded, mark: Mark) -> tuple[str | float, ...]:
+    return (
+        *(graded.learner, graded.name, graded.system, mark.page, mark.exercise, mark.title),
+        *(mark.status, mark.points, mark.out_of, mark.cause, mark.mistake, _yes(mark.late)),
+        *(mark.judged, _yes(mark.manual), mark.comment, " ".join(mark.repairs)),
+    )
+
+
+def _yes(is_so: bool) -> str:
+    return "yes" if is_so else ""
+
+
+def moodle_csv(gradebook: Gradebook) -> str:
+    """Moodle's grading worksheet: "Upload grading worksheet" of an assignment takes it.
+
+    Moodle has to be shown in English, the assignment's maximum grade has to be the learner's
+    `out_of`, and for a second upload the instructor allows Moodle to update records that are newer.
+    Who has an exercise that is held has no grade yet, and Moodle leaves such a row alone.
+
+    Args:
+        gradebook: A class.
+
+    Returns:
+        The file; empty if nobody's submission came from Moodle.
+    """
+    learners = [one for one in gradebook.learners if one.system == "moodle"]
+    return csv_text([_MOODLE, *map(_of_moodle, learners)]) if learners else ""
+
+
+def _of_moodle(graded: Graded) -> tuple[str | float, ...]:
+    grade = graded.points if graded.is_settled else ""
+    who = f"Participant {graded.learner}", graded.name, ""
+    return *who, "", grade, graded.out_of, "Yes", "-", "-", _feedback(graded)
+
+
+def _feedback(graded: Graded) -> str:
+    """What Moodle shows to the learner, as HTML; no sentence is broken off to fit into a cell."""
+    lines: list[str] = []
+    room = MOST_OF_A_CELL
+    for line in _feedback_lines(graded):
+        room -= len(line)
+        if room < 0:
+            break
+        lines.append(line)
+    return "".join(lines)
+
+
+def _feedback_lines(graded: Graded) -> Iterator[str]:
+    if graded.is_settled:
+        yield f"<p>{_html(number(graded.points))} of {_html(number(graded.out_of))} points.</p>"
+    elif any(mark.waits_for_its_file for mark in graded.marks):
+        yield "<p>One of your files is not whole, so there are no points yet. Hand it in again.</p>"
+    else:
+        yield "<p>Your instructor will look at one of your answers; then there are points.</p>"
+    if graded.comment:
+        yield f"<p>{_html(graded.comment)}</p>"
+    yield from _file_lines(graded.remarks)
+    for mark in graded.marks:
+        reached = f"{number(mark.points)} of {number(mark.out_of)}"
+        reached = "not settled yet" if mark.status == HELD else reached
+        told = f"{mark.exercise}, {mark.title}: {reached}. {mark.cause}"
+        comment = f"<br>{_html(mark.comment)}" if mark.comment else ""
+        yield f"<p>{_html(told)}{comment}</p>"
+
+
+def _file_lines(remarks: Sequence[Remark]) -> Iterator[str]:
+    """What was noticed about files, so that nobody has to guess where points went."""
+    for one in remarks[:_MOST_FILES]:
+        yield f"<p>{_html(f'{own_path(one.path)}: {one.text}')}</p>"
+    if len(remarks) > _MOST_FILES:
+        yield f"<p>And {len(remarks) - _MOST_FILES} more remarks about your files.</p>"
+
+
+def _html(text: str) -> str:
+    lines = [printable(line, _MOST_OF_A_LINE) for line in text.splitlines()]
+    return "<br>".join(escape(line).translate(_AS_HTML) for line in lines)
+
+
+def canvas_csv(gradebook: Gradebook, assignment: str = "rosbeat") -> str:
+    """Canvas's gradebook: "Import" of the gradebook takes it.
+
+    Who has an exercise that is held has no grade yet.
+
+    Args:
+        gradebook: A class.
+        assignment: The assignment's title in Canvas, best with its number in brackets, as in
+            `Publishers (4711)`. If there is none of that title, Canvas offers to make one.
+
+    Returns:
+        The file; empty if nobody's submission came from Canvas.
+
+    Raises:
+        GradingError: If Canvas would not take the title for that of an assignment.
+    """
+    learners = [one for one in gradebook.learners if one.system == "canvas"]
+    if not assignment.strip() or assignment in _CANVAS or _CANVAS_S_OWN.search(assignment):
+        raise GradingError(
+            f"{printable(assignment)!r} cannot be the title of an assignment in Canvas.",
+            "Canvas has a column of its own with that name, and would leave the points out.",
+            "Give the assignment's title, or its title with the number: Publishers (4711).",
+        )
+    whole = max((one.out_of for one in learners), default=0.0)
+    rows: list[tuple[str | float, ...]] = [(*_CANVAS, assignment)]
+    rows.append((f"    {_POINTS_POSSIBLE}", "", "", "", "", whole))
+    return csv_text([*rows, *map(_of_canvas, learners)]) if learners else ""
+
+
+def _of_canvas(graded: Graded) -> tuple[str | float, ...]:
+    grade = graded.points if graded.is_settled else ""
+    name = re.sub(rf"(?i){_POINTS_POSSIBLE}", "?", graded.name)  # no learner's row is that row
+    return name, graded.learner, "", "", "", grade

@@ -1,0 +1,223 @@
+"""A process that is prepared once and forks a sandbox for each job: `python -m ...worker`.
+
+It reads jobs, a line of JSON each, and answers each with a line. Interpreter, ROS and message types
+are imported once, before the first fork; ROS itself is started in the child only, for a fork after
+`rclpy.init` hangs. Nothing of a judge is ever imported here: what a process knows, its forks know.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import inspect
+import json
+import os
+import secrets
+import signal
+import sys
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any, TextIO
+
+from rosbeat.errors import GradingError
+from rosbeat.grading.inside.frozen import freeze
+from rosbeat.grading.inside.intact import Census, census
+from rosbeat.grading.inside.kernel import kernel_files, kernel_job
+from rosbeat.grading.inside.observing import observe_job
+from rosbeat.grading.inside.replaying import replay_job
+from rosbeat.grading.jobs import FORGED, READY, Job, Observed, read_job, write_line
+from rosbeat.grading.sandbox import linux
+from rosbeat.grading.sandbox.cage import Cage, become_gate, python_folders
+from rosbeat.grading.sandbox.limits import Limits
+from rosbeat.grading.sandbox.running import Ending, run_caged
+from rosbeat.grading.sandbox.unsafe import become_bare
+from rosbeat.grading.workspaces import files_before
+from rosbeat.runtime.type_support import load_type_support
+from rosbeat.scenarios import registry
+
+#: What answers use, and what takes time to import.
+_PREPARED = (
+    *("rclpy", "rclpy.node", "rclpy.qos", "rclpy.executors", "rclpy.action"),
+    *("numpy", "numpy.random"),
+    *("std_msgs.msg", "std_srvs.srv", "sensor_msgs.msg", "rcl_interfaces.msg", "test_msgs.action"),
+    *("rosbeat.runtime.scenario", "rosbeat.runtime.drift", "rosbeat.runtime.systems"),
+)
+#: Types of messages that answers use, and of the services and topics that every node has.
+_TYPES = (
+    *(f"std_msgs/msg/{name}" for name in ("Bool", "Float32", "Int32", "String")),
+    *(f"rcl_interfaces/msg/{name}" for name in ("Log", "ParameterEvent")),
+    *(f"rcl_interfaces/srv/{name}Parameters" for name in ("Describe", "Get", "List", "Set")),
+    *("rcl_interfaces/srv/SetParametersAtomically", "rcl_interfaces/srv/GetParameterTypes"),
+    "type_description_interfaces/srv/GetTypeDescription",
+)
+#: Variables that name a file of settings.
+_FILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "COLCON_DEFAULTS_FILE")
+#: Variables of the environment that ROS needs; nothing else of it reaches a sandbox.
+_KEPT = (
+    *("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_PYTHON_CHECK_FIELDS", "LANG", "LC_ALL", "TZ"),
+    *_FILES,
+)
+#: Rooms of this package that know answers or judge them, or are nobody's business in there.
+_HIDDEN = ("exercises", "clinic", "checks", "grading", "authoring", "workspace/finished")
+#: Seconds that one answer may take by the clock on the wall, and a page of terminals.
+WALL, WALL_OF_A_PAGE = 60.0, 240.0
+_REHEARSAL = """
+class Rehearsal(Node):
+    def __init__(self):
+        super().__init__("rehearsal")
+"""
+#: What makes a worker run without a sandbox.
+UNSAFE = "--unsafe-no-sandbox"
+
+
+def main(lines: TextIO = sys.stdin, answers: TextIO = sys.stdout, unsafe: bool = False) -> None:
+    """Answer jobs until there are no more.
+
+    Args:
+        lines: Where jobs come from.
+        answers: Where what was observed goes to.
+        unsafe: Whether answers run with limits only.
+    """
+    before = prepare()
+    cage = furnished()
+    trouble = rehearse(cage, before, unsafe)
+    print(READY, file=answers, flush=True)
+    for line in lines:
+        try:
+            if trouble is not None:
+                raise trouble
+            said = write_line(observed(read_job(line), cage, before, unsafe))
+        except GradingError as error:
+            parts = [error.what, error.means, error.to_try]
+            said = json.dumps({"refused": parts})
+        print(said, file=answers, flush=True)
+
+
+def prepare() -> Census:
+    """Import what answers will need, and load the C part of their message types.
+
+    Returns:
+        What is there then.
+    """
+    for name in (*_PREPARED, *(f"rosbeat.scenarios.{one}" for one in registry.MODULES)):
+        importlib.import_module(name)
+    load_type_support(_TYPES)
+    # The first log line of a process looks for the file of each module; it finds them here.
+    inspect.getmodule(sys._getframe())
+    found = census()
+    freeze(found)
+    return found
+
+
+def furnished() -> Cage:
+    """The sandbox of an answer: Python, ROS and a part of this package; an empty environment."""
+    kept = {name: os.environ[name] for name in _KEPT if name in os.environ}
+    package = Path(__file__).resolve().parents[1]
+    hidden = [str(package / name) for name in _HIDDEN]
+    readable = [*python_folders(), *_commands(), *(kept[name] for name in _FILES if name in kept)]
+    return Cage(readable, hidden, {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp"})
+
+
+def _commands() -> list[str]:
+    """The folder of the `ros2` command, where it is the course's own."""
+    found = importlib.util.find_spec("ros2_command")
+    folders = found.submodule_search_locations if found else None
+    return [str(Path(one).resolve().parent) for one in folders or ()]
+
+
+def rehearse(cage: Cage, before: Census, unsafe: bool = False) -> GradingError | None:
+    """Run a program of the course's own, so that no learner pays for a sandbox that cannot work.
+
+    Args:
+        cage: The sandbox.
+        before: What this process has prepared.
+        unsafe: Whether it runs with limits only.
+
+    Returns:
+        What is wrong; None if all is well.
+    """
+    job = Job("03a", "Rehearsal", _REHEARSAL, imports="from rclpy.node import Node")
+    try:
+        seen = observed(job, cage, before, unsafe)
+    except GradingError as error:
+        return error
+    if seen.how == "ended" and seen.evidence:
+        return None
+    said = seen.text or seen.output[-300:] or f"it ended with {seen.how} {seen.number}"
+    return GradingError(
+        f"Nothing can be observed in the sandbox of this machine: {said}",
+        "A program that certainly works did not work in there, so every mark would be wrong.",
+        "`./environment/course doctor` says what is missing; `--unsafe-no-sandbox` tells the two "
+        "apart.",
+    )
+
+
+def observed(job: Job, cage: Cage, before: Census, unsafe: bool = False) -> Observed:
+    """Run one job.
+
+    Args:
+        job: The job.
+        cage: The sandbox.
+        before: What this process has prepared.
+        unsafe: Whether it runs with limits only.
+
+    Raises:
+        GradingError: If the sandbox cannot be made.
+    """
+    seal = secrets.token_hex(16)
+    cage = replace(cage, limits=limits_of(job))
+    if job.kernel:
+        work = partial(kernel_job, job, kernel_files(), seal)
+    elif job.replay:
+        work = partial(replay_job, job, files_before(job.page), seal)
+    else:
+        work = partial(observe_job, job, before, seal)
+    return _read(run_caged(work, cage, become_bare if unsafe else become_gate), seal)
+
+
+def limits_of(job: Job) -> Limits:
+    """What one job may use; a page with builds and programs in terminals needs more."""
+    if job.replay or job.kernel:
+        return Limits(wall=WALL_OF_A_PAGE, cpu=int(WALL_OF_A_PAGE), processes=512)
+    return Limits(wall=WALL, cpu=int(WALL))
+
+
+def _read(ending: Ending, seal: str) -> Observed:
+    said, forged = _said(ending.result, seal)
+    changed = said.get("changed")
+    return Observed(
+        FORGED if forged else ending.how,
+        ending.number,
+        _word(said, "evidence"),
+        _word(said, "raised"),
+        _word(said, "text"),
+        said["line"] if isinstance(said.get("line"), int) else 0,
+        _word(said, "code"),
+        tuple(str(one) for one in changed) if isinstance(changed, list) else (),
+        ending.output[:2_000].decode("utf-8", "replace"),
+        round(ending.seconds, 3),
+    )
+
+
+def _said(result: bytes, seal: str) -> tuple[dict[str, Any], bool]:
+    """What was written, and whether somebody else has written it."""
+    text = result.decode("utf-8", "replace")
+    if not text:
+        return {}, False
+    try:
+        found = json.loads(text.removeprefix(seal)) if text.startswith(seal) else None
+    except (ValueError, RecursionError):
+        found = None
+    return (found, False) if isinstance(found, dict) else ({}, True)
+
+
+def _word(said: dict[str, Any], name: str) -> str:
+    found = said.get(name, "")
+    return found if isinstance(found, str) else ""
+
+
+if __name__ == "__main__":
+    # Whoever grades may be killed in the middle; nothing of a submission runs on after that.
+    linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+    main(unsafe=UNSAFE in sys.argv[1:])

@@ -1,0 +1,85 @@
+"""What `runtime` runs answers with, imported when the first one runs.
+
+So scenarios can be imported, and their evidence judged, where ROS is not installed, and a page that
+only shows hints need not wait for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from rosbeat.records import Observation, QoS
+
+#: A node, or what makes one; its type is rclpy's, which is not imported here.
+Node = Any
+
+
+def observe(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
+    """Run an answer in virtual time; see `rosbeat.runtime.scenario.observe`."""
+    from rosbeat.runtime import scenario
+
+    return scenario.observe(answer, seconds, **options)
+
+
+def feeder(
+    name: str,
+    topic: str,
+    type_name: str,
+    values: Iterable[Any],
+    **options: Any,  # noqa: ANN401
+) -> Callable[[], Node]:
+    """A node that publishes one value a second; see `rosbeat.runtime.scenario.feeder`."""
+    from rosbeat.runtime import scenario
+
+    return scenario.feeder(name, topic, type_name, values, **options)
+
+
+def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
+    """A node that logs what it hears; see `rosbeat.runtime.hearing.hearer`."""
+    from rosbeat.runtime import hearing
+
+    return hearing.hearer(name, topic, type_name, qos)
+
+
+def started(make: Any, **start: Any) -> Any:  # noqa: ANN401
+    """A node to run beside an answer, started like `Session.add(make, **start)`."""
+    from rosbeat.runtime import launch
+
+    names = ("name", "namespace", "remappings", "parameters")
+    return launch.Maker(make, launch.checked(*(start.get(name) for name in names)))
+
+
+def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
+    """A node that tilts random numbers; see `rosbeat.runtime.drift.drift`."""
+    from rosbeat.runtime import drift as module
+
+    return module.drift(phases)
+
+
+def observe_system(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
+    """Run several nodes in virtual time; see `rosbeat.runtime.systems.observe_system`."""
+    from rosbeat.runtime import systems
+
+    return systems.observe_system(answer, seconds, **options)
+
+
+def station(name: str, topic: str, readings: Iterable[float | None]) -> Callable[[], Node]:
+    """A sensor that may be silent for a while; see `rosbeat.runtime.weather.station`."""
+    from rosbeat.runtime import weather
+
+    return weather.station(name, topic, readings)
+
+
+def adding(at: float, make: Callable[[], Node]) -> Any:  # noqa: ANN401
+    """A step that adds a node."""
+    from rosbeat.runtime.steps import Add
+
+    return Add(at, make=make)
+
+
+def removing(at: float, node: str) -> Any:  # noqa: ANN401
+    """A step that destroys a node."""
+    from rosbeat.runtime.steps import Remove
+
+    return Remove(at, node)

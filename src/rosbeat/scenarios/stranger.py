@@ -1,0 +1,16 @@
+"""A system that the learner did not write, put into a session."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def greenhouse(session: Any) -> None:  # noqa: ANN401 - a Session, which is not imported here
+    """Put the five nodes of the greenhouse into a session.
+
+    Args:
+        session: The session.
+    """
+    from rosbeat.runtime import stranger
+
+    stranger.settle(session)

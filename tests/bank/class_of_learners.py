@@ -1,0 +1,86 @@
+"""A class that hands in pages 03 and 04, with answers of the bank, right and wrong."""
+
+import shutil
+from copy import deepcopy
+from functools import cache
+from pathlib import Path
+
+import nbformat
+
+from bank.answer import Answer
+from bank.nodes.table import ANSWERS
+from bank.pages import lesson, subject
+from rosbeat.authoring import pages
+from rosbeat.exercises.registry import EXERCISES
+
+POINTS = {one.id: one.points for one in EXERCISES.values()}
+PAGES = ("03", "04")
+NAMES = {page: lesson(page).name for page in PAGES}
+#: These wait for a deadline or take the process along: how long they take says nothing of grading.
+_SLOW = {"callback-blocks", "constructor-blocks", "exits"}
+
+
+@cache
+def blank(page: str) -> nbformat.NotebookNode:
+    """The learners' page, by its two digits."""
+    return pages.notebook_page(lesson(page), POINTS)
+
+
+def filled(page: nbformat.NotebookNode, answers: dict[str, str]) -> nbformat.NotebookNode:
+    """A page with texts of answers, by exercise, in the place of its blanks."""
+    page = deepcopy(page)
+    for cell in page.cells:
+        exercise = cell.metadata.get("rosbeat", {}).get("exercise")
+        cell.source = answers.get(exercise, cell.source)
+    return page
+
+
+@cache
+def answers_to(exercise: str, status: str) -> tuple[Answer, ...]:
+    """Answers of the bank that define what the check cell hands over, in the bank's order."""
+    return tuple(
+        one
+        for one in ANSWERS
+        if (one.exercise, one.status, one.subject) == (exercise, status, subject(exercise))
+        and not _SLOW & set(one.mistakes)
+    )
+
+
+def answers_of(number: int) -> dict[str, Answer]:
+    """The answers of one learner: each other one is right, and no two learners agree for long.
+
+    Args:
+        number: Which learner of the class, from 0.
+    """
+    chosen = {}
+    for place, exercise in enumerate(name for name in POINTS if name[:2] in PAGES):
+        turn, is_wrong = divmod(number + place, 2)
+        known = answers_to(exercise, "failed" if is_wrong else "passed")
+        chosen[exercise] = known[turn % len(known)]
+    return chosen
+
+
+def hand_in(folder: Path, learners: int, inside: str = "") -> None:
+    """Write what a class hands in: a folder for each learner, with both pages.
+
+    Args:
+        folder: Gets the learners' folders.
+        learners: How many there are.
+        inside: A folder in each learner's folder, where something wants one.
+    """
+    for number in range(learners):
+        place = folder / f"learner_{number:03}" / inside
+        place.mkdir(parents=True)
+        texts = {exercise: one.text for exercise, one in answers_of(number).items()}
+        for page in PAGES:
+            made = pages.to_bytes(filled(blank(page), texts))
+            (place / f"{NAMES[page]}.ipynb").write_bytes(made)
+
+
+def nbgrader_course(folder: Path, assignment: str) -> None:
+    """Make a course folder of nbgrader: its settings, and the pages as the assignment's source."""
+    source = folder / "source" / assignment
+    source.mkdir(parents=True)
+    shutil.copy(Path(__file__).resolve().parents[2] / "docs" / "nbgrader_config.py", folder)
+    for page in PAGES:
+        (source / f"{NAMES[page]}.ipynb").write_bytes(pages.to_bytes(blank(page)))

@@ -1,0 +1,53 @@
+"""Takes the place of a prepared process of grading, and does what the answer that it gets says.
+
+It says that it is ready, unless `--never-ready` is given, and then answers each job. What it has
+been given is noted in the file that ROSBEAT_FAKE_WORKER names.
+"""
+
+import os
+import sys
+import time
+
+from rosbeat.grading.jobs import READY, Observed, read_job, write_line
+
+NOTES = "ROSBEAT_FAKE_WORKER"
+_REFUSED = '{"refused": ["No sandbox.", "Nothing was run.", "Try this."]}'
+
+
+def note(word):
+    with open(os.environ[NOTES], "a", encoding="utf-8") as file:
+        file.write(f"{os.getpid()} {word}\n")
+
+
+def answer(job):
+    word = job.answer.split()[0]
+    note(word)
+    if word == "die":
+        os._exit(3)
+    if word == "die-once" and not os.path.exists(job.answer.split()[1]):
+        open(job.answer.split()[1], "x").close()
+        os._exit(3)
+    if word == "silent":
+        time.sleep(600)
+    if word == "refuse":
+        return _REFUSED
+    if word == "half":
+        print('{"how": "en', end="", flush=True)
+        os._exit(0)
+    if word in ("nonsense", "forged"):
+        return {"nonsense": "Hello?", "forged": '{"how": "ended"}'}[word]
+    return write_line(Observed("ended", evidence=job.answer))
+
+
+def main():
+    note("start " + " ".join(sys.argv[1:]))
+    if os.environ.get("ROSBEAT_NEVER_READY"):
+        print("Traceback: no rclpy", file=sys.stderr)
+        sys.exit(1)
+    print(READY, flush=True)
+    for line in sys.stdin:
+        print(answer(read_job(line)), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Submissions that are hostile or broken: what they try, and what has to become of them."""

@@ -1,0 +1,89 @@
+"""What one hostile submission is, and the answers that the attacks are wrapped around."""
+
+from dataclasses import dataclass
+from textwrap import dedent, indent
+
+#: What is in nothing that was handed in by this learner, and must never be in a report of theirs.
+CANARY = "canary-5c1d-sings"
+#: What attacks leave behind, so that it is found if it outlives its sandbox.
+TRACE = "hostile-trace-7f3a"
+#: Where the class's canaries lie is filled in when it is handed in; see `handing_in`.
+HOME, CLASS, COURSE = "{home}", "{class}", "{course}"
+
+
+@dataclass(frozen=True)
+class Deed:
+    """An attack from within an answer.
+
+    Attributes:
+        name: What it tries.
+        answer: The text of the cell.
+        status: What the mark has to be, with inspection: `held` or `failed`.
+        words: What its cause has to say.
+        exercise: The exercise that it pretends to answer.
+        alone: What the outcome has to say when nobody inspects, and only the sandbox, the seal and
+            `intact` are left.
+        inspected_only: Whether, honestly, only the inspection stops it: without, it passes.
+    """
+
+    name: str
+    answer: str
+    status: str = "held"
+    words: str = "line"
+    exercise: str = "03a"
+    alone: str = ""
+    inspected_only: bool = False
+
+
+@dataclass(frozen=True)
+class Upload:
+    """An attack by the files that are handed in.
+
+    Attributes:
+        name: What it tries.
+        files: Content by path in the learner's folder.
+        status: What the mark of 03a has to be.
+        words: What the remarks or the cause have to say.
+        folder: The name of the learner's folder; made from `name` if empty.
+    """
+
+    name: str
+    files: dict[str, bytes]
+    status: str = "missing"
+    words: str = ""
+    folder: str = ""
+
+
+RIGHT = """\
+class HumiditySensor(Node):
+    def __init__(self):
+        super().__init__("humidity_sensor")
+        self.publisher_ = self.create_publisher(Float32, "humidity", 5)
+        self.timer = self.create_timer(0.5, self.publish_humidity)
+
+    def publish_humidity(self):
+        self.publisher_.publish(Float32(data=45.0))
+"""
+#: Seven readings at the wrong times: whoever passes with it has cheated.
+WRONG = RIGHT.replace("0.5", "0.7")
+FRIDGE = """\
+class FridgeMonitor(Node):
+    def __init__(self):
+        super().__init__("fridge_monitor")
+        self.create_subscription(Float32, "temperature", self.temperature_callback, 10)
+
+    def temperature_callback(self, msg):
+        temp = msg.data
+        status = "Warm" if temp > 8.0 else "Frost" if temp < 2.0 else "Fine"
+        self.get_logger().info(f"Fridge: {temp:.2f}C - Status:{status}")
+"""
+
+
+def before(code, answer=RIGHT):
+    """An answer below some code."""
+    return f"{dedent(code).strip()}\n\n{answer}"
+
+
+def within(code, answer=RIGHT):
+    """An answer with some code at the end of its callback."""
+    return f"{answer}{indent(dedent(code).strip(), ' ' * 8)}\n"

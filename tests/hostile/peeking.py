@@ -1,0 +1,72 @@
+"""Reading what is nobody's business: the environment, the home, others' work, the solutions."""
+
+from hostile.deed import CLASS, COURSE, FRIDGE, HOME, Deed, before, within
+
+_TELL = "raise RuntimeError(repr(found)[:900])"
+
+
+def _reads(name, code, alone="", words="line"):
+    return Deed(name, before(f"{code}\n{_TELL}"), words=words, alone=alone)
+
+
+def _file(path):
+    return f"found = open({path!r}).read()"
+
+
+_WALK = """
+import os
+found = []
+for top in {tops!r}:
+    for place, _, names in os.walk(top):
+        for name in names:
+            if name.endswith((".ipynb", ".txt", ".jsonl", ".py")):
+                try:
+                    with open(os.path.join(place, name), errors="replace") as file:
+                        text = file.read()
+                except OSError:
+                    continue
+                if "canary" + "-5c1d" in text:
+                    found.append((place, name, text[:200]))
+"""
+
+DEEDS = (
+    _reads("the environment", "import os\nfound = dict(os.environ)"),
+    _reads("the environment it was started with", _file("/proc/self/environ")),
+    _reads("the environment of its parents",
+           "found = [open(f'/proc/{n}/environ').read() for n in (1, 2)]"),
+    _reads("the home", _file(f"{HOME}/secret.txt"), "FileNotFoundError"),
+    _reads("another learner's page", _file(f"{CLASS}/honest-ana/03_write_a_publisher.ipynb"),
+           "FileNotFoundError"),
+    _reads("everything that can be walked to", _WALK.format(tops=("/tmp", "/dev", "/home")),
+           "[]"),
+    _reads("the solutions", f"import os\nfound = os.listdir('{COURSE}/solutions')",
+           "FileNotFoundError"),
+    _reads("the sources of the lessons", f"import os\nfound = os.listdir('{COURSE}/src/lessons')",
+           "FileNotFoundError"),
+    _reads("the judges' files", "import os, rosbeat\n"
+           "found = os.listdir(os.path.dirname(rosbeat.__file__) + '/exercises')", "[]"),
+    _reads("the judges, imported", "from rosbeat.exercises import page_03 as found",
+           words="imports rosbeat"),
+    _reads("what the grader has loaded", "import sys\nfound = [one for one in sys.modules"
+           " if 'exercise' in one or 'judging' in one or 'ledger' in one]", "[]"),
+    _reads("what the grader remembers", "import sys\nframe, found = sys._getframe(), []\n"
+           "while frame:\n    found += [value for value in frame.f_locals.values()"
+           " if isinstance(value, str) and 'canary' + '-5c1d' in value]\n    frame = frame.f_back",
+           "[]"),
+    _reads("objects of the garbage collector", "import gc\nfound = [one for one in gc.get_objects()"
+           " if isinstance(one, dict) and any(isinstance(v, str) and 'canary' + '-5c1d' in v"
+           " for v in list(one.values()))][:1]", "[]"),
+    _reads("the network", "import socket\n"
+           "found = socket.create_connection(('1.1.1.1', 53), timeout=1)", "OSError"),
+    _reads("names of the network", "import socket\nfound = socket.getaddrinfo('pypi.org', 443)",
+           "gaierror"),
+    _reads("the machine", "import os, socket\nfound = (os.uname().nodename, socket.gethostname())",
+           "sandbox"),
+    Deed("topics of other submissions", within(
+        "found = [name for name, _ in self.get_topic_names_and_types()]\n"
+        "raise RuntimeError(str(sorted(found)))"), "failed", "/humidity",
+        alone="/humidity', '/parameter_events', '/rosout']"),
+    Deed("another process's domain", before(
+        "import subprocess\nfound = subprocess.run(['ros2', 'topic', 'list'])", FRIDGE),
+        exercise="04a", alone=""),
+)  # fmt: skip

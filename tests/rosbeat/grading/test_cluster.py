@@ -1,0 +1,157 @@
+"""A cluster gives what one machine gives, even if a worker of it is killed in the middle."""
+
+import logging
+import os
+import signal
+import sys
+
+import psutil
+import pytest
+
+from bank.graded import ANSWERS
+from grading_class import hand_in, pages_of
+from rosbeat.errors import GradingError
+from rosbeat.grading import cluster as module
+from rosbeat.grading.cluster import Cluster
+from rosbeat.grading.grade_class import Plan, grade
+from rosbeat.grading.jobs import LOST, Job
+from rosbeat.grading.ledger import FILE, Ledger
+from rosbeat.grading.pool import Pool
+from rosbeat.grading.results import to_results
+from rosbeat.grading.weights import Points
+
+dask = pytest.importorskip("distributed")
+config = pytest.importorskip("dask.config")
+
+EXERCISES = ("03a", "04a")
+#: Nothing listens there: only the system's own programs may use the port.
+NOBODY = "tcp://127.0.0.1:1"
+
+
+def local(workers):
+    """A cluster on this machine, each worker a process; its dashboard takes any free port."""
+    return dask.LocalCluster(
+        n_workers=workers,
+        threads_per_worker=1,
+        dashboard_address="127.0.0.1:0",
+        silence_logs=logging.CRITICAL,
+    )
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with local(3) as found:
+        yield found
+
+
+def answers_to(exercise):
+    """Four answers, right and wrong, that define what the page's check hands over."""
+    named = [one for one in ANSWERS if one.exercise == exercise and not one.handed]
+    right = [one.text for one in named if one.status == "passed"][:2]
+    wrong = [one.text for one in named if one.status == "failed" and "sleep" not in one.text]
+    return [*right, *wrong[:2]]
+
+
+@pytest.fixture(scope="module")
+def course_and_class(tmp_path_factory):
+    pages = pages_of("03", "04")
+    learners = [
+        dict(zip(EXERCISES, texts, strict=True))
+        for texts in zip(*map(answers_to, EXERCISES), strict=True)
+    ]
+    points = Points({f"0{page}{letter}": 0.0 for page in (3, 4) for letter in "bc"})
+    return hand_in(tmp_path_factory.mktemp("class"), pages, learners), Plan(pages, "v", points)
+
+
+def results(course_and_class, out, observe):
+    collection, plan = course_and_class
+    with Ledger(out / FILE) as ledger:
+        return to_results(grade(collection, plan, ledger, observe, lambda *_: None))
+
+
+def on_the_cluster(cluster, killed):
+    """Observe there; once something has come back, kill a worker."""
+
+    def observe(jobs):
+        with Cluster(cluster.scheduler_address) as found:
+            for result in found.observe(jobs):
+                if not killed:
+                    pids = found._client.run(os.getpid)
+                    killed.extend(list(pids.values())[:1])
+                    os.kill(killed[0], signal.SIGKILL)
+                yield result
+
+    return observe
+
+
+@pytest.mark.ros
+def test_same_results_as_on_one_machine_with_a_worker_killed(cluster, course_and_class, tmp_path):
+    def on_this_machine(jobs):
+        with Pool(2) as pool:
+            yield from pool.observe(jobs)
+
+    killed = []
+    expected = results(course_and_class, tmp_path / "here", on_this_machine)
+    found = results(course_and_class, tmp_path / "there", on_the_cluster(cluster, killed))
+    assert killed
+    assert found == expected
+    assert found.count('"status": "passed"') == found.count('"status": "failed"') == 4
+
+
+def prepared_processes(worker):
+    children = psutil.Process(worker).children(recursive=True)
+    return [one.pid for one in children if "rosbeat.grading.worker" in one.cmdline()]
+
+
+def test_nothing_is_left_on_the_workers(cluster, eventually):
+    with Cluster(cluster.scheduler_address) as found:
+        workers = list(found._client.run(os.getpid).values())
+        eventually(lambda: all(map(prepared_processes, workers)))
+    eventually(lambda: not any(map(prepared_processes, workers)))
+
+
+def test_a_cluster_with_another_course_is_refused(cluster, monkeypatch, says):
+    monkeypatch.setattr(module, "course_version", lambda: "another")
+    with Cluster(cluster.scheduler_address) as found, pytest.raises(GradingError) as caught:
+        list(found.observe([("a", Job("03a", "Beat", "class Beat: ..."))]))
+    says(caught.value, "another course", "another", "Install the same version")
+
+
+def test_a_job_that_costs_workers_is_given_up(cluster, monkeypatch):
+    monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)
+    with Cluster(cluster.scheduler_address) as found:
+        monkeypatch.setattr(found, "_submitted", lambda _: found._client.submit(os._exit, 1))
+        ((key, observed),) = found.observe([("a", Job("03a", "Beat", ""))])
+    assert (key, observed.how) == ("a", LOST)
+
+
+def test_a_scheduler_that_goes_away_is_said(says):
+    quick = {"distributed.comm.timeouts.connect": "1s"}
+    with config.set(quick), local(1) as own:
+        found = Cluster(own.scheduler_address, patience=2)
+        observing = found.observe([(n, Job("03a", "Beat", f"x = {n}")) for n in range(50)])
+        next(observing)
+    with found, pytest.raises(GradingError) as caught:
+        list(observing)
+    says(caught.value, "cluster", "run the command again")
+
+
+def test_a_scheduler_without_workers_is_said(says):
+    with local(0) as own, pytest.raises(GradingError) as caught:
+        Cluster(own.scheduler_address, patience=0.3)
+    says(caught.value, "no worker", "dask worker tcp://")
+
+
+@pytest.mark.parametrize("address", [NOBODY, "nonsense://x", "127.0.0.1", "\x1b[31m:1"])
+def test_where_no_scheduler_is(address, says):
+    with pytest.raises(GradingError) as caught:
+        Cluster(address, patience=0.5)
+    says(caught.value, "No scheduler of Dask answers", "dask scheduler")
+    assert "\x1b" not in str(caught.value)
+
+
+def test_without_dask(monkeypatch, says):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(GradingError) as caught:
+        Cluster(NOBODY)
+    says(caught.value, 'pip install "rosbeat[cluster]"')

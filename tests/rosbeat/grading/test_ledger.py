@@ -1,0 +1,141 @@
+"""What has been judged is not judged again, whatever became of the file meanwhile."""
+
+import os
+from dataclasses import replace
+
+import pytest
+
+from rosbeat.errors import GradingError
+from rosbeat.grading import ledger as module
+from rosbeat.grading.jobs import Job
+from rosbeat.grading.ledger import FILE, Ledger, course_version, key_of
+from rosbeat.records import Outcome, Part
+
+JOB = Job("03a", "Beat", "class Beat: ...")
+OUTCOME = Outcome(
+    "03a", "failed", "Seen: \x1b é \ud800", "h", "late", 1, 2, ("r",), (Part("R1", "t", True),)
+)
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "out" / FILE
+
+
+def kept(path):
+    with Ledger(path) as ledger:
+        return {key: ledger.get(key) for key in ledger._known}
+
+
+def test_what_is_added_is_there_now_and_later(path):
+    with Ledger(path) as ledger:
+        assert ledger.get("a") is None
+        ledger.add("a", OUTCOME)
+        assert (ledger.get("a"), len(ledger)) == (OUTCOME, 1)
+    assert kept(path) == {"a": OUTCOME}
+
+
+def test_what_does_not_stay_is_there_for_this_run_only(path):
+    with Ledger(path) as ledger:
+        ledger.add("a", OUTCOME, stays=False)
+        assert ledger.get("a") == OUTCOME
+    assert kept(path) == {}
+
+
+def test_it_is_on_the_disk_before_the_next_answer(path):
+    with Ledger(path) as ledger:
+        ledger.add("a", OUTCOME)
+        assert kept(path) == {"a": OUTCOME}
+
+
+def test_half_a_line_at_the_end_costs_that_line_only(path):
+    with Ledger(path) as ledger:
+        ledger.add("a", OUTCOME)
+        ledger.add("b", OUTCOME)
+    path.write_bytes(path.read_bytes()[:-20])
+    with Ledger(path) as ledger:
+        assert (ledger.get("a"), ledger.get("b")) == (OUTCOME, None)
+        ledger.add("c", OUTCOME)
+    assert kept(path) == {"a": OUTCOME, "c": OUTCOME}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [b"", b"[]", b"[1]", b'["key"]', b"5", b"null", b'"key"', b"{}", b'{"key": "a"}', b"\xff\0",
+     b"{" * 100_000, b"[" * 100_000, b'{"key": 5, "exercise": "03a"}'],
+    ids=range(13),
+)  # fmt: skip
+def test_lines_of_another_version_are_left_out(path, line):
+    with Ledger(path) as ledger:
+        ledger.add("a", OUTCOME)
+    path.write_bytes(line + b"\n" + path.read_bytes())
+    assert kept(path) == {"a": OUTCOME}
+
+
+def test_of_two_lines_the_later_counts(path):
+    with Ledger(path) as ledger:
+        ledger.add("a", OUTCOME)
+        ledger.add("a", replace(OUTCOME, points=2))
+        assert len(ledger) == 1
+    assert kept(path)["a"].points == 2
+
+
+def test_two_runs_on_one_folder_lose_nothing(path):
+    with Ledger(path) as one, Ledger(path) as other:
+        for number in range(20):
+            one.add(f"a{number}", OUTCOME)
+            other.add(f"b{number}", OUTCOME)
+    assert len(kept(path)) == 40
+
+
+def test_a_full_disk_is_said(path, monkeypatch, says):
+    def full(_):
+        raise OSError(28, "No space left on device")
+
+    with Ledger(path) as ledger:
+        ledger.add("a", OUTCOME)
+        monkeypatch.setattr(module.os, "fdatasync", full)
+        with pytest.raises(GradingError) as caught:
+            ledger.add("b", OUTCOME)
+        monkeypatch.undo()
+    says(caught.value, "No space left on device", "--out")
+    assert kept(path)["a"] == OUTCOME
+
+
+@pytest.mark.parametrize("in_the_way", ["out", f"out/{FILE}/more"])
+def test_a_place_that_cannot_be_written_is_said(tmp_path, in_the_way, says):
+    place = tmp_path / in_the_way
+    place.parent.mkdir(parents=True, exist_ok=True)
+    place.write_text("")
+    with pytest.raises(GradingError) as caught:
+        Ledger(tmp_path / "out" / FILE)
+    says(caught.value, FILE, "--out")
+
+
+@pytest.mark.skipif(os.getuid() == 0, reason="root may write everywhere")
+def test_a_folder_without_the_right_to_write_is_said(tmp_path, says):
+    tmp_path.chmod(0o500)
+    with pytest.raises(GradingError) as caught:
+        Ledger(tmp_path / FILE)
+    says(caught.value, "Permission denied")
+
+
+def test_a_key_is_all_that_decides():
+    assert key_of(JOB, "1") == key_of(replace(JOB), "1")
+    others = [replace(JOB, answer="x"), replace(JOB, given='{"a": 1}'), replace(JOB, parts=("",))]
+    keys = {key_of(JOB, "1"), key_of(JOB, "2"), *(key_of(one, "1") for one in others)}
+    assert len(keys) == 5
+    assert key_of(replace(JOB, answer="\ud800"), "1")
+
+
+def test_the_version_is_another_one_with_another_judge(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "_PACKAGE", tmp_path)
+    (tmp_path / "judge.py").write_text("a")
+    (tmp_path / "notes.md").write_text("a")
+    first = course_version()
+    (tmp_path / "notes.md").write_text("b")
+    assert course_version() == first
+    (tmp_path / "judge.py").write_text("b")
+    second = course_version()
+    (tmp_path / "judge.py").rename(tmp_path / "other.py")
+    assert len({first, second, course_version()}) == 3

@@ -1,0 +1,278 @@
+"""Points and comments that a person gives, and that stay."""
+
+from dataclasses import replace
+
+import pytest
+
+from graded_classes import HOSTILE, a_class, hostile_learner, mark
+from rosbeat.errors import GradingError
+from rosbeat.grading.manual import (
+    Line,
+    Manual,
+    apply_manual,
+    read_manual,
+    template,
+    write_template,
+)
+from rosbeat.grading.marks import Gradebook, Graded
+from rosbeat.grading.remarks import Remark
+
+HEAD = "learner,exercise,points,comment\n"
+
+
+@pytest.fixture
+def book():
+    marks = (
+        mark("03a", "failed", out_of=4.0, judged=0.0, cause="It is late."),
+        mark("03b", "held", out_of=2.0, cause="It used up the memory.", evidence="e", hint="h"),
+    )
+    ana, ben = (Graded(one, f"{one.title()} X", "folder", marks) for one in ("ana", "ben"))
+    return Gradebook("0.1.0", (ana, ben), (Remark("left-out", "a", "b"),))
+
+
+@pytest.fixture
+def given(tmp_path, book):
+    """What a gradebook becomes, and the remarks that were added, with this text in the file."""
+
+    def given(text):
+        path = tmp_path / "manual.csv"
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        made = apply_manual(book, read_manual(path))
+        assert made.remarks[: len(book.remarks)] == book.remarks
+        return made, made.remarks[len(book.remarks) :]
+
+    return given
+
+
+def only(book, learner, exercise):
+    (graded,) = [one for one in book.learners if one.learner == learner]
+    (found,) = [one for one in graded.marks if one.exercise == exercise]
+    return found
+
+
+def test_points_and_a_comment_are_put_in(given, book):
+    made, remarks = given(HEAD + "ana,03a,3,A nice idea.\n")
+    before, after = only(book, "ana", "03a"), only(made, "ana", "03a")
+    cause = "Set by hand to 3 of 4. It is late."
+    assert after == replace(before, points=3.0, manual=True, comment="A nice idea.", cause=cause)
+    assert remarks == ()
+    assert made.learners[1] == book.learners[1]
+
+
+def test_empty_points_keep_those_of_the_judge(given, book):
+    made, _ = given(HEAD + "ana,03a,,Look again.\n")
+    assert only(made, "ana", "03a") == replace(only(book, "ana", "03a"), comment="Look again.")
+
+
+def test_a_comment_without_an_exercise_is_about_the_whole(given, book):
+    made, remarks = given(HEAD + 'ana,,,"Well done,\nall of it."\n')
+    assert made.learners[0] == replace(book.learners[0], comment="Well done,\nall of it.")
+    assert remarks == ()
+
+
+@pytest.mark.parametrize("points", ["2", "1", "0"])
+def test_what_was_held_has_been_looked_at_and_says_nothing_else(given, points):
+    made, _ = given(HEAD + f"ana,03b,{points},Fine.\n")
+    after = only(made, "ana", "03b")
+    assert (after.status, after.points, after.manual, after.judged) == (
+        "looked at", float(points), True, 0.0
+    )  # fmt: skip
+    assert (after.cause, after.comment) == ("Looked at by the instructor.", "Fine.")
+    assert (after.evidence, after.hint, after.mistake) == ("", "", "")
+
+
+def test_what_was_held_stays_held_with_a_comment_alone(given):
+    made, _ = given(HEAD + "ana,03b,,I will ask you.\n")
+    assert only(made, "ana", "03b").status == "held"
+
+
+def test_a_status_that_a_judge_gave_stays(given):
+    made, _ = given(HEAD + "ana,03a,4,\n")
+    assert only(made, "ana", "03a").status == "failed"
+    assert made.learners[0].points == 4.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "learner;exercise;points;comment\r\nana;03a;1,5;Gut, weiter so\r\n",
+        "\ufefflearner;exercise;points;comment\nana;03a;1,5;Gut, weiter so\n",
+        'learner,exercise,points,comment\nana,03a,1.5,"Gut, weiter so"\n',
+        'learner,exercise,points,comment\nana,03a,"1,5","Gut, weiter so"\n',
+        "learner,exercise,points,comment\nana,03a,1.5,Gut, weiter so\n",
+        'exercise,points,learner,comment\n3A,1.5,Ana X,"Gut, weiter so"\n',
+        "learner\tname\texercise\tpoints\tcomment\nana\tx\t03a\t1.5\tGut, weiter so\n",
+        "ana;03a;1,5;Gut, weiter so\n",
+    ],
+)
+def test_every_dialect_means_the_same(given, text):
+    made, remarks = given(text)
+    after = only(made, "ana", "03a")
+    assert (after.points, after.comment) == (1.5, "Gut, weiter so")
+    assert remarks == ()
+
+
+def test_latin_1_is_read(given):
+    made, _ = given((HEAD + "ana,03a,1,Schön gelöst\n").encode("latin-1"))
+    assert only(made, "ana", "03a").comment == "Schön gelöst"
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("nobody,03a,1,x", "no learner 'nobody'"),
+        (",03a,1,x", "names no learner"),
+        ("ana,99z,1,x", "no exercise '99z'"),
+        ("ana,03a,five,x", "'five' is no number"),
+        ("ana,03a,-1,x", "from 0 to 4, not -1"),
+        ("ana,03a,4.01,x", "from 0 to 4"),
+        ("ana,03a,nan,x", "from 0 to 4"),
+        ("ana,03a,inf,x", "from 0 to 4"),
+        ("ana,03a,1e999,x", "from 0 to 4"),
+        ("ana,,3,x", "belong to an exercise"),
+    ],
+)
+def test_a_line_that_cannot_be_used_is_told_and_costs_no_other(given, book, line, said):
+    made, remarks = given(HEAD + f"{line}\nben,03a,2,y\n")
+    (remark,) = remarks
+    assert (remark.about, remark.path) == ("manual", "manual.csv, line 2")
+    assert said in remark.text
+    assert only(made, "ben", "03a").points == 2.0
+    points = [one.points for one in made.learners[0].marks]
+    assert points == [one.points for one in book.learners[0].marks]
+
+
+def test_a_comment_beside_bad_points_is_kept(given):
+    made, _ = given(HEAD + "ana,03a,many,Well done.\nben,,7,Well done, too.\n")
+    assert only(made, "ana", "03a").comment == "Well done."
+    assert made.learners[1].comment == "Well done, too."
+
+
+def test_the_later_of_two_lines_counts_and_nothing_of_the_earlier_is_lost(given):
+    made, remarks = given(HEAD + "ana,03a,1,first\nana,03a,2,\nana,3a,,last\n")
+    after = only(made, "ana", "03a")
+    assert (after.points, after.comment) == (2.0, "last")
+    first_only, _ = given(HEAD + "ana,03a,1,first\nana,03a,2,\n")
+    assert only(first_only, "ana", "03a").comment == "first"
+    assert [one.path for one in remarks] == ["manual.csv, line 3", "manual.csv, line 4"]
+
+
+def test_a_quotation_mark_that_nobody_closed_costs_no_other_line(given):
+    made, remarks = given(HEAD + 'ana,03a,1,"never closed\nben,03a,2,y\n')
+    assert only(made, "ana", "03a").comment == "never closed"
+    assert only(made, "ben", "03a").points == 2.0
+    assert [one.path for one in remarks] == ["manual.csv, line 2"]
+
+
+def test_columns_that_are_not_there_are_told(given, book):
+    made, remarks = given("learner,exercise,remark\nana,03a,x\n")
+    assert made.learners == book.learners
+    assert "no column points" in remarks[0].text
+
+
+@pytest.mark.parametrize("text", ["", "\0", "\n\n", HEAD, HEAD + "ana,03a,,\n", b"\xff\xfe"])
+def test_nothing_changes_nothing(given, book, text):
+    assert given(text) == (book, ())
+
+
+@pytest.mark.parametrize("data", [b"\x89PNG\r\n\x1a\n\0", bytes(range(256)) * 40, b'"' * 99_999])
+def test_what_is_no_table_is_told_and_never_fatal(given, book, data):
+    made, remarks = given(data)
+    assert made.learners == book.learners
+    for one in remarks:
+        assert one.text.isprintable()
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_hostile_text_is_told_safely(book, text):
+    cells = (text, "03a", "1", ""), ("ana", text, "1", ""), ("ana", "03a", text, text)
+    made = apply_manual(book, Manual(tuple(Line(2, *one) for one in cells)))
+    for one in made.remarks:
+        assert one.text.isprintable()
+        assert len(one.text) < 300
+
+
+def test_without_a_file_nothing_was_given(tmp_path, book):
+    assert read_manual(tmp_path / "manual.csv") == Manual()
+    assert apply_manual(book, Manual()) == book
+
+
+def test_a_file_that_cannot_be_opened_stops_before_marks_are_lost(tmp_path):
+    (tmp_path / "manual.csv").mkdir()
+    with pytest.raises(GradingError, match="cannot be read") as caught:
+        read_manual(tmp_path / "manual.csv")
+    assert caught.value.means
+    assert caught.value.to_try
+
+
+def test_points_stay_what_they_are_when_an_exercise_gets_another_worth(tmp_path, book):
+    path = tmp_path / "manual.csv"
+    path.write_text(HEAD + "ana,03a,1.5,\nben,03b,1,\nben,03a,,Fine.\n")
+    before = apply_manual(book, read_manual(path))
+    double = tuple(replace(one, out_of=2 * one.out_of) for one in book.learners[0].marks)
+    now = replace(book, learners=(replace(book.learners[0], marks=double), book.learners[1]))
+    made = apply_manual(now, read_manual(path), before)
+    assert only(made, "ana", "03a").points == 1.5
+    (remark,) = made.remarks[len(book.remarks) :]
+    assert remark.path == "manual.csv, line 2"
+    assert "03a was worth 4 the last time and is worth 8 now" in remark.text
+    assert "stay 1.5" in remark.text
+    assert apply_manual(now, read_manual(path), made) == replace(made, remarks=book.remarks)
+
+
+# The template.
+
+
+def test_the_template_has_what_is_held_and_can_be_filled_in(tmp_path, book):
+    path = tmp_path / "manual.csv"
+    assert write_template(path, book)
+    text = path.read_text("utf-8-sig")
+    assert text.split() == [
+        "learner,name,exercise,points,comment", "ana,Ana", "X,03b,,", "ben,Ben", "X,03b,,"
+    ]  # fmt: skip
+    assert apply_manual(book, read_manual(path)) == book
+    path.write_text(text.replace("ana,Ana X,03b,,", "ana,Ana X,03b,1,So, la la"))
+    after = only(apply_manual(book, read_manual(path)), "ana", "03b")
+    assert (after.points, after.comment) == (1.0, "So, la la")
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        HEAD + "ana,03a,3,\n",
+        HEAD + "ana,03a,,Well done.\n",
+        HEAD,
+        "my notes, please keep them",
+        "learner,name,exercise,points,comment\nana,Ana,03b,2,\n",
+        'learner,name,exercise,points,comment\nana,Ana,03b,,"\n',
+        "learner,name,exercise,points,comment,why\nana,Ana,03b,,,\n",
+        b"\x89PNG",
+    ],
+)
+def test_what_a_person_has_written_is_never_overwritten(tmp_path, book, written):
+    path = tmp_path / "manual.csv"
+    path.write_bytes(written if isinstance(written, bytes) else written.encode())
+    before = path.read_bytes()
+    assert not write_template(path, book)
+    assert path.read_bytes() == before
+
+
+def test_a_template_that_nobody_has_filled_in_is_renewed(tmp_path, book):
+    path = tmp_path / "manual.csv"
+    assert write_template(path, a_class(3))
+    assert write_template(path, book)
+    assert path.read_text("utf-8") == template(book).replace("\r\n", "\n")
+
+
+@pytest.mark.parametrize("text", [*filter(None, HOSTILE), '=HYPERLINK("x")'])
+def test_a_hostile_learner_can_be_given_points_through_the_template(tmp_path, text):
+    book = Gradebook("0.1.0", (hostile_learner(text),))
+    path = tmp_path / "manual.csv"
+    write_template(path, book)
+    lines = path.read_text("utf-8-sig").splitlines()
+    assert len(lines) == 2
+    assert lines[1].strip('"')[0] not in "=+-@"
+    path.write_text("\n".join((lines[0], lines[1].removesuffix(",,") + ",1,x")))
+    made = apply_manual(book, read_manual(path))
+    assert made.remarks == ()
+    assert {one.points for one in made.learners[0].marks} == {1.0}

@@ -1,0 +1,278 @@
+"""Actions in virtual time: the same each time, seen in the graph, explained where they wait."""
+
+import time
+from functools import partial
+
+import pytest
+from action_msgs.msg import GoalStatus, GoalStatusArray
+from rclpy.action import ActionClient, ActionServer
+from rclpy.exceptions import InvalidHandle
+from rclpy.node import Node
+from test_msgs.action import Fibonacci
+
+from action_nodes import Heater, Sender
+from nodes import Doer, Ticker
+from rosbeat import Session
+from rosbeat.errors import SessionError
+
+pytestmark = pytest.mark.ros
+SUCCEEDED, CANCELED = GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED
+ABORTED = GoalStatus.STATUS_ABORTED
+
+
+@pytest.fixture
+def pair(ros):
+    """A server and a client, made and added."""
+    return ros.add(Heater), ros.add(Sender)
+
+
+def test_a_goal_is_rejected(ros, pair):
+    pair[1].send(99)
+    ros.run(5)
+    assert pair[1].log == [(0, "rejected")]
+
+
+def test_a_goal_is_canceled(ros, pair):
+    pair[1].send(9)
+    ros.run(2.5)
+    pair[1].cancel()
+    ros.run(5)
+    assert pair[1].log[-3:] == [(2.5, "canceling 1"), (3, [1, 2, 3]), (3, (CANCELED, [1, 2, 3]))]
+
+
+def test_two_goals_at_once(ros, pair):
+    pair[1].send(2)
+    pair[1].send(3)
+    ros.run(5)
+    ends = [what for what in pair[1].log if isinstance(what[1], tuple)]
+    assert ends == [(2, (SUCCEEDED, [1, 2])), (3, (SUCCEEDED, [1, 2, 3]))]
+
+
+def test_two_clients_hear_only_of_their_own_goals(ros, pair):
+    other = ros.add(partial(Sender, "other"))
+    pair[1].send(1)
+    other.send(2)
+    ros.run(5)
+    assert pair[1].log == [(0, "accepted"), (1, [1]), (1, (SUCCEEDED, [1]))]
+    assert other.log[1:] == [(1, [1]), (2, [1, 2]), (2, (SUCCEEDED, [1, 2]))]
+
+
+def test_work_that_does_not_say_how_it_ended_is_aborted(ros, capsys):
+    class Careless(Heater):
+        async def heat(self, goal):
+            await self.wait()
+            return Fibonacci.Result(sequence=[7])
+
+    ros.add(Careless)
+    client = ros.add(Sender)
+    client.send(1)
+    ros.run(2)
+    assert client.log[-1] == (1, (ABORTED, [7]))
+    assert "Goal state not set, assuming aborted" in capsys.readouterr().out
+
+
+def test_an_exception_in_the_work_aborts_its_goal_and_the_node_goes_on(ros, capsys):
+    class Clumsy(Heater):
+        async def heat(self, goal):
+            await self.wait()
+            return [] if goal.request.order == 1 / 0 else None
+
+    server, client = ros.add(Clumsy), ros.add(Sender)
+    client.send(1)
+    ros.run(2)
+    assert client.log[-1] == (1, (ABORTED, []))
+    (fault,) = ros.observation().faults
+    assert (fault.node, fault.callback, fault.kind) == ("/heater", "heat", "ZeroDivisionError")
+    assert fault.code == "return [] if goal.request.order == 1 / 0 else None"
+    said = capsys.readouterr()
+    assert "gave a goal up" in said.err
+    assert "Traceback" not in said.err
+    before = server.tick
+    ros.run(1)
+    assert server.tick is not before
+
+
+def test_work_that_sleeps_takes_virtual_time(ros):
+    class Sleeper(Heater):
+        def heat(self, goal):
+            for _ in range(goal.request.order):
+                time.sleep(1.0)
+            goal.succeed()
+            return Fibonacci.Result()
+
+    ros.add(Sleeper)
+    client, ticker = ros.add(Sender), ros.add(partial(Ticker, 1.0))
+    client.send(3)
+    ros.run(2)
+    began = time.monotonic()
+    ros.run(5)
+    assert time.monotonic() - began < 2
+    assert client.log == [(0, "accepted"), (3, (SUCCEEDED, []))]
+    assert len(ticker.fired) >= 7
+
+
+def _everything():
+    with Session(seed=4) as ros:
+        ros.add(Heater)
+        clients = [ros.add(partial(Sender, name)) for name in ("one", "two")]
+        clients[0].send(3)
+        clients[1].send(4)
+        ros.run(1.5)
+        clients[1].cancel()
+        ros.run(3)
+        late = ros.add(partial(Sender, "late"))
+        late.send(1)
+        ros.run(3)
+        return ros.observation(), [client.log for client in (*clients, late)]
+
+
+def test_every_run_is_the_same():
+    first = _everything()
+    assert [_everything() for _ in range(8)] == [first] * 8
+
+
+def test_the_graph_shows_an_action_and_what_it_is_made_of(ros, pair):
+    del pair
+    ends = [end for end in ros.graph().endpoints if end.name.startswith("/heat")]
+    ours = [end for end in ends if not end.name.startswith("/heater")]
+    assert [(end.kind, end.name) for end in ours if end.node == "/heater"] == [
+        ("action server", "/heat"),
+        ("server", "/heat/_action/send_goal"),
+        ("server", "/heat/_action/cancel_goal"),
+        ("server", "/heat/_action/get_result"),
+        ("publisher", "/heat/_action/feedback"),
+        ("publisher", "/heat/_action/status"),
+    ]
+    kinds = [end.kind for end in ours if end.node == "/sender"]
+    assert kinds == ["action client", *["client"] * 3, *["subscription"] * 2]
+    assert ros.graph().topics() == ()
+    assert "/heat/_action/feedback" in ros.graph().topics(infrastructure=True)
+
+
+def test_the_names_of_the_parts_are_what_ros_says(ros, pair):
+    node = pair[1]
+    shown = {name for name, _ in node.get_topic_names_and_types()}
+    shown |= {name for name, _ in node.get_service_names_and_types()}
+    types = dict(node.get_topic_names_and_types()) | dict(node.get_service_names_and_types())
+    for end in ros.graph().endpoints:
+        if "/_action/" in end.name:
+            assert end.name in shown
+            assert types[end.name] == [end.type_name]
+
+
+def test_a_renamed_action_has_its_new_name(ros):
+    ros.add(Heater, namespace="room")
+    names = [end.name for end in ros.graph().endpoints if end.kind == "action server"]
+    assert names == ["/room/heat"]
+
+
+def test_an_action_that_is_destroyed_leaves_the_graph(ros, pair):
+    pair[0].server.destroy()
+    assert not [end for end in ros.graph().endpoints if end.kind == "action server"]
+
+
+def test_an_ordinary_subscription_hears_feedback_and_status(ros, pair):
+    heard, states = [], []
+    node = ros.add(lambda: Node("ear"))
+    kind = Fibonacci.Impl.FeedbackMessage
+    node.create_subscription(kind, "heat/_action/feedback", heard.append, 10)
+    node.create_subscription(GoalStatusArray, "heat/_action/status", states.append, 10)
+    pair[1].send(2)
+    ros.run(3)
+    assert [list(one.feedback.sequence) for one in heard] == [[1], [1, 2]]
+    assert states[-1].status_list[-1].status == SUCCEEDED
+
+
+def test_an_ordinary_client_can_send_a_goal(ros, pair):
+    node = ros.add(lambda: Node("hand"))
+    client = node.create_client(Fibonacci.Impl.SendGoalService, "heat/_action/send_goal")
+    request = Fibonacci.Impl.SendGoalService.Request()
+    request.goal.order = 2
+    assert client.call(request).accepted
+    ros.run(3)
+    assert pair[0].done == 1
+
+
+def test_send_goal_in_a_cell_runs_virtual_time(ros, pair):
+    response = pair[1].client.send_goal(Fibonacci.Goal(order=2))
+    assert list(response.result.sequence) == [1, 2]
+    assert ros.time == 2
+
+
+def test_send_goal_in_a_callback_is_explained(ros, pair, capsys):
+    ros.add(partial(Doer, lambda _: pair[1].client.send_goal(Fibonacci.Goal(order=2))))
+    ros.run(1)
+    (fault,) = ros.observation().faults
+    assert "deadlock" in fault.text
+    capsys.readouterr()
+
+
+def test_a_session_that_has_ended_offers_no_action():
+    with Session() as ros:
+        server, client = ros.add(Heater).server, ros.add(Sender).client
+    # While they lived, a later session in the same domain would see the server.
+    for handle in (server._handle, client._client_handle):
+        with pytest.raises(InvalidHandle), handle:
+            pass
+
+
+def test_a_goal_that_nobody_takes_is_explained(ros, says):
+    client = ActionClient(ros.add(lambda: Node("lonely")), Fibonacci, "heat")
+    assert client.wait_for_server(timeout_sec=2.0) is False
+    assert ros.time == 2
+    with pytest.raises(SessionError) as caught:
+        client.send_goal(Fibonacci.Goal())
+    says(caught.value, "Nobody has answered send_goal for the action /heat")
+
+
+def test_wait_for_server_does_not_wait_for_one_that_is_there(ros, pair):
+    assert pair[1].client.wait_for_server()
+    assert ros.time == 0
+
+
+def test_a_paused_server_takes_the_goal_later(ros, pair):
+    ros.pause("heater")
+    pair[1].send(1)
+    ros.run(3)
+    assert pair[1].log == []
+    ros.resume("heater")
+    ros.run(2)
+    assert pair[1].log[0] == (3, "accepted")
+
+
+def test_goals_after_a_cell_was_run_again(ros, pair):
+    pair[1].send(1)
+    ros.run(2)
+    again = ros.add(Sender)
+    again.send(1)
+    ros.run(2)
+    assert again.log == [(2, "accepted"), (3, [1]), (3, (SUCCEEDED, [1]))]
+
+
+def test_live(ros, pair):
+    class Quick(Heater):
+        def heat(self, goal):
+            goal.succeed()
+            return Fibonacci.Result(sequence=[1])
+
+    ros.add(Quick)
+    ros.start()
+    response = pair[1].client.send_goal(Fibonacci.Goal(order=1))
+    assert list(response.result.sequence) == [1]
+    ros.stop()
+
+
+def test_outside_of_a_session_nothing_changes():
+    import rclpy
+
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=99)
+    node = Node("outside", context=context)
+    server = ActionServer(node, Fibonacci, "heat", lambda goal: Fibonacci.Result())
+    client = ActionClient(node, Fibonacci, "heat")
+    assert "send_goal" not in vars(client)
+    assert "_execute_goal" not in vars(server)
+    server.destroy()
+    client.destroy()
+    node.destroy_node()
+    rclpy.shutdown(context=context)

@@ -1,0 +1,201 @@
+"""What strangers' code may try, each in a sandbox; run as a program, it tells how each ended.
+
+It is a process of its own because a sandbox is forked, and a test process has threads.
+"""
+
+import ctypes
+import json
+import os
+import signal
+import socket
+import sys
+import tempfile
+import time
+from contextlib import suppress
+from pathlib import Path
+
+from rosbeat.errors import GradingError
+from rosbeat.grading.sandbox.cage import Cage, python_folders
+from rosbeat.grading.sandbox.limits import Limits
+from rosbeat.grading.sandbox.running import run_caged
+
+LIMITS = Limits(wall=2.0, memory=300_000_000)
+SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{os.getpid()}")
+
+
+def attempt(deed):
+    """What came of something: the error's name, or `done`."""
+    try:
+        deed()
+    except (OSError, ValueError) as error:
+        return type(error).__name__
+    return "done"
+
+
+def tells(result, value):
+    os.write(result, json.dumps(value).encode())
+
+
+def looks(result):
+    lines = Path("/proc/self/status").read_text().splitlines()
+    tells(result, {
+        "user": os.getuid(), "folders": sorted(os.listdir("/")), "environment": dict(os.environ),
+        "processes": [one for one in os.listdir("/proc") if one.isdigit()], "here": os.getcwd(),
+        "capabilities": {one.split()[1] for one in lines if one.startswith("Cap")} == {"0" * 16},
+        "host": socket.gethostname(), "home": attempt(lambda: os.listdir(os.path.expanduser("~"))),
+        "shm": os.listdir("/dev/shm"), "tmp": os.listdir("/tmp"),
+        "secret": attempt(SECRET.read_text),
+    })  # fmt: skip
+
+
+def writes(result):
+    places = ("/usr/x", "/etc/x", "/x", sys.prefix + "/x", "/proc/sys/kernel/hostname", "/tmp/x")
+    tells(result, {one: attempt(lambda one=one: Path(one).write_text("x")) for one in places})
+
+
+def gains_rights(result):
+    libc = ctypes.CDLL(None, use_errno=True)
+    tells(result, {
+        "user namespace": libc.unshare(0x10000000),
+        "mount": libc.mount(b"x", b"/tmp", b"tmpfs", 0, 0),
+        "user": attempt(lambda: os.setuid(0)), "nice": attempt(lambda: os.nice(-5)),
+        "limits": attempt(lambda: __import__("resource").setrlimit(7, (9_999, 9_999))),
+        "trace the first process": libc.ptrace(16, 1, 0, 0),
+    })  # fmt: skip
+
+
+def calls_out(result):
+    def connect(address):
+        socket.create_connection(address, timeout=0.5).close()
+
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        tells(result, {
+            "itself": attempt(lambda: connect(server.getsockname())),
+            "others": attempt(lambda: connect(("10.0.0.1", 80))),
+            "names": attempt(lambda: socket.getaddrinfo("pypi.org", 80)),
+            "interfaces": [name for _, name in socket.if_nameindex()],
+        })  # fmt: skip
+
+
+def loops(result):
+    while True:
+        pass
+
+
+def sleeps(result):
+    time.sleep(1000)
+
+
+def forks(result):
+    while True:
+        with suppress(OSError):
+            os.fork()
+
+
+def eats(result):
+    kept = []
+    while True:
+        kept.append(b"x" * 10_000_000)
+
+
+def prints(result):
+    while True:
+        os.write(1, b"x" * 100_000)
+
+
+def answers_too_much(result):
+    while True:
+        os.write(result, b"x" * 100_000)
+
+
+def fills_a_file(result):
+    with open("/tmp/x", "wb") as file:
+        while True:
+            file.write(b"x" * 1_000_000)
+
+
+def fills_memory_that_is_shared(result):
+    for number in range(1000):
+        Path(f"/dev/shm/{number}").write_bytes(b"x" * 10_000_000)
+
+
+def kills_itself(result):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def kills_all(result):
+    found = {}
+    for process in (1, os.getppid(), -1, -os.getpgid(0)):
+        with suppress(OSError):
+            os.kill(process, signal.SIGTERM if process == -os.getpgid(0) else signal.SIGKILL)
+    tells(result, found)
+
+
+def crashes(result):
+    ctypes.string_at(0)
+
+
+def leaves(result):
+    os._exit(0)
+
+
+def leaves_with_a_code(result):
+    sys.exit(7)
+
+
+def raises(result):
+    raise ValueError("no")
+
+
+def stays_behind(result):
+    if os.fork() == 0:
+        os.setsid()
+        if os.fork() == 0:
+            Path("/dev/shm/mine").write_text("x")
+            time.sleep(1000)
+        os._exit(0)
+
+
+def closes_everything(result):
+    os.closerange(0, 100)
+
+
+def ignores_signals(result):
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+    while True:
+        time.sleep(1)
+
+
+DEEDS = (
+    *(looks, writes, gains_rights, calls_out, loops, sleeps, forks, eats, prints, answers_too_much),
+    *(fills_a_file, fills_memory_that_is_shared, kills_itself, kills_all, crashes, leaves),
+    *(leaves_with_a_code, raises, stays_behind, closes_everything, ignores_signals),
+)
+
+
+def main():
+    """Run every deed and print how it ended, as JSON."""
+    SECRET.write_text("secret")
+    os.environ["SECRET"] = "secret"
+    cage = Cage(python_folders(), (), {"PATH": "/usr/bin", "HOME": "/tmp"}, LIMITS)
+    seen = {}
+    try:
+        for deed in DEEDS:
+            found = run_caged(deed, cage)
+            told = json.loads(found.result) if found.result[:1] == b"{" else len(found.result)
+            seen[deed.__name__] = {
+                "how": found.how, "number": found.number, "told": told, "seconds": found.seconds,
+                "output": found.output[-200:].decode("utf-8", "replace"), "read": len(found.output),
+            }  # fmt: skip
+    except GradingError as error:
+        seen = {"refused": str(error)}
+    finally:
+        SECRET.unlink()
+    mine = Path("/proc/self/task", str(os.getpid()), "children").read_text().split()
+    shared = [one for one in os.listdir("/dev/shm") if one == "mine"]
+    print(json.dumps({"seen": seen, "left": [*mine, *shared]}))
+
+
+if __name__ == "__main__":
+    main()
