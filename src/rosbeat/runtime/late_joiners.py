@@ -4,6 +4,11 @@ They come from a thread of Fast DDS, mostly at once, otherwise when the subscrip
 0.07 s later (measured; `initialAcknackDelay`). Until then a reliable subscription holds back what
 the same publisher publishes next: then not even a message of now would be there when `publish()`
 has returned. So the session goes on only when all of them have arrived.
+
+Two signs tell it. The subscription has acknowledged everything: a publisher knows that only of all
+its subscriptions together, and a volatile one that came late acknowledges in seconds or never. Or
+as many messages have come into its queue as are stored for it, of which some are not counted where
+the queue is shorter than that.
 """
 
 from __future__ import annotations
@@ -11,27 +16,36 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable
 
-from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
 
 from rosbeat.runtime.taps import PublisherTap
+from rosbeat.runtime.unread import Unread
 
-#: Seconds. It takes as long only where another subscription of the publisher acknowledges nothing:
-#: that of a process that was stopped, or one that keeps all and is full.
+#: Seconds. It takes as long only where neither sign is given: another subscription acknowledges
+#: nothing, and the queue is short, or messages have expired.
 _LIMIT = 2.0
 _STEP = 0.0005
 
 
-def wait_for_stored(taps: Iterable[PublisherTap], qos: QoSProfile) -> None:
+def wait_for_stored(taps: Iterable[PublisherTap], subscription: Subscription) -> None:
     """Wait until a new subscription has all messages that are stored for it.
 
     Args:
         taps: The publishers of its topic.
-        qos: What it asks for.
+        subscription: The new one. Nothing is taken out of its queue.
     """
-    end = time.monotonic() + _LIMIT
-    for tap in taps:
-        if not tap.stores_for(qos):
-            continue
+    storing = [tap for tap in taps if tap.stores_for(subscription.qos_profile)]
+    if _have_delivered(storing):
+        return
+    stored = sum(tap.stored for tap in storing)
+    with Unread(subscription) as queue:
+        end = time.monotonic() + _LIMIT
         # Asked again and again, since rclpy would wait without giving way to other threads.
-        while not tap.has_delivered() and time.monotonic() < end:
+        while queue.count() < stored and not _have_delivered(storing):
+            if time.monotonic() > end:
+                break
             time.sleep(_STEP)
+
+
+def _have_delivered(taps: Iterable[PublisherTap]) -> bool:
+    return all(tap.has_delivered() for tap in taps)

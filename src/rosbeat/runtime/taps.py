@@ -15,6 +15,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
 from rclpy.qos import (
     DurabilityPolicy,
+    HistoryPolicy,
     QoSCompatibility,
     QoSProfile,
     ReliabilityPolicy,
@@ -99,6 +100,13 @@ class PublisherTap:
     def fits(self, subscription: Any) -> bool:  # noqa: ANN401 - rclpy is untyped
         """Whether a subscription of this topic is connected to this publisher."""
         return self._type is subscription.msg_type and self._offers(subscription.qos_profile)
+
+    @property
+    def stored(self) -> int:
+        """How many messages are stored at most: some may have expired."""
+        depth: int = self._qos.depth
+        limited = self._qos.history == HistoryPolicy.KEEP_LAST
+        return min(self.count, max(1, depth)) if limited else self.count
 
     def stores_for(self, qos: QoSProfile) -> bool:
         """Whether a new subscription of this QoS gets stored messages from this publisher."""

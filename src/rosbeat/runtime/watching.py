@@ -266,9 +266,8 @@ class Watching(Acting):
 
     def _subscription(self, entry: Entry) -> None:
         entry.born = self.recorder.mark()
-        qos = entry.entity.qos_profile
         taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
-        wait_for_stored(taps, qos)
+        wait_for_stored(taps, entry.entity)
         if self.counts_limits:
             self.limits.subscription_made(entry)
         if self.arrivals is not None:
