@@ -50,13 +50,17 @@ def stream(
 
 
 def quiet(
-    command: Sequence[str | Path], env: Mapping[str, str], timeout: float | None = None
+    command: Sequence[str | Path],
+    env: Mapping[str, str],
+    timeout: float | None = None,
+    cwd: Path | None = None,
 ) -> Result:
     """Run a program without showing anything; a program that never ends counts as failed."""
     try:
         done = subprocess.run(
             [str(part) for part in command],
             env=dict(env),
+            cwd=cwd,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

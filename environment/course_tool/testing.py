@@ -16,6 +16,7 @@ from xml.etree import ElementTree
 from course_tool import prepare
 from course_tool.layout import Layout
 from course_tool.messages import Problem, say
+from course_tool.running import quiet
 
 #: Steps that run at a time, before the tests.
 _AT_ONCE = 2
@@ -146,17 +147,8 @@ def _side_by_side(
 
 def _captured(step: Step, layout: Layout, environ: Mapping[str, str]) -> tuple[Verdict, str]:
     started = time.monotonic()
-    done = subprocess.run(
-        step.command,
-        env=environ,
-        cwd=layout.root,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        check=False,
-    )
-    return Verdict(step.name, done.returncode == 0, time.monotonic() - started), done.stdout
+    done = quiet(step.command, environ, cwd=layout.root)
+    return Verdict(step.name, done.ok, time.monotonic() - started), done.text
 
 
 def _rosbeat(layout: Layout) -> tuple[str, ...]:

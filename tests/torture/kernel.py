@@ -17,6 +17,8 @@ from jupyter_client.connect import write_connection_file
 
 TESTS = Path(__file__).parents[1]
 DEADLINE = 30.0
+#: Whether everything is tried, and often: `ROSBEAT_TORTURE=full`.
+FULL = os.environ.get("ROSBEAT_TORTURE") == "full"
 
 
 @dataclass(frozen=True)

@@ -5,14 +5,11 @@
 
 from __future__ import annotations
 
-import os
-
 import pytest
 
 import nasty
-from torture.kernel import Kernel
+from torture.kernel import FULL, Kernel
 
-FULL = os.environ.get("ROSBEAT_TORTURE") == "full"
 INTERRUPTS = 20 if FULL else 2
 #: What is promised for one check, where the machine is not busy; else it has to answer at all.
 WITHIN = 6.0 if FULL else 30.0
@@ -137,16 +134,6 @@ INTERRUPTED = {
     "suppresses": "nasty.suppress",
     "executor of its own": "nasty.spins_alone",
 }
-
-
-@pytest.fixture(scope="function" if FULL else "module")
-def kernel():
-    """A kernel that lives through one kind of interrupt, or through all, and ends in peace."""
-    with Kernel() as found:
-        assert found.run(PRELUDE).error == ""
-        found.run("1 / 0")  # IPython's first traceback takes 0.3 s, whatever it is about
-        yield found
-        assert found.exit() == 0, found.log()
 
 
 @pytest.mark.parametrize("name", INTERRUPTED)

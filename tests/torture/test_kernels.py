@@ -11,9 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from torture.kernel import Kernel
+from torture.kernel import FULL, Kernel
 
-FULL = os.environ.get("ROSBEAT_TORTURE") == "full"
 STARTS, RERUNS, INTERRUPTS = (50, 20, 20) if FULL else (9, 20, 3)
 #: Interrupt ends every cell within this many seconds.
 # What is promised, where the machine is not busy with other tests. Otherwise an interrupt has to
@@ -132,16 +131,6 @@ CASES = {
     ".create_client(Trigger, 'nothing'); ros.start(); print('go', flush=True); "
     "client.call(Trigger.Request())",
 }
-
-
-@pytest.fixture(scope="function" if FULL else "module")
-def kernel():
-    """A kernel that lives through one kind of interrupt, or through all, and ends in peace."""
-    with Kernel() as found:
-        assert found.run(PRELUDE).error == ""
-        found.run("1 / 0")  # IPython's first traceback takes 0.3 s, whatever it is about
-        yield found
-        assert found.exit() == 0, found.log()
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -5,16 +5,14 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import time
 
 import pytest
 
 from rosbeat.workspace.terminals.reaper import marked
-from torture.kernel import Kernel
+from torture.kernel import FULL, Kernel
 
-FULL = os.environ.get("ROSBEAT_TORTURE") == "full"
 TIMES = 100 if FULL else 5
 PRELUDE = """
 import os

@@ -208,10 +208,10 @@ class Deadline:
 
     @staticmethod
     def _is_sacred(inside: Iterable[FrameType]) -> bool:
-        """Whether nothing may be raised at this point: at the end of the block, and in a hook.
+        """Whether nothing may be raised at this point: before and after the block, and in a hook.
 
-        Python asks the hooks also when a `with` of ours gives a lock back: an exception there, and
-        it would be held for ever.
+        A block that never begins never ends, so its watch would go on for ever. And Python asks the
+        hooks also when a `with` of ours gives a lock back: an exception there, and nobody would.
         """
         return any(one.f_code in _SACRED for one in inside)
 
@@ -295,6 +295,8 @@ class Deadline:
 
     def _throw_at(self, frame: FrameType | None) -> None:
         inside = list(self._inside(frame))
+        if self._is_sacred(inside):
+            return
         self._note(inside)
         if self._open and self._may_be_shot(inside):
             number, kind = ctypes.c_ulong(self._thread), ctypes.py_object(DeadlinePassed)
@@ -303,7 +305,10 @@ class Deadline:
 
 _SACRED = {
     function.__code__
-    for function in (Deadline.__exit__, Deadline._called, Deadline._line, Deadline._profile)
+    for function in (
+        *(Deadline.__enter__, Deadline.__exit__),
+        *(Deadline._called, Deadline._line, Deadline._profile),
+    )
 }
 
 

@@ -175,6 +175,28 @@ def test_the_outer_one_comes_first():
     assert outer.passed
 
 
+@pytest.mark.parametrize("place", [threading.Thread, signal], ids=["the watchdog", "the signals"])
+def test_time_that_is_up_before_the_block_begins_ends_the_block(place, monkeypatch):
+    name = "start" if place is threading.Thread else "setitimer"
+    begin = getattr(place, name)
+
+    def slowly(*arguments):
+        value = begin(*arguments)
+        end = time.monotonic() + 2 * SHORT
+        while time.monotonic() < end:
+            time.sleep(0.001)
+        return value
+
+    before = signal.getsignal(signal.SIGALRM)
+    monkeypatch.setattr(place, name, slowly)
+    with within(SHORT) as deadline:
+        monkeypatch.undo()
+        loop()
+    assert deadline.passed
+    assert signal.getsignal(signal.SIGALRM) == before
+    assert "rosbeat deadline" not in [thread.name for thread in threading.enumerate()]
+
+
 def test_the_alarm_of_somebody_else_is_put_back():
     before = signal.getsignal(signal.SIGALRM), signal.setitimer(signal.ITIMER_REAL, 0)
     rung = []
