@@ -7,6 +7,7 @@ are imported once, before the first fork; ROS itself is started in the child onl
 
 from __future__ import annotations
 
+import gc
 import importlib
 import importlib.util
 import inspect
@@ -107,6 +108,11 @@ def prepare() -> Census:
     inspect.getmodule(sys._getframe())
     found = census()
     freeze(found)
+    # What is here stays. A fork that looked through it for garbage would copy all of its pages; and
+    # it ends before much garbage has come together.
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 20, 20)
     return found
 
 
