@@ -34,8 +34,10 @@ from rosbeat.grading.sandbox.limits import Limits
 from rosbeat.grading.sandbox.running import Ending, run_caged
 from rosbeat.grading.sandbox.unsafe import become_bare
 from rosbeat.grading.workspaces import files_before
+from rosbeat.records import Observation
 from rosbeat.runtime.type_support import load_type_support
 from rosbeat.scenarios import registry
+from rosbeat.scenarios.evidence import from_json
 
 #: What answers use, and what takes time to import.
 _PREPARED = (
@@ -63,11 +65,22 @@ _KEPT = (
 _HIDDEN = ("exercises", "clinic", "checks", "grading", "authoring", "workspace/finished")
 #: Seconds that one answer may take by the clock on the wall, and a page of terminals.
 WALL, WALL_OF_A_PAGE = 60.0, 240.0
+#: All that most answers need: a node, a message type, both ends of a topic, a timer, a log.
 _REHEARSAL = """
 class Rehearsal(Node):
     def __init__(self):
         super().__init__("rehearsal")
+        self.publisher = self.create_publisher(Float32, "rehearsal", 10)
+        self.create_subscription(Float32, "rehearsal", self.hear, 10)
+        self.create_timer(1.0, self.say)
+
+    def say(self):
+        self.publisher.publish(Float32(data=21.0))
+
+    def hear(self, message):
+        self.get_logger().info(str(message.data))
 """
+_IMPORTS = "from rclpy.node import Node\nfrom std_msgs.msg import Float32"
 #: What makes a worker run without a sandbox.
 UNSAFE = "--unsafe-no-sandbox"
 
@@ -143,20 +156,30 @@ def rehearse(cage: Cage, before: Census, unsafe: bool = False) -> GradingError |
     Returns:
         What is wrong; None if all is well.
     """
-    job = Job("03a", "Rehearsal", _REHEARSAL, imports="from rclpy.node import Node")
+    job = Job("03a", "Rehearsal", _REHEARSAL, imports=_IMPORTS)
     try:
         seen = observed(job, cage, before, unsafe)
     except GradingError as error:
         return error
-    if seen.how == "ended" and seen.evidence:
+    said = _failed(seen)
+    if not said:
         return None
-    said = seen.text or seen.output[-300:] or f"it ended with {seen.how} {seen.number}"
     return GradingError(
         f"Nothing can be observed in the sandbox of this machine: {said}",
         "A program that certainly works did not work in there, so every mark would be wrong.",
-        "`./environment/course doctor` says what is missing; `--unsafe-no-sandbox` tells the two "
-        "apart.",
+        "`./environment/course doctor` says what is missing, or which other ROS is in the way; "
+        "`--unsafe-no-sandbox` tells whether it is the sandbox.",
     )
+
+
+def _failed(seen: Observed) -> str:
+    """Why the rehearsal is no proof that answers can be observed; empty if it is one."""
+    if seen.how != "ended" or not seen.evidence:
+        return seen.text or seen.output[-300:] or f"it ended with {seen.how} {seen.number}"
+    found: Observation = from_json(seen.evidence)
+    if found.faults:
+        return found.faults[0].text
+    return "" if found.logs else "a node does not hear what it publishes"
 
 
 def observed(job: Job, cage: Cage, before: Census, unsafe: bool = False) -> Observed:

@@ -13,12 +13,14 @@ import pytest
 from grading_files import DONE
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import worker as module
-from rosbeat.grading.jobs import FORGED, READY, Job, read_observed, write_line
+from rosbeat.grading.jobs import FORGED, READY, Job, Observed, read_observed, write_line
 from rosbeat.grading.judging import judge
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.sandbox.cage import Cage
 from rosbeat.grading.sandbox.running import Ending
 from rosbeat.grading.worker import furnished, limits_of, main
+from rosbeat.records import Fault, LogRecord, Observation
+from rosbeat.scenarios.evidence import to_json
 
 JOB = Job("03a", "Beat", DONE)
 SEAL = "5ea1"
@@ -212,3 +214,30 @@ def is_alive(pid):
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
         return False
+
+
+FAULT = Fault(0, "/rehearsal", "__init__", "RCLError", "no type support", 5, "")
+HEARD = LogRecord(1_000_000_000, "INFO", "rehearsal", "21.0", "hear", 12)
+
+
+@pytest.mark.parametrize(
+    ("seen", "said"),
+    [
+        (Observed("signal", 9), "it ended with signal 9"),
+        (Observed("ended", text="no numpy"), "no numpy"),
+        (Observed("ended", evidence=to_json(Observation(5, 0, faults=(FAULT,)))), "no type supp"),
+        (Observed("ended", evidence=to_json(Observation(5, 0))), "does not hear"),
+    ],
+    ids=["killed", "an import fails", "an exception", "silence"],
+)
+def test_a_rehearsal_that_fails_says_why_and_nobody_is_graded(seen, said, monkeypatch):
+    monkeypatch.setattr(module, "observed", lambda *_: seen)
+    error = module.rehearse(Cage(), ())
+    assert error is not None
+    assert said in error.what
+
+
+def test_a_rehearsal_in_which_a_message_arrives_is_one(monkeypatch):
+    seen = Observed("ended", evidence=to_json(Observation(5, 0, logs=(HEARD,))))
+    monkeypatch.setattr(module, "observed", lambda *_: seen)
+    assert module.rehearse(Cage(), ()) is None
