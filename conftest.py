@@ -27,16 +27,34 @@ _LONGEST = (
     "tests/ros2_command/verbs/test_topic.py",
     "tests/torture/",
     "tests/bank/",
+    *("tests/hostile/", "tests/solutions/", "tests/rosbeat/grading/", "tests/rosbeat/authoring/"),
     "solutions/",
     "notebooks/",
     "tests/ros2_command/",
+    "tests/rosbeat/workspace/",
+)
+#: Where tests wait for other programs most of the time.
+_WAITING = (
+    *("solutions/", "notebooks/", "tests/torture/", "tests/ros2_command/", "tests/environment/"),
     "tests/rosbeat/workspace/",
 )
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with what takes longest; the tests of a file stay together and in their order."""
-    items.sort(key=lambda item: _place(item.nodeid))
+    files: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        files.setdefault(item.nodeid.partition("::")[0], []).append(item)
+    items[:] = (item for name in _mixed(sorted(files, key=_place)) for item in files[name])
+
+
+def _mixed(files: list[str]) -> Iterator[str]:
+    """Two files that wait, which are short, and one that computes: the cores are never idle."""
+    waiting = [name for name in files if name.startswith(_WAITING)]
+    computing = [name for name in files if not name.startswith(_WAITING)]
+    while waiting or computing:
+        yield from (*waiting[:2], *computing[:1])
+        del waiting[:2], computing[:1]
 
 
 def pytest_collection_finish() -> None:
