@@ -36,7 +36,8 @@ class Requirements:
 
     def html(self) -> str:
         """The requirements as a table in HTML."""
-        head = "".join(f"<th>{one}</th>" for one in ("", "requirement", "points"))
+        left = 'style="text-align:left"'  # Jupyter's own is right
+        head = "".join(f"<th {left}>{one}</th>" for one in ("", "requirement", "points"))
         body = "".join(_row(row) for row in self.rows)
         return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
