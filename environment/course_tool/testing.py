@@ -71,12 +71,12 @@ def test(layout: Layout, arguments: Sequence[str]) -> int:
 
 
 def workers(cores: int | None) -> int:
-    """Return how many processes share the tests: two more than cores, for each waits at times.
+    """Return how many processes share the tests: one more than cores, for each waits at times.
 
     Args:
         cores: How many cores there are; None if nobody knows.
     """
-    return min(max(cores or 1, 2) + 2, _MOST_WORKERS)
+    return min(max(cores or 1, 2) + 1, _MOST_WORKERS)
 
 
 def steps(layout: Layout, report: Path) -> list[Step]:
