@@ -49,7 +49,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _mixed(files: list[str]) -> Iterator[str]:
-    """Two files that wait, which are short, and one that computes: the cores are never idle."""
+    """Two files that wait, which are short, and one that computes: the cores are seldom idle."""
     waiting = [name for name in files if name.startswith(_WAITING)]
     computing = [name for name in files if not name.startswith(_WAITING)]
     while waiting or computing:
@@ -60,7 +60,7 @@ def _mixed(files: list[str]) -> Iterator[str]:
 def pytest_collection_finish() -> None:
     """Let Python look for garbage rarely, and not among thousands of tests, which stay to the end.
 
-    It is a seventh of the time of tests that make many objects (`gc.callbacks`).
+    It was a seventh of the time of tests that make many objects, as `gc.callbacks` told.
     """
     gc.collect()
     gc.freeze()

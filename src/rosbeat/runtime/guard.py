@@ -210,8 +210,9 @@ class Deadline:
     def _is_sacred(inside: Iterable[FrameType]) -> bool:
         """Whether nothing may be raised at this point: before and after the block, and in a hook.
 
-        A block that never begins never ends, so its watch would go on for ever. And Python asks the
-        hooks also when a `with` of ours gives a lock back: an exception there, and nobody would.
+        A block that never begins never ends, so its watch would go on for ever. Python asks the
+        hooks also when a `with` of ours gives a lock back: after an exception there, the lock would
+        be held for ever.
         """
         return any(one.f_code in _SACRED for one in inside)
 

@@ -20,7 +20,8 @@ from rclpy.subscription import Subscription
 class Unread:
     """Counts what comes into a queue, with what is there already; nothing is taken out.
 
-    A context manager. A subscription has one such listener at most.
+    A context manager. A subscription has one such listener at most. Where the operating system has
+    no such counter (macOS), nothing is counted.
 
     Raises:
         OSError: If there are too many open files.
@@ -28,27 +29,32 @@ class Unread:
 
     def __init__(self, subscription: Subscription) -> None:
         self._subscription = subscription
+        self._count, self._counter = 0, -1
+        if not hasattr(os, "eventfd"):
+            return
         self._listen = ctypes.CDLL("librcl.so").rcl_subscription_set_on_new_message_callback
         self._listen.argtypes = (ctypes.c_void_p,) * 3
         self._add = ctypes.cast(ctypes.CDLL(None).eventfd_write, ctypes.c_void_p)
-        self._count = 0
 
     def __enter__(self) -> Unread:
-        self._counter = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
-        self._set(self._add, self._counter)
+        if hasattr(os, "eventfd"):
+            self._counter = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
+            self._set(self._add, self._counter)
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
     ) -> None:
         """Stop listening: when rcl has returned, no thread of the middleware calls any more."""
-        self._set(None, None)
-        os.close(self._counter)
+        if self._counter >= 0:
+            self._set(None, None)
+            os.close(self._counter)
 
     def count(self) -> int:
         """Messages so far. One that was pushed out of a full queue may be left out."""
-        with suppress(BlockingIOError):  # none since it was read last
-            self._count += os.eventfd_read(self._counter)
+        if self._counter >= 0:
+            with suppress(BlockingIOError):  # none since it was read last
+                self._count += os.eventfd_read(self._counter)
         return self._count
 
     def _set(self, callback: ctypes.c_void_p | None, argument: int | None) -> None:

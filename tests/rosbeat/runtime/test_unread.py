@@ -44,3 +44,14 @@ def test_afterwards_nobody_listens_and_nothing_is_left_open(ros, pair):
     ros.run(1)
     assert nurse.heard == [1]
     assert len(os.listdir("/proc/self/fd")) == len(before)
+
+
+@pytest.mark.ros
+def test_where_there_is_no_such_counter_nothing_is_counted(ros, pair, monkeypatch):
+    heart, nurse = pair
+    monkeypatch.delattr(os, "eventfd")
+    with Unread(nurse.subscription) as queue:
+        heart.beat(1)
+        assert queue.count() == 0
+    ros.run(1)
+    assert nurse.heard == [1]
