@@ -48,6 +48,8 @@ class WaitSetExecutor(SingleThreadedExecutor):
     """
 
     _host: Host
+    # rclpy's `__del__` asks for it, also if an interrupt has come before it was made.
+    _sigint_gc: Any = None
 
     def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
         self.current: NodeState | None = None
