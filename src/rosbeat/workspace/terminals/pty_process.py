@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import select
 import shutil
 import signal
 import warnings
+from contextlib import suppress
 from pathlib import Path
 
 from ptyprocess import PtyProcess, PtyProcessError
@@ -94,3 +96,17 @@ def close_quietly(process: PtyProcess) -> None:
         process.closed = True
         process.fileobj.close()
         process.fd = -1
+
+
+def wait_for_event(descriptor: int, event: int, seconds: float) -> None:
+    """Wait until a descriptor is ready; `select` would refuse those above 1023.
+
+    Args:
+        descriptor: The terminal's.
+        event: `select.POLLIN` or `select.POLLOUT`.
+        seconds: How long to wait at most.
+    """
+    poll = select.poll()
+    with suppress(OSError, ValueError):
+        poll.register(descriptor, event)
+        poll.poll(seconds * 1000)

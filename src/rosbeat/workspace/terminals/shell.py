@@ -7,7 +7,6 @@ import os
 import re
 import select
 import signal
-import termios
 import threading
 import time
 from collections.abc import Callable
@@ -20,7 +19,14 @@ from rosbeat.workspace.terminals.foreground import group, sleeps_within, would_h
 from rosbeat.workspace.terminals.history import History, Line
 from rosbeat.workspace.terminals.lines import LineBuilder
 from rosbeat.workspace.terminals.marks import PROMPT, RUN, Mark, MarkScanner
-from rosbeat.workspace.terminals.pty_process import alive, close_quietly, exit_code, start_bash
+from rosbeat.workspace.terminals.modes import Modes, modes_of
+from rosbeat.workspace.terminals.pty_process import (
+    alive,
+    close_quietly,
+    exit_code,
+    start_bash,
+    wait_for_event,
+)
 from rosbeat.workspace.terminals.steadiness import Polish
 from rosbeat.workspace.terminals.surroundings import STARTUP
 from rosbeat.workspace.terminals.whole_screen import painter
@@ -33,6 +39,8 @@ _TAKES_WITHIN = 20.0
 _LOOK_EVERY = 0.25
 _ASLEEP_WITHIN, _AGAIN_AFTER = 2.0, 5.0
 _ON_ITS_WAY = 0.1
+# A program that wants one key has it within so many seconds; and how often to look.
+_TAKEN_WITHIN, _MOMENT = 1.0, 0.005
 # After `set -v` bash shows its start-up, too.
 _OURS = "{ PS1=$__rosbeat_ps1"
 _FOREIGN_PROMPT = re.compile(r"[$#%>] ?$")
@@ -159,7 +167,20 @@ class Shell:
     def answer(self, keys: str, shown: str) -> None:
         """Type into the running program; what it asks is completed by what is typed."""
         self.note(shown)
+        line, asked = keys.removesuffix("\n"), self._modes
+        if line != keys and asked.may_want_no_enter(line):
+            self.write(line)
+            keys = "" if self._went_on(asked, _TAKEN_WITHIN) else "\n"
         self.write(keys)
+
+    def _went_on(self, asked: Modes, seconds: float) -> bool:
+        """Wait until the program that asked for a key asks no more; Enter would go to the next."""
+        deadline = time.monotonic() + seconds
+        while self.state == BUSY and self._modes == asked:
+            if time.monotonic() > deadline:
+                return False
+            self.wait(lambda: self.state != BUSY, _MOMENT)
+        return True
 
     def note(self, shown: str) -> None:
         """Show what is typed into the running program, behind what it asks."""
@@ -208,7 +229,7 @@ class Shell:
                 )
 
     def _write_some(self, data: bytes) -> int:
-        _poll(self._process.fd, select.POLLOUT, 0.5)
+        wait_for_event(self._process.fd, select.POLLOUT, 0.5)
         with self._changed:
             try:
                 return os.write(self._process.fd, data[:2048]) if self.state != ENDED else 0
@@ -222,7 +243,7 @@ class Shell:
 
     def reads_lines(self) -> bool:
         """Tell whether the terminal collects what is typed into lines of limited length."""
-        return bool(self._local_modes() & termios.ICANON)
+        return self._modes.reads_lines
 
     def in_front(self) -> int:
         """Return the process group of the program that has the terminal; 0 if unknown."""
@@ -245,7 +266,7 @@ class Shell:
         would be lost now and then, our mark among it. Only a program that wants keys gets the key.
         `group` is the process group that is meant; by default the one in front.
         """
-        if self._local_modes() & termios.ISIG:
+        if self._modes.obeys_ctrl_c:
             self._signal(signal.SIGINT, group)
         else:
             self.write("\x03")
@@ -253,11 +274,11 @@ class Shell:
     def painter(self) -> str:
         """Return the program in front if it is known to paint a whole screen, or nothing."""
         group = self.in_front()
-        if self.state != BUSY or group <= 0 or not self._wants_keys():
+        if self.state != BUSY or group <= 0 or not self._modes.wants_keys:
             return ""
         name = painter(group)
         # Bash wants keys, too, until it has read the command: only now are these its modes.
-        return name if name and self._wants_keys() else ""
+        return name if name and self._modes.wants_keys else ""
 
     def terminate(self) -> None:
         """Ask the program in the foreground to end; bash itself would not listen."""
@@ -299,24 +320,11 @@ class Shell:
         except OSError:
             return False
         in_front = self.state == BUSY and self.in_front() == self._process.pid
-        return in_front and program.startswith("bash") and self._edits_lines()
+        return in_front and program.startswith("bash") and self._modes.edits_lines
 
-    def _edits_lines(self) -> bool:
-        """Tell whether readline has the terminal: unlike `read -n 1` it tells CR from newline."""
-        return not self.reads_lines() and not self._modes(0) & termios.ICRNL
-
-    def _wants_keys(self) -> bool:
-        modes = self._local_modes()
-        return modes != 0 and not modes & termios.ICANON
-
-    def _local_modes(self) -> int:
-        return self._modes(3)
-
-    def _modes(self, index: int) -> int:
-        try:
-            return int(termios.tcgetattr(self._process.fd)[index])
-        except (termios.error, OSError, ValueError):
-            return 0
+    @property
+    def _modes(self) -> Modes:
+        return modes_of(self._process.fd)
 
     # The reading thread.
 
@@ -345,7 +353,7 @@ class Shell:
                     return b""
             except OSError:
                 return b""
-            _poll(self._process.fd, select.POLLIN, _LOOK_EVERY)
+            wait_for_event(self._process.fd, select.POLLIN, _LOOK_EVERY)
 
     def _take(self, text: str) -> None:
         with self._changed:
@@ -389,11 +397,3 @@ class Shell:
     def _tell(self) -> None:
         self._moment += 1
         self._changed.notify_all()
-
-
-def _poll(descriptor: int, event: int, seconds: float) -> None:
-    """Wait until a descriptor is ready; `select` would refuse those above 1023."""
-    poll = select.poll()
-    with suppress(OSError, ValueError):
-        poll.register(descriptor, event)
-        poll.poll(seconds * 1000)

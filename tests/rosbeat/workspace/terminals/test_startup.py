@@ -68,6 +68,33 @@ def test_a_question_for_one_key_is_not_answered_by_a_repair(seen, terminal):
     assert seen("echo $X")[-1] == "y"
 
 
+def test_what_asked_for_one_key_gets_no_enter_that_the_shell_would_get(seen, terminal):
+    seen("read -n 1 -p 'Sure? ' X", timeout=1.2)
+    terminal.answer("y", show=str, timeout=20)
+    # An empty line that bash reads is a second prompt, and ends the next command for the page.
+    terminal.type('sleep 0.3; echo "late $X"', show=(said := []).append)
+    assert said[-1] == "late y"
+
+
+def test_a_program_that_works_after_its_key_leaves_no_enter_behind(seen, terminal):
+    seen("read -n 1 -p 'Sure? ' X; sleep 2", timeout=1.2)
+    terminal.answer("y", show=str, seconds=5)
+    terminal.type('sleep 0.3; echo "late $X"', show=(said := []).append)
+    assert said[-1] == "late y"
+
+
+def test_what_asked_for_three_keys_gets_enter_after_two(seen, terminal):
+    seen("read -n 3 -p 'Which? ' X; echo \"<$X>\"", timeout=1.2)
+    terminal.answer("ab", show=(said := []).append, timeout=20)
+    assert said[-1] == "<ab>"
+
+
+def test_one_key_for_a_program_that_edits_lines_is_a_line(seen, terminal):
+    seen("read -e -p 'Which? ' X; echo \"<$X>\"", timeout=1.2)
+    terminal.answer("a", show=(said := []).append, timeout=20)
+    assert said[-1] == "<a>"
+
+
 def test_a_folder_with_odd_letters(seen, terminal, home):
     name = 'o d$d `é\' "x" \\n'
     (home / name).mkdir()
