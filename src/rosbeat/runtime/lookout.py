@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter, defaultdict
 from itertools import count
 from os import getpid
 from typing import Any
@@ -18,6 +19,8 @@ from rosbeat.runtime.hooks import Unwatched
 UNKNOWN = "_NODE_NAME_UNKNOWN_"
 #: How many bytes of an endpoint's address all endpoints of one participant have in common.
 _PARTICIPANT = 12
+#: Every node of rclpy publishes here, and once only.
+_EVERY_NODE = "/parameter_events"
 _numbers = count(1)  # only makes names differ
 
 
@@ -39,7 +42,7 @@ class Lookout(Unwatched, Node):
             start_parameter_services=False,
             parameter_overrides=[Parameter("start_type_description_service", value=False)],
         )
-        own = self.get_publishers_info_by_topic("/parameter_events")
+        own = self.get_publishers_info_by_topic(_EVERY_NODE)
         name = self.get_name()
         self._own = next((participant(one) for one in own if one.node_name == name), b"")
 
@@ -60,9 +63,26 @@ class Lookout(Unwatched, Node):
         return sorted(name for name, _ in self.get_topic_names_and_types())
 
     def nodes(self) -> list[str]:
-        """Full names of all nodes with names, the session's own included, sorted."""
+        """Full names of all nodes with names, the session's own included, sorted.
+
+        A node that has left may stay listed for good, with an empty hand: if the last news of it
+        is looked at after its farewell, the middleware takes it for news of somebody new
+        (`GraphCache::update_participant_entities` of rmw_dds_common, which adds whom it does not
+        know). So each name counts only as often as there are nodes of that name with endpoints;
+        every node of rclpy has one on `/parameter_events`.
+        """
         known = self.get_node_names_and_namespaces()
-        return sorted(full_name(name, space) for name, space in known if name != UNKNOWN)
+        listed = Counter(full_name(name, space) for name, space in known if name != UNKNOWN)
+        return sorted((listed & self._with_endpoints()).elements())
+
+    def _with_endpoints(self) -> Counter[str]:
+        """How many nodes of each name have endpoints on topics, as far as that can be told."""
+        found: dict[str, set[bytes]] = defaultdict(set)
+        for topic in self.topics():
+            for one in self.publishers(topic) + self.subscriptions(topic):
+                found[owner(one)].add(participant(one))
+        of_a_process = Counter(owner(one) for one in self.publishers(_EVERY_NODE))
+        return of_a_process | Counter({name: len(homes) for name, homes in found.items()})
 
 
 def participant(endpoint: Any) -> bytes:  # noqa: ANN401 - rclpy's TopicEndpointInfo

@@ -1,5 +1,8 @@
 """The hidden node: what it sees and that it is not seen."""
 
+from contextlib import ExitStack
+from functools import partial
+
 from nodes import Listener, Talker
 from rosbeat import Session
 from rosbeat.domains import lease_domain
@@ -39,3 +42,29 @@ def test_a_private_session_has_none(ros):
     ros.add(Listener)
     ros.run(0)
     assert ros._world.arrivals is None
+
+
+def test_a_node_that_is_listed_after_it_has_left_does_not_count(eventually, monkeypatch):
+    lease = lease_domain()
+    with Session(domain_id=lease.domain_id) as one, Session(domain_id=lease.domain_id) as two:
+        two.add(Talker)
+        look = one._world.lookout
+        eventually(lambda: look.nodes().count("/talker") == 1, 30)
+        # As the middleware does it now and then on a busy machine.
+        listed = [*look.get_node_names_and_namespaces(), ("ghost", "/"), ("talker", "/")]
+        monkeypatch.setattr(look, "get_node_names_and_namespaces", lambda: listed)
+        assert look.nodes().count("/talker") == 1
+        assert "/ghost" not in look.nodes()
+        assert one.graph().nodes == ("/talker",)
+    lease.release()
+
+
+def test_nodes_of_one_name_count_each(eventually):
+    lease = lease_domain()
+    with ExitStack() as stack:
+        join = partial(Session, domain_id=lease.domain_id)
+        one, two, three = (stack.enter_context(join()) for _ in range(3))
+        for session in two, three:
+            session.add(Talker)
+        eventually(lambda: one.graph().nodes == ("/talker", "/talker"), 30)
+    lease.release()

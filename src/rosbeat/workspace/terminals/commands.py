@@ -305,10 +305,10 @@ class Commands:
                 return True
             if left <= 0:
                 return False
-            missed = self._shell.missed(before) if key == "^C" else 0
+            missed = self._shell.missed(before) if key == "^C" else None
             if missed:
                 before = missed
-                self._shell.interrupt(missed)
+                self._shell.interrupt(missed.pid)
 
     def _drop(self) -> None:
         """Leave an unfinished command."""

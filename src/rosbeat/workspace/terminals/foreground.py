@@ -1,7 +1,8 @@
 """Which program has the terminal, and whether Ctrl+C can have reached it.
 
 A loop of the shell starts one program after the other. Ctrl+C goes to the one that has the
-terminal, and in the moment between two of them it goes to nobody: a person presses again.
+terminal, and in the moment between two of them it goes to nobody: a person presses again. A program
+that had its own way to end is on that way: pressed again, Ctrl+C would break it off.
 """
 
 from __future__ import annotations
@@ -10,9 +11,48 @@ import os
 import signal
 import time
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 _BIT = 1 << (signal.SIGINT - 1)
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program that has a terminal, at one moment.
+
+    Attributes:
+        pid: Its process group, which is also the number of its first process; 0 for none.
+        command: Its words, as Linux shows them; another program in the same process has others.
+        is_defenceless: Whether an interrupt would end it for certain.
+    """
+
+    pid: int
+    command: bytes = b""
+    is_defenceless: bool = False
+
+    def was_missed(self, before: Program) -> bool:
+        """Tell whether Ctrl+C that was pressed has not reached this program.
+
+        Python takes its handlers away at its very end: who was not defenceless and is so now is
+        leaving, unless it has become another program meanwhile.
+
+        Args:
+            before: Who had the terminal when it was pressed.
+        """
+        if self.pid != before.pid:
+            return True
+        became = self.command != before.command
+        return self.is_defenceless and (became or before.is_defenceless)
+
+
+def program(pid: int) -> Program:
+    """Return what can be seen of a program; one that is gone has no words."""
+    try:
+        command = Path(f"/proc/{pid}/cmdline").read_bytes()
+    except OSError:
+        command = b""
+    return Program(pid, command, would_have_ended(pid))
 
 
 def group(descriptor: int) -> int:

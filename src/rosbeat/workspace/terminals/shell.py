@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rosbeat.errors import TerminalError
-from rosbeat.workspace.terminals.foreground import group, sleeps_within, would_have_ended
+from rosbeat.workspace.terminals.foreground import Program, group, program, sleeps_within
 from rosbeat.workspace.terminals.history import History, Line
 from rosbeat.workspace.terminals.lines import LineBuilder
 from rosbeat.workspace.terminals.marks import PROMPT, RUN, Mark, MarkScanner
@@ -245,19 +245,19 @@ class Shell:
         """Tell whether the terminal collects what is typed into lines of limited length."""
         return self._modes.reads_lines
 
-    def in_front(self) -> int:
-        """Return the process group of the program that has the terminal; 0 if unknown."""
-        return group(self._process.fd)
+    def in_front(self) -> Program:
+        """Return the program that has the terminal; of number 0 if unknown."""
+        return program(group(self._process.fd))
 
-    def missed(self, before: int) -> int:
-        """Return the program that Ctrl+C has not reached and is to be pressed for again; or 0.
+    def missed(self, before: Program) -> Program | None:
+        """Return the program that Ctrl+C has not reached and is to be pressed for again, if any.
 
         It is never bash: with its prompt on its way, that would change the exit code. `before` is
         who had the terminal when it was pressed.
         """
         now = self.in_front()
-        runs = self.state == BUSY and now > 0 and now != self._process.pid
-        return now if runs and (now != before or would_have_ended(now)) else 0
+        runs = self.state == BUSY and now.pid > 0 and now.pid != self._process.pid
+        return now if runs and now.was_missed(before) else None
 
     def interrupt(self, group: int = 0) -> None:
         """Do what Ctrl+C does.
@@ -273,10 +273,10 @@ class Shell:
 
     def painter(self) -> str:
         """Return the program in front if it is known to paint a whole screen, or nothing."""
-        group = self.in_front()
-        if self.state != BUSY or group <= 0 or not self._modes.wants_keys:
+        front = group(self._process.fd)
+        if self.state != BUSY or front <= 0 or not self._modes.wants_keys:
             return ""
-        name = painter(group)
+        name = painter(front)
         # Bash wants keys, too, until it has read the command: only now are these its modes.
         return name if name and self._modes.wants_keys else ""
 
@@ -319,7 +319,7 @@ class Shell:
             program = os.path.basename(os.readlink(f"/proc/{self._process.pid}/exe"))
         except OSError:
             return False
-        in_front = self.state == BUSY and self.in_front() == self._process.pid
+        in_front = self.state == BUSY and group(self._process.fd) == self._process.pid
         return in_front and program.startswith("bash") and self._modes.edits_lines
 
     @property

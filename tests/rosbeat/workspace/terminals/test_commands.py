@@ -1,6 +1,7 @@
 """Commands, answers and keys, typed into a real bash."""
 
 import signal
+import sys
 
 import pytest
 
@@ -101,6 +102,24 @@ def test_ctrl_c_is_not_pressed_again_while_the_prompt_is_on_its_way(terminal):
     assert terminal.ctrl_c(show=str) == 0
     terminal.type("true", show=str)
     assert terminal.exit_code == 0
+
+
+SLOW_TO_LEAVE = """import signal, sys, time
+def leave(*_):
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    time.sleep(1.5)
+    sys.exit(0)
+signal.signal(signal.SIGINT, leave)
+print("ready", flush=True)
+signal.pause()
+"""
+
+
+def test_ctrl_c_is_not_pressed_again_for_a_program_on_its_way_out(terminal, home):
+    """Python takes its handlers away at the end, and may take its time then."""
+    (home / "slow.py").write_text(SLOW_TO_LEAVE)
+    terminal.type(f"{sys.executable} ~/slow.py", until="ready", show=str)
+    assert terminal.ctrl_c(show=str) == 0
 
 
 def test_ctrl_c_with_nothing_running(terminal):
