@@ -35,6 +35,7 @@ from rosbeat.grading.sandbox.running import Ending, run_caged
 from rosbeat.grading.sandbox.unsafe import become_bare
 from rosbeat.grading.workspaces import files_before
 from rosbeat.records import Observation
+from rosbeat.runtime.message_classes import mend_message_classes
 from rosbeat.runtime.type_support import load_type_support
 from rosbeat.scenarios import registry
 from rosbeat.scenarios.evidence import from_json
@@ -117,6 +118,7 @@ def prepare() -> Census:
     for name in (*_PREPARED, *(f"rosbeat.scenarios.{one}" for one in registry.MODULES)):
         importlib.import_module(name)
     load_type_support(_TYPES)
+    mend_message_classes()  # it looks for them once
     # The first log line of a process looks for the file of each module; it finds them here.
     inspect.getmodule(sys._getframe())
     found = census()

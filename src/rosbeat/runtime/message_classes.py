@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from functools import cache
 from importlib.util import module_from_spec
 from types import ModuleType
 
@@ -32,9 +33,15 @@ def _broken() -> Iterator[tuple[type, ModuleType]]:
     # The generated modules are `std_msgs.msg._float32` and the like.
     for name, module in list(sys.modules.items()):
         if ".msg._" in name:
-            for kind in list(vars(module).values()):
-                if _is_made_there(kind, name) and _spoilt(kind):
+            for kind in _made_in(module):
+                if _spoilt(kind):
                     yield kind, module
+
+
+@cache
+def _made_in(module: ModuleType) -> tuple[type, ...]:
+    """The message classes of a generated module, which get no more; looked for once."""
+    return tuple(kind for kind in vars(module).values() if _is_made_there(kind, module.__name__))
 
 
 def _is_made_there(kind: object, module: str) -> bool:
@@ -46,8 +53,9 @@ def _is_made_there(kind: object, module: str) -> bool:
 
 
 def _spoilt(kind: type) -> list[str]:
-    fields: dict[str, str] = vars(kind)["_fields_and_field_types"]
-    return [name for name in fields if not isinstance(vars(kind).get(name), property)]
+    found = vars(kind)
+    fields: dict[str, str] = found["_fields_and_field_types"]
+    return [name for name in fields if type(found.get(name)) is not property]
 
 
 def _loaded_anew(module: ModuleType) -> ModuleType:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import builtins
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import lru_cache
 from typing import Any
@@ -38,18 +38,26 @@ def needed(texts: Iterable[str], cells: Iterable[str], names: Iterable[str]) -> 
         cells: The other cells, those that count more first.
         names: What is defined already.
     """
-    offered = [one for cell in cells for one in _offered(cell)]
+    others = tuple(cells)
     todo: list[ast.AST] = [tree for tree in map(_parsed, texts) if tree is not None]
     known = set(names).union(*map(names_of, todo))
     wanted: list[ast.stmt] = []
     while todo:
         for name in sorted(_named(todo.pop(), ast.Load) - known):
-            found = next((one for one, names in offered if name in names), None)
+            found = next((one for one, names in _offers(name, others) if name in names), None)
             if found is not None:
                 wanted = [*(one for one in wanted if one is not found), found]
                 known |= names_of(found)
                 todo.append(found)
     return wanted[::-1]  # what others build on was found last
+
+
+def _offers(name: str, cells: Iterable[str]) -> Iterator[tuple[ast.stmt, frozenset[str]]]:
+    """What cells define that may define a name: reading all of them would take its time."""
+    for cell in cells:
+        # Python takes some letters for others (`ﬁ` for `fi`), but no letter of ASCII.
+        if name in cell or not cell.isascii():
+            yield from _offered(cell)
 
 
 @lru_cache(maxsize=512)
