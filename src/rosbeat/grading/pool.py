@@ -26,6 +26,9 @@ from rosbeat.grading.jobs import LOST, READY, Job, Observed, read_observed, writ
 #: What the line of jobs is ended with; see `worker`.
 _MODULE = "rosbeat.grading.worker"
 _UNSAFE = "--unsafe-no-sandbox"
+#: The middleware's thousands of functions are looked up once, as it is loaded (ld.so(8)); else each
+#: answer would do so anew, for itself. Answers see nothing of it: their environment is their own.
+_BOUND = {"LD_BIND_NOW": "1"}
 #: Seconds that a worker may be silent: the longest job, and a machine that is busy.
 PATIENCE = 400.0
 _TRIES = 2
@@ -50,6 +53,7 @@ class Worker:
             [sys.executable, "-m", _MODULE, *options],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            env={**os.environ, **_BOUND},
             start_new_session=True,
         )
         self._is_ready = False

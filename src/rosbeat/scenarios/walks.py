@@ -10,8 +10,8 @@ knowing the limits: a walk that is held somewhere meets the very same number aga
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import pairwise
 from math import isfinite
+from operator import sub
 from typing import Any
 
 from rosbeat.records import Observation
@@ -85,4 +85,5 @@ def stays(values: Sequence[float], end: float) -> bool:
 
 def widest(values: Sequence[float]) -> float:
     """The widest step between two readings that follow each other; 0 for fewer than two."""
-    return max((abs(b - a) for a, b in pairwise(values)), default=0.0)
+    # With functions of C only: of one walk it is asked several times.
+    return max(map(abs, map(sub, values[1:], values)), default=0.0)
