@@ -13,11 +13,13 @@ def _file(path):
     return f"found = open({path!r}).read()"
 
 
+# Python's own packages are shown on purpose, and reading them all may take longer than an answer may.
 _WALK = """
 import os
 found = []
 for top in {tops!r}:
-    for place, _, names in os.walk(top):
+    for place, inner, names in os.walk(top):
+        inner[:] = [one for one in inner if one != "site-packages"]
         for name in names:
             if name.endswith((".ipynb", ".txt", ".jsonl", ".py")):
                 try:
