@@ -13,7 +13,7 @@ def _file(path):
     return f"found = open({path!r}).read()"
 
 
-# Python's own packages are shown on purpose, and reading them all may take longer than an answer may.
+# Python's own packages are shown on purpose, and an answer has not the time to read them all.
 _WALK = """
 import os
 found = []
