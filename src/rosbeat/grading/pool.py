@@ -23,7 +23,7 @@ from typing import TypeVar
 from rosbeat.errors import GradingError
 from rosbeat.grading.jobs import LOST, READY, Job, Observed, read_observed, write_line
 
-#: What the line of jobs is ended with; see `worker`.
+#: What a worker runs, and the option that takes its sandboxes away; see `worker`.
 _MODULE = "rosbeat.grading.worker"
 _UNSAFE = "--unsafe-no-sandbox"
 #: The middleware's thousands of functions are looked up once, as it is loaded (ld.so(8)); else each

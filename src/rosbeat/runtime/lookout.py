@@ -65,7 +65,7 @@ class Lookout(Unwatched, Node):
     def nodes(self) -> list[str]:
         """Full names of all nodes with names, the session's own included, sorted.
 
-        A node that has left may stay listed for good, with an empty hand: if the last news of it
+        A node that has left may stay listed for good, without endpoints: if the last news of it
         is looked at after its farewell, the middleware takes it for news of somebody new
         (`GraphCache::update_participant_entities` of rmw_dds_common, which adds whom it does not
         know). So each name counts only as often as there are nodes of that name with endpoints;

@@ -11,7 +11,6 @@ from std_msgs.msg import Empty, Int32
 from nodes import SECOND, Doer, Listener, Relay, Talker, Ticker
 from rosbeat import Session
 from rosbeat.errors import EndlessChainError
-from rosbeat.runtime.virtual_time import VirtualTimeExecutor
 
 
 def test_a_timer_fires_once_a_period_and_the_end_belongs_to_the_run(ros):
@@ -395,7 +394,3 @@ def test_no_wait_set_is_built_while_nothing_changes(ros, monkeypatch):
     monkeypatch.setattr(executor, "wait_for_ready_callbacks", None)
     ros.run(100)
     assert len(ros.messages("count")) == 101
-
-
-def test_an_executor_whose_making_was_interrupted_goes_quietly():
-    VirtualTimeExecutor.__new__(VirtualTimeExecutor).__del__()

@@ -316,11 +316,11 @@ class Shell:
 
     def _waits_in_bash(self) -> bool:
         try:
-            program = os.path.basename(os.readlink(f"/proc/{self._process.pid}/exe"))
+            running = os.path.basename(os.readlink(f"/proc/{self._process.pid}/exe"))
         except OSError:
             return False
         in_front = self.state == BUSY and group(self._process.fd) == self._process.pid
-        return in_front and program.startswith("bash") and self._modes.edits_lines
+        return in_front and running.startswith("bash") and self._modes.edits_lines
 
     @property
     def _modes(self) -> Modes:
