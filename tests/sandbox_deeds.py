@@ -17,7 +17,9 @@ from pathlib import Path
 from rosbeat.errors import GradingError
 from rosbeat.grading.sandbox.cage import Cage, python_folders
 from rosbeat.grading.sandbox.limits import Limits
+from rosbeat.grading.sandbox.namespaces import become_able
 from rosbeat.grading.sandbox.running import run_caged
+from rosbeat.grading.sandbox.sandboxes import Sandboxes
 
 LIMITS = Limits(wall=2.0, memory=300_000_000)
 SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{os.getpid()}")
@@ -160,6 +162,32 @@ def closes_everything(result):
     os.closerange(0, 100)
 
 
+def closes_everything_and_sleeps(result):
+    os.closerange(0, 100)
+    time.sleep(1000)
+
+
+def leaves_with_a_high_code(result):
+    os._exit(200)
+
+
+def looks_around(result):
+    def reads(path):
+        with open(path, "rb") as file:
+            return file.read()
+
+    mounts = reads("/proc/self/mountinfo").decode().splitlines()
+    tells(result, {
+        "first": attempt(lambda: os.listdir("/proc/1/fd")),
+        "memory": attempt(lambda: reads("/proc/1/mem")),
+        "signal": attempt(lambda: os.kill(1, signal.SIGTERM)),
+        "alive": attempt(lambda: os.kill(1, 0)),
+        "mounts": sorted({line.split()[4] for line in mounts}),
+        "descriptors": sorted(int(one) for one in os.listdir("/proc/self/fd")),
+        "session": os.getsid(0) == os.getpid(),
+    })  # fmt: skip
+
+
 def ignores_signals(result):
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
@@ -170,8 +198,17 @@ def ignores_signals(result):
 DEEDS = (
     *(looks, writes, gains_rights, calls_out, loops, sleeps, forks, eats, prints, answers_too_much),
     *(fills_a_file, fills_memory_that_is_shared, kills_itself, kills_all, crashes, leaves),
-    *(leaves_with_a_code, raises, stays_behind, closes_everything, ignores_signals),
+    *(leaves_with_a_code, leaves_with_a_high_code, raises, stays_behind, closes_everything),
+    *(closes_everything_and_sleeps, looks_around, ignores_signals),
 )
+
+
+def ending(found):
+    told = json.loads(found.result) if found.result[:1] == b"{" else len(found.result)
+    return {
+        "how": found.how, "number": found.number, "told": told, "seconds": found.seconds,
+        "output": found.output[-200:].decode("utf-8", "replace"), "read": len(found.output),
+    }  # fmt: skip
 
 
 def main():
@@ -181,13 +218,9 @@ def main():
     cage = Cage(python_folders(), (), {"PATH": "/usr/bin", "HOME": "/tmp"}, LIMITS)
     seen = {}
     try:
-        for deed in DEEDS:
-            found = run_caged(deed, cage)
-            told = json.loads(found.result) if found.result[:1] == b"{" else len(found.result)
-            seen[deed.__name__] = {
-                "how": found.how, "number": found.number, "told": told, "seconds": found.seconds,
-                "output": found.output[-200:].decode("utf-8", "replace"), "read": len(found.output),
-            }  # fmt: skip
+        become_able()
+        with Sandboxes(cage) as sandboxes:
+            seen = {deed.__name__: ending(run_caged(deed, cage, sandboxes)) for deed in DEEDS}
     except GradingError as error:
         seen = {"refused": str(error)}
     finally:

@@ -22,10 +22,10 @@ from typing import TypeVar
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.jobs import LOST, READY, Job, Observed, read_observed, write_line
+from rosbeat.grading.start_worker import UNSAFE
 
-#: What a worker runs, and the option that takes its sandboxes away; see `worker`.
-_MODULE = "rosbeat.grading.worker"
-_UNSAFE = "--unsafe-no-sandbox"
+#: What a worker runs, and the option that takes its sandboxes away.
+_MODULE = "rosbeat.grading.start_worker"
 #: The middleware's thousands of functions are looked up once, as it is loaded (ld.so(8)); else each
 #: answer would do so anew, for itself. Answers see nothing of it: their environment is their own.
 _BOUND = {"LD_BIND_NOW": "1"}
@@ -47,7 +47,7 @@ class Worker:
     """
 
     def __init__(self, unsafe: bool = False, patience: float = PATIENCE) -> None:
-        options = [_UNSAFE] if unsafe else []
+        options = [UNSAFE] if unsafe else []
         self._patience = patience
         self._process = subprocess.Popen(
             [sys.executable, "-m", _MODULE, *options],

@@ -1,4 +1,4 @@
-"""A process that is prepared once and forks a sandbox for each job: `python -m ...worker`.
+"""A process that is prepared once and forks into a sandbox for each job; see `start_worker`.
 
 It reads jobs, a line of JSON each, and answers each with a line. Interpreter, ROS and message types
 are imported once, before the first fork; ROS itself is started in the child only, for a fork after
@@ -14,8 +14,8 @@ import inspect
 import json
 import os
 import secrets
-import signal
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -28,11 +28,12 @@ from rosbeat.grading.inside.kernel import kernel_files, kernel_job
 from rosbeat.grading.inside.observing import observe_job
 from rosbeat.grading.inside.replaying import replay_job
 from rosbeat.grading.jobs import FORGED, READY, Job, Observed, read_job, write_line
-from rosbeat.grading.sandbox import linux
-from rosbeat.grading.sandbox.cage import Cage, become_gate, python_folders
+from rosbeat.grading.sandbox.cage import Cage, python_folders
 from rosbeat.grading.sandbox.limits import Limits
+from rosbeat.grading.sandbox.place import Place
 from rosbeat.grading.sandbox.running import Ending, run_caged
-from rosbeat.grading.sandbox.unsafe import become_bare
+from rosbeat.grading.sandbox.sandboxes import Sandboxes
+from rosbeat.grading.sandbox.unsafe import Bare
 from rosbeat.grading.workspaces import files_before
 from rosbeat.records import Observation
 from rosbeat.runtime.message_classes import mend_message_classes
@@ -82,8 +83,6 @@ class Rehearsal(Node):
         self.get_logger().info(str(message.data))
 """
 _IMPORTS = "from rclpy.node import Node\nfrom std_msgs.msg import Float32"
-#: What makes a worker run without a sandbox.
-UNSAFE = "--unsafe-no-sandbox"
 
 
 def main(lines: TextIO = sys.stdin, answers: TextIO = sys.stdout, unsafe: bool = False) -> None:
@@ -95,18 +94,29 @@ def main(lines: TextIO = sys.stdin, answers: TextIO = sys.stdout, unsafe: bool =
         unsafe: Whether answers run with limits only.
     """
     before = prepare()
-    cage = furnished()
-    trouble = rehearse(cage, before, unsafe)
+    answer = _answers(furnished(), before, unsafe)
     print(READY, file=answers, flush=True)
     for line in lines:
         try:
-            if trouble is not None:
-                raise trouble
-            said = write_line(observed(read_job(line), cage, before, unsafe))
+            said = write_line(answer(read_job(line)))
         except GradingError as error:
             parts = [error.what, error.means, error.to_try]
             said = json.dumps({"refused": parts})
         print(said, file=answers, flush=True)
+
+
+def _answers(cage: Cage, before: Census, unsafe: bool) -> Callable[[Job], Observed]:
+    """What answers a job: if nothing can be observed on this machine, by saying why."""
+    try:
+        place: Place = Bare() if unsafe else Sandboxes(cage)
+        rehearse(cage, before, place)
+    except GradingError as error:
+        return partial(_refuse, error)
+    return lambda job: observed(job, cage, before, place)
+
+
+def _refuse(trouble: GradingError, _: Job) -> Observed:
+    raise trouble
 
 
 def prepare() -> Census:
@@ -147,31 +157,27 @@ def _commands() -> list[str]:
     return [str(Path(one).resolve().parent) for one in folders or ()]
 
 
-def rehearse(cage: Cage, before: Census, unsafe: bool = False) -> GradingError | None:
+def rehearse(cage: Cage, before: Census, place: Place) -> None:
     """Run a program of the course's own, so that no learner pays for a sandbox that cannot work.
 
     Args:
         cage: The sandbox.
         before: What this process has prepared.
-        unsafe: Whether it runs with limits only.
+        place: Where it is run.
 
-    Returns:
-        What is wrong; None if all is well.
+    Raises:
+        GradingError: If the sandbox cannot be made, or nothing can be observed in it.
     """
-    job = Job("03a", "Rehearsal", _REHEARSAL, imports=_IMPORTS)
-    try:
-        seen = observed(job, cage, before, unsafe)
-    except GradingError as error:
-        return error
-    said = _failed(seen)
-    if not said:
-        return None
-    return GradingError(
-        f"Nothing can be observed in the sandbox of this machine: {said}",
-        "A program that certainly works did not work in there, so every mark would be wrong.",
-        "`./environment/course doctor` says what is missing, or which other ROS is in the way; "
-        "`--unsafe-no-sandbox` tells whether it is the sandbox.",
+    said = _failed(
+        observed(Job("03a", "Rehearsal", _REHEARSAL, imports=_IMPORTS), cage, before, place)
     )
+    if said:
+        raise GradingError(
+            f"Nothing can be observed in the sandbox of this machine: {said}",
+            "A program that certainly works did not work in there, so every mark would be wrong.",
+            "`./environment/course doctor` says what is missing, or which other ROS is in the way; "
+            "`--unsafe-no-sandbox` tells whether it is the sandbox.",
+        )
 
 
 def _failed(seen: Observed) -> str:
@@ -184,14 +190,14 @@ def _failed(seen: Observed) -> str:
     return "" if found.logs else "a node does not hear what it publishes"
 
 
-def observed(job: Job, cage: Cage, before: Census, unsafe: bool = False) -> Observed:
+def observed(job: Job, cage: Cage, before: Census, place: Place) -> Observed:
     """Run one job.
 
     Args:
         job: The job.
         cage: The sandbox.
         before: What this process has prepared.
-        unsafe: Whether it runs with limits only.
+        place: Where it is run.
 
     Raises:
         GradingError: If the sandbox cannot be made.
@@ -204,7 +210,7 @@ def observed(job: Job, cage: Cage, before: Census, unsafe: bool = False) -> Obse
         work = partial(replay_job, job, files_before(job.page), seal)
     else:
         work = partial(observe_job, job, before, seal)
-    return _read(run_caged(work, cage, become_bare if unsafe else become_gate), seal)
+    return _read(run_caged(work, cage, place), seal)
 
 
 def limits_of(job: Job) -> Limits:
@@ -246,9 +252,3 @@ def _said(result: bytes, seal: str) -> tuple[dict[str, Any], bool]:
 def _word(said: dict[str, Any], name: str) -> str:
     found = said.get(name, "")
     return found if isinstance(found, str) else ""
-
-
-if __name__ == "__main__":
-    # Whoever grades may be killed in the middle; nothing of a submission runs on after that.
-    linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
-    main(unsafe=UNSAFE in sys.argv[1:])

@@ -100,7 +100,7 @@ def test_same_results_as_on_one_machine_with_a_worker_killed(cluster, course_and
 
 def prepared_processes(worker):
     children = psutil.Process(worker).children(recursive=True)
-    return [one.pid for one in children if "rosbeat.grading.worker" in one.cmdline()]
+    return [one.pid for one in children if "rosbeat.grading.start_worker" in one.cmdline()]
 
 
 def test_nothing_is_left_on_the_workers(cluster, eventually):

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from grading_files import DONE
+from rosbeat.errors import GradingError
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import worker as module
 from rosbeat.grading.jobs import FORGED, READY, Job, Observed, read_observed, write_line
@@ -18,6 +19,7 @@ from rosbeat.grading.judging import judge
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.sandbox.cage import Cage
 from rosbeat.grading.sandbox.running import Ending
+from rosbeat.grading.sandbox.unsafe import Bare
 from rosbeat.grading.worker import furnished, limits_of, main
 from rosbeat.records import Fault, LogRecord, Observation
 from rosbeat.scenarios.evidence import to_json
@@ -91,9 +93,10 @@ def told(monkeypatch):
     """What a worker answers to lines, when sandboxes are made up."""
     monkeypatch.setattr(module, "prepare", tuple)
     monkeypatch.setattr(module, "furnished", Cage)
+    monkeypatch.setattr(module, "Sandboxes", lambda _: Bare())
 
     def tell(*lines, run=None):
-        def caged(work, cage, become):
+        def caged(work, cage, place):
             return (run or (lambda: Ending("ended", 0, b"", b"", 0.0)))()
 
         monkeypatch.setattr(module, "run_caged", caged)
@@ -232,12 +235,11 @@ HEARD = LogRecord(1_000_000_000, "INFO", "rehearsal", "21.0", "hear", 12)
 )
 def test_a_rehearsal_that_fails_says_why_and_nobody_is_graded(seen, said, monkeypatch):
     monkeypatch.setattr(module, "observed", lambda *_: seen)
-    error = module.rehearse(Cage(), ())
-    assert error is not None
-    assert said in error.what
+    with pytest.raises(GradingError, match=said):
+        module.rehearse(Cage(), (), Bare())
 
 
 def test_a_rehearsal_in_which_a_message_arrives_is_one(monkeypatch):
     seen = Observed("ended", evidence=to_json(Observation(5, 0, logs=(HEARD,))))
     monkeypatch.setattr(module, "observed", lambda *_: seen)
-    assert module.rehearse(Cage(), ()) is None
+    module.rehearse(Cage(), (), Bare())

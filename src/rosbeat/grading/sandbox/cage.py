@@ -1,11 +1,12 @@
-"""One run in a sandbox: a forked child in namespaces of its own.
+"""How a sandbox is furnished, and how a forked process becomes the work in it.
 
 ::
 
-    parent            watches clock, memory and pipes; kills
-      └─ gate         new mount, process, network, IPC and UTS namespaces; waits for the next
-           └─ first   process 1 in there: when it dies, the kernel kills all others
-                └─ work   own user namespace, no capabilities, limits, empty environment
+    parent           a prepared worker: watches clock, memory and pipes; kills
+      ├─ nursery     small; makes namespaces, from which the machine's disk cannot be seen
+      │    └─ first  process 1 in there: when it dies, the kernel kills all others
+      └─ work        a fork of the parent in the same namespaces, but for the user namespace, which
+                     is its own; no capabilities, limits, empty environment
 
 Whatever the work leaves behind (processes, shared memory, files) goes with the first process.
 """
@@ -14,26 +15,20 @@ from __future__ import annotations
 
 import os
 import signal
-import socket
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NoReturn
 
 from rosbeat.grading.sandbox import linux
 from rosbeat.grading.sandbox.limits import Limits
-from rosbeat.grading.sandbox.view import enter_root, make_root
 
 #: Exit code of a process in which the sandbox itself could not be made.
 NOT_MADE = 113
-_NOBODY = 65534
-#: Who the work believes to be.
-_INSIDE = 1000
-_NEW = (
-    linux.CLONE_NEWNS | linux.CLONE_NEWPID | linux.CLONE_NEWNET | linux.CLONE_NEWIPC
-    | linux.CLONE_NEWUTS
-)  # fmt: skip
+#: What a process says on `Ends.control` when it has settled, and before it says what went wrong.
+SETTLED, TROUBLE = b".", b"!"
 
 
 @dataclass(frozen=True)
@@ -66,7 +61,7 @@ class Ends:
     Attributes:
         result: Where the work writes its result.
         output: Where what it prints goes.
-        control: Where the gate writes the first process's id, and what went wrong.
+        control: Where it is written that the work has settled, or what went wrong.
     """
 
     result: int
@@ -74,114 +69,24 @@ class Ends:
     control: int
 
 
-def become_gate(cage: Cage, root: str, ends: Ends, work: Callable[[int], None]) -> None:
-    """Be the gate; never returns. To be called in a forked child.
+#: What a job runs; it gets the descriptor for its result.
+Work = Callable[[int], None]
+
+
+def become_work(cage: Cage, ends: Ends, work: Work, enter: Callable[[], None]) -> NoReturn:
+    """Be the work: its place, its pipes, its environment, its limits. For a forked child.
 
     Args:
-        cage: How the sandbox is furnished.
-        root: An empty folder for its root.
+        cage: Its environment and limits.
         ends: The pipes.
-        work: What to run; it gets the descriptor for its result.
+        work: What to run.
+        enter: What brings this process to where the work runs.
     """
     try:
-        linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
-        os.setsid()
-        _new_namespaces()
-        make_root(root, cage.readable, cage.hidden, cage.limits.scratch)
-        first = os.fork()
-    except BaseException as error:
-        _refuse(ends.control, error)
-    if first == 0:
-        _become_first(cage, root, ends, work)
-    os.write(ends.control, f"{first}\n".encode())
-    for end in (ends.result, ends.output, ends.control):
-        os.close(end)
-    _, status = os.waitpid(first, 0)
-    os._exit(os.waitstatus_to_exitcode(status) & 0xFF)
-
-
-def _new_namespaces() -> None:
-    """A user namespace is what gives an ordinary user the right to make the others."""
-    if os.getuid() == 0:
-        linux.unshare(_NEW)
-        return
-    user, group = os.getuid(), os.getgid()
-    linux.unshare(linux.CLONE_NEWUSER | _NEW)
-    _map_ids(0, user, 0, group)
-
-
-def _map_ids(inside: int, user: int, inside_group: int, group: int) -> None:
-    _write("/proc/self/setgroups", "deny")
-    _write("/proc/self/uid_map", f"{inside} {user} 1")
-    _write("/proc/self/gid_map", f"{inside_group} {group} 1")
-
-
-def _write(path: str, text: str) -> None:
-    handle = os.open(path, os.O_WRONLY)
-    try:
-        os.write(handle, text.encode())
-    finally:
-        os.close(handle)
-
-
-def _become_first(cage: Cage, root: str, ends: Ends, work: Callable[[int], None]) -> None:
-    try:
-        linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
-        enter_root(root)
-        linux.loopback_up()
-        socket.sethostname("sandbox")
-        _give_up_rights()
-        child = os.fork()
-    except BaseException as error:
-        _refuse(ends.control, error)
-    if child == 0:
-        become_work(cage, ends, work)
-    # Nobody in there may look into this process, which could end the others.
-    linux.prctl(linux.PR_SET_DUMPABLE, 0)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for end in (ends.result, ends.output, ends.control):
-        os.close(end)
-    os._exit(wait_for(child))
-
-
-def wait_for(child: int) -> int:
-    """Clear away whatever ends, until the work does; 128 and more say which signal ended it."""
-    while True:
-        ended, status = os.wait()
-        if ended == child:
-            code = os.waitstatus_to_exitcode(status)
-            return code if code >= 0 else 128 - code
-
-
-def _give_up_rights() -> None:
-    if os.getuid() == 0 and not _is_mapped():
-        os.setgroups([])
-        os.setresgid(_NOBODY, _NOBODY, _NOBODY)
-        os.setresuid(_NOBODY, _NOBODY, _NOBODY)
-        # Who has changed its user may not look into /proc/self until this is said.
-        linux.prctl(linux.PR_SET_DUMPABLE, 1)
-    user, group = os.getuid(), os.getgid()
-    if os.path.exists("/proc/self/uid_map"):
-        linux.unshare(linux.CLONE_NEWUSER)
-        _map_ids(_INSIDE, user, _INSIDE, group)
-        with suppress(OSError):
-            _write("/proc/sys/user/max_user_namespaces", "0")
-    linux.drop_capabilities()
-
-
-def _is_mapped() -> bool:
-    """Whether this user 0 is an ordinary user outside."""
-    with suppress(OSError), open("/proc/self/uid_map", encoding="ascii") as file:
-        return file.read().split()[:2] != ["0", "0"]
-    return os.getuid() != 0
-
-
-def become_work(cage: Cage, ends: Ends, work: Callable[[int], None]) -> None:
-    """Be the work: its pipes, its environment, its limits; never returns."""
-    try:
+        enter()
         result = _settle(cage, ends)
     except BaseException as error:
-        _refuse(ends.control, error)
+        refuse(ends.control, error)
     code = 1
     try:
         work(result)
@@ -212,11 +117,18 @@ def _settle(cage: Cage, ends: Ends) -> int:
     os.environ.update(cage.environment)
     cage.limits.apply()
     # The last thing: from here on nothing in there can say that the sandbox was not made.
+    os.write(ends.control, SETTLED)
     os.close(ends.control)
     return result
 
 
-def _refuse(control: int, error: BaseException) -> None:
+def refuse(control: int, error: BaseException) -> NoReturn:
+    """Say that the sandbox could not be made, and end this process.
+
+    Args:
+        control: See `Ends`.
+        error: Why.
+    """
     with suppress(OSError):
-        os.write(control, f"! {type(error).__name__}: {error}\n".encode())
+        os.write(control, TROUBLE + f" {type(error).__name__}: {error}\n".encode())
     os._exit(NOT_MADE)

@@ -1,7 +1,8 @@
 """System calls that Python has no function for, with names and errors as Python has them.
 
-Sources: the Linux manual pages unshare(2), mount(2), umount2(2), pivot_root(2), prctl(2),
-capset(2), netdevice(7); the numbers are those of the kernel's headers, the same on all machines.
+Sources: the Linux manual pages unshare(2), setns(2), pidfd_open(2), mount(2), umount2(2),
+pivot_root(2), prctl(2), capset(2), netdevice(7); the numbers are those of the kernel's headers, the
+same on all machines.
 """
 
 from __future__ import annotations
@@ -17,12 +18,14 @@ CLONE_NEWNS, CLONE_NEWUTS, CLONE_NEWIPC = 0x00020000, 0x04000000, 0x08000000
 CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNET = 0x10000000, 0x20000000, 0x40000000
 
 MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC = 0x1, 0x2, 0x4, 0x8
-MS_REMOUNT, MS_BIND, MS_REC, MS_PRIVATE = 0x20, 0x1000, 0x4000, 0x40000
+MS_REMOUNT, MS_BIND, MS_MOVE, MS_REC, MS_PRIVATE = 0x20, 0x1000, 0x2000, 0x4000, 0x40000
 MS_NOATIME, MS_NODIRATIME, MS_RELATIME = 0x400, 0x800, 0x200000
 MNT_DETACH = 2
 
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_CAPBSET_DROP, PR_SET_NO_NEW_PRIVS = 1, 4, 24, 38
 PR_SET_CHILD_SUBREAPER = 36
+#: The same on all machines, as are all numbers of calls from 424 on.
+_PIDFD_OPEN = 434
 _PIVOT_ROOT = {"x86_64": 155, "aarch64": 41}
 _CAPSET_VERSION = 0x20080522
 _SIOCGIFFLAGS, _SIOCSIFFLAGS, _IFF_UP = 0x8913, 0x8914, 0x1
@@ -40,6 +43,35 @@ def unshare(flags: int) -> None:
         OSError: If the kernel refuses.
     """
     _checked(_libc.unshare(flags), "unshare")
+
+
+def descriptor_of(process: int) -> int:
+    """A descriptor of a process, which can be read from when that has ended.
+
+    As `os.pidfd_open`, which not every build of Python has.
+
+    Args:
+        process: Its number.
+
+    Raises:
+        OSError: If the kernel refuses, or is older than 5.3.
+    """
+    found: int = _libc.syscall(_PIDFD_OPEN, process, 0)
+    _checked(min(found, 0), "pidfd_open")
+    return found
+
+
+def enter(process: int, flags: int) -> None:
+    """Go where another process is; into its process namespace go only children made afterwards.
+
+    Args:
+        process: What `descriptor_of` gives.
+        flags: Which namespaces, of `CLONE_NEW...`.
+
+    Raises:
+        OSError: If the kernel refuses, or is older than 5.8.
+    """
+    _checked(_libc.setns(process, flags), "setns")
 
 
 def mount(source: str, target: str, kind: str = "", flags: int = 0, options: str = "") -> None:

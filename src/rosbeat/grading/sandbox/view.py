@@ -5,9 +5,12 @@
     /usr /lib /lib64 /bin /sbin      the system, read-only
     /etc                             a few files that the C library reads
     the folders that were asked for  read-only, each at its own path; some in them empty
+    /dev                             null, zero, full, random, urandom
     /tmp /dev/shm                    empty, private, limited, gone afterwards
-    /dev                             null, zero, full, random, urandom; terminals of its own
+    /dev/pts                         terminals of its own
     /proc                            its own processes, if the kernel gives that
+
+The last three are new in each sandbox; all others are built once, and the same for every one.
 """
 
 from __future__ import annotations
@@ -24,6 +27,11 @@ _ETC = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "localtime", "alternatives"
 #: Names of users and hosts come from files, of which there are none: nobody else is asked.
 _NAMES = "passwd: files\ngroup: files\nhosts: files\n"
 _DEVICES = ("null", "zero", "full", "random", "urandom")
+#: Where everything that is written is thrown away.
+_SCRATCH = ("/tmp", "/dev/shm")
+_TERMINALS = "newinstance,ptmxmode=0666,mode=0620"
+#: Where something is mounted before it gets its place, and where the machine's root is left.
+_FRESH, _OLD = "/fresh", "/old"
 _LOCKED = {
     os.ST_NOSUID: linux.MS_NOSUID,
     os.ST_NODEV: linux.MS_NODEV,
@@ -35,67 +43,103 @@ _LOCKED = {
 _PLAIN = linux.MS_NOSUID | linux.MS_NODEV
 
 
-def make_root(root: str, readable: Iterable[str], hidden: Iterable[str], scratch: int) -> None:
-    """Build the new root on an empty folder; needs a mount namespace of one's own.
+def make_root(root: str, readable: Iterable[str], hidden: Iterable[str]) -> None:
+    """Build what all sandboxes share, on an empty folder, and make it the root of this process.
+
+    Needs a mount namespace of one's own.
 
     Args:
         root: The folder.
         readable: Folders that are there at their own paths, read-only.
         hidden: Folders in those that are there and empty.
-        scratch: Bytes of `/tmp`, and of `/dev/shm`.
 
     Raises:
         OSError: If the kernel refuses.
     """
     linux.mount("none", "/", flags=linux.MS_REC | linux.MS_PRIVATE)
     linux.mount("tmpfs", root, "tmpfs", _PLAIN, "size=4m,mode=755")
-    # First, for what may be read may lie in a folder below /tmp.
-    for path in ("/tmp", "/dev/shm"):
+    for path in (*_SCRATCH, "/dev/pts", "/proc", _FRESH, _OLD):
         os.makedirs(root + path, exist_ok=True)
-        options = f"size={scratch},nr_inodes=20000,mode=1777"
-        linux.mount("tmpfs", root + path, "tmpfs", _PLAIN, options)
     for path in _SYSTEM:
         _show(root, path)
     for name in _ETC:
         _show(root, f"/etc/{name}")
     Path(f"{root}/etc/nsswitch.conf").write_text(_NAMES, encoding="ascii")
-    for path in _outermost(readable):
+    for path in outermost(readable):
         _show(root, path)
     for path in hidden:
         if os.path.isdir(root + path):
             linux.mount("tmpfs", root + path, "tmpfs", _PLAIN | linux.MS_RDONLY, "size=4k,mode=755")
     _make_devices(root)
-    os.makedirs(root + "/proc", exist_ok=True)
-    os.makedirs(root + "/old", exist_ok=True)
+    # Who has no right outside may mount a new one only where one can be seen.
+    linux.mount("/proc", root + "/proc", flags=linux.MS_BIND | linux.MS_REC)
+    _enter(root)
 
 
-def _outermost(paths: Iterable[str]) -> Iterator[str]:
-    """The paths without those that lie in others of them."""
+def furnish(scratch: int, below: Iterable[str]) -> None:
+    """Add what each sandbox has for itself; needs a copy of the mount namespace of `make_root`.
+
+    Args:
+        scratch: Bytes of `/tmp`, and of `/dev/shm`.
+        below: Readable folders that lie in those two.
+
+    Raises:
+        OSError: If the kernel refuses.
+    """
+    _make_processes()
+    for path in _SCRATCH:
+        _make_scratch(path, scratch, [one for one in below if one.startswith(f"{path}/")])
+    with suppress(OSError):
+        flags = linux.MS_NOSUID | linux.MS_NOEXEC
+        linux.mount("devpts", "/dev/pts", "devpts", flags, _TERMINALS)
+    os.chdir("/tmp")
+
+
+def _make_processes() -> None:
+    """Show the sandbox's own processes instead of the machine's.
+
+    Some containers do not let anybody mount them; little needs it. They stay writable for the maps
+    of the user namespace that comes; what is dangerous in them belongs to the machine's own root.
+    """
+    is_mounted = False
+    with suppress(OSError):
+        linux.mount("proc", _FRESH, "proc", _PLAIN | linux.MS_NOEXEC)
+        is_mounted = True
+    linux.unmount("/proc")
+    if is_mounted:
+        linux.mount(_FRESH, "/proc", flags=linux.MS_MOVE)
+
+
+def _make_scratch(path: str, size: int, below: Iterable[str]) -> None:
+    """An empty folder for everything that is thrown away, with the readable ones that lie in it."""
+    options = f"size={size},nr_inodes=20000,mode=1777"
+    linux.mount("tmpfs", _FRESH, "tmpfs", _PLAIN, options)
+    for one in below:
+        target = _FRESH + one.removeprefix(path)
+        os.makedirs(target)
+        linux.mount(one, target, flags=linux.MS_BIND | linux.MS_REC)
+    linux.mount(_FRESH, path, flags=linux.MS_MOVE)
+
+
+def outermost(paths: Iterable[str]) -> Iterator[str]:
+    """The paths without those that lie in others of them.
+
+    Args:
+        paths: Absolute paths, as often as you like.
+    """
     wanted = sorted(set(paths))
     for path in wanted:
         if not any(path.startswith(f"{other}/") for other in wanted):
             yield path
 
 
-def enter_root(root: str) -> None:
-    """Make it the root of this process, and take what was there before away.
-
-    Args:
-        root: What `make_root` has built.
-
-    Raises:
-        OSError: If the kernel refuses.
-    """
-    # Some containers do not let anybody mount it; little needs it. It stays writable for the maps
-    # of the user namespace that comes; what is dangerous in it belongs to the machine's own root.
-    with suppress(OSError):
-        linux.mount("proc", f"{root}/proc", "proc", _PLAIN | linux.MS_NOEXEC)
-    linux.pivot_root(root, f"{root}/old")
+def _enter(root: str) -> None:
+    """Make it the root of this process, and take what was there before away."""
+    linux.pivot_root(root, root + _OLD)
     os.chdir("/")
-    linux.unmount("/old")
-    os.rmdir("/old")
+    linux.unmount(_OLD)
+    os.rmdir(_OLD)
     linux.mount("none", "/", "", linux.MS_REMOUNT | linux.MS_BIND | linux.MS_RDONLY | _PLAIN)
-    os.chdir("/tmp")
 
 
 def _show(root: str, path: str) -> None:
@@ -139,16 +183,6 @@ def _make_devices(root: str) -> None:
     for name in _DEVICES:
         Path(f"{root}/dev/{name}").touch()
         linux.mount(f"/dev/{name}", f"{root}/dev/{name}", flags=linux.MS_BIND)
-    _make_terminals(root)
-    for name, target in (("fd", "/proc/self/fd"), ("stdin", "fd/0"), ("stdout", "fd/1")):
+    links = (("fd", "/proc/self/fd"), ("stdin", "fd/0"), ("stdout", "fd/1"), ("ptmx", "pts/ptmx"))
+    for name, target in links:
         os.symlink(target, f"{root}/dev/{name}")
-
-
-def _make_terminals(root: str) -> None:
-    """Pseudo-terminals that nobody outside has; where the kernel gives none, there are none."""
-    os.makedirs(f"{root}/dev/pts", exist_ok=True)
-    options = "newinstance,ptmxmode=0666,mode=0620"
-    with suppress(OSError):
-        flags = linux.MS_NOSUID | linux.MS_NOEXEC
-        linux.mount("devpts", f"{root}/dev/pts", "devpts", flags, options)
-        os.symlink("pts/ptmx", f"{root}/dev/ptmx")

@@ -82,6 +82,8 @@ def test_it_reaches_itself_and_nobody_else(seen):
         ("raises", {"exit"}),
         ("stays_behind", {"ended"}),
         ("closes_everything", {"ended", "exit"}),
+        ("closes_everything_and_sleeps", {"deadline"}),
+        ("leaves_with_a_high_code", {"exit"}),
     ],
 )
 def test_each_deed_ends_in_its_own_way(deed, endings, seen):
@@ -94,6 +96,23 @@ def test_the_ending_says_more(seen):
     assert seen["crashes"]["number"] == 11
     assert seen["leaves_with_a_code"]["number"] == 7
     assert "ValueError: no" in seen["raises"]["output"]
+
+
+def test_the_first_process_cannot_be_looked_into_or_ended(seen):
+    told = seen["looks_around"]["told"]
+    assert told["first"] == told["memory"] == "PermissionError"
+    assert told["alive"] == told["signal"] == "done"  # it hears no signal from in there
+    assert told["session"]
+
+
+def test_nothing_of_whoever_started_it_is_open(seen):
+    assert set(seen["looks_around"]["told"]["descriptors"]) <= {0, 1, 2, 3, 4}  # one is the listing
+
+
+def test_nothing_of_the_machine_is_mounted_where_it_could_be_seen(seen):
+    mounts = set(seen["looks_around"]["told"]["mounts"])
+    assert mounts.isdisjoint({"/old", "/fresh", "/home", "/root", "/sys", "/dev", "/boot", "/var"})
+    assert {"/", "/tmp", "/dev/shm", "/usr"} <= mounts
 
 
 def test_no_more_is_read_than_was_allowed(seen):

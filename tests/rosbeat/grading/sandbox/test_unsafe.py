@@ -13,7 +13,7 @@ from pathlib import Path
 from rosbeat.grading.sandbox.cage import Cage
 from rosbeat.grading.sandbox.limits import Limits
 from rosbeat.grading.sandbox.running import run_caged
-from rosbeat.grading.sandbox.unsafe import become_bare
+from rosbeat.grading.sandbox.unsafe import Bare
 
 def looks(result):
     os.write(result, json.dumps([os.getcwd(), dict(os.environ)]).encode())
@@ -40,7 +40,7 @@ def eats(_):
 told = {}
 for work in (looks, loops, leaves, stays_behind, eats):
     cage = Cage(environment={"A": "b"}, limits=Limits(wall=2.0, memory=200_000_000))
-    seen = run_caged(work, cage, become_bare)
+    seen = run_caged(work, cage, Bare())
     told[work.__name__] = [seen.how, seen.number, seen.result.decode()]
 told["left"] = Path("/proc", told["stays_behind"][2]).exists()
 told["here"] = os.getcwd()

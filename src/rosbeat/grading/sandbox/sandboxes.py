@@ -1,0 +1,160 @@
+"""Sandboxes, as whoever runs something in them has them; see `cage` for what they are made of."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import partial
+
+from rosbeat.errors import GradingError
+from rosbeat.grading.sandbox import linux
+from rosbeat.grading.sandbox.cage import Cage, Ends, Work, become_work
+from rosbeat.grading.sandbox.namespaces import OWN, give_up_rights
+from rosbeat.grading.sandbox.nursery import END, MAKE, TROUBLE, settings
+from rosbeat.grading.sandbox.place import cannot_be_made
+
+_NURSERY = "rosbeat.grading.sandbox.nursery"
+
+
+class Sandboxes:
+    """Sandboxes that are all furnished alike, one at a time; usable in a `with` block.
+
+    Args:
+        cage: How they are furnished.
+
+    Raises:
+        GradingError: If none can be made on this machine.
+    """
+
+    def __init__(self, cage: Cage) -> None:
+        try:
+            self._home = linux.descriptor_of(os.getpid())
+        except OSError as error:
+            raise cannot_be_made(str(error)) from error
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", _NURSERY],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            encoding="utf-8",
+        )
+        self._first = self._work = 0
+        try:
+            self._furnish(cage)
+        except GradingError:
+            self.close()
+            raise
+
+    def __enter__(self) -> Sandboxes:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _furnish(self, cage: Cage) -> None:
+        with tempfile.TemporaryDirectory(prefix="rosbeat-") as root:
+            os.chmod(root, 0o755)
+            try:
+                self._tell(settings(root, cage.readable, cage.hidden, cage.limits.scratch))
+                self._heard()
+            except ConnectionError as error:
+                raise cannot_be_made(str(error)) from error
+
+    def start(self, cage: Cage, ends: Ends, work: Work) -> int:
+        """Fork this process into a new sandbox.
+
+        Args:
+            cage: The work's environment and limits; the folders are those of the beginning.
+            ends: The pipes.
+            work: What to run.
+
+        Returns:
+            The number of the process.
+
+        Raises:
+            GradingError: If the sandbox cannot be made.
+            ConnectionError: If what makes them has been ended by somebody.
+        """
+        self._tell(MAKE)
+        self._first = int(self._heard())
+        try:
+            self._work = self._forked(cage, ends, work)
+        except OSError as error:
+            self._tell(END)
+            self._heard()
+            raise cannot_be_made(str(error)) from error
+        return self._work
+
+    def _forked(self, cage: Cage, ends: Ends, work: Work) -> int:
+        """Fork into the process namespace and be out of it again; the child enters the others."""
+        first = linux.descriptor_of(self._first)
+        try:
+            linux.enter(first, linux.CLONE_NEWPID)
+            child = os.fork()
+            if child == 0:
+                become_work(cage, ends, work, partial(_enter, first))
+            return child
+        finally:
+            linux.enter(self._home, linux.CLONE_NEWPID)
+            os.close(first)
+
+    def inhabitants(self) -> Sequence[int]:
+        """The work, and what adopts whatever loses its parent in there."""
+        return (self._work, self._first)
+
+    def end(self) -> int:
+        """End the sandbox that was started last, with all that runs in it.
+
+        Returns:
+            The exit code of the work, or less the number of the signal that has ended it.
+
+        Raises:
+            ConnectionError: If what makes them has been ended by somebody.
+        """
+        self._tell(END)
+        # The first process is not gone before all others are, of which one waits to be heard here.
+        _, status = os.waitpid(self._work, 0)
+        self._heard()
+        return os.waitstatus_to_exitcode(status)
+
+    def _tell(self, line: str) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write(f"{line}\n")
+        self._process.stdin.flush()
+
+    def _heard(self) -> str:
+        assert self._process.stdout is not None
+        said = self._process.stdout.readline().rstrip("\n")
+        if not said:
+            raise ConnectionError("the process that makes sandboxes has ended")
+        if said.startswith(TROUBLE):
+            raise cannot_be_made(said.removeprefix(TROUBLE))
+        return said
+
+    def close(self) -> None:
+        """End what makes them."""
+        os.close(self._home)
+        for pipe in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):
+                assert pipe is not None
+                pipe.close()
+        self._process.wait()
+
+
+def _enter(first: int) -> None:
+    """Go where the first process is, as an ordinary user.
+
+    Args:
+        first: A descriptor of it.
+    """
+    os.setsid()
+    linux.enter(first, OWN)
+    os.chdir("/tmp")
+    give_up_rights()
+    # After that, for who changes its rights is forgotten by this.
+    linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
