@@ -9,10 +9,13 @@ cell that is put right runs at once.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from functools import cache
 from importlib.util import module_from_spec
 from types import ModuleType
+
+from rosbeat.runtime.words import Words, words_of_changes
 
 
 def mend_message_classes() -> list[str]:
@@ -30,12 +33,45 @@ def mend_message_classes() -> list[str]:
 
 
 def _broken() -> Iterator[tuple[type, ModuleType]]:
+    for kind, module in _suspects():
+        if _spoilt(kind):
+            yield kind, module
+
+
+def _suspects() -> Iterable[tuple[type, ModuleType]]:
+    """The message classes that may have been written into since they were looked at: most are not.
+
+    A session begins with this, and each of them has more than a hundred classes to look at.
+    """
+    were_known = bool(_known.cache_info().currsize)
+    known = _known()
+    changed = known.words.changed() if were_known and known.words else [0]
+    if changed[:1] != [0]:
+        return [known.classes[number - 1] for number in changed]
+    _known.cache_clear()
+    return _known().classes
+
+
+@dataclass(frozen=True)
+class _Known:
+    """All message classes that are loaded.
+
+    Attributes:
+        classes: Each with its module.
+        words: One that changes when modules come, and one for each class; see `words`.
+    """
+
+    classes: tuple[tuple[type, ModuleType], ...]
+    words: Words | None
+
+
+@cache
+def _known() -> _Known:
     # The generated modules are `std_msgs.msg._float32` and the like.
-    for name, module in list(sys.modules.items()):
-        if ".msg._" in name:
-            for kind in _made_in(module):
-                if _spoilt(kind):
-                    yield kind, module
+    modules = [module for name, module in list(sys.modules.items()) if ".msg._" in name]
+    classes = tuple((kind, module) for module in modules for kind in _made_in(module))
+    words = words_of_changes([sys.modules, *(vars(kind) for kind, _ in classes)])
+    return _Known(classes, words)
 
 
 @cache

@@ -1,5 +1,8 @@
 """`msg = Float32` and `msg.data = 25.0` spoil the class for the whole kernel: not for long."""
 
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
+
 import pytest
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
@@ -7,6 +10,7 @@ from std_msgs.msg import Float32, String
 from nodes import Talker
 from rosbeat import Session
 from rosbeat.errors import NodeConstructionError
+from rosbeat.runtime import message_classes
 from rosbeat.runtime.message_classes import mend_message_classes
 from rosbeat.runtime.scenario import observe
 
@@ -27,6 +31,33 @@ def test_a_class_that_was_written_into_is_whole_again():
     assert Float32(data=1.0).data == 1.0
     with pytest.raises(AssertionError, match="must be of type 'float'"):
         Float32(data=1)
+    assert mend_message_classes() == []
+
+
+def test_a_class_that_is_broken_when_it_is_first_looked_at_is_mended():
+    Float32.data = 25.0
+    message_classes._known.cache_clear()
+    assert mend_message_classes() == ["Float32"]
+    assert mend_message_classes() == []
+
+
+MADE = """
+class Made:
+    _fields_and_field_types = {"data": "float"}
+    data = property()
+"""
+
+
+def test_a_class_of_a_module_that_came_later_is_mended(tmp_path, monkeypatch):
+    mend_message_classes()
+    (tmp_path / "_made.py").write_text(MADE)
+    spec = spec_from_file_location("made.msg._made", tmp_path / "_made.py")
+    module = module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, spec.name, module)
+    spec.loader.exec_module(module)
+    module.Made.data = 25.0
+    assert mend_message_classes() == ["Made"]
+    assert type(module.Made.data) is property
     assert mend_message_classes() == []
 
 

@@ -11,9 +11,11 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import groupby
-from operator import attrgetter, is_
+from operator import is_
 from types import FunctionType, ModuleType
 from typing import Any
+
+from rosbeat.runtime.words import PARTS, Words, words_of_bodies, words_of_changes
 
 #: Packages in which nothing may be changed: they run, observe and write down. `typing` is none of
 #: them: it changes a few of its own functions the first time that they are used. Nor are message
@@ -66,24 +68,37 @@ class Census:
         spaces: What stood in each module and class.
         functions: The functions of Python among it.
         bodies: Of these the code, the default values, and those that are named.
+        changes: A word for each space that is another one after every change, if there is such.
+        pointers: The words of the functions that say what their bodies are, if they can be told.
     """
 
     places: tuple[Place, ...]
     spaces: tuple[Space, ...]
     functions: tuple[object, ...]
     bodies: tuple[tuple[object, ...], ...]
+    changes: Words | None
+    pointers: Words | None
 
     def is_same(self) -> bool:
         """Whether everything stands there still, with the same bodies."""
+        return self._stands_there() and self._has_same_bodies()
+
+    def _stands_there(self) -> bool:
+        # Spaces that have changed may have got other values, which are nobody's business.
+        among = self.spaces if self.changes is None else map(self._space, self.changes.changed())
         # Nowhere with `==`, which what an answer has put there could answer itself.
-        return all(all(map(is_, map(get, names), was)) for get, names, was in self.spaces) and all(
+        return all(all(map(is_, map(get, names), was)) for get, names, was in among)
+
+    def _space(self, number: int) -> Space:
+        return self.spaces[number]
+
+    def _has_same_bodies(self) -> bool:
+        if self.pointers is not None:
+            return not self.pointers.changed()
+        return all(
             all(map(is_, map(part, self.functions), was))
-            for part, was in zip(_PARTS, self.bodies, strict=True)
+            for part, was in zip(PARTS, self.bodies, strict=True)
         )
-
-
-#: What a function's body is made of.
-_PARTS = tuple(map(attrgetter, ("__code__", "__defaults__", "__kwdefaults__")))
 
 
 def census() -> Census:
@@ -95,15 +110,16 @@ def census() -> Census:
     )
     inner = (_inner(place.value) for place in places)
     functions = tuple(one for one in inner if isinstance(one, FunctionType))
-    bodies = tuple(tuple(map(part, functions)) for part in _PARTS)
-    return Census(places, tuple(_spaces(places)), functions, bodies)
+    bodies = tuple(tuple(map(part, functions)) for part in PARTS)
+    by_space = [tuple(some) for _, some in groupby(places, lambda place: id(place.space))]
+    changes = words_of_changes([some[0].space for some in by_space])
+    spaces = tuple(map(_space_of, by_space))
+    return Census(places, spaces, functions, bodies, changes, words_of_bodies(functions))
 
 
-def _spaces(places: tuple[Place, ...]) -> Iterator[Space]:
-    for _, found in groupby(places, lambda place: id(place.space)):
-        some = tuple(found)
-        names = tuple(place.name for place in some)
-        yield some[0].space.get, names, tuple(place.value for place in some)
+def _space_of(places: tuple[Place, ...]) -> Space:
+    names = tuple(place.name for place in places)
+    return places[0].space.get, names, tuple(place.value for place in places)
 
 
 def differences(before: Census) -> tuple[str, ...]:
@@ -145,4 +161,4 @@ def _inner(value: object) -> object:
 
 def _body(value: object) -> tuple[object, ...]:
     inner = _inner(value)
-    return tuple(part(inner) for part in _PARTS) if isinstance(inner, FunctionType) else ()
+    return tuple(part(inner) for part in PARTS) if isinstance(inner, FunctionType) else ()
