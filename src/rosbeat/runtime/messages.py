@@ -8,7 +8,9 @@ bytes, which is what crosses the wire.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from array import array
+from collections.abc import Callable, Sequence
+from math import isfinite
 from operator import attrgetter
 from struct import Struct
 from typing import Any
@@ -113,6 +115,7 @@ class Memory:
         self._names = list(fields)
         self._flat = bool(fields) and _ARRIVING.keys() >= set(fields.values())
         self._arriving = [_ARRIVING[kind] for kind in fields.values()] if self._flat else []
+        self._is_one_float = self._arriving == [_float32]
         # The slots behind the properties (`_data` for `data`) are read ten times as fast.
         slots = [f"_{name}" for name in fields]
         self.take: Callable[[Any], Any] = attrgetter(*slots) if self._flat else serialize_message
@@ -127,6 +130,14 @@ class Memory:
         wire = copy if isinstance(copy, bytes) and not self._flat else self._serialized(copy)
         data: dict[str, Any] = plain(deserialize_message(wire, self._type))
         return data
+
+    def all_plain(self, copies: Sequence[Any]) -> list[dict[str, Any]]:
+        """Many copied messages as plain data."""
+        if self._is_one_float and set(map(type, copies)) == {float}:
+            name, values = self._names[0], array("f", copies).tolist()
+            if all(map(isfinite, values)):  # too large a number becomes none, without a word
+                return [{name: value} for value in values]
+        return list(map(self.plain, copies))
 
     def _arrived(self, copy: Any) -> dict[str, Any]:  # noqa: ANN401
         if len(self._names) == 1:  # nearly every message of the course

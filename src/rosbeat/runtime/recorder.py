@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from array import array
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from threading import Lock
 from typing import Any
@@ -137,7 +137,7 @@ class Recorder:
             [channel.topic for channel in channels],
             [channel.type_name for channel in channels],
             [channel.node for channel in channels],
-            [one.memory.plain(copy) for one, copy in zip(channels, copies, strict=True)],
+            _all_plain(channels, copies),
         )
 
     @staticmethod
@@ -214,3 +214,15 @@ class Recorder:
 def _parts(count: int) -> Iterator[slice]:
     """So many rows in parts."""
     return (slice(k, min(k + _BATCH, count)) for k in range(0, count, _BATCH))
+
+
+def _all_plain(channels: Sequence[Channel], copies: Sequence[Any]) -> list[dict[str, Any]]:
+    """Messages as plain data: those of each channel together, in the order in which they came."""
+    made: list[dict[str, Any]] = [{}] * len(copies)
+    for channel in {one.number: one for one in channels}.values():
+        places = [k for k, one in enumerate(channels) if one is channel]
+        for k, data in zip(
+            places, channel.memory.all_plain([copies[k] for k in places]), strict=True
+        ):
+            made[k] = data
+    return made

@@ -2,6 +2,7 @@
 
 import math
 from functools import partial
+from types import SimpleNamespace
 
 import numpy
 import pytest
@@ -123,6 +124,31 @@ def test_other_values_are_what_the_wire_makes_of_them(message):
     found = remembered(message)
     assert repr(found) == repr(expected)
     assert list(map(type, found.values())) == list(map(type, expected.values()))
+
+
+@pytest.mark.parametrize(
+    ("kind", "values"),
+    [
+        (Float32, [0.1, -0.0, 1e-50, 3.4e38, float("inf"), 5.5]),
+        (Float32, [0.1, 5.0, Celsius(2.5)]),
+        (Float32, []),
+        (Float64, [0.1, 2.5]),
+        (Int32, [1, -5]),
+        (String, ["a", "ä", ""]),
+    ],
+)
+def test_many_messages_are_what_each_of_them_is(kind, values):
+    memory = Memory(kind)
+    copies = [memory.take(SimpleNamespace(_data=value)) for value in values]
+    assert repr(memory.all_plain(copies)) == repr([memory.plain(copy) for copy in copies])
+
+
+def test_many_messages_and_one_that_no_float32_holds():
+    memory = Memory(Float32)
+    with pytest.raises(Exception, match="float") as of_one:
+        memory.plain(1e300)
+    with pytest.raises(type(of_one.value), match="float"):
+        memory.all_plain([0.5, 1e300])
 
 
 def test_names_of_types():
