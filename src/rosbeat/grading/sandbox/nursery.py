@@ -14,16 +14,16 @@ import os
 import signal
 import socket
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from typing import NoReturn, TextIO
+from typing import Any, NoReturn, TextIO
 
 from rosbeat.grading.sandbox import linux
 from rosbeat.grading.sandbox.namespaces import OWN, give_up_rights
 from rosbeat.grading.sandbox.view import furnish, make_root, outermost
 
-#: What it answers, apart from numbers of processes; after `TROUBLE` stands what went wrong.
-READY, ENDED, TROUBLE = "ready", "ended", "! "
+#: What it answers; after `TROUBLE` stands what went wrong.
+READY, MADE, ENDED, TROUBLE = "ready", "made", "ended", "! "
 MAKE, END = "make", "end"
 
 
@@ -48,25 +48,40 @@ def main(lines: TextIO = sys.stdin, answers: TextIO = sys.stdout) -> None:
         answers: Where it says what came of it.
     """
     linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+    told: dict[str, Any] = {}
     first: First | None = None
     for line in lines:
         try:
-            if line.startswith("{"):
-                told = json.loads(line)
-                own = os.open("/proc/self/ns/pid", os.O_RDONLY)
-                linux.unshare(linux.CLONE_NEWNS)
-                make_root(told["root"], told["readable"], told["hidden"])
-                said = READY
-            elif line.strip() == MAKE:
-                first = First(own, told["scratch"], told["readable"])
-                said = str(first.pid)
-            else:
+            if line.strip() == MAKE:
+                first = First(told["scratch"], told["readable"])
+                said = MADE
+            elif line.strip() == END:
                 assert first is not None
                 first.end()
                 said = ENDED
+            else:
+                told = json.loads(line)
+                _settle(told)
+                said = READY
         except OSError as error:
             said = f"{TROUBLE}{error}"
         print(said, file=answers, flush=True)
+
+
+def _settle(told: Mapping[str, Any]) -> None:
+    """Fork into a process namespace and a mount namespace of one's own, with a root of its own.
+
+    From there on new process namespaces can be made and left again. Whoever has called this is in
+    them afterwards; the process that it was waits for it, and ends when it does.
+    """
+    linux.unshare(linux.CLONE_NEWNS | linux.CLONE_NEWPID)
+    inner = os.fork()
+    if inner:
+        os.closerange(0, 2)
+        os.waitpid(inner, 0)
+        os._exit(0)
+    linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+    make_root(told["root"], told["readable"], told["hidden"])
 
 
 class First:
@@ -76,7 +91,6 @@ class First:
     as long as somebody holds the other end of its pipe.
 
     Args:
-        own: A descriptor of this process's own process namespace.
         scratch: See `settings`.
         readable: See `settings`.
 
@@ -84,16 +98,16 @@ class First:
         OSError: If the kernel refuses something.
     """
 
-    def __init__(self, own: int, scratch: int, readable: Iterable[str]) -> None:
+    def __init__(self, scratch: int, readable: Iterable[str]) -> None:
         says, tells = os.pipe()
         lives, self._holds = os.pipe()
         try:
             linux.unshare(linux.CLONE_NEWPID)
-            self.pid = os.fork()
-            if self.pid == 0:
+            self._pid = os.fork()
+            if self._pid == 0:
                 _be_first(tells, lives, scratch, readable)
         finally:
-            linux.enter(own, linux.CLONE_NEWPID)
+            _come_back()
             os.close(tells)
             os.close(lives)
         with open(says, encoding="utf-8") as file:
@@ -107,9 +121,16 @@ class First:
 
         Whoever has put a process in there has to wait for that one at the same time.
         """
-        os.kill(self.pid, signal.SIGKILL)
-        os.waitpid(self.pid, 0)
+        os.kill(self._pid, signal.SIGKILL)
+        os.waitpid(self._pid, 0)
         os.close(self._holds)
+
+
+def _come_back() -> None:
+    """Let further children be in this process's own process namespace again."""
+    own = linux.descriptor_of(os.getpid())
+    linux.enter(own, linux.CLONE_NEWPID)
+    os.close(own)
 
 
 def _be_first(tells: int, lives: int, scratch: int, readable: Iterable[str]) -> NoReturn:

@@ -17,12 +17,15 @@ from rosbeat.grading.sandbox.cage import Cage, Ends, Work, become_work
 from rosbeat.grading.sandbox.namespaces import OWN, give_up_rights
 from rosbeat.grading.sandbox.nursery import END, MAKE, TROUBLE, settings
 from rosbeat.grading.sandbox.place import cannot_be_made
+from rosbeat.grading.sandbox.processes import children
 
 _NURSERY = "rosbeat.grading.sandbox.nursery"
 
 
 class Sandboxes:
     """Sandboxes that are all furnished alike, one at a time; usable in a `with` block.
+
+    Whoever has one can start other processes before the first work, and not afterwards.
 
     Args:
         cage: How they are furnished.
@@ -32,10 +35,6 @@ class Sandboxes:
     """
 
     def __init__(self, cage: Cage) -> None:
-        try:
-            self._home = linux.descriptor_of(os.getpid())
-        except OSError as error:
-            raise cannot_be_made(str(error)) from error
         self._process = subprocess.Popen(
             [sys.executable, "-m", _NURSERY],
             stdin=subprocess.PIPE,
@@ -43,7 +42,7 @@ class Sandboxes:
             text=True,
             encoding="utf-8",
         )
-        self._first = self._work = 0
+        self._nursery = self._first = self._work = 0
         try:
             self._furnish(cage)
         except GradingError:
@@ -64,6 +63,7 @@ class Sandboxes:
                 self._heard()
             except ConnectionError as error:
                 raise cannot_be_made(str(error)) from error
+        (self._nursery,) = children(self._process.pid)
 
     def start(self, cage: Cage, ends: Ends, work: Work) -> int:
         """Fork this process into a new sandbox.
@@ -81,7 +81,8 @@ class Sandboxes:
             ConnectionError: If what makes them has been ended by somebody.
         """
         self._tell(MAKE)
-        self._first = int(self._heard())
+        self._heard()
+        (self._first,) = children(self._nursery)
         try:
             self._work = self._forked(cage, ends, work)
         except OSError as error:
@@ -91,7 +92,11 @@ class Sandboxes:
         return self._work
 
     def _forked(self, cage: Cage, ends: Ends, work: Work) -> int:
-        """Fork into the process namespace and be out of it again; the child enters the others."""
+        """Fork into the process namespace; the child enters the others.
+
+        This process itself stays where it is. To have its children there again takes rights that
+        an ordinary user has not; so it can fork into sandboxes only, from here on.
+        """
         first = linux.descriptor_of(self._first)
         try:
             linux.enter(first, linux.CLONE_NEWPID)
@@ -100,7 +105,6 @@ class Sandboxes:
                 become_work(cage, ends, work, partial(_enter, first))
             return child
         finally:
-            linux.enter(self._home, linux.CLONE_NEWPID)
             os.close(first)
 
     def inhabitants(self) -> Sequence[int]:
@@ -138,7 +142,6 @@ class Sandboxes:
 
     def close(self) -> None:
         """End what makes them."""
-        os.close(self._home)
         for pipe in (self._process.stdin, self._process.stdout):
             with suppress(OSError):
                 assert pipe is not None

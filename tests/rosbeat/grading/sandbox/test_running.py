@@ -100,7 +100,7 @@ def test_the_ending_says_more(seen):
 
 def test_the_first_process_cannot_be_looked_into_or_ended(seen):
     told = seen["looks_around"]["told"]
-    assert told["first"] == told["memory"] == "PermissionError"
+    assert told["root"] == told["environment"] == told["memory"] == "PermissionError"
     assert told["alive"] == told["signal"] == "done"  # it hears no signal from in there
     assert told["session"]
 
