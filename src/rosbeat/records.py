@@ -65,10 +65,7 @@ class Sample(Timed):
     @property
     def value(self) -> Any:  # noqa: ANN401 - a message field may be of any plain type
         """The only field's value if the message has one field, else the whole `data`."""
-        if len(self.data) != 1:
-            return self.data
-        (only,) = self.data.values()
-        return only
+        return next(iter(self.data.values())) if len(self.data) == 1 else self.data
 
 
 @dataclass(frozen=True, slots=True)
