@@ -13,6 +13,7 @@ from rosbeat.workspace import place
 MODULE = Path(environment.__file__)
 PREFIX = "/home/ada/course/.venv"
 PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
+FROM_PROFILE = "RMW_FASTRTPS_USE_QOS_FROM_XML"
 
 
 @pytest.fixture(autouse=True)
@@ -108,6 +109,21 @@ def test_a_profile_under_fast_dds_newer_name_counts_too():
     environ = {"FASTDDS_DEFAULT_PROFILES_FILE": "/home/ada/fastdds.xml"}
     environment.apply(environ, PREFIX)
     assert PROFILE not in environ
+    assert FROM_PROFILE not in environ
+
+
+@pytest.mark.parametrize(
+    ("environ", "wanted"),
+    [
+        ({}, "1"),
+        ({PROFILE: environment.discovery_profile()}, "1"),
+        ({PROFILE: "/home/ada/fastdds.xml"}, None),
+        ({FROM_PROFILE: "0"}, "0"),
+    ],
+)
+def test_memory_is_taken_from_no_profile_but_the_courses(environ, wanted):
+    environment.apply(environ, PREFIX)
+    assert environ.get(FROM_PROFILE) == wanted
 
 
 def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
@@ -120,6 +136,7 @@ def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
     assert module.discovery_profile() == ""
     assert set(environment.defaults(PREFIX)) - set(module.defaults(PREFIX)) == {
         PROFILE,
+        FROM_PROFILE,
         "COLCON_DEFAULTS_FILE",
         "ROS2_WORKSPACE",
     }

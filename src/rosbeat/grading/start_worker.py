@@ -25,16 +25,25 @@ def main(options: Sequence[str]) -> None:
     Args:
         options: `UNSAFE`, or nothing.
     """
+    settle(options)
+    try:
+        import_module("rosbeat.grading.worker").main(unsafe=UNSAFE in options)
+    except ConnectionError as error:
+        sys.exit(f"A worker ends: {error}. What it was doing is done by another one.")
+
+
+def settle(options: Sequence[str]) -> None:
+    """Do what has to be done first.
+
+    Args:
+        options: As of `main`.
+    """
     if UNSAFE not in options:
         # If it is refused, the sandbox says so to whoever wants it.
         with suppress(OSError):
             become_able()
     # Whoever grades may be killed in the middle; nothing of a submission runs on after that.
     linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
-    try:
-        import_module("rosbeat.grading.worker").main(unsafe=UNSAFE in options)
-    except ConnectionError as error:
-        sys.exit(f"A worker ends: {error}. What it was doing is done by another one.")
 
 
 if __name__ == "__main__":

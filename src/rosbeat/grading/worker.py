@@ -61,10 +61,12 @@ _FILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "COLCON_DEFAULTS_FILE")
 #: Variables of the environment that ROS needs; nothing else of it reaches a sandbox.
 _KEPT = (
     *("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_PYTHON_CHECK_FIELDS", "LANG", "LC_ALL", "TZ"),
-    *_FILES,
+    *(*_FILES, "RMW_FASTRTPS_USE_QOS_FROM_XML"),
 )
 #: Rooms of this package that know answers or judge them, or are nobody's business in there.
 _HIDDEN = ("exercises", "clinic", "checks", "grading", "authoring", "workspace/finished")
+#: Of what an answer may have written itself, no more than the course writes is believed.
+_MOST, _MOST_CHANGED, _MOST_LINES = 2_000, 5, 1_000_000
 #: Seconds that one answer may take by the clock on the wall, and a page of terminals.
 WALL, WALL_OF_A_PAGE = 60.0, 240.0
 #: All that most answers need: a node, a message type, both ends of a topic, a timer, a log.
@@ -222,16 +224,16 @@ def limits_of(job: Job) -> Limits:
 
 def _read(ending: Ending, seal: str) -> Observed:
     said, forged = _said(ending.result, seal)
-    changed = said.get("changed")
+    changed = said["changed"] if isinstance(said.get("changed"), list) else []
     return Observed(
         FORGED if forged else ending.how,
         ending.number,
-        _word(said, "evidence"),
+        _word(said, "evidence", None),
         _word(said, "raised"),
         _word(said, "text"),
-        said["line"] if isinstance(said.get("line"), int) else 0,
+        _line(said),
         _word(said, "code"),
-        tuple(str(one) for one in changed) if isinstance(changed, list) else (),
+        tuple(str(one)[:_MOST] for one in changed[:_MOST_CHANGED]),
         ending.output[:2_000].decode("utf-8", "replace"),
         round(ending.seconds, 3),
     )
@@ -249,6 +251,11 @@ def _said(result: bytes, seal: str) -> tuple[dict[str, Any], bool]:
     return (found, False) if isinstance(found, dict) else ({}, True)
 
 
-def _word(said: dict[str, Any], name: str) -> str:
+def _word(said: dict[str, Any], name: str, most: int | None = _MOST) -> str:
     found = said.get(name, "")
-    return found if isinstance(found, str) else ""
+    return found[:most] if isinstance(found, str) else ""
+
+
+def _line(said: dict[str, Any]) -> int:
+    found = said.get("line")
+    return found if type(found) is int and 0 <= found < _MOST_LINES else 0

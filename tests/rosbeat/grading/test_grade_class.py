@@ -105,7 +105,14 @@ def test_who_is_stopped_in_the_middle_goes_on_there(graded):
 
 def test_an_answer_whose_worker_was_lost_is_tried_again_next_time(graded):
     book = graded({"ana/03.ipynb": PAGE_03}, Observer(Observed(LOST)))
-    assert "was lost" in book.learners[0].marks[0].evidence
+    mark = book.learners[0].marks[0]
+    assert "was lost" in mark.evidence
+    assert (mark.status, mark.points, mark.mistake) == (
+        "held",
+        0.0,
+        "",
+    )  # nobody knows what it does
+    assert mark.answer == DONE
     again = Observer()
     assert graded({"ana/03.ipynb": PAGE_03}, again).learners[0].marks[0].mistake != "crashed"
     assert len(again.jobs) == 1

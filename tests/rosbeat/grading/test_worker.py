@@ -66,6 +66,19 @@ def test_fields_of_other_types_are_left_out():
     read_observed(write_line(seen))
 
 
+def test_no_more_is_believed_than_the_course_writes():
+    long = "x" * 100_000
+    seen = read(sealed(evidence=long, raised=long, text=long, code=long, changed=[long] * 99))
+    assert seen.evidence == long  # how long it may be is decided where it is read
+    assert {len(one) for one in (seen.raised, seen.text, seen.code, *seen.changed)} == {2_000}
+    assert len(seen.changed) == 5
+
+
+@pytest.mark.parametrize(("line", "wanted"), [(7, 7), (True, 0), (10**30, 0), (1.5, 0)])
+def test_a_line_is_the_number_of_a_line(line, wanted):
+    assert read(sealed(raised="x", line=line)).line == wanted
+
+
 def test_output_is_cut():
     assert len(read(b"", output=b"x" * 64_000).output) == 2_000
 

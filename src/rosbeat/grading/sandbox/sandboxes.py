@@ -20,6 +20,7 @@ from rosbeat.grading.sandbox.place import cannot_be_made
 from rosbeat.grading.sandbox.processes import children
 
 _NURSERY = "rosbeat.grading.sandbox.nursery"
+_ENDED = "the process that makes sandboxes has ended"
 
 
 class Sandboxes:
@@ -61,9 +62,9 @@ class Sandboxes:
             try:
                 self._tell(settings(root, cage.readable, cage.hidden, cage.limits.scratch))
                 self._heard()
+                self._nursery = self._child_of(self._process.pid)
             except ConnectionError as error:
                 raise cannot_be_made(str(error)) from error
-        (self._nursery,) = children(self._process.pid)
 
     def start(self, cage: Cage, ends: Ends, work: Work) -> int:
         """Fork this process into a new sandbox.
@@ -82,7 +83,7 @@ class Sandboxes:
         """
         self._tell(MAKE)
         self._heard()
-        (self._first,) = children(self._nursery)
+        self._first = self._child_of(self._nursery)
         try:
             self._work = self._forked(cage, ends, work)
         except OSError as error:
@@ -135,10 +136,18 @@ class Sandboxes:
         assert self._process.stdout is not None
         said = self._process.stdout.readline().rstrip("\n")
         if not said:
-            raise ConnectionError("the process that makes sandboxes has ended")
+            raise ConnectionError(_ENDED)
         if said.startswith(TROUBLE):
             raise cannot_be_made(said.removeprefix(TROUBLE))
         return said
+
+    @staticmethod
+    def _child_of(process: int) -> int:
+        """The only child of a process, by the number that it has here; in there it has another."""
+        found = children(process)
+        if not found:
+            raise ConnectionError(_ENDED)
+        return found[0]
 
     def close(self) -> None:
         """End what makes them."""
