@@ -6,6 +6,7 @@ It is a process of its own because a sandbox is forked, and a test process has t
 import ctypes
 import json
 import os
+import shutil
 import signal
 import socket
 import sys
@@ -22,6 +23,8 @@ from rosbeat.grading.sandbox.running import run_caged
 from rosbeat.grading.sandbox.sandboxes import Sandboxes
 
 LIMITS = Limits(wall=2.0, memory=300_000_000)
+#: A folder that is shown, and one of which only one file is.
+SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat-{one}-{os.getpid()}") for one in "ab")
 SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{os.getpid()}")
 
 
@@ -171,6 +174,15 @@ def leaves_with_a_high_code(result):
     os._exit(200)
 
 
+def reads_what_lies_below_tmp(result):
+    tells(result, {
+        "folder": (SHOWN / "one").read_text(), "file": (HIDDEN / "two").read_text(),
+        "there": [sorted(os.listdir(SHOWN)), sorted(os.listdir(HIDDEN))],
+        "write": attempt(lambda: (SHOWN / "one").write_text("x")),
+        "replace": attempt(lambda: (HIDDEN / "two").write_text("x")),
+    })  # fmt: skip
+
+
 def looks_around(result):
     def reads(path):
         with open(path, "rb") as file:
@@ -200,7 +212,7 @@ DEEDS = (
     *(looks, writes, gains_rights, calls_out, loops, sleeps, forks, eats, prints, answers_too_much),
     *(fills_a_file, fills_memory_that_is_shared, kills_itself, kills_all, crashes, leaves),
     *(leaves_with_a_code, leaves_with_a_high_code, raises, stays_behind, closes_everything),
-    *(closes_everything_and_sleeps, looks_around, ignores_signals),
+    *(closes_everything_and_sleeps, looks_around, reads_what_lies_below_tmp, ignores_signals),
 )
 
 
@@ -216,7 +228,12 @@ def main():
     """Run every deed and print how it ended, as JSON."""
     SECRET.write_text("secret")
     os.environ["SECRET"] = "secret"
-    cage = Cage(python_folders(), (), {"PATH": "/usr/bin", "HOME": "/tmp"}, LIMITS)
+    for folder in (SHOWN, HIDDEN):
+        folder.mkdir()
+        for name in ("one", "two"):
+            (folder / name).write_text(name)
+    readable = (*python_folders(), str(SHOWN), str(HIDDEN / "two"))
+    cage = Cage(readable, (), {"PATH": "/usr/bin", "HOME": "/tmp"}, LIMITS)
     seen = {}
     try:
         become_able()
@@ -226,6 +243,8 @@ def main():
         seen = {"refused": str(error)}
     finally:
         SECRET.unlink()
+        for folder in (SHOWN, HIDDEN):
+            shutil.rmtree(folder)
     mine = Path("/proc/self/task", str(os.getpid()), "children").read_text().split()
     shared = [one for one in os.listdir("/dev/shm") if one == "mine"]
     print(json.dumps({"seen": seen, "left": [*mine, *shared]}))

@@ -50,7 +50,7 @@ def make_root(root: str, readable: Iterable[str], hidden: Iterable[str]) -> None
 
     Args:
         root: The folder.
-        readable: Folders that are there at their own paths, read-only.
+        readable: Files and folders that are there at their own paths, read-only.
         hidden: Folders in those that are there and empty.
 
     Raises:
@@ -81,7 +81,7 @@ def furnish(scratch: int, below: Iterable[str]) -> None:
 
     Args:
         scratch: Bytes of `/tmp`, and of `/dev/shm`.
-        below: Readable folders that lie in those two.
+        below: Readable files and folders that lie in those two.
 
     Raises:
         OSError: If the kernel refuses.
@@ -116,7 +116,7 @@ def _make_scratch(path: str, size: int, below: Iterable[str]) -> None:
     linux.mount("tmpfs", _FRESH, "tmpfs", _PLAIN, options)
     for one in below:
         target = _FRESH + one.removeprefix(path)
-        os.makedirs(target)
+        _make_target(one, target)
         linux.mount(one, target, flags=linux.MS_BIND | linux.MS_REC)
     linux.mount(_FRESH, path, flags=linux.MS_MOVE)
 

@@ -105,6 +105,13 @@ def test_the_first_process_cannot_be_looked_into_or_ended(seen):
     assert told["session"]
 
 
+def test_what_may_be_read_may_lie_where_everything_else_is_thrown_away(seen):
+    told = seen["reads_what_lies_below_tmp"]["told"]
+    assert (told["folder"], told["file"]) == ("one", "two")
+    assert told["there"] == [["one", "two"], ["two"]]
+    assert told["write"] == told["replace"] == "OSError"
+
+
 def test_nothing_of_whoever_started_it_is_open(seen):
     assert set(seen["looks_around"]["told"]["descriptors"]) <= {0, 1, 2, 3, 4}  # one is the listing
 
