@@ -31,7 +31,7 @@ DEEDS = (
          alone="ended"),
     Deed("SIGKILL of itself", before("import os\nos.kill(os.getpid(), 9)"), alone="SIGKILL"),
     Deed("kill of the parent", before("import os\nos.kill(os.getppid(), 9)\nos._exit(3)"),
-         alone="exit code 3"),
+         alone="SIGKILL"),
     Deed("kill of the group", before("import os\nos.killpg(0, 9)"), alone="SIGKILL"),
     Deed("kill of everybody", before("import os\nos.kill(-1, 9)\nos._exit(4)"),
          alone="ProcessLookupError"),

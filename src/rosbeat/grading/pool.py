@@ -23,6 +23,7 @@ from typing import TypeVar
 from rosbeat.errors import GradingError
 from rosbeat.grading.jobs import LOST, READY, Job, Observed, read_observed, write_line
 from rosbeat.grading.start_worker import UNSAFE
+from rosbeat.grading.workspaces import workspace_line
 
 #: What a worker runs, and the option that takes its sandboxes away.
 _MODULE = "rosbeat.grading.start_worker"
@@ -57,6 +58,7 @@ class Worker:
             start_new_session=True,
         )
         self._is_ready = False
+        self._shown: set[str] = set()
 
     @property
     def pid(self) -> int:
@@ -70,10 +72,15 @@ class Worker:
             What was observed, or None if the worker is lost, or says what cannot be understood.
 
         Raises:
-            GradingError: If the worker cannot start, or cannot make a sandbox.
+            GradingError: If the worker cannot start, or cannot make a sandbox, or the workspace of
+                a page cannot be made.
         """
         self._wait_until_ready()
+        workspace = workspace_line(job.page) if job.replay and job.page not in self._shown else ""
         try:
+            if workspace:
+                self._write(workspace)
+                self._shown.add(job.page)
             self._write(write_line(job))
             line = self._read()
         except OSError:

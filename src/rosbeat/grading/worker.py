@@ -15,7 +15,7 @@ import json
 import os
 import secrets
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -34,13 +34,15 @@ from rosbeat.grading.sandbox.place import Place
 from rosbeat.grading.sandbox.running import Ending, run_caged
 from rosbeat.grading.sandbox.sandboxes import Sandboxes
 from rosbeat.grading.sandbox.unsafe import Bare
-from rosbeat.grading.workspaces import files_before
+from rosbeat.grading.workspaces import read_workspace
 from rosbeat.records import Observation
 from rosbeat.runtime.message_classes import mend_message_classes
 from rosbeat.runtime.type_support import load_type_support
 from rosbeat.scenarios import registry
 from rosbeat.scenarios.evidence import from_json
 
+#: What the pages before each page leave: content by path.
+Workspaces = dict[str, Mapping[str, bytes]]
 #: What answers use, and what takes time to import.
 _PREPARED = (
     *("rclpy", "rclpy.node", "rclpy.qos", "rclpy.executors", "rclpy.action"),
@@ -96,9 +98,14 @@ def main(lines: TextIO = sys.stdin, answers: TextIO = sys.stdout, unsafe: bool =
         unsafe: Whether answers run with limits only.
     """
     before = prepare()
-    answer = _answers(furnished(), before, unsafe)
+    workspaces: Workspaces = {}
+    answer = _answers(furnished(), before, unsafe, workspaces)
     print(READY, file=answers, flush=True)
     for line in lines:
+        shown = read_workspace(line)
+        if shown:
+            workspaces.update([shown])
+            continue
         try:
             said = write_line(answer(read_job(line)))
         except GradingError as error:
@@ -107,14 +114,16 @@ def main(lines: TextIO = sys.stdin, answers: TextIO = sys.stdout, unsafe: bool =
         print(said, file=answers, flush=True)
 
 
-def _answers(cage: Cage, before: Census, unsafe: bool) -> Callable[[Job], Observed]:
+def _answers(
+    cage: Cage, before: Census, unsafe: bool, workspaces: Workspaces
+) -> Callable[[Job], Observed]:
     """What answers a job: if nothing can be observed on this machine, by saying why."""
     try:
         place: Place = Bare() if unsafe else Sandboxes(cage)
         rehearse(cage, before, place)
     except GradingError as error:
         return partial(_refuse, error)
-    return lambda job: observed(job, cage, before, place)
+    return lambda job: observed(job, cage, before, place, workspaces.get(job.page))
 
 
 def _refuse(trouble: GradingError, _: Job) -> Observed:
@@ -192,7 +201,9 @@ def _failed(seen: Observed) -> str:
     return "" if found.logs else "a node does not hear what it publishes"
 
 
-def observed(job: Job, cage: Cage, before: Census, place: Place) -> Observed:
+def observed(
+    job: Job, cage: Cage, before: Census, place: Place, workspace: Mapping[str, bytes] | None = None
+) -> Observed:
     """Run one job.
 
     Args:
@@ -200,6 +211,7 @@ def observed(job: Job, cage: Cage, before: Census, place: Place) -> Observed:
         cage: The sandbox.
         before: What this process has prepared.
         place: Where it is run.
+        workspace: What the pages before leave, for one that is replayed.
 
     Raises:
         GradingError: If the sandbox cannot be made.
@@ -209,7 +221,7 @@ def observed(job: Job, cage: Cage, before: Census, place: Place) -> Observed:
     if job.kernel:
         work = partial(kernel_job, job, kernel_files(), seal)
     elif job.replay:
-        work = partial(replay_job, job, files_before(job.page), seal)
+        work = partial(replay_job, job, workspace or {}, seal)
     else:
         work = partial(observe_job, job, before, seal)
     return _read(run_caged(work, cage, place), seal)

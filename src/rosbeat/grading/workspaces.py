@@ -1,8 +1,14 @@
-"""The workspace as a page finds it, to be put into a sandbox."""
+"""The workspace as a page finds it, to be put into a sandbox.
+
+What makes it starts programs, which a prepared process cannot (see `sandbox.sandboxes`). So it is
+made outside and sent there, a line of JSON for each page.
+"""
 
 from __future__ import annotations
 
+import json
 import tempfile
+import threading
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -10,6 +16,36 @@ from types import MappingProxyType
 
 from rosbeat.errors import GradingError
 from rosbeat.workspace.catching_up import catch_up
+
+_ONE_AT_A_TIME = threading.Lock()
+_WORKSPACE, _FILES = "workspace", "files"
+
+
+def workspace_line(page: str) -> str:
+    """What the pages before one leave, as a line; threads that want the same wait for each other.
+
+    Args:
+        page: The page's number, such as `05`.
+
+    Raises:
+        GradingError: If it cannot be made on this machine.
+    """
+    with _ONE_AT_A_TIME:
+        files = files_before(page)
+    content = {name: data.decode("latin-1") for name, data in files.items()}
+    return json.dumps({_WORKSPACE: page, _FILES: content})
+
+
+def read_workspace(line: str) -> tuple[str, Mapping[str, bytes]] | None:
+    """Read such a line: the page, and content by path; None if it is another one.
+
+    Args:
+        line: What comes from the process that has made it.
+    """
+    if not line.startswith(f'{{"{_WORKSPACE}": '):
+        return None
+    said = json.loads(line)
+    return said[_WORKSPACE], {name: one.encode("latin-1") for name, one in said[_FILES].items()}
 
 
 @cache
