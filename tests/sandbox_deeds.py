@@ -6,6 +6,7 @@ It is a process of its own because a sandbox is forked, and a test process has t
 import ctypes
 import json
 import os
+import platform
 import shutil
 import signal
 import socket
@@ -161,6 +162,22 @@ def stays_behind(result):
         os._exit(0)
 
 
+def has_a_sibling(result):
+    _sibling(lambda: time.sleep(1000))
+
+
+def has_a_sibling_that_eats(result):
+    _sibling(lambda: eats(result))
+    time.sleep(1000)
+
+
+def _sibling(deed):
+    """Fork a process that is a child of this one's parent: clone(2)."""
+    number, flags = {"x86_64": 56, "aarch64": 220}[platform.machine()], 0x8000 | signal.SIGCHLD
+    if ctypes.CDLL(None).syscall(number, flags, 0, 0, 0, 0) == 0:
+        deed()
+
+
 def closes_everything(result):
     os.closerange(0, 100)
 
@@ -212,6 +229,7 @@ DEEDS = (
     *(looks, writes, gains_rights, calls_out, loops, sleeps, forks, eats, prints, answers_too_much),
     *(fills_a_file, fills_memory_that_is_shared, kills_itself, kills_all, crashes, leaves),
     *(leaves_with_a_code, leaves_with_a_high_code, raises, stays_behind, closes_everything),
+    *(has_a_sibling, has_a_sibling_that_eats),
     *(closes_everything_and_sleeps, looks_around, reads_what_lies_below_tmp, ignores_signals),
 )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import select
 import signal
 import subprocess
 import sys
@@ -20,6 +21,8 @@ from rosbeat.grading.sandbox.place import cannot_be_made
 from rosbeat.grading.sandbox.processes import children
 
 _NURSERY = "rosbeat.grading.sandbox.nursery"
+#: Seconds between two looks at who has ended.
+_LOOK = 0.02
 _ENDED = "the process that makes sandboxes has ended"
 
 
@@ -109,8 +112,14 @@ class Sandboxes:
             os.close(first)
 
     def inhabitants(self) -> Sequence[int]:
-        """The work, and what adopts whatever loses its parent in there."""
-        return (self._work, self._first)
+        """The work, and what adopts whatever loses its parent in there.
+
+        A process may also make another one that is its sibling (clone(2), `CLONE_PARENT`).
+        """
+        return (*self._guests(), self._first)
+
+    def _guests(self) -> list[int]:
+        return [child for child in children(os.getpid()) if child != self._process.pid]
 
     def end(self) -> int:
         """End the sandbox that was started last, with all that runs in it.
@@ -122,8 +131,11 @@ class Sandboxes:
             ConnectionError: If what makes them has been ended by somebody.
         """
         self._tell(END)
-        # The first process is not gone before all others are, of which one waits to be heard here.
+        # The first process is not gone before all others are, and some wait to be heard of here.
         _, status = os.waitpid(self._work, 0)
+        while not select.select([self._process.stdout], [], [], _LOOK)[0]:
+            for guest in self._guests():
+                os.waitpid(guest, os.WNOHANG)
         self._heard()
         return os.waitstatus_to_exitcode(status)
 

@@ -81,6 +81,8 @@ def test_it_reaches_itself_and_nobody_else(seen):
         ("leaves_with_a_code", {"exit"}),
         ("raises", {"exit"}),
         ("stays_behind", {"ended"}),
+        ("has_a_sibling", {"ended"}),
+        ("has_a_sibling_that_eats", {"memory"}),
         ("closes_everything", {"ended", "exit"}),
         ("closes_everything_and_sleeps", {"deadline"}),
         ("leaves_with_a_high_code", {"exit"}),
