@@ -133,11 +133,15 @@ class Sandboxes:
         self._tell(END)
         # The first process is not gone before all others are, and some wait to be heard of here.
         _, status = os.waitpid(self._work, 0)
+        self._clear_away()
+        self._heard()
+        return os.waitstatus_to_exitcode(status)
+
+    def _clear_away(self) -> None:
+        assert self._process.stdout is not None
         while not select.select([self._process.stdout], [], [], _LOOK)[0]:
             for guest in self._guests():
                 os.waitpid(guest, os.WNOHANG)
-        self._heard()
-        return os.waitstatus_to_exitcode(status)
 
     def _tell(self, line: str) -> None:
         assert self._process.stdin is not None
