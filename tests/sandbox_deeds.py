@@ -5,8 +5,10 @@ It is a process of its own because a sandbox is forked, and a test process has t
 
 import ctypes
 import json
+import mmap
 import os
 import platform
+import re
 import shutil
 import signal
 import socket
@@ -25,7 +27,7 @@ from rosbeat.grading.sandbox.sandboxes import Sandboxes
 
 LIMITS = Limits(wall=2.0, memory=300_000_000)
 #: A folder that is shown, and one of which only one file is.
-SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat-{one}-{os.getpid()}") for one in "ab")
+SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat {one} Ü {os.getpid()}") for one in "ab")
 SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{os.getpid()}")
 
 
@@ -102,6 +104,13 @@ def eats(result):
     kept = []
     while True:
         kept.append(b"x" * 10_000_000)
+
+
+def shares_memory(result):
+    kept = []
+    while True:
+        kept.append(mmap.mmap(-1, 10_000_000))
+        kept[-1].write(b"x" * 10_000_000)
 
 
 def prints(result):
@@ -200,6 +209,42 @@ def reads_what_lies_below_tmp(result):
     })  # fmt: skip
 
 
+def calls_what_is_not_there(result):
+    """Keys of the kernel are not kept apart by namespaces; who is traced waits for its parent."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    numbers = {"x86_64": (248, 249, 250, 101), "aarch64": (217, 218, 219, 117)}[platform.machine()]
+
+    def refused(number):
+        ctypes.set_errno(0)
+        return libc.syscall(number, 0, 0, 0, 0, 0), ctypes.get_errno()
+
+    tells(result, {"refused": [refused(number) for number in numbers], "others": os.getpid()})
+
+
+def hides_a_pipe(result):
+    """Send the pipe through a socket that is sent through itself: who ends so leaves it open."""
+    one, other = socket.socketpair(socket.AF_UNIX)
+    socket.send_fds(one, [b"x"], [1, result, one.fileno(), other.fileno()])
+
+
+def searches_itself(result):
+    """Look for what was in the environment of whoever was forked, in all of its memory."""
+    found, size = 0, 1 << 20
+    sought = re.compile(b"[c]anary-" + b"7731")
+    with open("/proc/self/maps") as maps, open("/proc/self/mem", "rb", 0) as memory:
+        for line in maps:
+            start, end = (int(one, 16) for one in line.split()[0].split("-"))
+            if "rw" not in line or "[" in line.replace("[heap]", "").replace("[stack]", ""):
+                continue
+            for at in range(start, end, size):
+                with suppress(OSError, OverflowError, ValueError):
+                    memory.seek(at)
+                    data = bytearray(memory.read(min(size, end - at)))
+                    found += len(sought.findall(data))
+                    data[:] = bytes(len(data))  # or it would be found again, in here
+    tells(result, {"found": found})
+
+
 def looks_around(result):
     def reads(path):
         with open(path, "rb") as file:
@@ -230,6 +275,7 @@ DEEDS = (
     *(fills_a_file, fills_memory_that_is_shared, kills_itself, kills_all, crashes, leaves),
     *(leaves_with_a_code, leaves_with_a_high_code, raises, stays_behind, closes_everything),
     *(has_a_sibling, has_a_sibling_that_eats),
+    *(calls_what_is_not_there, hides_a_pipe, searches_itself, shares_memory),
     *(closes_everything_and_sleeps, looks_around, reads_what_lies_below_tmp, ignores_signals),
 )
 
@@ -245,7 +291,6 @@ def ending(found):
 def main():
     """Run every deed and print how it ended, as JSON."""
     SECRET.write_text("secret")
-    os.environ["SECRET"] = "secret"
     for folder in (SHOWN, HIDDEN):
         folder.mkdir()
         for name in ("one", "two"):

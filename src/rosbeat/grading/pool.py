@@ -55,6 +55,7 @@ class Worker:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**os.environ, **_BOUND},
+            cwd="/",  # Python imports from there, and here there may be anything
             start_new_session=True,
         )
         self._is_ready = False

@@ -9,6 +9,7 @@ import os
 import traceback
 import warnings
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from rosbeat.grading.inside.careful import careful_functions
@@ -35,6 +36,7 @@ def observe_job(job: Job, before: Census, seal: str, result: int) -> None:
             `changed`; or with `raised`, `text`, `line` and `code` if the cell could not be run.
     """
     run, write, given = scenario(job.exercise), writer(seal, result), json.loads(job.given)
+    look = partial(differences, before)
     warnings.simplefilter("ignore")  # a warning ends no cell
     try:
         subject = subject_of(job)
@@ -43,7 +45,7 @@ def observe_job(job: Job, before: Census, seal: str, result: int) -> None:
         return
     seen = run(subject, **given)
     # Before the evidence is written: what writes it could put itself back.
-    changed = differences(before)
+    changed = look()
     write({"evidence": to_json(seen), "changed": changed})
 
 

@@ -112,8 +112,9 @@ def _settle(cage: Cage, ends: Ends) -> int:
     result = os.dup2(ends.result, 3, inheritable=False)
     os.closerange(4, ends.control)
     os.closerange(ends.control + 1, os.sysconf("SC_OPEN_MAX"))
+    values = list(os.environ._data.values())  # type: ignore[attr-defined] # the bytes themselves
     os.environ.clear()
-    linux.wipe_environment()
+    linux.wipe_environment(values)
     os.environ.update(cage.environment)
     cage.limits.apply()
     # The last thing: from here on nothing in there can say that the sandbox was not made.

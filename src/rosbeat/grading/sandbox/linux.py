@@ -13,6 +13,7 @@ import os
 import platform
 import socket
 import struct
+from collections.abc import Iterable
 
 CLONE_NEWNS, CLONE_NEWUTS, CLONE_NEWIPC = 0x00020000, 0x04000000, 0x08000000
 CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNET = 0x10000000, 0x20000000, 0x40000000
@@ -113,13 +114,13 @@ def pivot_root(new: str, old: str) -> None:
     _checked(_libc.syscall(number, os.fsencode(new), os.fsencode(old)), "pivot_root")
 
 
-def prctl(option: int, value: int) -> None:
+def prctl(option: int, value: int, further: int = 0) -> None:
     """Change something about this process.
 
     Raises:
         OSError: If the kernel refuses.
     """
-    words = [ctypes.c_ulong(one) for one in (value, 0, 0, 0)]
+    words = [ctypes.c_ulong(one) for one in (value, further, 0, 0)]
     _checked(_libc.prctl(option, *words), f"prctl {option}")
 
 
@@ -139,13 +140,19 @@ def drop_capabilities() -> None:
     _checked(_libc.capset(header, bytes(24)), "capset")
 
 
-def wipe_environment() -> None:
+def wipe_environment(values: Iterable[bytes]) -> None:
     """Overwrite what this process was started with: `/proc/self/environ` shows it for ever.
+
+    Args:
+        values: Python's own copies of its values, which nobody uses any more; overwritten, too.
 
     To be called when the environment is empty, for then nothing points there any more. Fields 50
     and 51 of `/proc/self/stat` say where it is (proc(5)); where there is no `/proc`, there is
     nothing to be seen.
     """
+    for value in values:
+        if len(value) > 1:  # Python has each shorter one only once, for everybody
+            ctypes.memset(id(value) + bytes.__basicsize__ - 1, 0, len(value))
     try:
         with open("/proc/self/stat", encoding="utf-8", errors="replace") as file:
             fields = file.read().rpartition(")")[2].split()

@@ -36,7 +36,8 @@ def settings(root: str, readable: Iterable[str], hidden: Iterable[str], scratch:
         hidden: Folders in those that are empty in sandboxes.
         scratch: Bytes of `/tmp` of a sandbox, and of its `/dev/shm`.
     """
-    folders = {"readable": list(outermost(readable)), "hidden": list(hidden)}
+    paths = ("/" + os.path.abspath(path).lstrip("/") for path in readable)
+    folders = {"readable": list(outermost(paths)), "hidden": list(hidden)}
     return json.dumps({"root": root, "scratch": scratch, **folders})
 
 

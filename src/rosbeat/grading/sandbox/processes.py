@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable
 from contextlib import suppress
 
-_PAGE = os.sysconf("SC_PAGE_SIZE")
+_COUNTED = (b"RssAnon:", b"RssShmem:")  # in KiB
 
 
 def children(process: int) -> list[int]:
@@ -18,7 +18,8 @@ def children(process: int) -> list[int]:
     found: list[int] = []
     with suppress(OSError):
         for task in os.listdir(f"/proc/{process}/task"):
-            with open(f"/proc/{process}/task/{task}/children", encoding="ascii") as file:
+            path = f"/proc/{process}/task/{task}/children"
+            with suppress(OSError), open(path, encoding="ascii") as file:  # a thread may have ended
                 found += map(int, file.read().split())
     return found
 
@@ -26,7 +27,7 @@ def children(process: int) -> list[int]:
 def memory_of(processes: Iterable[int]) -> int:
     """Bytes of memory of some processes and all of their descendants.
 
-    Counted are resident pages less those shared with others, as libraries are.
+    Counted are its own pages and those of memory that it shares; not those of files, as libraries.
 
     Args:
         processes: Their numbers.
@@ -35,8 +36,6 @@ def memory_of(processes: Iterable[int]) -> int:
     while left:
         one = left.pop()
         left += children(one)
-        with suppress(OSError, IndexError, ValueError):
-            with open(f"/proc/{one}/statm", encoding="ascii") as file:
-                words = file.read().split()
-            total += (int(words[1]) - int(words[2])) * _PAGE
-    return total
+        with suppress(OSError), open(f"/proc/{one}/status", "rb") as file:
+            total += sum(int(line.split()[1]) for line in file if line.startswith(_COUNTED))
+    return total * 1024

@@ -85,6 +85,8 @@ def run_caged(work: Work, cage: Cage, place: Place) -> Ending:
         _Pipe(output, cage.limits.output),
         _Pipe(control, _MOST_CONTROL),
     )
+    for pipe in pipes:
+        os.set_blocking(pipe.reading, False)
     watch, code = _Watch(place, cage, *pipes), 0
     try:
         process = _started(watch, work, Ends(to_result, to_output, to_control))
@@ -128,13 +130,19 @@ def _listen(watch: _Watch, process: int) -> None:
 
 def _drain(watch: _Watch, pipe: _Pipe) -> None:
     """Read what is left in a pipe; nobody is there any more to write to it."""
-    while not watch.stopped and _take(watch, pipe):
-        pass
+    with selectors.DefaultSelector() as selector:
+        selector.register(pipe.reading, selectors.EVENT_READ)
+        # A pipe that was sent through a socket may stay open for a while.
+        while not watch.stopped and selector.select(0) and _take(watch, pipe):
+            pass
 
 
 def _take(watch: _Watch, pipe: _Pipe) -> bool:
     """Read once; say whether more may come."""
-    data = os.read(pipe.reading, 65_536)
+    try:
+        data = os.read(pipe.reading, 65_536)
+    except BlockingIOError:
+        return True  # somebody in there has taken it away meanwhile
     if len(pipe.kept) + len(data) > pipe.most and pipe.name:
         watch.stopped = pipe.name
     pipe.kept += data[: pipe.most - len(pipe.kept)]

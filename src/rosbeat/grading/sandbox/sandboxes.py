@@ -15,6 +15,7 @@ from functools import partial
 from rosbeat.errors import GradingError
 from rosbeat.grading.sandbox import linux
 from rosbeat.grading.sandbox.cage import Cage, Ends, Work, become_work
+from rosbeat.grading.sandbox.calls import forbid_calls
 from rosbeat.grading.sandbox.namespaces import OWN, give_up_rights
 from rosbeat.grading.sandbox.nursery import END, MAKE, TROUBLE, settings
 from rosbeat.grading.sandbox.place import cannot_be_made
@@ -23,6 +24,8 @@ from rosbeat.grading.sandbox.processes import children
 _NURSERY = "rosbeat.grading.sandbox.nursery"
 #: Seconds between two looks at who has ended.
 _LOOK = 0.02
+#: `__WALL` of wait(2): also children that say nothing when they end.
+_ALL = 0x40000000
 _ENDED = "the process that makes sandboxes has ended"
 
 
@@ -43,6 +46,7 @@ class Sandboxes:
             [sys.executable, "-m", _NURSERY],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            cwd="/",  # Python imports from there, and elsewhere there may be anything
             text=True,
             encoding="utf-8",
         )
@@ -132,16 +136,24 @@ class Sandboxes:
         """
         self._tell(END)
         # The first process is not gone before all others are, and some wait to be heard of here.
-        _, status = os.waitpid(self._work, 0)
+        code = self._code_of_work()
         self._clear_away()
         self._heard()
-        return os.waitstatus_to_exitcode(status)
+        return code
+
+    def _code_of_work(self) -> int:
+        while True:
+            ended, status = os.waitpid(-1, _ALL)
+            if ended == self._process.pid:
+                raise ConnectionError(_ENDED)
+            if ended == self._work and not os.WIFSTOPPED(status):
+                return os.waitstatus_to_exitcode(status)
 
     def _clear_away(self) -> None:
         assert self._process.stdout is not None
         while not select.select([self._process.stdout], [], [], _LOOK)[0]:
-            for guest in self._guests():
-                os.waitpid(guest, os.WNOHANG)
+            with suppress(ChildProcessError):
+                os.waitpid(-1, os.WNOHANG | _ALL)
 
     def _tell(self, line: str) -> None:
         assert self._process.stdin is not None
@@ -171,7 +183,12 @@ class Sandboxes:
             with suppress(OSError):
                 assert pipe is not None
                 pipe.close()
-        self._process.wait()
+        while self._process.poll() is None:
+            for guest in self._guests():
+                with suppress(ChildProcessError):
+                    os.waitpid(guest, os.WNOHANG | _ALL)
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(_LOOK)
 
 
 def _enter(first: int) -> None:
@@ -186,3 +203,4 @@ def _enter(first: int) -> None:
     give_up_rights()
     # After that, for who changes its rights is forgotten by this.
     linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+    forbid_calls()

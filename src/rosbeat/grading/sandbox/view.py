@@ -15,7 +15,9 @@ The last three are new in each sandbox; all others are built once, and the same 
 
 from __future__ import annotations
 
+import errno
 import os
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -114,7 +116,7 @@ def _make_scratch(path: str, size: int, below: Iterable[str]) -> None:
     """An empty folder for everything that is thrown away, with the readable ones that lie in it."""
     options = f"size={size},nr_inodes=20000,mode=1777"
     linux.mount("tmpfs", _FRESH, "tmpfs", _PLAIN, options)
-    for one in below:
+    for one in filter(os.path.exists, below):
         target = _FRESH + one.removeprefix(path)
         _make_target(one, target)
         linux.mount(one, target, flags=linux.MS_BIND | linux.MS_REC)
@@ -153,7 +155,10 @@ def _show(root: str, path: str) -> None:
         return
     _make_target(path, root + path)
     linux.mount(path, root + path, flags=linux.MS_BIND | linux.MS_REC)
-    for point in _mounted_below(root + path):
+    points = list(_mounted_below(root + path))
+    if not points:
+        raise OSError(errno.ENOENT, f"what is mounted at {path} cannot be told")
+    for point in points:
         _make_read_only(point)
 
 
@@ -172,8 +177,10 @@ def _make_read_only(point: str) -> None:
 
 
 def _mounted_below(path: str) -> Iterator[str]:
-    for line in Path("/proc/self/mountinfo").read_text(encoding="utf-8").splitlines():
-        point = line.split()[4].encode().decode("unicode_escape")
+    for line in Path("/proc/self/mountinfo").read_bytes().split(b"\n")[:-1]:
+        # Blanks and the like are written as numbers of three octal digits (proc(5)).
+        field = re.sub(rb"\\([0-7]{3})", lambda found: bytes([int(found[1], 8)]), line.split()[4])
+        point = os.fsdecode(field)
         if point == path or point.startswith(path + "/"):
             yield point
 

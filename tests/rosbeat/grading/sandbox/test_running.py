@@ -1,6 +1,8 @@
 """A sandbox holds whatever strangers' code tries, and each try ends by itself or is ended."""
 
+import errno
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -15,8 +17,9 @@ PROGRAM = Path(__file__).parents[3] / "sandbox_deeds.py"
 @pytest.fixture(scope="module")
 def deeds():
     done = subprocess.run(
-        [sys.executable, str(PROGRAM)], capture_output=True, text=True, timeout=110, check=False
-    )
+        [sys.executable, str(PROGRAM)], capture_output=True, text=True, timeout=110, check=False,
+        env={**os.environ, "SECRET": "canary-7731"},
+    )  # fmt: skip
     assert done.returncode == 0, done.stderr
     told = json.loads(done.stdout)
     if "refused" in told["seen"]:
@@ -81,6 +84,8 @@ def test_it_reaches_itself_and_nobody_else(seen):
         ("leaves_with_a_code", {"exit"}),
         ("raises", {"exit"}),
         ("stays_behind", {"ended"}),
+        ("shares_memory", {"memory"}),
+        ("hides_a_pipe", {"ended"}),
         ("has_a_sibling", {"ended"}),
         ("has_a_sibling_that_eats", {"memory"}),
         ("closes_everything", {"ended", "exit"}),
@@ -112,6 +117,16 @@ def test_what_may_be_read_may_lie_where_everything_else_is_thrown_away(seen):
     assert (told["folder"], told["file"]) == ("one", "two")
     assert told["there"] == [["one", "two"], ["two"]]
     assert told["write"] == told["replace"] == "OSError"
+
+
+def test_what_no_namespace_keeps_apart_is_refused(seen):
+    told = seen["calls_what_is_not_there"]["told"]
+    assert told["refused"] == [[-1, errno.EPERM]] * 4
+    assert told["others"] > 1
+
+
+def test_the_environment_of_whoever_was_forked_is_nowhere_in_its_memory(seen):
+    assert seen["searches_itself"]["told"] == {"found": 0}
 
 
 def test_nothing_of_whoever_started_it_is_open(seen):
