@@ -252,6 +252,7 @@ def looks_around(result):
 
     mounts = reads("/proc/self/mountinfo").decode().splitlines()
     tells(result, {
+        "python": attempt(lambda: os.chmod("/proc/self/exe", 0o4755)),
         "root": attempt(lambda: os.listdir("/proc/1/root")),
         "environment": attempt(lambda: reads("/proc/1/environ")),
         "memory": attempt(lambda: reads("/proc/1/mem")),
@@ -290,6 +291,8 @@ def ending(found):
 
 def main():
     """Run every deed and print how it ended, as JSON."""
+    with suppress(OSError):
+        become_able()  # the program begins again with this
     SECRET.write_text("secret")
     for folder in (SHOWN, HIDDEN):
         folder.mkdir()
@@ -299,7 +302,6 @@ def main():
     cage = Cage(readable, (), {"PATH": "/usr/bin", "HOME": "/tmp"}, LIMITS)
     seen = {}
     try:
-        become_able()
         with Sandboxes(cage) as sandboxes:
             seen = {deed.__name__: ending(run_caged(deed, cage, sandboxes)) for deed in DEEDS}
     except GradingError as error:

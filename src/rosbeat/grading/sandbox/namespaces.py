@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import sys
 from contextlib import suppress
 
 from rosbeat.grading.sandbox import linux
+from rosbeat.grading.sandbox.view import make_read_only
 
 #: What a sandbox has of its own and a process can enter; process and user namespaces come besides.
 OWN = linux.CLONE_NEWNS | linux.CLONE_NEWNET | linux.CLONE_NEWIPC | linux.CLONE_NEWUTS
@@ -20,13 +22,22 @@ def become_able() -> None:
     The administrator has it. To an ordinary user the kernel gives it in a user namespace of its
     own, in which this process is then user 0, with no more rights outside than before.
 
+    An ordinary user may own the file of Python itself, and `/proc/self/exe` leads whoever is forked
+    from here to it, past all that a sandbox shows. So the program begins once more, from a mount
+    that cannot be written to: call this before anything else is done.
+
     Raises:
         OSError: If the kernel refuses.
     """
     if os.getuid() != 0:
         user, group = os.getuid(), os.getgid()
-        linux.unshare(linux.CLONE_NEWUSER)
+        linux.unshare(linux.CLONE_NEWUSER | linux.CLONE_NEWNS)
         _map_ids(0, user, 0, group)
+        folder = os.path.dirname(os.path.realpath(sys.executable))
+        linux.mount("none", "/", flags=linux.MS_REC | linux.MS_PRIVATE)
+        linux.mount(folder, folder, flags=linux.MS_BIND)
+        make_read_only(folder)
+        os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
 
 
 def give_up_rights() -> None:

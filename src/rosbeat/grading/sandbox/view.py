@@ -159,7 +159,7 @@ def _show(root: str, path: str) -> None:
     if not points:
         raise OSError(errno.ENOENT, f"what is mounted at {path} cannot be told")
     for point in points:
-        _make_read_only(point)
+        make_read_only(point)
 
 
 def _make_target(path: str, target: str) -> None:
@@ -168,7 +168,15 @@ def _make_target(path: str, target: str) -> None:
         Path(target).touch()
 
 
-def _make_read_only(point: str) -> None:
+def make_read_only(point: str) -> None:
+    """Let nobody write to a mount.
+
+    Args:
+        point: Where it is mounted.
+
+    Raises:
+        OSError: If the kernel refuses.
+    """
     # What the mount forbids already has to be forbidden again, or the kernel refuses.
     found = os.statvfs(point).f_flag
     locked = sum(flag for bit, flag in _LOCKED.items() if found & bit)

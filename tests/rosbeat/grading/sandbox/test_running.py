@@ -129,6 +129,10 @@ def test_the_environment_of_whoever_was_forked_is_nowhere_in_its_memory(seen):
     assert seen["searches_itself"]["told"] == {"found": 0}
 
 
+def test_python_itself_stays_as_it_is(seen):
+    assert seen["looks_around"]["told"]["python"] in ("OSError", "PermissionError")
+
+
 def test_nothing_of_whoever_started_it_is_open(seen):
     assert set(seen["looks_around"]["told"]["descriptors"]) <= {0, 1, 2, 3, 4}  # one is the listing
 
