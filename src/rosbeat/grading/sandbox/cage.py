@@ -36,7 +36,7 @@ class Cage:
     """How a sandbox is furnished.
 
     Attributes:
-        readable: Folders that the work may read, at their own paths.
+        readable: Files and folders that the work may read, at their own paths.
         hidden: Folders in those that are empty for the work.
         environment: All of its environment.
         limits: What it may use.

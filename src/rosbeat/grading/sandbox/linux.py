@@ -117,6 +117,11 @@ def pivot_root(new: str, old: str) -> None:
 def prctl(option: int, value: int, further: int = 0) -> None:
     """Change something about this process.
 
+    Args:
+        option: What, of `PR_...`.
+        value: What it becomes.
+        further: A second value, for the options that take one.
+
     Raises:
         OSError: If the kernel refuses.
     """

@@ -20,7 +20,7 @@ from rosbeat.grading.sandbox.processes import children
 
 
 class Bare:
-    """Where work runs with limits only, one after the other; see `places.Place`."""
+    """Where work runs with limits only, one after the other; see `place.Place`."""
 
     def __init__(self) -> None:
         self._keeper = 0
