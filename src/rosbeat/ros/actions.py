@@ -96,11 +96,18 @@ class Place(Protocol):
     def state_of(self, node: Node | None) -> NodeState | None:
         """What is known of a node."""
 
-    def sent(self, kind: str, name: str) -> None:
-        """Something was sent to the `kind` entities called `name`."""
+    def sent(self, kind: str, name: str, origin: NodeState) -> None:
+        """Note that a node sent something to the `kind` entities called `name`."""
 
-    def wait(self, call: str, done: Callable[[], bool], seconds: float | None) -> bool:
-        """Run nodes until `done`; `call` is refused in a callback."""
+    def wait(
+        self,
+        call: str,
+        reason: str,
+        done: Callable[[], bool],
+        seconds: float | None,
+        needs: Any,  # noqa: ANN401 - any entity of rclpy
+    ) -> bool:
+        """Wait until something is done, in a callback as in a cell."""
 
     def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
         """An exception left the work on a goal; the node goes on."""
@@ -191,11 +198,11 @@ class ActionEnd:
     def _answered(self) -> None:
         self.published(STATUS)  # of goals that were accepted
         for part in SERVICES:
-            self._place.sent("client", f"{self.name}/_action/{part}")
+            self._place.sent("client", f"{self.name}/_action/{part}", self._state)
 
     def published(self, topic: str) -> None:
         """The server has published one of the action's topics."""
-        self._place.sent("subscription", f"{self.name}/_action/{topic}")
+        self._place.sent("subscription", f"{self.name}/_action/{topic}", self._state)
 
     # A client.
 
@@ -207,7 +214,8 @@ class ActionEnd:
         client._get_result = lambda goal: self._result("get_result", client._get_result_async(goal))
         client._cancel_goal = lambda g: self._result("cancel_goal", client._cancel_goal_async(g))
         for method, part in zip(_SENDING, SERVICES, strict=True):
-            _tell(client, method, partial(place.sent, "service", f"{self.name}/_action/{part}"))
+            service = f"{self.name}/_action/{part}"
+            _tell(client, method, partial(place.sent, "service", service, self._state))
         client.wait_for_server = self._wait_for_server
         client.execute = partial(self._hear, client.execute)
 
@@ -229,14 +237,16 @@ class ActionEnd:
         return None if handle is None else self.entity._get_result(handle)
 
     def _result(self, method: str, future: Any) -> Any:  # noqa: ANN401
-        if not self._place.wait(f"client.{method}", future.done, None):
+        reason = f"an answer from the action {self.name}"
+        if not self._place.wait(f"client.{method}", reason, future.done, None, self.entity):
             raise _unanswered(self.name, method)
         return future.result()
 
     def _wait_for_server(self, timeout_sec: float | None = None) -> bool:
         client = self.entity
         if not client.server_is_ready():
-            self._place.wait("client.wait_for_server", client.server_is_ready, timeout_sec)
+            reason, done = f"a server of the action {self.name}", client.server_is_ready
+            self._place.wait("client.wait_for_server", reason, done, timeout_sec, None)
         return bool(client.server_is_ready())
 
 

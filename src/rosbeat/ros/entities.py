@@ -15,6 +15,7 @@ from rosbeat.records import NANOSECONDS
 from rosbeat.ros.faults import asking
 
 if TYPE_CHECKING:
+    from rosbeat.ros.processes import Process
     from rosbeat.ros.recording import CallbackLabel
 
 
@@ -43,8 +44,10 @@ class NodeState:
         number: Order of creation.
         name: Full name.
         node: The node, once its constructor has got far enough.
+        process: The simulated process in which it runs.
         spinning: Whether its callbacks are run: it was added, has no fault and is not paused.
         born_ns: When it was made, in nanoseconds since the session began.
+        open: Whether its callbacks can run at once: it spins, and nothing in its process waits.
         paused: It rests because the session was told to pause it.
         asleep: How many of its callbacks sleep now; see `virtual_time`.
         ended: It raised in a callback or asked for shutdown, and does not come back.
@@ -56,11 +59,12 @@ class NodeState:
 
     number: int
     name: str
-    node: Node | None = None
+    node: Node | None
+    process: Process
     spinning: bool = False
     born_ns: int = 0
+    open: bool = False
     paused: bool = False
-    asleep: int = 0
     ended: bool = False
     logger: Any = None
     entries: list[Entry] = field(default_factory=list)
@@ -83,13 +87,12 @@ class Entry:
         label_number: The label's number.
         take: Takes one thing that has arrived; a timer has none. See `TAKERS`.
         calls: How often its callback has run.
-        backlog: Take until nothing is left, since messages may have come while nobody took any.
         born: Of a subscription: how many messages had been recorded when it was made.
         deadline: Where the agenda keeps a timer, in nanoseconds; None if it waits elsewhere.
     """
 
     __slots__ = (
-        "backlog", "born", "calls", "deadline", "entity", "handle", "kind", "label",
+        "born", "calls", "deadline", "entity", "handle", "kind", "label",
         "label_number", "name", "number", "state", "take",
     )  # fmt: skip
 
@@ -109,7 +112,6 @@ class Entry:
         self.handle: Any = getattr(entity, "handle", None)
         self.take = take
         self.calls = 0
-        self.backlog = False
         self.born = 0
         self.deadline: int | None = None
 
@@ -129,8 +131,8 @@ _MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 class Sender(Protocol):
     """What is told that something was sent, so that whoever waits for it can take it."""
 
-    def happened(self, kind: str, name: str) -> None:
-        """Something was sent to the `kind` entities called `name`."""
+    def happened(self, kind: str, name: str, origin: NodeState) -> None:
+        """Note that a node sent something to the `kind` entities called `name`."""
 
 
 def take_message(entry: Entry, _: Sender) -> Work | None:
@@ -182,7 +184,7 @@ async def _serve_later(entry: Entry, request: Any, header: Any, sender: Sender) 
 def _answer(entry: Entry, response: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
     with asking("send_response", response):
         entry.entity.send_response(response, header)
-    sender.happened("client", entry.name)
+    sender.happened("client", entry.name, entry.state)
 
 
 def take_answer(entry: Entry, executor: Sender) -> Work | None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from difflib import get_close_matches
 from math import inf, isfinite
 from numbers import Real
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
@@ -19,6 +20,9 @@ from rosbeat.errors import (
 )
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, GraphSnapshot
 
+if TYPE_CHECKING:
+    from rosbeat.ros.processes import Wait
+
 # What a session says when it is asked for something it cannot do.
 
 
@@ -26,7 +30,13 @@ from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, GraphSnapshot
 END_OF_TIME = 2**63 - 1
 
 
-def check_whole(name: str, value: Any, low: int, high: int) -> None:  # noqa: ANN401 - unchecked
+def check_whole(
+    name: str,
+    value: Any,  # noqa: ANN401 - unchecked
+    low: int,
+    high: int,
+    example: str = "",
+) -> None:
     """Refuse anything but a whole number from `low` to `high`.
 
     Raises:
@@ -37,7 +47,7 @@ def check_whole(name: str, value: Any, low: int, high: int) -> None:  # noqa: AN
     raise SessionError(
         f"{name}={value!r} cannot be used.",
         f"It must be a whole number from {low} to {high if high < 2**63 else 'about 9e18'}.",
-        f"Write for example Session({name}=7).",
+        f"Write for example {example or f'Session({name}=7)'}.",
     )
 
 
@@ -98,6 +108,83 @@ def session_has_ended() -> ClosedSessionError:
     )
 
 
+def called_in_callback(call: str) -> SessionError:
+    """Return the error for what runs the simulation, called by a node."""
+    return SessionError(
+        f"`{call}` was called from inside a callback.",
+        "It waits for other callbacks, and they can only run when this one has returned: "
+        "a deadlock, on a real robot too.",
+        _INSTEAD_OF_WAITING,
+    )
+
+
+_INSTEAD_OF_WAITING = (
+    "For a service use `call_async` and add a done callback, or make the callback `async def` and "
+    "await the future, with the client in a callback group of its own. To do something again and "
+    "again, create a timer."
+)
+
+
+def deadlock(waits: Sequence[Wait]) -> SessionError:
+    """Return the error for callbacks that can never go on.
+
+    Args:
+        waits: What they wait for; the first is that of the callback that is told.
+    """
+    told = [f"{w.call.node} waits in `{w.call.name}` for {w.reason}" for w in waits if w.call]
+    own = waits[0].needs is not None and len(waits) == 1
+    why = (
+        "Its own executor would have to take that, and it is busy with this very callback"
+        if own
+        else "Nothing else is left to do, so nobody will end that"
+    )
+    return SessionError(
+        f"{'; '.join(told)}: for ever.",
+        f"{why}: a deadlock, on a real robot too.",
+        _INSTEAD_OF_WAITING,
+    )
+
+
+def never_made(seconds: float) -> SessionError:
+    """Return the error for a constructor that waits on and on while a cell calls it."""
+    return SessionError(
+        f"The constructor still waits after {seconds:g} s of virtual time.",
+        "`ros.add` returns the node, so it cannot return before there is one.",
+        "Add first what it waits for, such as the node that offers the service. A program that "
+        "waits for another one can be started with `ros.spawn`.",
+    )
+
+
+def asks_before_it_runs(node: str, service: str) -> SessionError:
+    """Return the error for `client.call` of a node that is not spun."""
+    return SessionError(
+        f"{node} asks {service} before it runs itself.",
+        "Nobody takes the answer of a node that is still being made, was not added, or is "
+        "paused. Outside a page the call would wait for ever.",
+        "Add the node first, with `ros.add(...)`, and ask then, or in a timer's callback "
+        "with `call_async`.",
+    )
+
+
+def unanswered_call(service: str) -> SessionError:
+    """Return the error for a service call of a cell that nobody answers."""
+    return SessionError(
+        f"Nobody has answered the call to {service}.",
+        "Either no node of this session offers that service, or its callback does not end. "
+        "Outside a page the call would wait for ever.",
+        "Add the node that offers the service first, and compare the two names.",
+    )
+
+
+def asleep_while_going_live(node: str, callback: str) -> SessionError:
+    """Return the error for `start` while a callback waits in virtual time."""
+    return SessionError(
+        f"The session cannot go live: `{callback}` of {node} still waits.",
+        "It began in virtual time, and what it waits for comes in virtual time.",
+        "Let it return first, with `ros.run(seconds)`, or remove the node.",
+    )
+
+
 def node_has_ended(name: str) -> SessionError:
     """`resume` of a node that raised."""
     return SessionError(
@@ -113,6 +200,24 @@ def is_made_already(node: Node) -> SessionError:
         f"The node {_name(node)} is made already and cannot be started in another way.",
         "Its name, topics and parameters are settled while it is made.",
         "Hand over its class, without brackets: the session then makes the node.",
+    )
+
+
+def nothing_to_add() -> SessionError:
+    """Return the error for `add` without a node."""
+    return SessionError(
+        "`ros.add()` was given no node.",
+        "It starts a process, and a process without a node does nothing.",
+        "Hand over a class, without brackets: `ros.add(TemperatureSensor)`.",
+    )
+
+
+def one_name_for_several(name: str) -> SessionError:
+    """Return the error for `add` of several nodes with one name."""
+    return SessionError(
+        f"Several nodes cannot all be called {name!r}.",
+        "`name` renames every node that is started, as `__node` does on a command line.",
+        "Add them without `name`, or each by itself.",
     )
 
 

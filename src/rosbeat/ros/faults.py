@@ -200,6 +200,16 @@ def is_learners(frame: FrameType) -> bool:
     return not name.startswith(_FOREIGN) and not name.startswith("<frozen")
 
 
+def line_of(frame: FrameType | None) -> tuple[int, str]:
+    """Return number and text of the learner's line at which a frame is, or `(0, "")`."""
+    while frame is not None and not is_learners(frame):
+        frame = frame.f_back
+    if frame is None:
+        return 0, ""
+    line = frame.f_lineno or 0
+    return line, linecache.getline(frame.f_code.co_filename, line, frame.f_globals).strip()
+
+
 def learners_line(error: BaseException) -> tuple[int, str]:
     """Number and text of the innermost line that the learner wrote, or `(0, "")`."""
     own = _own_lines(error)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from inspect import isclass
@@ -21,7 +21,8 @@ from rosbeat.ros.faults import fault_of
 from rosbeat.ros.recording import mend_message_classes
 
 if TYPE_CHECKING:
-    from rosbeat.ros.world import Watching
+    from rosbeat.ros.processes import Process
+    from rosbeat.ros.world import World
 
 
 # How a node is started: under which name and namespace, with which topics and parameters.
@@ -174,21 +175,27 @@ def build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
     return made
 
 
-def build_in(world: Watching, target: Any, start: Launch) -> Node:  # noqa: ANN401
-    """Make a node in a session; if that fails, nothing of it is left there.
+def build_in(
+    world: World,
+    targets: Sequence[Any],
+    start: Launch,
+    process: Process,
+) -> tuple[Node, ...]:
+    """Make the nodes of a process in a session; if that fails, nothing of them is left there.
 
     Args:
         world: The session's.
-        target: A class, a factory, or a node.
-        start: How it is started.
+        targets: Classes, factories, or nodes.
+        start: How they are started.
+        process: Where they run.
 
     Raises:
         NodeClassError, NodeConstructionError: As `build_node` does.
     """
     before = world.states()
     try:
-        with world.starting(start):
-            return build_node(target)
+        with world.starting(start, process):
+            return tuple(build_node(target) for target in targets)
     except BaseException:  # Interrupt, too
         for state in world.states():
             if state not in before:

@@ -8,13 +8,15 @@ deadline. Afterwards the kernel is as it was.
 from __future__ import annotations
 
 import gc
+import sys
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import AbstractContextManager, suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from inspect import isclass
 from itertools import islice
+from types import FrameType
 from typing import Any
 
 from action_msgs.msg import GoalStatus
@@ -34,7 +36,7 @@ from rosbeat.records import (
 )
 from rosbeat.ros.entities import NodeState
 from rosbeat.ros.errors import duration_ns
-from rosbeat.ros.faults import fault_of
+from rosbeat.ros.faults import fault_of, line_of
 from rosbeat.ros.isolation import Deadline, DeadlinePassed, apart, unharmed, within
 from rosbeat.ros.launch import Launch as Launch
 from rosbeat.ros.launch import Maker as Maker
@@ -44,7 +46,6 @@ from rosbeat.ros.recording import plain
 from rosbeat.ros.session import Session
 from rosbeat.ros.test_nodes import BARE, message, profile
 from rosbeat.ros.test_nodes import feeder as feeder
-from rosbeat.ros.virtual_time import resting, virtual_sleep
 from rosbeat.ros.world import World
 
 # What a scenario does to its nodes at a certain time, as plain data.
@@ -363,13 +364,8 @@ class Stage:
             self._move(step, state)
 
     def _join(self, step: Add) -> None:
-        """Add a node, even while a callback sleeps: it is another process, and waits for nobody."""
-        virtual = self._world.virtual
-        asleep, virtual.running = virtual.running, False
-        try:
-            self._session.add(step.make, **step.start.options())
-        finally:
-            virtual.running = asleep
+        """Add a node."""
+        self._session.add(step.make, **step.start.options())
 
     def _sent(self, step: Publish | Call | SendGoal | Cancel) -> str:
         """Let the tester send something; where to."""
@@ -388,8 +384,6 @@ class Stage:
     def _move(self, step: Step, state: NodeState) -> None:
         if isinstance(step, Remove):
             self._world.destroy(state)
-        elif state.asleep:
-            state.paused = isinstance(step, Pause)  # which is looked at when it wakes
         elif isinstance(step, Pause):
             self._world.rest_node(state)
         elif isinstance(step, Resume) and not state.ended:
@@ -447,8 +441,8 @@ Others = Iterable[Callable[[], Node] | Maker]
 _TO_TIDY = 1.0
 
 
-class _Over(BaseException):
-    """Raised in a callback that sleeps when the run is over: it would go on after that."""
+class _NeverMade(BaseException):
+    """Raised in a constructor that waits for longer than the run lasts."""
 
 
 class Scene:
@@ -468,9 +462,9 @@ class Scene:
         self._stage = Stage(session, steps)
         self._faults: list[Fault] = []
         self._making = False
-        self._slept, self._asleep = 0.0, ""
-        # When a callback began to sleep, by its node and by how many the node has run.
-        self._busy_since: dict[tuple[int, int], int] = {}
+        # How long the constructor has slept; and who never came back from a wait.
+        self._slept = 0
+        self._never_back: Fault | None = None
         self._limit: Deadline | None = None
         # What was running when the time was up, and how many faults there had been by then.
         self._stuck: tuple[str, str] = ("", "run")
@@ -485,19 +479,16 @@ class Scene:
             KeyboardInterrupt: If Interrupt was pressed.
         """
         # What has to be put back stands outside of the deadline, which hits what it finds.
-        sleep, limit = self._sleeping(answer.make), within(deadline, self._note_stuck, self._wake)
-        with sleep, self._world.running(), limit as self._limit:
+        limit = within(deadline, self._note_stuck, self._wake)
+        with self._world.running([answer.make]), limit as self._limit:
             apart(lambda: self._try_to_play(answer, others))
-
-    def _sleeping(self, answer: object) -> AbstractContextManager[None]:
-        return virtual_sleep(self._nap, self._world.clock, [answer])
 
     def _try_to_play(self, answer: Maker, others: Others) -> None:
         try:
             self._perform(answer, others)
         except DeadlinePassed:
             raise
-        except _Over:
+        except _NeverMade:
             return
         except BaseException as error:  # a learner may raise anything
             self._faults.append(self._refused(error))
@@ -510,16 +501,28 @@ class Scene:
         self._add(answer)
         self._world.console.begin(quiet=True)
         self._stage.advance(self._end, self._world.virtual.run_until)
+        self._note_who_waits()
 
     def _add(self, answer: Maker) -> None:
         make = type(answer.make) if isinstance(answer.make, Node) else answer.make
-        self._making = True
-        # A node of the same name would make room: here it is another process, and stays.
-        self._world.node_begins = _let_be  # type: ignore[method-assign]
-        try:
+        with self._starting():
             made = self._session.add(make, **answer.start.options())
             self.subject = self._stage.subject = self._world.name_of(made) or ""
+
+    @contextmanager
+    def _starting(self) -> Iterator[None]:
+        """Make the answer's nodes in this block.
+
+        A node of the same name would make room: here it is another process, and stays. And a
+        constructor that sleeps takes no time: the run begins when the node is there.
+        """
+        self._making = True
+        self._world.node_begins = _let_be  # type: ignore[method-assign]
+        self._world.virtual.nap = self._nap
+        try:
+            yield
         finally:
+            self._world.virtual.nap = None
             del self._world.node_begins
         self._making = False
 
@@ -530,36 +533,31 @@ class Scene:
             if executor is not None and executor is not self._world.virtual:
                 executor.wake()
 
-    # Sleeping.
+    # Waiting.
 
-    def _nap(self, seconds: float) -> None:
-        if self._making or self._world.virtual.current is None:
-            # Nobody waits for a node that is being made: the run begins when it is there.
-            self._slept += seconds
-            if self._slept * NANOSECONDS > self._end:
-                self._expire()
+    def _nap(self, span_ns: int) -> None:
+        self._slept += span_ns
+        if self._slept > self._end:
+            self._never_back = self._late_fault("", "__init__", "asleep", sys._getframe(1))
+            raise _NeverMade
+
+    def _note_who_waits(self) -> None:
+        """Note a callback that waits on when the run is over, if it has waited for long."""
+        for call in self._world.virtual.suspended:
+            wait = call.wait
+            if wait is None or call.spinning:
+                continue
+            if call.began_ns > self._end / 2 and (wait.until_ns or 0) < 2 * self._end:
+                continue
+            doing = "asleep" if wait.reason == "sleep" else f"waiting for {wait.reason}"
+            frame = wait.thread.gr_frame
+            self._never_back = self._late_fault(call.node, call.name, doing, frame)
             return
-        self._doze(self._world.virtual.current, round(seconds * NANOSECONDS))
 
-    def _doze(self, state: NodeState, span: int) -> None:
-        virtual = self._world.virtual
-        until = virtual.now + span
-        self._busy_since.setdefault((state.number, calls_of(state)), virtual.now)
-        with resting(self._world, state):
-            self._stage.advance(min(until, self._end), virtual.run_nested)
-        if until > self._end:
-            self._end_of_sleep(self._busy_since[state.number, calls_of(state)], until)
-
-    def _end_of_sleep(self, since: int, until: int) -> None:
-        """The run is over, and a callback sleeps on; that is a fault only if it sleeps for long."""
-        if since <= self._end / 2 or until >= 2 * self._end:
-            self._expire()
-        raise _Over
-
-    def _expire(self) -> None:
-        self._asleep = f"still asleep after {self._end / NANOSECONDS:g} s"
-        if self._limit is not None:
-            self._limit.expire()
+    def _late_fault(self, node: str, callback: str, doing: str, frame: FrameType | None) -> Fault:
+        text = f"still {doing} after {self._end / NANOSECONDS:g} s"
+        place = line_of(frame)
+        return Fault(self._world.now(), node, callback, "DeadlinePassed", text, *place)
 
     # What went wrong.
 
@@ -585,9 +583,9 @@ class Scene:
     def _all_faults(self) -> tuple[Fault, ...]:
         found = [*self._world.recorder.faults, *self._faults]
         if self._limit is None or not self._limit.passed:
-            return tuple(found)
+            return (*found, self._never_back) if self._never_back else tuple(found)
         node, callback = self._stuck
-        text = self._asleep or f"still running after {self._limit.seconds:g} s"
+        text = f"still running after {self._limit.seconds:g} s"
         stuck = Fault(self._world.now(), node, callback, "DeadlinePassed", text, *self._limit.place)
         # What was raised afterwards was raised by the shot.
         return (*found[: self._known], stuck)
@@ -601,7 +599,8 @@ class Scene:
             printed: How many characters the learner's code printed.
         """
         recorder = self._world.recorder
-        most = MOST_OF_BROKEN_OFF if self._limit and self._limit.passed else MOST_RECORDS
+        broken_off = (self._limit and self._limit.passed) or self._never_back
+        most = MOST_OF_BROKEN_OFF if broken_off else MOST_RECORDS
         callbacks = [*islice(recorder.callbacks(), most), *self._stage.records]
         graph = self._graph()
         return Observation(
@@ -639,11 +638,6 @@ class Scene:
         for node in reversed(self._session.nodes):
             with suppress(Exception):
                 Node.destroy_node(node)  # and not what its class makes of that
-
-
-def calls_of(state: NodeState) -> int:
-    """How many callbacks a node has run; while one sleeps, none is added."""
-    return sum(entry.calls for entry in state.entries)
 
 
 def _let_be(name: str, namespace: str) -> None:
@@ -758,15 +752,9 @@ class _SystemScene(Scene):
     """Runs the nodes of a system."""
 
     def _add(self, answer: Maker) -> None:
-        self._making = True
-        # Each is a process of its own: none makes room for another of its name.
-        self._world.node_begins = _let_be  # type: ignore[method-assign]
-        try:
+        with self._starting():
             for member in members(answer.make):
                 self._add_one(member, answer.start)
-        finally:
-            del self._world.node_begins
-        self._making = False
 
     def _add_one(self, member: Maker, given: Launch) -> None:
         try:

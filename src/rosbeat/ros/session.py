@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 from weakref import finalize
@@ -11,6 +11,7 @@ from rclpy.node import Node
 
 from rosbeat.diagnosis.explanation import Explanation
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
+from rosbeat.ros import spinning
 from rosbeat.ros.context import install_learner_calls, show_briefly
 from rosbeat.ros.errors import (
     check_end,
@@ -19,6 +20,8 @@ from rosbeat.ros.errors import (
     duration_ns,
     is_made_already,
     node_has_ended,
+    nothing_to_add,
+    one_name_for_several,
     session_has_ended,
     session_is_live,
     session_is_not_live,
@@ -26,8 +29,8 @@ from rosbeat.ros.errors import (
 from rosbeat.ros.graph import wait_for_nodes, wait_live
 from rosbeat.ros.instruments import open_panel
 from rosbeat.ros.launch import Maker, Start, build_in, checked
+from rosbeat.ros.processes import Process
 from rosbeat.ros.silence import explained
-from rosbeat.ros.virtual_time import run_until
 from rosbeat.ros.world import World, find, log_lines, observation, samples, state_of
 
 if TYPE_CHECKING:
@@ -39,6 +42,8 @@ if TYPE_CHECKING:
 SomeNode = TypeVar("SomeNode", bound=Node)
 
 install_learner_calls()
+spinning.install()
+spinning.install()
 
 
 class Session:
@@ -118,48 +123,69 @@ class Session:
     # Nodes.
 
     @overload  # a class is a function that makes one, too
-    def add(self, node: Callable[[], SomeNode], **start: Unpack[Start]) -> SomeNode: ...
+    def add(self, node: Callable[[], SomeNode], /, **start: Unpack[Start]) -> SomeNode: ...
     @overload
-    def add(self, node: SomeNode) -> SomeNode: ...
+    def add(self, node: SomeNode, /) -> SomeNode: ...
+    @overload
+    def add(self, *nodes: Any, threads: int = 1) -> tuple[Node, ...]: ...
     def add(
         self,
-        node: Any,
-        *,
+        *nodes: Any,
         name: str | None = None,
         namespace: str | None = None,
         remappings: Mapping[str, str] | None = None,
         parameters: Mapping[str, Any] | None = None,
+        threads: int = 1,
     ) -> Any:
-        """Make a node and run its callbacks from now on.
+        """Start a process, and run the callbacks of its nodes from now on.
 
-        A node of the same name that runs in this session is replaced. The other arguments do what
-        `ros2 run` does behind `--ros-args`, with `-r` and `-p`; the class stays as it is.
+        One node is a process of its own, as `ros2 run` starts it. Several nodes share one process
+        and its executor: while a callback of one of them runs, or sleeps, the others wait.
+
+        A node of the same name that runs in this session is replaced. `name` and the arguments
+        after it do what `ros2 run` does behind `--ros-args`, with `-r` and `-p`; the class stays as
+        it is.
 
         Args:
-            node: A node class, a function that returns a node, or a node made in this session.
+            nodes: Node classes, functions that return a node, or nodes made in this session.
             name: The node's name, in the place of its own.
             namespace: A namespace before its name and its relative topics, such as `greenhouse`.
             remappings: New names of topics and services: `{"temperature": "humidity"}`.
             parameters: Values of parameters that the node declares: `{"high": 60.0}`.
+            threads: 1 for a `SingleThreadedExecutor`. With more, a `MultiThreadedExecutor` runs so
+                many callbacks at a time, as far as their callback groups allow.
 
         Returns:
-            The node.
+            The node; of several nodes, a tuple.
 
         Raises:
-            NodeClassError: If it is none of these, or belongs to another context.
-            NodeConstructionError: If the constructor raises.
+            NodeClassError: If one is none of these, or belongs to another context.
+            NodeConstructionError: If a constructor raises.
             SessionError: If it cannot be started so, or exists already and is to be renamed.
             ClosedSessionError: If the session has ended.
         """
         start = checked(name, namespace, remappings, parameters)
-        with self._running("add"):
-            if start and isinstance(node, Node):
-                raise is_made_already(node)
-            made = build_in(self._world, node, start)
-            self._world.spin_node(state_of(self._world, made))
-            if made is not node:
-                self._world.makers[made] = Maker(node, start)
-        return made
+        check_whole("threads", threads, 1, 1000, "ros.add(TemperatureSensor, threads=4)")
+        if not nodes:
+            raise nothing_to_add()
+        if name is not None and len(nodes) > 1:
+            raise one_name_for_several(name)
+        code = [node for node in nodes if not isinstance(node, Node)]
+        with self._running("add", code):
+            for node in nodes:
+                if start and isinstance(node, Node):
+                    raise is_made_already(node)
+            process = Process(threads)
+            made = build_in(self._world, nodes, start, process)
+            states = [state_of(self._world, node) for node in made]
+            for state in states:
+                process.adopt(state)
+            for state in states:
+                self._world.spin_node(state)
+            for given, node in zip(nodes, made, strict=True):
+                if node is not given:
+                    self._world.makers[node] = Maker(given, start)
+        return made if len(made) > 1 else made[0]
 
     def remove(self, node: Node | str) -> None:
         """Destroy a node, given itself or by name.
@@ -207,7 +233,7 @@ class Session:
         """Advance virtual time and run every callback that is due.
 
         Timers due exactly at the end run too: a 1 Hz timer fires 60 times in the first 60 seconds.
-        `time.sleep` in a callback takes virtual time; beyond the end it prolongs the run.
+        A callback that still sleeps or waits at the end goes on in the next run.
 
         Args:
             seconds: Virtual seconds, 0 or more.
@@ -224,7 +250,7 @@ class Session:
                 raise session_is_live()
             self._world.console.begin(quiet)
             try:
-                run_until(self._world, check_end(self._world.now() + span))
+                self._world.virtual.run_until(check_end(self._world.now() + span))
             except KeyboardInterrupt as interrupt:
                 show_briefly(interrupt, f"stopped at {self.time:g} s; the session goes on.")
                 raise
@@ -396,11 +422,11 @@ class Session:
     # How it works.
 
     @contextmanager
-    def _running(self, what: str) -> Iterator[None]:
-        """Nodes of this session are about to run in this thread."""
+    def _running(self, what: str, code: Iterable[object] = ()) -> Iterator[None]:
+        """Let nodes of this session run in this thread, and classes that make some."""
         self._check_open()
         self._world.refuse_in_callback(f"ros.{what}")
-        with self._world.running():
+        with self._world.running(code):
             yield
 
     def _check_open(self) -> None:

@@ -7,25 +7,30 @@ do; then the next timer of that instant, in order of (deadline, creation).
 
 What follows is known without waiting: within one participant Fast DDS hands a message over inside
 `publish()`, so when `publish()` has returned, the subscriptions of that topic can take it. What was
-stored for late joiners is there when their subscription has been made; see `qos_events`.
+stored for late-joining subscriptions is there when the subscription has been made; see
+`qos_events.wait_for_stored`.
+
+A callback that waits (`time.sleep`, a service call, a `spin` of its own) suspends its process only.
+All callbacks run in greenlets: the one that happens to run the loop of the simulation calls them
+directly, which costs nothing. If a callback waits, its greenlet is left where it is, and another
+one goes on with the loop. When the wait is over the callback's own greenlet goes on, with the
+callback first and the loop afterwards, and the other one stands by.
 """
 
 from __future__ import annotations
 
-import random
-import sys
+import contextvars
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Coroutine, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Coroutine, Iterable
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from inspect import iscoroutine, iscoroutinefunction
-from math import isfinite
-from pathlib import Path
+from itertools import count
 from typing import Any, Protocol
 
+from greenlet import GreenletExit, getcurrent, greenlet
 from rclpy.client import Client
 from rclpy.clock import ClockType, ROSClock
 from rclpy.context import Context
@@ -42,14 +47,13 @@ from rclpy.time import Time
 from rclpy.timer import Timer
 
 from rosbeat.errors import EndlessChainError, SessionError
-from rosbeat.records import NANOSECONDS
-from rosbeat.ros.console import note
+from rosbeat.records import WaitRecord
 from rosbeat.ros.context import Interrupts
 from rosbeat.ros.entities import Entry, NodeState, callback_name
+from rosbeat.ros.errors import deadlock, never_made
+from rosbeat.ros.processes import Call, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
 from rosbeat.ros.recording import CallbackLabel, Recorder
-
-# Which timer comes next.
 
 
 class Agenda:
@@ -116,6 +120,7 @@ class Agenda:
 
 
 # Programs that never let time pass.
+
 
 
 #: A message that causes a message that causes a message ... this many times, all at one instant.
@@ -200,7 +205,7 @@ class ChainGuard:
         )
 
 
-# Callbacks that wait: `async def` callbacks and tasks.
+# Callbacks that wait by themselves: `async def` callbacks and tasks.
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,12 +214,14 @@ class Waiting:
 
     Attributes:
         task: rclpy's task.
+        process: Where it runs; None for one that was created outside of all nodes.
         state: The node that began it, if one did.
         name: What it is called in an error.
-        entry: The entity whose callback it is; its callback group is busy until it ends.
+        entry: The entity whose callback it is; its callback group is occupied until it ends.
     """
 
     task: Task
+    process: Process | None
     state: NodeState | None
     name: str
     entry: Entry | None = None
@@ -231,11 +238,13 @@ class Waiting:
 
     @property
     def rests(self) -> bool:
-        """Whether its node is paused."""
-        return self.state is not None and not self.state.spinning
+        """Whether it cannot go on now: its node is paused, or its process is busy."""
+        if self.task.executing() or (self.state is not None and not self.state.spinning):
+            return True
+        return self.process is not None and not self.process.has_thread()
 
     def place(self) -> object:
-        """What it awaits, innermost: another object each time it has got further."""
+        """Return what it awaits, innermost: another object each time it has got further."""
         inner = self.task._handler
         while (deeper := _awaited_by(inner)) is not None:
             inner = deeper
@@ -260,37 +269,30 @@ class Coroutines:
     def __init__(self, executor: Executor) -> None:
         self._executor = executor
         self.waiting: list[Waiting] = []
-        self._blocked: list[Entry] = []
 
-    def add_task(self, task: Task, callback: object, state: NodeState | None) -> None:
-        """Begin a task at the next turn."""
-        self.waiting.append(Waiting(task, state, callback_name(callback)))
+    def add_task(self, task: Task, callback: object, call: Call | None) -> None:
+        """Begin a task at the next turn, in the process of the call that has created it."""
+        process, state = (call.process, call.state) if call else (None, None)
+        self.waiting.append(Waiting(task, process, state, callback_name(callback)))
 
     def adopt(self, coroutine: Coroutine[Any, Any, Any], entry: Entry) -> Waiting:
-        """A callback turned out to be a coroutine; its callback group is busy until it ends."""
+        """Keep the coroutine that a callback returned; its group is occupied until it ends."""
         entry.entity.callback_group.beginning_execution(entry.entity)
         task = Task(coroutine, executor=self._executor)
-        waiting = Waiting(task, entry.state, entry.label.name, entry)
+        state = entry.state
+        waiting = Waiting(task, state.process, state, entry.label.name, entry)
         self.waiting.append(waiting)
         return waiting
 
-    def is_free(self, entry: Entry) -> bool:
-        """Whether the entity's callback group lets it run; if not, it runs when the group is free.
-
-        Callbacks run one at a time, so a group can only be busy while a coroutine waits.
-        """
-        if not self.waiting or entry.entity.callback_group.can_execute(entry.entity):
-            return True
-        self._blocked.append(entry)
-        return False
-
     def turn(self, run: Callable[[Waiting], None]) -> bool:
-        """Let each one go on until it waits again; say whether any has got further."""
+        """Let each one go on until it waits again; return whether any has got further."""
         turns = [self._one(waiting, run) for waiting in list(self.waiting)]
         return any(turns)
 
     def end(self, waiting: Waiting) -> None:
         """Forget one that has ended, and free its callback group."""
+        if waiting not in self.waiting:
+            return
         self.waiting.remove(waiting)  # the executor holds on to the list
         if waiting.entry is not None:
             waiting.entry.entity.callback_group.ending_execution(waiting.entry.entity)
@@ -301,14 +303,9 @@ class Coroutines:
             waiting.task.cancel()
             self.end(waiting)
 
-    def unblock(self) -> list[Entry]:
-        """The entities that were held back, once, for another try."""
-        blocked, self._blocked = self._blocked, []
-        return blocked
-
     @staticmethod
     def _one(waiting: Waiting, run: Callable[[Waiting], None]) -> bool:
-        if waiting.rests or waiting.ended:
+        if waiting.ended or waiting.rests:
             return False
         before = waiting.place()
         run(waiting)
@@ -325,16 +322,22 @@ class Host(Protocol):
     """What the executor asks of its session."""
 
     def states(self) -> list[NodeState]:
-        """All nodes, in order of creation."""
+        """Return all nodes, in order of creation."""
 
     def state_of(self, node: Node) -> NodeState | None:
-        """What is known of a node."""
+        """Return what is known of a node."""
+
+    def spin_node(self, state: NodeState) -> None:
+        """Run this node's callbacks from now on."""
+
+    def rest_node(self, state: NodeState) -> None:
+        """Run none of this node's callbacks until `spin_node`."""
 
     def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
-        """A callback of this entity is about to run."""
+        """Record that a callback of this entity is about to run."""
 
     def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
-        """An exception left a callback."""
+        """Record an exception that left a callback, and end its process."""
 
 
 class WaitSetExecutor(SingleThreadedExecutor):
@@ -345,7 +348,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
     subscriptions tell of a QoS that does not fit by waitables too, but only then.
 
     Attributes:
-        current: The node whose callback is running, or None.
+        current: The code of a node that is running, or None.
     """
 
     _host: Host
@@ -353,17 +356,24 @@ class WaitSetExecutor(SingleThreadedExecutor):
     _sigint_gc: Any = None
 
     def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
-        self.current: NodeState | None = None
+        self.current: Call | None = None
         self._changed = True
         self._wait_set_nodes: list[Node] = []
         super().__init__(**options)
 
     def get_nodes(self) -> list[Node]:
-        """The nodes in order of creation; rclpy's own answer comes from an unordered set."""
-        return [state.node for state in self._host.states() if state.spinning]
+        """Return the nodes whose processes have a thread for them, in order of creation.
+
+        rclpy's own answer comes from an unordered set.
+        """
+        return [
+            state.node
+            for state in self._host.states()
+            if state.spinning and state.process.has_thread()
+        ]
 
     def wake(self) -> None:
-        """Entities were made or destroyed."""
+        """Note that entities were made or destroyed."""
         self._changed = True
         super().wake()
 
@@ -372,10 +382,10 @@ class WaitSetExecutor(SingleThreadedExecutor):
         return not isinstance(entity, _TAKEN_DIRECTLY) and bool(super().can_execute(entity))
 
     def ask_rclpy(self) -> bool:
-        """One pass of rclpy's own wait set; say whether anything came of it."""
+        """Make one pass of rclpy's own wait set; return whether anything came of it."""
         nodes = self._nodes_for_wait_set()
         progress = False
-        self._cb_iter = None  # that of a callback which sleeps: it would hand out that node's, too
+        self._cb_iter = None  # a pass that was left when a callback waited is over
         while nodes:
             try:
                 handler, entity, node = self.wait_for_ready_callbacks(timeout_sec=0, nodes=nodes)
@@ -383,6 +393,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
                 break
             self._handle(handler, entity, node)
             progress = progress or handler.done()
+            nodes = [node for node in nodes if node in self.get_nodes()]
         return progress
 
     def forget_passes(self) -> None:
@@ -397,7 +408,9 @@ class WaitSetExecutor(SingleThreadedExecutor):
 
     def _handle(self, handler: Task, entity: Any, node: Node) -> None:  # noqa: ANN401
         state = self._host.state_of(node)
-        self.current = state
+        if state is None:
+            return
+        call = self.current = Call(state.process, state)
         error: BaseException | None = None
         try:
             handler()
@@ -405,17 +418,23 @@ class WaitSetExecutor(SingleThreadedExecutor):
             error = stop
             handler.cancel()
         finally:
-            self.current = None
+            self._end_call(call)
         error = error or handler.exception()
         if error is not None:
-            self._host.callback_raised(state, waitable_name(entity), error)
+            self._raised(call, waitable_name(entity), error)
+
+    def _end_call(self, call: Call) -> None:
+        raise NotImplementedError
+
+    def _raised(self, call: Call, name: str, error: BaseException) -> None:
+        raise NotImplementedError
 
     def _nodes_for_wait_set(self) -> list[Node]:
         if not self._changed:
             return self._wait_set_nodes and self._those_that_spin()
         self._changed = False
         nodes = self.get_nodes()
-        self._wait_set_nodes = list(_with_waitables(nodes))
+        self._wait_set_nodes = list(_with_waitables(self._host.states()))
         return nodes
 
     def _those_that_spin(self) -> list[Node]:
@@ -424,26 +443,26 @@ class WaitSetExecutor(SingleThreadedExecutor):
 
 
 def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
-    """What a guard condition's or waitable's callback is called."""
+    """Return what a guard condition's or waitable's callback is called."""
     callback = getattr(entity, "callback", None) or entity
     return getattr(callback, "__name__", type(callback).__name__)
 
 
 def waitable_kind(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
-    """What kind of callback it has, as `CallbackRecord` names it."""
+    """Return what kind of callback it has, as `CallbackRecord` names it."""
     if isinstance(entity, EventHandler):
         return "event"
     return "guard condition" if isinstance(entity, GuardCondition) else "waitable"
 
 
-def _with_waitables(nodes: Iterable[Node]) -> Iterable[Node]:
-    for node in nodes:
+def _with_waitables(states: Iterable[NodeState]) -> Iterable[Node]:
+    for node in (state.node for state in states if state.spinning and state.node):
         ours = any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
         if ours or any(True for _ in node.guards):
             yield node
 
 
-# The one clock of a session.
+# The clock.
 
 
 _POINT = rclpy_implementation.rcl_time_point_t
@@ -455,7 +474,13 @@ class SessionClock(ROSClock):
     Every node of a session uses this one object, so no node can read a time that another has
     already left. rclpy's time source would set a node's clock from the parameter `use_sim_time`
     and from `/clock` messages; both calls are accepted and change nothing.
+
+    Attributes:
+        sleeper: Waits in virtual time until an instant, in nanoseconds; None while the session is
+            live.
     """
+
+    sleeper: Callable[[int], None] | None = None
 
     def set_ros_time_override(self, time: Time) -> None:
         """Accept rclpy's call and keep the session's own time."""
@@ -479,9 +504,16 @@ class SessionClock(ROSClock):
         with handle:
             handle.set_ros_time_override(_POINT(time_ns, ClockType.ROS_TIME))
 
+    def sleep_until(self, until: Time, context: Context | None = None) -> bool:
+        """Sleep until a time of this clock; see rclpy. `sleep_for` calls this, too."""
+        if self.sleeper is None:
+            return bool(super().sleep_until(until, context))
+        self.sleeper(until.nanoseconds)
+        return True
+
 
 def make_clock() -> SessionClock:
-    """A clock at virtual time zero."""
+    """Return a clock at virtual time zero."""
     # ROSClock's constructor always returns a plain ROSClock, whatever class it is asked for.
     clock = ROSClock()
     clock.__class__ = SessionClock
@@ -490,8 +522,11 @@ def make_clock() -> SessionClock:
     return made
 
 
+# The simulation.
+
+
 class VirtualTimeExecutor(WaitSetExecutor):
-    """Runs callbacks in virtual time.
+    """Runs the callbacks of all processes in virtual time.
 
     Timers, subscriptions, services and clients are taken directly; see `WaitSetExecutor` for the
     rest.
@@ -508,6 +543,10 @@ class VirtualTimeExecutor(WaitSetExecutor):
         calling: The callback that is running, or ran last; None before the first.
         elsewhere: What threads of the nodes' own have published since the last step.
         deadlines: How long publishers and subscriptions may stay without a message.
+        waits: What has been waited for so far, in the order of the ends.
+        nap: What is called, with nanoseconds, in the place of a sleep of a constructor that a
+            scenario calls; None to let virtual time pass.
+        thread: The thread in which the nodes run.
     """
 
     def __init__(
@@ -518,6 +557,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.calling: CallbackLabel | None = None
         self.elsewhere: deque[Callable[[], None]] = deque()
         self.deadlines = Deadlines()
+        self.waits: list[WaitRecord] = []
+        self.nap: Callable[[int], None] | None = None
         # Not `_clock`: rclpy's executor has a steady clock of that name.
         self._session_clock, self._host = clock, host
         self._note_time, self._note_label = recorder.callback_columns()
@@ -528,7 +569,27 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._coroutines = Coroutines(self)
         self._listeners: dict[tuple[str, str], list[Entry]] = {}
         self._ready: deque[tuple[Entry, int]] = deque()
+        # Timers of this instant that have not had their turn; processes that have something
+        # pending and may be able to run it.
+        self._due: deque[Entry] = deque()
+        self._behind: deque[Process] = deque()
+        # Who waits: by the time at which they go on; for something that is looked at again and
+        # again; and those whose wait has been ended by somebody.
+        self._sleeping: list[tuple[int, int, Wait]] = []
+        self._looking: list[Wait] = []
+        self._woken: deque[Wait] = deque()
+        self._order = count()
+        # Greenlets that stand by to run the loop, and the one that waits for the end of the run.
+        self._idle: list[greenlet] = []
+        self._main: greenlet = getcurrent()
+        self.thread = threading.get_ident()
+        self._variables = contextvars.copy_context()
+        self._end, self._done = 0, _never
+        self._ends_idle = self._closing = False
+        # Where tasks run that no code of a node has created.
+        self._nowhere = Process()
         super().__init__(context=context)
+        clock.sleeper = self.sleep_until
 
     # What rclpy calls.
 
@@ -543,7 +604,18 @@ class VirtualTimeExecutor(WaitSetExecutor):
     @property
     def has_work(self) -> bool:
         """Whether callbacks wait for the next run."""
-        return bool(self._ready)
+        return bool(self._ready or self._behind)
+
+    @property
+    def in_callback(self) -> bool:
+        """Whether the caller is code of a node: a callback, a constructor or a program."""
+        return self.current is not None and threading.get_ident() == self.thread
+
+    @property
+    def suspended(self) -> list[Call]:
+        """The callbacks, constructors and programs that wait now, in order of creation."""
+        found = {id(state.process): state.process for state in self._host.states()}
+        return [call for process in found.values() for call in process.calls]
 
     def watch(self, entry: Entry) -> None:
         """Run this entity's callback from now on, whenever its node spins."""
@@ -553,60 +625,98 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._listeners.setdefault((entry.kind, entry.name), []).append(entry)
             self._look_at(entry)
 
+    def unwatch(self, entry: Entry) -> None:
+        """Take nothing from this entity any more."""
+        listeners = self._listeners.get((entry.kind, entry.name), [])
+        if entry in listeners:
+            listeners.remove(entry)
+        self._settle(entry)
+
     def forget(self, state: NodeState) -> None:
-        """A node is destroyed: drop what it had."""
+        """Drop what a node had that is destroyed, with its callbacks that wait."""
         for entry in state.entries:
-            self._drop(entry)
+            self.unwatch(entry)
+        for call in [call for call in state.process.calls if call.state is state]:
+            self.break_off(call)
+        state.process.forget(state)
         self._coroutines.drop_abandoned()
 
     def resume(self, state: NodeState) -> None:
-        """A node begins to spin: look at everything that waited for it meanwhile."""
+        """Look at everything that waited for a node that begins to spin."""
         self._changed = True
+        state.process.refresh()
         for entry in state.entries:
             if entry.take is not None:
                 self._look_at(entry)
+        self._catch_up(state.process)
 
-    def sender(self, kind: str, name: str) -> Callable[[], None]:
-        """A function to call whenever something is sent to the `kind` entities called `name`.
+    def sender(self, kind: str, name: str, origin: NodeState | None = None) -> Callable[[], None]:
+        """Return a function to call whenever something is sent to the `kind` entities of a name.
 
         What is sent is a message, a request or an answer; whoever waits for it will take it.
+
+        Args:
+            kind: `subscription`, `service` or `client`.
+            name: The topic or the service.
+            origin: Who sends. Its own process takes nothing before its executor has looked anew.
         """
         listeners = self._listeners.setdefault((kind, name), [])
         ready, chain = self._ready, self._chain
 
         def happened() -> None:
             for entry in listeners:
-                ready.append((entry, chain.depth + 1))
+                if origin is not None and entry.state.process is origin.process:
+                    self._hold(entry)
+                else:
+                    ready.append((entry, chain.depth + 1))
 
         return happened
 
-    def happened(self, kind: str, name: str) -> None:
-        """Something was sent to the `kind` entities called `name`."""
-        self.sender(kind, name)()
+    def happened(self, kind: str, name: str, origin: NodeState | None = None) -> None:
+        """Note that something was sent to the `kind` entities of a name; see `sender`."""
+        self.sender(kind, name, origin)()
 
     def timer_reset(self, entry: Entry) -> None:
-        """A timer's `reset` was called."""
+        """Note that a timer's `reset` was called."""
         self._agenda.move(entry, self.now)
 
     def look_anew(self) -> None:
         """Look at everything again: the clock was changed from outside, or a run was broken off."""
         states = self._host.states()
+        self._ready.clear()
+        self._due.clear()
+        self._behind.clear()
+        for state in states:
+            state.process.due = 0
+            state.process.pending.clear()
         self._agenda.rebuild([e for s in states for e in s.entries if e.kind == "timer"], self.now)
         self.deadlines.look_anew()
-        self._ready.clear()
         for state in states:
             self.resume(state)
 
-    def run_until(self, end: int, done: Callable[[], bool] | None = None) -> None:
-        """Advance virtual time to `end`, in nanoseconds, or until `done` is true.
+    def run_until(
+        self, end: int, done: Callable[[], object] | None = None, *, ends_idle: bool = False
+    ) -> None:
+        """Advance virtual time.
+
+        Callbacks that wait at the end go on in the next run.
+
+        Args:
+            end: Until when, in nanoseconds.
+            done: The run ends as soon as this is true.
+            ends_idle: It ends, too, as soon as nothing will happen any more; time stays then.
 
         Raises:
             EndlessChainError: If callbacks cause one another for ever while no time passes.
         """
+        self._enter_thread()
+        self._end, self._done, self._ends_idle = end, done or _never, ends_idle
+        caller, self.current = self.current, None
+        self._main, self._variables = getcurrent(), contextvars.copy_context()
         self.running = True
         try:
             with self._interrupts:
-                self._run(end, done)
+                self._next_driver().switch()
         except BaseException:
             # An interrupt or an endless chain. It may have come between any two steps, so some
             # timer or message may be noted nowhere.
@@ -617,55 +727,330 @@ class VirtualTimeExecutor(WaitSetExecutor):
             raise
         finally:
             self.running = False
+            self.current = caller
 
-    def run_nested(self, end: int) -> None:
-        """The same for a callback that sleeps until then: its node must not spin meanwhile."""
-        self._run(end, None)
+    def close(self) -> None:
+        """End all callbacks that wait, as the end of a process does, and leave no greenlet."""
+        self._closing = True
+        for call in self.suspended:
+            self.break_off(call)
+        for idle in self._idle:
+            _throw(idle, GreenletExit())
+        self._idle.clear()
+        self._looking.clear()
+        self._sleeping.clear()
+        self._session_clock.sleeper = None
 
-    # How it works.
+    # Waiting.
 
-    def _run(self, end: int, done: Callable[[], bool] | None) -> None:
-        self._drain()
-        while not (done and done()):
+    def sleep(self, seconds: float) -> None:
+        """Let virtual time pass for everybody but the caller's process."""
+        if seconds > 0:
+            self.sleep_until(self.now + max(1, round(seconds * 1e9)))
+
+    def after(self, seconds: float | None) -> int | None:
+        """Return the time after so many seconds, in nanoseconds; None for none or below zero."""
+        return None if seconds is None or seconds < 0 else self.now + round(seconds * 1e9)
+
+    def longest(self) -> int:
+        """Return until when a cell waits that sets no limit, in nanoseconds."""
+        return self.now + LONGEST_WAIT
+
+    def block(
+        self,
+        reason: str,
+        until: int | None = None,
+        met: Callable[[], object] | None = None,
+        *,
+        needs: Any = None,  # noqa: ANN401 - any entity of rclpy
+        spinning: bool = False,
+    ) -> bool:
+        """Suspend the code of a node that calls this, until a time or until something is true.
+
+        In a cell, and in a constructor that a cell calls, the others run meanwhile until then.
+
+        Args:
+            reason: What it waits for, in words.
+            until: When it goes on at the latest, in nanoseconds; None for no limit.
+            met: Returns whether it has come true.
+            needs: The entity of the caller's process whose callback has to run first, if any.
+            spinning: Whether the thread of the caller runs other callbacks of its process.
+
+        Returns:
+            Whether it came true; False if the time was up first.
+
+        Raises:
+            SessionError: If it can never end.
+        """
+        if met is not None and met():
+            return True
+        here = getcurrent()
+        if here is self._main or not self.running:
+            return self._block_main(until, met)
+        call = self.current
+        assert call is not None  # only code of a node runs in another greenlet
+        if call.broken or self._closing:
+            raise GreenletExit
+        wait = Wait(call, here, reason, self.now, until, met, needs)
+        self._suspend(call, wait, spinning)
+        try:
+            if not wait.can_end():
+                raise deadlock([wait])
+            self._next_driver().switch()
+        finally:
+            self._unsuspend(call, wait)
+        if wait.error is not None:
+            raise wait.error
+        return bool(met()) if met is not None else True
+
+    def spin(
+        self,
+        states: Collection[NodeState],
+        until: int | None = None,
+        met: Callable[[], object] | None = None,
+        most: int | None = None,
+        needs: Any = None,  # noqa: ANN401 - any entity of rclpy
+    ) -> None:
+        """Run callbacks of the caller's process, as one of rclpy's `spin` functions does.
+
+        Args:
+            states: The nodes that are spun.
+            until: When it ends at the latest, in nanoseconds; None for no limit.
+            met: It ends as soon as this is true.
+            most: How many callbacks run at most; None for any number.
+            needs: The entity whose callback has to run before `met` can come true, if it is known.
+
+        Raises:
+            Exception: What a callback raises.
+            SessionError: If it can never end.
+        """
+        call = self.current
+        assert call is not None
+        spin = Spin(states, most)
+        begun = [state for state in states if not state.spinning]
+        call.process.spins.append(spin)
+        try:
+            for state in begun:
+                self._host.spin_node(state)
+            call.process.refresh()
+            self._catch_up(call.process)
+            over = met if most is None else lambda: spin.left == 0 or (met is not None and met())
+            self.block("spin", until, over, needs=needs, spinning=True)
+        finally:
+            call.process.spins.remove(spin)
+            for state in begun:
+                if not state.ended:
+                    self._host.rest_node(state)
+            call.process.refresh()
+
+    def end_wait(self, call: Call, error: BaseException | None = None) -> None:
+        """Let a call that waits go on, and raise an exception in it if one is given."""
+        if call.wait is not None and not call.wait.over:
+            call.wait.error = error
+            self._woken.append(call.wait)
+
+    def break_off(self, call: Call) -> None:
+        """End a call that waits, as the end of its process would: only its `finally` blocks run."""
+        wait, call.broken = call.wait, True
+        if wait is not None and not wait.over and wait.thread is not getcurrent():
+            before = self.current, self.calling
+            wait.over = True
+            _throw(wait.thread, GreenletExit())
+            self.current, self.calling = before
+        if call in call.process.calls:
+            call.process.calls.remove(call)
+            call.process.refresh()
+
+    def start_thread(self, main: Callable[[], None], process: Process) -> None:
+        """Begin another greenlet, for the `main` of a program, as soon as virtual time goes on."""
+
+        def run() -> None:
+            self.current = Call(process)
+            try:
+                main()
+            finally:
+                if not self._closing:
+                    getcurrent().parent = self._next_driver()
+
+        self._woken.append(Wait(None, greenlet(run, self._main), "start", self.now))
+
+    def sleep_until(self, until: int) -> None:
+        """Wait until a time, in nanoseconds of virtual time."""
+        if threading.get_ident() != self.thread:
+            time.sleep(max(0, until - self.now) / 1e9)  # a thread of the node's own: in real time
+        elif until > self.now:
+            if self.nap is not None and not self.running:
+                self.nap(until - self.now)
+            else:
+                self.block("sleep", until)
+
+    def _block_main(self, until: int | None, met: Callable[[], object] | None) -> bool:
+        """Run the others until then; the greenlet that waits for the run cannot be suspended."""
+        call, label = self.current, self.calling
+        latest = self.longest() if until is None else until
+        if self.nap is not None:
+            self.run_until(self.now, met)
+            if met is None or not met():
+                self.nap(latest - self.now)
+        elif call is None:
+            self.run_until(latest, met, ends_idle=until is None)
+        else:  # a constructor that a cell has called
+            call.began_ns = self.now if call.began_ns < 0 else call.began_ns
+            self.run_until(min(latest, call.began_ns + LONGEST_START), met, ends_idle=until is None)
+            if (until is None or self.now < until) and not (met is not None and met()):
+                raise never_made((self.now - call.began_ns) / 1e9)
+        self.calling = label
+        return bool(met()) if met is not None else True
+
+    def _suspend(self, call: Call, wait: Wait, spinning: bool) -> None:
+        call.wait, call.spinning = wait, spinning
+        if call.began_ns < 0:
+            call.began_ns = self.now
+            call.process.calls.append(call)
+            if call.entry is not None and is_free(call.entry):
+                call.holds_group = True
+                entity = call.entry.entity
+                entity.callback_group.beginning_execution(entity)
+        call.process.refresh()
+        if wait.until_ns is not None:
+            heappush(self._sleeping, (wait.until_ns, next(self._order), wait))
+        if wait.met is not None:
+            self._looking.append(wait)
+        if spinning:
+            self._catch_up(call.process)
+
+    def _unsuspend(self, call: Call, wait: Wait) -> None:
+        wait.over = True
+        if wait in self._looking:
+            self._looking.remove(wait)
+        if self.now > wait.began_ns and not call.spinning:
+            self.waits.append(
+                WaitRecord(wait.began_ns, self.now, call.node, call.name, wait.reason)
+            )
+        call.wait, call.spinning = None, False
+        call.process.refresh()
+        self.current, self.calling = call, call.label or self.calling
+
+    def _resume(self, wait: Wait) -> None:
+        """Go on with a call whose wait is over; the greenlet of the caller stands by."""
+        wait.over = True
+        wait.thread.parent = self._main
+        wait.thread.gr_context = self._variables
+        self._idle.append(getcurrent())
+        wait.thread.switch()
+
+    def _next_driver(self) -> greenlet:
+        """Return a greenlet that goes on with the loop."""
+        driver = self._idle.pop() if self._idle else greenlet(self._drive)
+        driver.parent = self._main
+        driver.gr_context = self._variables
+        return driver
+
+    def _enter_thread(self) -> None:
+        """Greenlets belong to the thread that has made them."""
+        if threading.get_ident() == self.thread:
+            return
+        if self.suspended:
+            call = self.suspended[0]
+            raise SessionError(
+                f"This session runs in another thread, where {call.name} of {call.node} waits.",
+                "A callback that has begun goes on in the thread in which it has begun.",
+                "Call `ros.run` in that thread, or open a session for each thread.",
+            )
+        self.thread = threading.get_ident()
+        self._idle.clear()
+
+    # The loop.
+
+    def _drive(self, *_: object) -> None:
+        """Run whatever is next, for ever; at the end of a run, hand over to who waits for it."""
+        while True:
+            self.current = None
+            self._drain()
+            if self._done():
+                self._end_run()
+                continue
             self._interrupts.insist()
             if self.elsewhere:
                 self._take_from_elsewhere()
-            deadline = self._agenda.next_deadline(self.now)
-            if self.deadlines and self._miss_one(deadline, end):
                 continue
-            if deadline is None or deadline > end:
-                self._advance(max(end, self.now))  # a callback may have slept
-                return
-            self._step(deadline)
+            wait = self._over()
+            if wait is not None:
+                self._resume(wait)
+            elif self._due:
+                self._fire_due()
+            elif not self._advance_to_next():
+                self._end_run()
 
-    def _miss_one(self, timer: int | None, end: int) -> bool:
-        """Let a deadline for messages pass, if one does before the next timer, and say so."""
-        due = self.deadlines.next_due()
-        if due is None or due > end or (timer is not None and due >= timer):
+    def _end_run(self) -> None:
+        self._idle.append(getcurrent())
+        self._main.switch()
+
+    def _over(self) -> Wait | None:
+        """Return a wait that was ended, or whose condition has come true."""
+        while self._woken:
+            wait = self._woken.popleft()
+            if not wait.over:
+                return wait
+        for wait in self._looking:
+            if wait.met is not None and wait.met():
+                return wait
+        return None
+
+    def _advance_to_next(self) -> bool:
+        """Jump to what comes next: timers, then QoS deadlines, then sleepers of an instant.
+
+        Returns:
+            Whether anything comes before the end of the run.
+        """
+        while self._sleeping and self._sleeping[0][2].over:
+            heappop(self._sleeping)
+        timer = self._agenda.next_deadline(self.now)
+        missed = self.deadlines.next_due() if self.deadlines else None
+        wakes = self._sleeping[0][0] if self._sleeping else None
+        found = [at for at in (timer, missed, wakes) if at is not None]
+        if not found:
+            return self._nothing_left()
+        at = min(found)
+        if at > self._end:
+            self._advance(max(self._end, self.now))
             return False
-        self._advance(max(due, self.now))
-        self._ready.append((self.deadlines.pass_next(), 1))
-        self._drain()
+        self._advance(max(at, self.now))
+        if timer == at:
+            self._collect_due(at)
+        elif missed == at:
+            self._ready.append((self.deadlines.pass_next(), 1))
+        else:
+            self._woken.append(heappop(self._sleeping)[2])
         return True
+
+    def _nothing_left(self) -> bool:
+        """Nothing will ever happen: who waits without a limit waits for ever, and is told."""
+        stuck = [wait for wait in self._looking if wait.is_for_good()]
+        if stuck and stuck[0].call is not None:
+            self.end_wait(stuck[0].call, deadlock(stuck))
+            return True
+        if not self._ends_idle:
+            self._advance(max(self._end, self.now))
+        return False
+
+    def _collect_due(self, deadline: int) -> None:
+        while self._agenda.next_deadline(self.now) == deadline:
+            entry = self._agenda.pop()
+            entry.state.process.due += 1
+            self._due.append(entry)
+
+    def _fire_due(self) -> None:
+        entry = self._due.popleft()
+        process = entry.state.process
+        process.due = max(0, process.due - 1)
+        self._fire(entry)
+        if process.pending and not process.due:
+            self._catch_up(process)
 
     def _take_from_elsewhere(self) -> None:
         while self.elsewhere:
             self.elsewhere.popleft()()
-        self._drain()
-
-    def _drop(self, entry: Entry) -> None:
-        listeners = self._listeners.get((entry.kind, entry.name), [])
-        if entry in listeners:
-            listeners.remove(entry)
-
-    def _look_at(self, entry: Entry) -> None:
-        entry.backlog = True
-        self._ready.append((entry, self._chain.depth + 1))
-
-    def _step(self, deadline: int) -> None:
-        self._advance(deadline)
-        self._fire(self._agenda.pop())
-        self._drain()
 
     def _advance(self, time_ns: int) -> None:
         if time_ns != self.now:
@@ -673,13 +1058,99 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self.now = time_ns
             self._session_clock.advance(time_ns)
 
+    # What is ready.
+
+    def _look_at(self, entry: Entry) -> None:
+        """Take from an entity as long as there is something: nobody counted what has come."""
+        self._hold(entry)
+
+    def _hold(self, entry: Entry) -> None:
+        """Keep for later what cannot run at once."""
+        process = entry.state.process
+        if entry not in process.pending:
+            process.pending[entry] = self._chain.depth + 1
+            process.refresh()
+        self._catch_up(process)
+
+    def _settle(self, entry: Entry) -> None:
+        """Note that there is nothing more to take from an entity."""
+        process = entry.state.process
+        if process.pending.pop(entry, None) is not None:
+            process.refresh()
+
+    def _catch_up(self, process: Process) -> None:
+        if process.pending and process not in self._behind:
+            self._behind.append(process)
+
+    def _drain(self) -> None:
+        """Run everything that is ready, and all that follows from it, at this instant."""
+        # The hot path: three attribute look-ups here are a tenth of a message's cost.
+        ready, chain, waiting = self._ready, self._chain, self._coroutines.waiting
+        turns = 0
+        while True:
+            while ready:
+                entry, depth = ready.popleft()
+                if entry.state.open and (not waiting or is_free(entry)):
+                    chain.depth = depth
+                    if depth > SUSPICIOUS:
+                        chain.inspect(entry)
+                    self._take(entry)
+                elif entry.state.spinning:
+                    chain.depth = depth - 1
+                    self._hold(entry)
+            if self._run_one_behind():
+                continue
+            chain.depth = 0
+            further = self._resume_coroutines() or self.ask_rclpy() or ready
+            if not further and all(process.due for process in self._behind):
+                return
+            turns += 1
+            if turns > MOST_TURNS:
+                raise chain.turns_without_end(self._suspects())
+
+    def _run_one_behind(self) -> bool:
+        """Run one callback of a process that could not run it before; return whether one did."""
+        behind, kept = self._behind, 0
+        while len(behind) > kept:
+            process = behind[0]
+            if process.due:  # its timers of this instant come first
+                behind.rotate(-1)
+                kept += 1
+                continue
+            entry = process.next_ready()
+            if entry is None:
+                behind.popleft()
+                continue
+            self._chain.depth = depth = process.pending.pop(entry)
+            if depth > SUSPICIOUS:
+                self._chain.inspect(entry)
+            self._run_pending(entry, depth)
+            return True
+        return False
+
+    def _run_pending(self, entry: Entry, depth: int) -> None:
+        process, calls = entry.state.process, entry.calls
+        if entry.kind == "timer":
+            self._fire(entry)
+        elif self._take(entry) and not entry.state.ended:
+            process.pending.setdefault(entry, depth)  # there may be more
+            self._catch_up(process)
+        process.refresh()
+        spin = process.spins[-1] if process.spins else None
+        if spin is not None and spin.left and entry.calls > calls:
+            spin.left -= 1
+
     def _fire(self, entry: Entry) -> None:
-        if not self._coroutines.is_free(entry):
-            return  # back on the agenda when its callback group is free
+        state = entry.state
+        if state.spinning and not (
+            state.process.can_begin(entry) if self._coroutines.waiting or not state.open else True
+        ):
+            self._hold(entry)  # it is late, and fires when its process is free
+            return
         handle = entry.handle
         try:
             with handle:
-                due = entry.state.spinning and handle.is_timer_ready()
+                due = state.spinning and handle.is_timer_ready()
                 if due:
                     handle.call_timer()
         except InvalidHandle:
@@ -689,38 +1160,20 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._call(entry, entry.entity.callback)
         self._agenda.add(entry, self.now)
 
-    def _drain(self) -> None:
-        # The hot path: three attribute look-ups here are a tenth of a message's cost.
-        ready, chain, waiting = self._ready, self._chain, self._coroutines.waiting
-        turns = 0
-        while True:
-            while ready:
-                entry, depth = ready.popleft()
-                if entry.state.spinning and (not waiting or self._coroutines.is_free(entry)):
-                    chain.depth = depth
-                    if depth > SUSPICIOUS:
-                        chain.inspect(entry)
-                    self._take(entry)
-            chain.depth = 0
-            if not (self._resume_coroutines() or self.ask_rclpy() or ready):
-                return
-            turns += 1
-            if turns > MOST_TURNS:
-                raise chain.turns_without_end(self._suspects())
-
-    def _take(self, entry: Entry) -> None:
+    def _take(self, entry: Entry) -> bool:
+        """Take one thing and run the callback; return whether there was something."""
         try:
             work = entry.take(entry, self)  # type: ignore[misc] # only timers have none
         except InvalidHandle:
-            self._drop(entry)  # destroyed while its message was on the way
-            return
+            self.unwatch(entry)  # destroyed while its message was on the way
+            return False
         if work is None:
-            entry.backlog = False
-            return
-        if entry.backlog:
-            self._ready.appendleft((entry, self._chain.depth))
+            return False
         callback, arguments = work
         self._call(entry, callback, arguments)
+        return True
+
+    # Calls.
 
     def _call(
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...] = ()
@@ -728,367 +1181,117 @@ class VirtualTimeExecutor(WaitSetExecutor):
         entry.calls += 1
         self._note_time(self.now)
         self._note_label(entry.label_number)
-        self.current, self.calling = entry.state, entry.label
+        state = entry.state
+        self.current = call = Call(state.process, state, entry, entry.label)
+        self.calling = entry.label
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
             self._interrupts.insist()
-            self._host.callback_raised(entry.state, entry.label.name, error)
+            self._raised(call, entry.label.name, error)
         else:
             # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
             if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
                 self._begin(result, entry)
         finally:
             self.current = None
+            if call.began_ns >= 0:
+                self._end_suspended(call)
+
+    def _end_call(self, call: Call) -> None:
+        self.current = None
+        if call.began_ns >= 0:
+            self._end_suspended(call)
+        spins = call.process.spins
+        if spins and spins[-1].left:
+            spins[-1].left -= 1
+
+    def _end_suspended(self, call: Call) -> None:
+        """Free the thread and the group of a callback that has waited and has returned."""
+        process = call.process
+        if call in process.calls:
+            process.calls.remove(call)
+        if call.holds_group and call.entry is not None:
+            call.entry.entity.callback_group.ending_execution(call.entry.entity)
+        self._changed = True
+        process.refresh()
+        self._catch_up(process)
+
+    def _raised(self, call: Call, name: str, error: BaseException) -> None:
+        """Hand what a callback raised to the `spin` in which it ran, or to the session."""
+        spinner = next((one for one in reversed(call.process.calls) if one.spinning), None)
+        if spinner is not None:
+            self.end_wait(spinner, error)
+        else:
+            self._host.callback_raised(call.state, name, error)
 
     def _begin(self, coroutine: Coroutine[Any, Any, Any], entry: Entry) -> None:
         waiting = self._coroutines.adopt(coroutine, entry)
         self._resume_one(waiting)
         if waiting.ended:
-            self._end(waiting)
+            self._coroutine_ended(waiting)
 
     def _resume_coroutines(self) -> bool:
-        """Give every waiting coroutine a turn; say whether anything came of it."""
+        """Give every waiting coroutine a turn; return whether anything came of it."""
         if not self._coroutines.waiting:
             return False
         self._coroutines.drop_abandoned()
         further = self._coroutines.turn(self._resume_one)
         for waiting in [waiting for waiting in self._coroutines.waiting if waiting.ended]:
-            self._end(waiting)
+            self._coroutine_ended(waiting)
         return further
 
     def _resume_one(self, waiting: Waiting) -> None:
-        self.current = waiting.state
-        if waiting.entry is not None:
-            self.calling = waiting.entry.label
-        elif waiting.state is not None:
-            self.calling = self._label(waiting.state.name, "task", waiting.name, "")
+        label = waiting.entry.label if waiting.entry else None
+        if label is None and waiting.state is not None:
+            label = self._label(waiting.state.name, "task", waiting.name, "")
+        call = Call(waiting.process or self._nowhere, waiting.state, None, label)
+        self.current, self.calling = call, label or self.calling
         try:
             waiting.task()
         except SystemExit as error:
             waiting.task.cancel()
-            self._host.callback_raised(waiting.state, waiting.name, error)
+            self._raised(call, waiting.name, error)
         except BaseException:
             waiting.task.cancel()  # rclpy would take it for running, for ever
             self._coroutines.end(waiting)
             raise
         finally:
             self.current = None
+            if call.began_ns >= 0:
+                self._end_suspended(call)
 
-    def _end(self, waiting: Waiting) -> None:
+    def _coroutine_ended(self, waiting: Waiting) -> None:
         self._coroutines.end(waiting)
         error = waiting.task.exception()
         if error is not None:
-            self._host.callback_raised(waiting.state, waiting.name, error)
-        for entry in self._coroutines.unblock():
-            if entry.kind == "timer":
-                self._agenda.add(entry, self.now)
-            else:
-                self._ready.append((entry, self._chain.depth))
+            call = Call(waiting.process or self._nowhere, waiting.state)
+            self._raised(call, waiting.name, error)
+        if waiting.process is not None:
+            self._catch_up(waiting.process)
 
     def _suspects(self) -> list[str]:
         names = [f"{w.state.name} ({w.name})" for w in self._coroutines.waiting if w.state]
         return list(dict.fromkeys(names)) or [s.name for s in self._host.states() if s.spinning]
 
 
-# `time.sleep` in virtual time.
-#
-# A node that sleeps in a callback is a process that does nothing else meanwhile: its messages wait
-# in their queues, its timers are late, and the other nodes go on. So while nodes run in virtual
-# time, a sleep of their thread lets virtual time pass for the others, and no real time. Threads of
-# their own, and code of rosbeat, sleep as ever. Who goes on meanwhile: see below.
+#: Virtual nanoseconds that a cell waits for another node at most, in a call without a limit.
+LONGEST_WAIT = 3600 * 1_000_000_000
+#: Virtual nanoseconds that a constructor may wait while it is called by a cell.
+LONGEST_START = 600 * 1_000_000_000
 
 
-_OWN = str(Path(__file__).parents[1])
+def _never() -> bool:
+    return False
 
 
-@contextmanager
-def virtual_sleep(
-    nap: Callable[[float], object], clock: SessionClock, code: Iterable[object]
-) -> Iterator[None]:
-    """Let `time.sleep` of this thread, and `sleep_for` of the clock, call `nap` with the seconds.
-
-    Args:
-        nap: Lets virtual time pass.
-        clock: The session's clock.
-        code: Classes and functions; `from time import sleep` may stand in their modules.
-    """
-    real, home = time.sleep, threading.get_ident()
-
-    def sleep(seconds: Any) -> None:  # noqa: ANN401 - unchecked
-        own = sys._getframe(1).f_code.co_filename.startswith(_OWN)
-        if own or threading.get_ident() != home or not _is_span(seconds):
-            real(seconds)
-        else:
-            nap(float(seconds))
-
-    def sleep_until(until: Any, context: object = None) -> bool:  # noqa: ANN401 - rclpy's
-        nap(max(0, until.nanoseconds - clock.now().nanoseconds) / 1e9)
-        return True
-
-    with _in_place_of(real, sleep, [vars(time), *_namespaces(code)]):
-        clock.sleep_until = sleep_until
-        try:
-            yield
-        finally:
-            del clock.sleep_until
-
-
-@contextmanager
-def _in_place_of(old: object, new: object, namespaces: list[dict[str, Any]]) -> Iterator[None]:
-    found = [(names, key) for names in namespaces for key, one in names.items() if one is old]
-    for names, key in found:
-        names[key] = new
-    try:
-        yield
-    finally:
-        for names, key in found:
-            if names.get(key) is new:
-                names[key] = old
-
-
-def _is_span(seconds: object) -> bool:
-    return isinstance(seconds, int | float) and isfinite(seconds) and seconds >= 0
-
-
-def _namespaces(code: Iterable[object]) -> list[dict[str, Any]]:
-    """The global names that functions see, and those of classes and what they inherit from."""
-    parts: list[object] = []
-    for one in code:
-        bases = one.__mro__ if isinstance(one, type) else ()
-        parts += [one, *(part for base in bases for part in vars(base).values())]
-    found = {id(names): names for part in parts if (names := getattr(part, "__globals__", None))}
-    return list(found.values())
-
-
-# Callbacks that sleep: virtual time passes for the other nodes, and no real time.
-#
-# On a page and in a check alike, a node that sleeps in a callback is a process that does nothing
-# else meanwhile. Its callback goes on where it was, in the one thread that there is, so the others
-# run within its call of `time.sleep`. What follows from that: a run ends no sooner than the
-# callbacks that it has begun, and begins no other of their nodes then; and of two nodes that sleep
-# at once, the one that fell asleep first cannot wake before the other.
-
-
-#: Virtual seconds that a callback may sleep on when a run is over.
-LONGEST = 3600
-
-
-class Sleepers(Protocol):
-    """What is asked of a session's world."""
-
-    clock: SessionClock
-    virtual: VirtualTimeExecutor
-
-    def states(self) -> list[NodeState]:
-        """All nodes, in order of creation."""
-
-    def spin_node(self, state: NodeState) -> None:
-        """Run this node's callbacks from now on."""
-
-    def rest_node(self, state: NodeState) -> None:
-        """Run none of this node's callbacks until `spin_node`."""
-
-
-@contextmanager
-def resting(world: Sleepers, state: NodeState) -> Iterator[None]:
-    """Run none of a node's callbacks in this block: it sleeps in one of them.
-
-    One that is paused meanwhile does not wake with the end of its sleep.
-    """
-    virtual = world.virtual
-    calling, virtual.current = virtual.calling, None
-    world.rest_node(state)
-    state.asleep += 1
-    try:
-        yield
-    finally:
-        state.asleep -= 1
-        if not (state.asleep or state.ended or state.paused):
-            world.spin_node(state)
-        virtual.current, virtual.calling = state, calling
-
-
-def run_until(world: Sleepers, end: int, done: Callable[[], bool] | None = None) -> None:
-    """Run nodes; a sleep in a callback takes virtual time.
-
-    Args:
-        world: The session's world. Where a check runs its nodes, it has seen to sleeps itself.
-        end: When the run is to end, in nanoseconds; a callback that sleeps longer prolongs it.
-        done: The run ends as soon as this is true.
-
-    Raises:
-        EndlessChainError: If callbacks cause one another for ever while no time passes.
-    """
-    if "sleep_until" in vars(world.clock):
-        world.virtual.run_until(end, done)
+def _throw(thread: greenlet, error: BaseException) -> None:
+    """End a greenlet by an exception; what its code makes of that is its own affair."""
+    if thread.dead:
         return
-    doze = _Doze(world, end)
+    thread.parent = getcurrent()
     try:
-        with virtual_sleep(doze.nap, world.clock, _code_of(world)):
-            world.virtual.run_until(end, done)
-    finally:
-        doze.let_go()
-    if doze.last and world.virtual.now > end:
-        note(f"{doze.last} slept beyond the end of this run, which so went on until {_now(world)}.")
-
-
-class _Doze:
-    def __init__(self, world: Sleepers, end: int) -> None:
-        self.last = ""
-        self._world, self._end = world, end
-        self._latest = end + LONGEST * NANOSECONDS
-        self._held: list[NodeState] = []
-
-    def nap(self, seconds: float) -> None:
-        """Sleep; outside of callbacks, as in the constructor of a node, it takes real time."""
-        virtual = self._world.virtual
-        state = virtual.current
-        if state is None:
-            time.sleep(seconds)
-            return
-        until = virtual.now + round(seconds * NANOSECONDS)
-        with resting(self._world, state):
-            virtual.run_nested(min(until, self._latest))
-        if until > self._latest:
-            raise _sleeps_on(state.name)
-        self.last = state.name
-        if virtual.now > self._end and state not in self._held:
-            # What waits for it waits for the next run: else a node that sleeps longer than its
-            # messages are apart would never come to an end.
-            self._world.rest_node(state)
-            self._held.append(state)
-        if virtual.now > until:
-            note(f"{state.name} woke late, at {_now(self._world)}, after one that slept longer.")
-
-    def let_go(self) -> None:
-        """The run is over: nodes that overslept its end may go on in the next."""
-        for state in self._held:
-            if state.node is not None and not (state.ended or state.paused):
-                self._world.spin_node(state)
-
-
-def _code_of(world: Sleepers) -> list[object]:
-    """Classes and functions whose modules may have a `sleep` of their own."""
-    found: list[object] = []
-    for state in world.states():
-        found += [type(state.node), *(getattr(e.entity, "callback", None) for e in state.entries)]
-    return found
-
-
-def _now(world: Sleepers) -> str:
-    return f"{world.virtual.now / NANOSECONDS:g} s"
-
-
-def _sleeps_on(name: str) -> SessionError:
-    return SessionError(
-        f"A callback of {name} does not wake up.",
-        f"It sleeps on {LONGEST} s after the end of the run. A node runs one callback at a time, "
-        "so this one does nothing else any more.",
-        "To wait for something, return, and let a timer call you again.",
-    )
-
-
-# Random numbers that belong to one session.
-#
-# A node draws from Python's global generator (`random.uniform`) or NumPy's. Each session keeps
-# states of its own and lends them to the process only while its nodes run, so that the same seed
-# gives the same numbers whatever else draws in between.
-
-
-#: The generator behind the functions of `random`: `random.uniform` is a method of it.
-_SHARED: random.Random = random.uniform.__self__  # type: ignore[attr-defined]
-#: The same function again, and not an equal one: nothing is different after a session.
-_PLAIN = random.random
-
-
-def _numpy_random() -> Any:  # noqa: ANN401 - a module
-    # Only a node that imported NumPy can draw from it; importing it here would cost 0.1 s.
-    return getattr(sys.modules.get("numpy"), "random", None)
-
-
-def tilt(exponent: float) -> None:
-    """Tilt the numbers that the functions of `random` draw, until the session's run ends.
-
-    They are what would have been drawn, between 0 and 1, raised to a power; so they keep their
-    range, and only their mean moves, to 1 / (1 + exponent).
-
-    Args:
-        exponent: 1 for no tilt, less for higher numbers, more for lower ones; above 0.
-    """
-    _straighten()
-    if exponent == 1.0:
-        return
-    plain = _SHARED.random
-
-    def tilted() -> float:
-        return float(plain() ** exponent)
-
-    # `uniform` and `gauss` ask the first, `choice` and `randint` the second.
-    vars(_SHARED).update(random=tilted, _randbelow=lambda n: int(n * tilted()))
-    random.random = tilted
-
-
-def _straighten() -> None:
-    for name in ("random", "_randbelow"):
-        vars(_SHARED).pop(name, None)
-    random.random = _PLAIN
-
-
-class SeededRandom:
-    """The random state of one session.
-
-    Args:
-        seed: The seed, 0 or more. NumPy takes it modulo 2**32.
-    """
-
-    def __init__(self, seed: int) -> None:
-        self._seed = seed
-        self._state = random.Random(seed).getstate()
-        self._numpy_state: Any = None
-        self._is_lent = False
-
-    @contextmanager
-    def lent(self) -> Iterator[None]:
-        """Put this session's states in place of the process's, and back at the end.
-
-        Within another `lent` of the same session it does nothing: a constructor may call a service.
-        """
-        if self._is_lent:
-            yield
-            return
-        self._is_lent = True
-        try:
-            with self._exchanged():
-                yield
-        finally:
-            self._is_lent = False
-
-    @contextmanager
-    def _exchanged(self) -> Iterator[None]:
-        outer, numpy = _SHARED.getstate(), _numpy_random()
-        outer_numpy = numpy.get_state() if numpy else None
-        _SHARED.setstate(self._state)
-        if numpy:
-            self._enter_numpy(numpy)
-        try:
-            yield
-        finally:
-            _straighten()
-            self._state = _SHARED.getstate()
-            _SHARED.setstate(outer)
-            self._leave_numpy(outer_numpy)
-
-    def _enter_numpy(self, numpy: Any) -> None:  # noqa: ANN401
-        if self._numpy_state is None:
-            numpy.seed(self._seed % 2**32)
-        else:
-            numpy.set_state(self._numpy_state)
-
-    def _leave_numpy(self, outer: Any) -> None:  # noqa: ANN401
-        # NumPy may have been imported meanwhile; then there is no outer state to put back.
-        numpy = _numpy_random()
-        if numpy:
-            self._numpy_state = numpy.get_state()
-            if outer is not None:
-                numpy.set_state(outer)
+        thread.throw(error)
+    except BaseException as raised:  # also what a `finally` block of a learner's raises
+        if isinstance(raised, KeyboardInterrupt):
+            raise

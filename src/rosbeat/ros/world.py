@@ -1,11 +1,10 @@
-"""What one session owns: a context, a clock, an executor, a recorder and nodes."""
+"""What one session owns: a context, a clock, an executor, a recorder, processes and nodes."""
 
 from __future__ import annotations
 
 import time
-from abc import abstractmethod
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from threading import get_ident
 from typing import Any, Protocol
@@ -19,15 +18,27 @@ from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
+from rosbeat.ros.blocking import VirtualWaits
 from rosbeat.ros.console import Console, note
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
-from rosbeat.ros.errors import check_name, foreign_node, no_such_node, unknown_topic
+from rosbeat.ros.errors import (
+    asleep_while_going_live,
+    asks_before_it_runs,
+    called_in_callback,
+    check_name,
+    foreign_node,
+    no_such_node,
+    unanswered_call,
+    unknown_topic,
+)
 from rosbeat.ros.faults import fault_of
 from rosbeat.ros.graph import Arrivals, Lookout, snapshot, with_outside
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
+from rosbeat.ros.processes import Call, Process
 from rosbeat.ros.qos_events import Limits, event_source, topic_of, wait_for_stored
+from rosbeat.ros.randomness import SeededRandom
 from rosbeat.ros.recording import (
     Memory,
     PublisherTap,
@@ -40,165 +51,147 @@ from rosbeat.ros.recording import (
     type_name,
 )
 from rosbeat.ros.virtual_time import (
-    SeededRandom,
-    SessionClock,
     VirtualTimeExecutor,
     make_clock,
-    run_until,
     waitable_kind,
     waitable_name,
 )
 
-# The part of a session that actions ask.
+
+class Closable(Protocol):
+    """What ends with the session."""
+
+    def close(self) -> None:
+        """End."""
 
 
-class Acting:
-    """What a session does for its actions; see `actions.Place`.
+class World:
+    """Everything behind a `Session`.
 
-    Attributes:
-        arrivals: Records what comes from outside; None in a private domain.
-        live: The live executor while the session is live, else None.
-    """
+    It is what the hooks tell of new nodes and entities (see `recording.Watcher`), and what the
+    executors ask for nodes. It never refers to the `Session`, so that a session nobody holds any
+    more is closed at once.
 
-    arrivals: Arrivals | None
-    live: LiveExecutor | None
-    _states: dict[Node, NodeState]
-    _made: WeakSet[Any]
-    _goals = 0
-
-    @abstractmethod
-    def states(self) -> list[NodeState]:
-        """All nodes that have not been destroyed, in order of creation."""
-
-    @abstractmethod
-    def state_of(self, node: Node | None) -> NodeState | None:
-        """What is known of a node."""
-
-    @abstractmethod
-    def refuse_in_callback(self, call: str) -> None:
-        """Nothing that waits for nodes may be called by a node."""
-
-    @abstractmethod
-    def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
-        """Run virtual time until `done` is true, at most so many seconds."""
-
-    @abstractmethod
-    def _sender(self, kind: str, name: str) -> Callable[[], None]:
-        """What to call when something was sent in virtual time."""
-
-    def action_made(
-        self,
-        node: Node,
-        kind: str,
-        entity: Any,  # noqa: ANN401
-        name: str,
-        options: dict[str, Any],
-    ) -> None:
-        """An action server or client was made."""
-        state = self._states[node]
-        state.actions.append(ActionEnd(self, state, kind, entity, name, options))
-        self._made.add(entity)
-
-    def destroy_actions(self) -> None:
-        """Destroy every action server and client; destroying its node leaves it in the graph."""
-        for entity in list(self._made):
-            with suppress(Exception):  # destroyed already, or half-made
-                entity.destroy()
-
-    def sent(self, kind: str, name: str) -> None:
-        """Something was sent to the `kind` entities called `name`."""
-        self._sender(kind, name)()
-
-    def wait(self, call: str, done: Callable[[], bool], seconds: float | None) -> bool:
-        """Run nodes until `done` is true; `call` is refused in a callback."""
-        self.refuse_in_callback(call)
-        if self.live is None:
-            return self.wait_until(done, seconds)
-        return wait_by_the_wall(done, seconds)
-
-    def next_goal(self) -> int:
-        """How many goals were sent in this session; 0 in a domain with other processes in it."""
-        self._goals += 1
-        return self._goals if self.arrivals is None else 0
-
-    @abstractmethod
-    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
-        """A callback of an action is about to run."""
-
-    @abstractmethod
-    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
-        """An exception left the work on a goal; the node goes on."""
-
-
-# The part of a session that learns of nodes and of what they make.
-
-
-class Watching(Acting):
-    """What the hooks tell of new nodes and entities; see `hooks.Watcher`.
+    Args:
+        seed: Seed of the random numbers that the nodes draw.
+        domain_id: The ROS domain to join, or None for a private one.
 
     Attributes:
         clock: The one clock of all nodes.
         recorder: What happened so far.
-        arrivals: Records what comes from outside; None in a private domain.
+        console: Where log lines are printed.
+        context: The ROS context.
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
-        start: How the node that is being made is started.
         limits: The deadlines and lifespans that the session counts.
+        lookout: Sees the other processes; None in a private domain, where there are none.
+        arrivals: Records what comes from outside; None in a private domain.
+        start: How the node that is being made is started.
+        closed: Whether `close` was called.
+        panel: The instrument panel, or None.
+        makers: What the session was handed to make each node, and how it was started.
     """
 
-    limits: Limits
-    clock: SessionClock
-    recorder: Recorder
-    arrivals: Arrivals | None
-    virtual: VirtualTimeExecutor
-    live: LiveExecutor | None
-
-    def __init__(self) -> None:
+    def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
         self._states: dict[Node, NodeState] = {}
         self._entries: dict[Any, Entry] = {}
         self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
-        self._made: WeakSet[Any] = WeakSet()
-        self._count = 0
-        self.start = Launch()
+        self._action_ends: WeakSet[Any] = WeakSet()
+        self._count = self._goals = 0
         self._rosout_heard: Callable[[], None] | None = None
+        mend_message_classes()
+        self._lease: DomainLease | None = lease_domain() if domain_id is None else None
+        self.domain_id = self._lease.domain_id if self._lease else domain_id
+        self.start = Launch()
+        self.clock = make_clock()
+        self.recorder = Recorder()
+        self.console = Console()
+        self.context = SessionContext(self, self.domain_id or 0)
+        self.virtual = VirtualTimeExecutor(self.context, self.clock, self.recorder, self)
+        self.live: LiveExecutor | None = None
+        self.limits = Limits(self)
+        self.closed = False
+        self.panel: Closable | None = None
+        self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
+        self._waits = VirtualWaits(self.virtual, self._entries.get)
+        self._random = SeededRandom(seed)
+        self._live_since = 0
+        self._shown_logs = self._shown_faults = 0
+        self._last_graph: GraphSnapshot | None = None
+        self.lookout = None if domain_id is None else Lookout(self.context)
+        self.arrivals = self.lookout and Arrivals(self.lookout, self.recorder, self.now)
+        self.context.install()
 
-    @abstractmethod
+    # Time.
+
     def now(self) -> int:
-        """Nanoseconds since the session began."""
-
-    @abstractmethod
-    def show_news(self) -> None:
-        """Print what has not been printed yet."""
-
-    @abstractmethod
-    def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
-        """Run virtual time until `done` is true, at most so many seconds."""
+        """Return nanoseconds since the session began."""
+        if self.live is None:
+            return self.virtual.now
+        return self.virtual.now + time.monotonic_ns() - self._live_since
 
     # Which nodes there are.
 
     def states(self) -> list[NodeState]:
-        """All nodes that have not been destroyed, in order of creation."""
+        """Return all nodes that have not been destroyed, in order of creation."""
         return list(self._states.values())
 
     def spinning_nodes(self) -> list[NodeState]:
-        """The nodes whose callbacks run, in order of creation."""
+        """Return the nodes whose callbacks run, in order of creation."""
         return [state for state in self.states() if state.spinning]
 
     def named(self, name: str) -> NodeState | None:
-        """The node of this full name."""
+        """Return the node of this full name."""
         return next((state for state in self.states() if state.name == name), None)
 
     def state_of(self, node: Node | None) -> NodeState | None:
-        """What is known of a node."""
+        """Return what is known of a node."""
         return self._states.get(node)
 
     def name_of(self, node: Node) -> str | None:
-        """The full name of a node that is or was in this session; a destroyed one cannot say it."""
+        """Return the full name of a node that is or was here; a destroyed one cannot say it."""
         return self._names.get(node)
 
     def graph(self) -> GraphSnapshot:
-        """The graph as it is now."""
-        return snapshot(self.states())
+        """Return the graph as it is now, or as it was when the session ended."""
+        if self._last_graph is not None:
+            return self._last_graph
+        own = snapshot(self.states())
+        return own if self.lookout is None else with_outside(own, self.lookout)
+
+    def known_topics(self) -> set[str]:
+        """Return every topic of which it is known what was published."""
+        return self.recorder.topics() | (self.arrivals.topics() if self.arrivals else set())
+
+    def next_number(self) -> int:
+        """Return the place of a new entity in the order of creation."""
+        self._count += 1
+        return self._count
+
+    # Nodes come, run, rest and go.
+
+    def spin_node(self, state: NodeState) -> None:
+        """Run this node's callbacks from now on."""
+        state.spinning, state.paused = True, False
+        executor = self.live or self.virtual
+        state.node.executor = executor  # type: ignore[union-attr]
+        executor.wake()
+        self.virtual.resume(state)
+
+    def rest_node(self, state: NodeState) -> None:
+        """Run none of this node's callbacks until `spin_node`; its messages wait in queues."""
+        state.spinning = False
+        state.process.refresh()
+        if self.live is not None:
+            self.live.wake()  # it may be waiting for this node
+
+    def end_process(self, process: Process) -> None:
+        """Run no callbacks of a process any more; its nodes stay in the graph until destroyed."""
+        for state in list(process.states):
+            self.rest_node(state)
+            state.ended = True
+        for call in [one for one in process.calls if one.wait is not None]:
+            self.virtual.break_off(call)
 
     def destroy(self, state: NodeState) -> None:
         """Destroy a node, whole or half-made."""
@@ -213,28 +206,32 @@ class Watching(Acting):
             self.node_ends(state.node)
 
     @contextmanager
-    def starting(self, start: Launch) -> Iterator[None]:
-        """Nodes that are made in this block are started so."""
+    def starting(self, start: Launch, process: Process | None = None) -> Iterator[None]:
+        """Let nodes that are made in this block be started so, in a process (by default a new one)."""
         before, self.start = self.start, start
+        caller, self.virtual.current = self.virtual.current, Call(process or Process())
         try:
             yield
         finally:
-            self.start = before
+            self.start, self.virtual.current = before, caller
 
     # What the hooks tell.
 
     def node_begins(self, name: str, namespace: str) -> None:
-        """A node is about to be made: one of the same name makes room for it.
+        """Make room for a node that is about to be made: one of the same name is destroyed.
 
         It has to go first: rcl keeps one log publisher for each name and removes it with the first
         node of that name that is destroyed.
         """
         old = self.named(full_name(name, namespace))
         if old is not None:
+            program = old.process.program
+            if program is not None:
+                program.kill()
             self.destroy(old)
 
     def node_made(self, node: Node) -> None:
-        """`Node.__init__` has returned."""
+        """Note that `Node.__init__` has returned."""
         self.entity_begins(node)
         show_sim_time(node, self.live is None)
 
@@ -244,7 +241,11 @@ class Watching(Acting):
             node._clock = self.clock
         if node not in self._states:
             name = node.get_fully_qualified_name()
-            self._states[node] = NodeState(len(self._states), name, node, born_ns=self.now())
+            call = self.virtual.current
+            process = call.process if call is not None and self.live is None else Process()
+            state = NodeState(len(self._states), name, node, process, born_ns=self.now())
+            process.states.append(state)
+            self._states[node] = state
             self._names[node] = name
 
     def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
@@ -257,8 +258,21 @@ class Watching(Acting):
         else:
             self._watch(state, kind, entity)
 
+    def action_made(
+        self,
+        node: Node,
+        kind: str,
+        entity: Any,  # noqa: ANN401
+        name: str,
+        options: dict[str, Any],
+    ) -> None:
+        """Note that an action server or client was made."""
+        state = self._states[node]
+        state.actions.append(ActionEnd(self, state, kind, entity, name, options))
+        self._action_ends.add(entity)
+
     def node_ends(self, node: Node) -> None:
-        """A node is about to be destroyed."""
+        """Forget a node that is about to be destroyed."""
         state = self._states.pop(node, None)
         if state is None:
             return
@@ -270,7 +284,7 @@ class Watching(Acting):
             node.executor.remove_node(node)
 
     def logger_of(self, node: Node, original: Any) -> Any:  # noqa: ANN401
-        """The logger that the node's code gets."""
+        """Return the logger that the node's code gets."""
         state = self._states.get(node)
         if state is None:
             return original
@@ -279,47 +293,241 @@ class Watching(Acting):
         return state.logger
 
     def explain_init(self) -> None:
-        """The learner called `rclpy.init()`."""
+        """Answer `rclpy.init()` of a learner."""
         note("rclpy.init() has nothing to do here: the session has started ROS already.")
 
     def explain_shutdown(self) -> None:
-        """The learner called `rclpy.shutdown()`: in a callback it ends that node."""
-        current = self.virtual.current
+        """Answer `rclpy.shutdown()` of a learner: in a callback it ends that node's process."""
+        call = self.virtual.current
+        state = call.state if call is not None else None
         if self.live is not None and self.live.is_this_thread():
-            current = self.state_of(self.live.current)
-        if current is None:
+            state = self.state_of(self.live.current)
+        if state is None:
             note("rclpy.shutdown() leaves this session open; `ros.close()` ends it.")
             return
-        current.spinning, current.ended = False, True
-        note(f"{current.name} called rclpy.shutdown() and stops; the other nodes go on.")
+        for one in state.process.states:
+            one.spinning, one.ended = False, True
+        state.process.refresh()
+        note(f"{state.name} called rclpy.shutdown() and stops; the other nodes go on.")
 
     def refuse_in_callback(self, call: str) -> None:
-        """Nothing that waits for nodes may be called by a node.
+        """Refuse what would run the simulation, when a node calls it.
 
         Raises:
-            SessionError: If one of this session's callbacks is running, in this thread.
+            SessionError: If code of one of this session's nodes is running, in this thread.
         """
-        if self.virtual.running or (self.live is not None and self.live.is_this_thread()):
-            raise SessionError(
-                f"`{call}` was called from inside a callback.",
-                "It waits for other callbacks, and they can only run when this one has returned: "
-                "a deadlock, on a real robot too.",
-                "For a service use `call_async` and add a done callback, or make the callback "
-                "`async def` and await the future, with the client in a callback group of its "
-                "own. To do something again and again, create a timer.",
-            )
+        running = self.virtual.running and get_ident() == self.virtual.thread
+        if running or (self.live is not None and self.live.is_this_thread()):
+            raise called_in_callback(call)
 
     @property
     def counts_limits(self) -> bool:
         """Whether deadlines and lifespans of what is made now are counted here; see `Limits`."""
         return self.live is None and self.arrivals is None
 
-    def next_number(self) -> int:
-        """The place of a new entity in the order of creation."""
-        self._count += 1
-        return self._count
+    # What the executors tell.
+
+    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
+        """Record a callback that is about to run, live or through rclpy's wait set."""
+        entry = self._entries.get(entity)
+        state = self.state_of(node)
+        if entry is not None:
+            entry.calls += 1
+            label = entry.label
+        elif state is not None:
+            kind, name = waitable_kind(entity), waitable_name(entity)
+            source = event_source(entity, topic_of(entity, node)) if kind == "event" else ""
+            if action_of(entity, state):
+                return  # which tells when it knows what it was
+            label = self.recorder.label(state.name, kind, name, source)
+            self.virtual.calling = label
+        else:
+            return
+        with self.recorder.lock:
+            self.recorder.add_callback(self.now(), label.number)
+
+    def entity_raised(self, node: Node | None, entity: Any, error: BaseException) -> None:  # noqa: ANN401
+        """Record an exception that left a callback, in live mode."""
+        entry = self._entries.get(entity)
+        state = entry.state if entry else self.state_of(node)
+        name = entry.label.name if entry else "a task" if entity is None else waitable_name(entity)
+        self.callback_raised(state, name, error)
+
+    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
+        """Record an exception that left a callback; end its process, and let the others go on."""
+        node = state.name if state else "A task"
+        self.recorder.faults.append(fault_of(error, self.now(), node, name))
+        mend_message_classes()
+        if state is not None:
+            self.end_process(state.process)
+        if self.live is None:
+            self.show_news()
+            others = [one.name for one in state.process.states if one is not state] if state else []
+            if others:
+                note(f"{', '.join(others)} ran in the same process, which has ended.")
+
+    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
+        """Record a callback of an action that is about to run."""
+        self.virtual.calling = label = self.recorder.label(state.name, kind, name, source)
+        with self.recorder.lock:
+            self.recorder.add_callback(self.now(), label.number)
+
+    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
+        """Record an exception that left the work on a goal; rclpy aborts the goal and logs it."""
+        fault = fault_of(error, self.now(), state.name, name)
+        self.recorder.faults.append(fault)
+        self._shown_faults += 1
+        self.console.work(fault)
+
+    # What actions ask; see `actions.Place`.
+
+    def sent(self, kind: str, name: str, origin: NodeState) -> None:
+        """Note that a node sent something to the `kind` entities called `name`."""
+        self._sender(kind, name, origin)()
+
+    def wait(
+        self,
+        call: str,
+        reason: str,
+        done: Callable[[], bool],
+        seconds: float | None,
+        needs: Any,  # noqa: ANN401 - any entity of rclpy
+    ) -> bool:
+        """Wait until something is done, in a callback as in a cell."""
+        if self.live is not None:
+            self.refuse_in_callback(call)
+            return wait_by_the_wall(done, seconds)
+        if self.virtual.in_callback:
+            return self.virtual.block(reason, self.virtual.after(seconds), done, needs=needs)
+        return self.wait_until(done, seconds)
+
+    def next_goal(self) -> int:
+        """Return how many goals were sent here; 0 in a domain with other processes in it."""
+        self._goals += 1
+        return self._goals if self.arrivals is None else 0
+
+    # What is printed.
+
+    def show_news(self) -> None:
+        """Print the log lines and faults that have not been printed yet."""
+        logs = self.recorder.logs
+        while self._shown_logs < len(logs):
+            self._shown_logs += 1
+            self.console.log(logs[self._shown_logs - 1])
+        self.show_faults()
+
+    def show_faults(self) -> None:
+        """Print the faults that have not been printed yet."""
+        faults = self.recorder.faults
+        while self._shown_faults < len(faults):
+            self._shown_faults += 1
+            self.console.fault(faults[self._shown_faults - 1])
+
+    # Running.
+
+    @contextmanager
+    def running(self, code: Iterable[object] = ()) -> Iterator[None]:
+        """Make nodes feel at home while they run in this thread.
+
+        Their context is rclpy's default, the random numbers they draw are the session's, and what
+        waits takes virtual time.
+
+        Args:
+            code: Classes and functions that are about to run, besides those of the nodes.
+        """
+        before = self.context.install()
+        try:
+            with ExitStack() as stack:
+                stack.enter_context(self._random.lent())
+                if self.live is None:
+                    stack.enter_context(self._waits.installed([*self._code(), *code]))
+                yield
+        finally:
+            self.context.uninstall(before)
+
+    def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
+        """Run virtual time for a cell until `done` is true, at most so many seconds.
+
+        Without a limit it ends, too, when nothing can happen any more.
+        """
+        limit = self.virtual.after(seconds)
+        with self.running():
+            self.virtual.run_until(self.virtual.longest() if limit is None else limit, done,
+                                   ends_idle=limit is None)  # fmt: skip
+        return bool(done())
+
+    def go_live(self) -> None:
+        """Run the nodes against the wall clock, in a background thread.
+
+        Raises:
+            SessionError: If a callback waits: it can go on in virtual time only.
+        """
+        waiting = [call for call in self.virtual.suspended if call.wait is not None]
+        if waiting:
+            raise asleep_while_going_live(waiting[0].node, waiting[0].name)
+        self.live = LiveExecutor(self.context, self)
+        self.virtual.deadlines.forget()
+        self._live_since = time.monotonic_ns()
+        self.clock.follow_wall()
+        self._change_over(self.live, virtual=False)
+        self.live.start()
+
+    def go_virtual(self) -> None:
+        """End live mode; virtual time goes on from where the wall clock has come to."""
+        if self.live is None:
+            return
+        self.live.finish()
+        self.virtual.now, self.live = self.now(), None
+        self.clock.follow_session(self.virtual.now)
+        self._change_over(self.virtual, virtual=True)
+        self.virtual.look_anew()
+
+    def hurry(self) -> None:
+        """End a callback that hangs: Interrupt was pressed while the nodes run live."""
+        if self.live is not None:
+            self.live.hurry()
+
+    def close(self) -> None:
+        """Destroy the nodes, end the context and give the domain id back."""
+        if self.closed:
+            return
+        if self.panel is not None:
+            self.panel.close()
+        self.closed = True
+        self.go_virtual()
+        self._last_graph = self.graph()
+        self.virtual.close()
+        for state in reversed(self.states()):
+            self.destroy(state)
+        for entity in list(self._action_ends):  # destroying its node leaves it in the graph
+            with suppress(Exception):  # destroyed already, or half-made
+                entity.destroy()
+        if self.lookout is not None:
+            self.lookout.destroy_node()
+        self.virtual.shutdown()
+        self.context.end()
+        if self._lease:
+            self._lease.release()
 
     # How it works.
+
+    def _code(self) -> Iterator[object]:
+        """Yield classes and functions in whose modules `from time import sleep` may stand."""
+        for state in self.states():
+            yield type(state.node)
+            for entry in state.entries:
+                yield getattr(entry.entity, "callback", None)
+
+    def _change_over(self, executor: LiveExecutor | VirtualTimeExecutor, virtual: bool) -> None:
+        self.clock.sleeper = self.virtual.sleep_until if virtual else None
+        for state in self.states():
+            show_sim_time(state.node, virtual)
+            if state.spinning:
+                state.node.executor = executor  # type: ignore[union-attr]
+            for entry in state.entries:
+                # Each timer begins a new period: its deadline is a reading of the other clock.
+                if entry.kind.endswith("timer"):
+                    _restart(entry)
 
     def _watch(self, state: NodeState, kind: str, entity: Any) -> None:  # noqa: ANN401
         name = "" if kind == "timer" else _name_of(kind, entity)
@@ -348,20 +556,15 @@ class Watching(Acting):
             self.virtual.timer_reset(entry)
 
     def _client(self, entry: Entry) -> None:
-        check = partial(self._check_call, entry)
-        asked = self._sender("service", entry.name)
-        tap_client(entry.entity, check, asked, partial(self._wait_for_answer, entry.entity))
+        asked = self._sender("service", entry.name, entry.state)
+        tap_client(entry.entity, partial(self._check_call, entry), asked,
+                   partial(self._wait_for_answer, entry.entity))  # fmt: skip
 
     def _check_call(self, entry: Entry) -> None:
-        self.refuse_in_callback("client.call")
-        if not entry.state.spinning:
-            raise SessionError(
-                f"{entry.state.name} asks {entry.name} before it runs itself.",
-                "Nobody takes the answer of a node that is still being made, was not added, or is "
-                "paused. Outside a page the call would wait for ever.",
-                "Add the node first, with `ros.add(...)`, and ask then, or in a timer's callback "
-                "with `call_async`.",
-            )
+        if self.live is not None:
+            self.refuse_in_callback("client.call")
+        if not entry.state.spinning and entry.state.process.program is None:
+            raise asks_before_it_runs(entry.state.name, entry.name)
 
     def _subscription(self, entry: Entry) -> None:
         entry.born = self.recorder.mark()
@@ -375,9 +578,9 @@ class Watching(Acting):
     def _tap_publisher(self, state: NodeState, publisher: Any) -> None:  # noqa: ANN401
         topic = publisher.topic_name
         memory = Memory(publisher.msg_type)
-        happened = self.virtual.sender("subscription", topic)
+        happened = self.virtual.sender("subscription", topic, state)
         if topic in INFRASTRUCTURE_TOPICS:
-            quiet = self._sender("subscription", topic)
+            quiet = self._sender("subscription", topic, state)
             state.taps.append(PublisherTap(publisher, memory, lambda _: quiet()))
             return
         kind = type_name(publisher.msg_type)
@@ -413,8 +616,8 @@ class Watching(Acting):
 
         return heard
 
-    def _sender(self, kind: str, name: str) -> Callable[[], None]:
-        happened = self.virtual.sender(kind, name)
+    def _sender(self, kind: str, name: str, origin: NodeState | None = None) -> Callable[[], None]:
+        happened = self.virtual.sender(kind, name, origin)
 
         def sent() -> None:
             if self.live is None:
@@ -432,272 +635,35 @@ class Watching(Acting):
             self.show_news()
 
     def _wait_for_answer(self, client: Any, future: Any, timeout_sec: float | None) -> Any:  # noqa: ANN401
-        if self.live is None:
+        """Do what `client.call` does when it has sent its request (rclpy, `client.py`)."""
+        in_callback = self.live is None and self.virtual.in_callback
+        if in_callback:
+            reason = f"an answer from {client.service_name}"
+            self.virtual.block(reason, self.virtual.after(timeout_sec), future.done, needs=client)
+        elif self.live is None:
             self.wait_until(future.done, timeout_sec)
         else:
             self.live.wait_for(future, timeout_sec)
         if not future.done():
             client.remove_pending_request(future)
-            if timeout_sec is None:
-                raise _unanswered(client.service_name)
+            if timeout_sec is None and not in_callback:
+                raise unanswered_call(client.service_name)
         return future.result()
 
     def _sleep(self, entry: Entry, original: Callable[[], None]) -> None:
-        self.refuse_in_callback("rate.sleep")
         calls = entry.calls
-        if self.live is None:
-            self.wait_until(lambda: entry.calls > calls, None)
-        else:
+        if self.live is not None:
+            self.refuse_in_callback("rate.sleep")
             original()
-
-
-def _unanswered(service: str) -> SessionError:
-    return SessionError(
-        f"Nobody has answered the call to {service}.",
-        "Either no node of this session offers that service, or its callback does not end. "
-        "Outside a page the call would wait for ever.",
-        "Add the node that offers the service first, and compare the two names.",
-    )
+        elif self.virtual.in_callback:
+            self.virtual.block("a rate", None, lambda: entry.calls > calls, needs=entry.entity)
+        else:
+            self.wait_until(lambda: entry.calls > calls, None)
 
 
 def _name_of(kind: str, entity: Any) -> str:  # noqa: ANN401
     name: str = entity.topic_name if kind == "subscription" else entity.service_name
     return name
-
-
-#: Virtual seconds that a call without a limit of its own waits for another node.
-LONGEST_WAIT = 3600.0
-
-
-class Closable(Protocol):
-    """What ends with the session."""
-
-    def close(self) -> None:
-        """End."""
-
-
-class World(Watching):
-    """Everything behind a `Session`.
-
-    It is what the hooks tell of new nodes and entities (see `Watching`), and what the executors ask
-    for nodes. It never refers to the `Session`, so that a session nobody holds any more is closed
-    at once.
-
-    Args:
-        seed: Seed of the random numbers that the nodes draw.
-        domain_id: The ROS domain to join, or None for a private one.
-
-    Attributes:
-        console: Where log lines are printed.
-        context: The ROS context.
-        lookout: Sees the other processes; None in a private domain, where there are none.
-        closed: Whether `close` was called.
-        panel: The instrument panel, or None.
-        makers: What the session was handed to make each node, and how it was started.
-    """
-
-    def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
-        super().__init__()
-        mend_message_classes()
-        self._lease: DomainLease | None = lease_domain() if domain_id is None else None
-        self.domain_id = self._lease.domain_id if self._lease else domain_id
-        self.clock = make_clock()
-        self.recorder = Recorder()
-        self.console = Console()
-        self.context = SessionContext(self, self.domain_id or 0)
-        self.virtual = VirtualTimeExecutor(self.context, self.clock, self.recorder, self)
-        self.live: LiveExecutor | None = None
-        self.limits = Limits(self)
-        self.closed = False
-        self.panel: Closable | None = None
-        self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
-        self._random = SeededRandom(seed)
-        self._live_since = 0
-        self._shown_logs = 0
-        self._shown_faults = 0
-        self._last_graph: GraphSnapshot | None = None
-        self.lookout = None if domain_id is None else Lookout(self.context)
-        self.arrivals = self.lookout and Arrivals(self.lookout, self.recorder, self.now)
-        self.context.install()
-
-    # Time.
-
-    def now(self) -> int:
-        """Nanoseconds since the session began."""
-        if self.live is None:
-            return self.virtual.now
-        return self.virtual.now + time.monotonic_ns() - self._live_since
-
-    # Nodes.
-
-    def spin_node(self, state: NodeState) -> None:
-        """Run this node's callbacks from now on."""
-        state.spinning, state.paused = True, False
-        executor = self.live or self.virtual
-        state.node.executor = executor  # type: ignore[union-attr]
-        executor.wake()
-        self.virtual.resume(state)
-
-    def rest_node(self, state: NodeState) -> None:
-        """Run none of this node's callbacks until `spin_node`; its messages wait in queues."""
-        state.spinning = False
-        if self.live is not None:
-            self.live.wake()  # it may be waiting for this node
-
-    # What the executors tell.
-
-    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
-        """A callback of this entity is about to run, in live mode or through rclpy's wait set."""
-        entry = self._entries.get(entity)
-        state = self.state_of(node)
-        if entry is not None:
-            entry.calls += 1
-            label = entry.label
-        elif state is not None:
-            kind, name = waitable_kind(entity), waitable_name(entity)
-            source = event_source(entity, topic_of(entity, node)) if kind == "event" else ""
-            if action_of(entity, state):
-                return  # which tells when it knows what it was
-            label = self.recorder.label(state.name, kind, name, source)
-            self.virtual.calling = label
-        else:
-            return
-        with self.recorder.lock:
-            self.recorder.add_callback(self.now(), label.number)
-
-    def entity_raised(self, node: Node | None, entity: Any, error: BaseException) -> None:  # noqa: ANN401
-        """An exception left a callback, in live mode."""
-        entry = self._entries.get(entity)
-        state = entry.state if entry else self.state_of(node)
-        name = entry.label.name if entry else "a task" if entity is None else waitable_name(entity)
-        self.callback_raised(state, name, error)
-
-    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
-        """An exception left a callback: record it, end the node, let the others go on."""
-        node = state.name if state else "A task"
-        self.recorder.faults.append(fault_of(error, self.now(), node, name))
-        mend_message_classes()
-        if state is not None:
-            self.rest_node(state)
-            state.ended = True
-        if self.live is None:
-            self.show_news()
-
-    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
-        """A callback of an action is about to run."""
-        self.virtual.calling = label = self.recorder.label(state.name, kind, name, source)
-        with self.recorder.lock:
-            self.recorder.add_callback(self.now(), label.number)
-
-    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
-        """An exception left the work on a goal: record it; rclpy aborts the goal and logs it."""
-        fault = fault_of(error, self.now(), state.name, name)
-        self.recorder.faults.append(fault)
-        self._shown_faults += 1
-        self.console.work(fault)
-
-    def show_news(self) -> None:
-        """Print the log lines and faults that have not been printed yet."""
-        logs = self.recorder.logs
-        while self._shown_logs < len(logs):
-            self._shown_logs += 1
-            self.console.log(logs[self._shown_logs - 1])
-        self.show_faults()
-
-    def show_faults(self) -> None:
-        """Print the faults that have not been printed yet."""
-        faults = self.recorder.faults
-        while self._shown_faults < len(faults):
-            self._shown_faults += 1
-            self.console.fault(faults[self._shown_faults - 1])
-
-    # Running.
-
-    @contextmanager
-    def running(self) -> Iterator[None]:
-        """While nodes of this session run in this thread, they are at home.
-
-        Their context is rclpy's default, and the random numbers they draw are the session's.
-        """
-        before = self.context.install()
-        try:
-            with self._random.lent():
-                yield
-        finally:
-            self.context.uninstall(before)
-
-    def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
-        """Run virtual time until `done` is true, at most so many seconds (default one hour)."""
-        limit = LONGEST_WAIT if seconds is None or seconds < 0 else seconds
-        with self.running():
-            run_until(self, self.virtual.now + round(limit * 1e9), done)
-        return bool(done())
-
-    def go_live(self) -> None:
-        """Run the nodes against the wall clock, in a background thread."""
-        self.live = LiveExecutor(self.context, self)
-        self.virtual.deadlines.forget()
-        self._live_since = time.monotonic_ns()
-        self.clock.follow_wall()
-        self._change_over(self.live, virtual=False)
-        self.live.start()
-
-    def go_virtual(self) -> None:
-        """End live mode; virtual time goes on from where the wall clock has come to."""
-        if self.live is None:
-            return
-        self.live.finish()
-        self.virtual.now, self.live = self.now(), None
-        self.clock.follow_session(self.virtual.now)
-        self._change_over(self.virtual, virtual=True)
-        self.virtual.look_anew()
-
-    def graph(self) -> GraphSnapshot:
-        """The graph as it is now, or as it was when the session ended."""
-        if self._last_graph is not None:
-            return self._last_graph
-        own = super().graph()
-        return own if self.lookout is None else with_outside(own, self.lookout)
-
-    def known_topics(self) -> set[str]:
-        """Every topic of which it is known what was published."""
-        return self.recorder.topics() | (self.arrivals.topics() if self.arrivals else set())
-
-    def hurry(self) -> None:
-        """Interrupt was pressed while the nodes run live; a callback that hangs ends, too."""
-        if self.live is not None:
-            self.live.hurry()
-
-    def close(self) -> None:
-        """Destroy the nodes, end the context and give the domain id back."""
-        if self.closed:
-            return
-        if self.panel is not None:
-            self.panel.close()
-        self.closed = True
-        self.go_virtual()
-        self._last_graph = self.graph()
-        for state in reversed(self.states()):
-            self.destroy(state)
-        self.destroy_actions()
-        if self.lookout is not None:
-            self.lookout.destroy_node()
-        self.virtual.shutdown()
-        self.context.end()
-        if self._lease:
-            self._lease.release()
-
-    # How it works.
-
-    def _change_over(self, executor: LiveExecutor | VirtualTimeExecutor, virtual: bool) -> None:
-        for state in self.states():
-            show_sim_time(state.node, virtual)
-            if state.spinning:
-                state.node.executor = executor  # type: ignore[union-attr]
-            for entry in state.entries:
-                # Each timer begins a new period: its deadline is a reading of the other clock.
-                if entry.kind.endswith("timer"):
-                    _restart(entry)
 
 
 def _restart(entry: Entry) -> None:

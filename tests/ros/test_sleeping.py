@@ -8,8 +8,8 @@ from rclpy.node import Node
 from std_msgs.msg import Float32
 
 from rosbeat import Session
+from rosbeat.errors import SessionError
 from rosbeat.ros.scenario import observe
-from rosbeat.ros.virtual_time import LONGEST
 
 pytestmark = pytest.mark.ros
 
@@ -67,21 +67,18 @@ def test_a_page_and_a_check_see_the_same(ros):
     assert time.monotonic() - begin < 3  # twice 3 s were slept, and not here
 
 
-def test_a_sleep_beyond_the_end_prolongs_the_run_and_says_so(ros, capsys):
+def test_a_callback_that_sleeps_at_the_end_of_a_run_goes_on_in_the_next(ros):
     for node in (Boss, Beat, Worker):
         ros.add(node)
     ros.run(seconds=2)
-    assert ros.time == 4.5
-    assert "/worker slept beyond the end of this run, which so went on until 4.5 s." in (
-        capsys.readouterr().out
-    )
-    ros.run(seconds=1.5)
-    assert ros.time == 6
+    assert ros.time == 2
+    assert not ros.logs()
+    ros.run(seconds=4)
     assert times(ros, "beat") == [1, 2, 3, 4, 5, 6]
-    assert "slept" not in capsys.readouterr().out
+    assert [(one.time, one.text) for one in ros.logs()] == [(4.5, "done")]
 
 
-def test_two_sleepers_wake_in_the_order_last_in_first_out_and_it_says_so(ros, capsys):
+def test_two_sleepers_wake_each_in_its_own_time(ros):
     class Late(Worker):
         def work(self, msg):
             time.sleep(0.5)
@@ -92,25 +89,17 @@ def test_two_sleepers_wake_in_the_order_last_in_first_out_and_it_says_so(ros, ca
     ros.add(Worker)
     ros.add(Late, name="late")
     ros.run(seconds=6)
-    assert [(one.time, one.name) for one in ros.logs()] == [(5, "late"), (5, "worker")]
-    assert "/worker woke late, at 5 s, after one that slept longer." in capsys.readouterr().out
+    assert [(one.time, one.name) for one in ros.logs()] == [(4.5, "worker"), (5, "late")]
 
 
-def test_who_never_wakes_ends_with_an_error_that_says_so(ros, capsys):
-    ros.add(lambda: Boss(10.0 * LONGEST))
+def test_who_sleeps_for_long_holds_up_nobody_else(ros):
+    ros.add(lambda: Boss(36_000.0))
     ros.add(Beat)
     ros.add(Worker)
-    ros.run(seconds=2)
-    assert ros.time == LONGEST + 2
-    (fault,) = ros.observation().faults
-    assert (fault.node, fault.kind, fault.code) == (
-        "/worker",
-        "SessionError",
-        "time.sleep(msg.data)",
-    )
-    assert "A callback of /worker does not wake up." in capsys.readouterr().err
-    ros.run(seconds=2)  # the others go on
-    assert times(ros, "beat")[-1] == LONGEST + 4
+    ros.run(seconds=5)
+    assert times(ros, "beat") == [1, 2, 3, 4, 5]
+    assert times(ros, "worker") == [1]
+    assert not ros.observation().faults
 
 
 def test_every_way_to_sleep_counts(ros):
@@ -120,7 +109,7 @@ def test_every_way_to_sleep_counts(ros):
 
     node = ros.add(lambda: Node("napper"))
     timer = node.create_timer(1.0, lambda: (timer.cancel(), nap(node), node.get_logger().info("")))
-    ros.run(seconds=1)
+    ros.run(seconds=3)
     assert [one.time for one in ros.logs("napper")] == [3]
 
 
@@ -130,23 +119,39 @@ def rclpy_seconds(number):
     return Duration(seconds=number)
 
 
-def test_outside_of_callbacks_and_live_a_sleep_is_a_sleep(ros):
+def test_a_constructor_sleeps_in_virtual_time_and_the_others_go_on(ros):
     class Slow(Beat):
         def __init__(self):
-            time.sleep(0.05)
+            time.sleep(2.5)
             super().__init__("slow")
 
+    ros.add(Beat)
     begin = time.monotonic()
     ros.add(Slow)
-    ros.run(seconds=1)
-    assert (ros.time, time.monotonic() - begin >= 0.05) == (1, True)
+    assert (ros.time, times(ros, "beat")) == (2.5, [1, 2])
+    assert time.monotonic() - begin < 2
     assert time.sleep is sleep
-    begin = time.monotonic()
+
+
+def test_live_a_sleep_is_a_sleep(ros):
     ros.add(Worker)
     ros.add(lambda: Boss(0.05)).timer.timer_period_ns = 10_000_000
+    begin = time.monotonic()
     ros.start()
     assert ros.wait(10, until=lambda: ros.logs("worker"))
     assert time.monotonic() - begin >= 0.05
+
+
+def test_a_session_goes_live_only_when_nothing_sleeps_in_virtual_time(ros, says):
+    ros.add(Boss)
+    ros.add(Worker)
+    ros.run(2)
+    with pytest.raises(SessionError) as caught:
+        ros.start()
+    says(caught.value, "`work` of /worker still waits")
+    ros.run(3)
+    ros.start()
+    ros.stop()
 
 
 def test_one_that_is_paused_or_removed_in_its_sleep_stays_so(ros):
@@ -219,9 +224,9 @@ def test_a_node_that_is_slower_than_its_messages_falls_behind_and_the_run_ends(r
     ros.add(Beat)
     ros.add(Slow)
     ros.run(seconds=60)
-    assert 60 <= ros.time < 64
+    assert ros.time == 60
     done = [line.time for line in ros.logs("slow")]
-    assert done == [5.0 + 4 * n for n in range(15)]
+    assert done == [5.0 + 4 * n for n in range(14)]
     ros.run(seconds=8)
-    assert len(ros.logs("slow")) in (17, 18)
+    assert len(ros.logs("slow")) == 16
     assert not ros.observation().faults

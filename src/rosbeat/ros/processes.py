@@ -1,0 +1,243 @@
+"""Simulated processes: what runs callbacks, and what a callback is while it waits.
+
+On a robot most nodes are processes of their own, and each process has one executor. A callback that
+sleeps or waits holds up its process, and no other. So the unit of the simulation is the process: its
+nodes, the number of threads of its executor, and the callbacks that have begun and not returned.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Collection
+from typing import Any
+
+from greenlet import greenlet
+
+from rosbeat.ros.entities import Entry, NodeState
+from rosbeat.ros.recording import CallbackLabel
+
+#: The order in which rclpy's executor takes what is ready in a node (`_wait_for_ready_callbacks`).
+_RANK = {"event": 0, "timer": 1, "subscription": 2, "client": 3, "service": 4}
+
+
+class Spin:
+    """One call of a `spin` function: while it lasts, callbacks of its process run.
+
+    Args:
+        states: The nodes that it spins; None for all nodes of the process.
+        left: How many callbacks may still begin; None for any number.
+    """
+
+    __slots__ = ("left", "states")
+
+    def __init__(self, states: Collection[NodeState] | None = None, left: int | None = None):
+        self.states, self.left = states, left
+
+
+class Process:
+    """A simulated operating-system process: nodes, and the one executor that runs their callbacks.
+
+    Args:
+        threads: 1 for rclpy's `SingleThreadedExecutor`, more for a `MultiThreadedExecutor`.
+        program: The program that runs in it; without one its nodes are spun from the beginning,
+            as the `main` of most programs does.
+
+    Attributes:
+        states: Its nodes, in order of creation.
+        spins: The calls of `spin` that are open, the innermost last. Callbacks run only meanwhile.
+        calls: Callbacks that have begun and wait for something, in the order in which they began.
+        pending: What is ready and could not run at once: timers that are due, and entities whose
+            queues may hold something.
+        due: How many of its timers are due at this instant and have not had their turn.
+        program: The program that runs in it; None for nodes that were handed to `Session.add`.
+    """
+
+    def __init__(self, threads: int = 1, program: Any = None) -> None:  # noqa: ANN401
+        self.threads, self.program = threads, program
+        self.states: list[NodeState] = []
+        self.spins: list[Spin] = [] if program else [Spin()]
+        self.calls: list[Call] = []
+        self.pending: dict[Entry, int] = {}
+        self.due = 0
+        self._round: deque[Entry] = deque()
+
+    def adopt(self, state: NodeState) -> None:
+        """Let a node that was made elsewhere run here from now on."""
+        if state.process is not self:
+            state.process.states.remove(state)
+            state.process.refresh()
+            state.process = self
+            self.states.append(state)
+
+    def refresh(self) -> None:
+        """Note for each node whether its callbacks can run at once, which is the common case."""
+        idle = bool(self.spins) and not self.calls and not self.pending
+        spin = self.spins[-1] if idle else None
+        for state in self.states:
+            state.open = (
+                spin is not None
+                and spin.left is None
+                and state.spinning
+                and (spin.states is None or state in spin.states)
+            )
+
+    def has_thread(self) -> bool:
+        """Return whether a thread of the executor is free, and may begin another callback."""
+        if not self.spins or self.spins[-1].left == 0:
+            return False
+        return sum(not call.spinning for call in self.calls) < self.threads
+
+    def can_begin(self, entry: Entry) -> bool:
+        """Return whether the callback of this entity can run now."""
+        return self.has_thread() and self._is_spun(entry) and is_free(entry)
+
+    def next_ready(self) -> Entry | None:
+        """Return what the executor would take next, in the order of rclpy's wait set.
+
+        rclpy looks at everything, then handles what was ready: node by node, timers first, one
+        message of each subscription. Only then it looks again.
+        """
+        if not self.has_thread():
+            return None
+        while self._round:
+            entry = self._round.popleft()
+            if entry in self.pending and self._is_spun(entry) and is_free(entry):
+                return entry
+        ready = [entry for entry in self.pending if self._is_spun(entry) and is_free(entry)]
+        self._round = deque(sorted(ready, key=_place))
+        return self._round.popleft() if self._round else None
+
+    def forget(self, state: NodeState) -> None:
+        """Drop a node that is destroyed."""
+        self.states.remove(state)
+        for entry in state.entries:
+            self.pending.pop(entry, None)
+        self.refresh()
+
+    def _is_spun(self, entry: Entry) -> bool:
+        states = self.spins[-1].states if self.spins else ()
+        return entry.state.spinning and (states is None or entry.state in states)
+
+
+def is_free(entry: Entry) -> bool:
+    """Return whether the callback group of an entity lets its callback run."""
+    return bool(entry.entity.callback_group.can_execute(entry.entity))
+
+
+def _place(entry: Entry) -> tuple[int, int, int]:
+    return entry.state.number, _RANK[entry.kind], entry.number
+
+
+class Call:
+    """Code of a node that is at work: a callback, a constructor, or the `main` of a program.
+
+    Args:
+        process: Where it runs.
+        state: The node whose callback it is; None for a constructor or a `main`.
+        entry: The entity whose callback it is, if it is one's.
+        label: What it is recorded as.
+
+    Attributes:
+        began_ns: When it began to wait for the first time; -1 if it never has.
+        spinning: Whether it waits in a `spin`, so that its thread runs other callbacks.
+        wait: What it waits for now.
+        holds_group: Whether it occupies its callback group.
+        broken: Whether it is being ended from outside, so that it must not wait again.
+    """
+
+    __slots__ = (
+        "began_ns", "broken", "entry", "holds_group", "label", "process", "spinning", "state", "wait",
+    )  # fmt: skip
+
+    def __init__(
+        self,
+        process: Process,
+        state: NodeState | None = None,
+        entry: Entry | None = None,
+        label: CallbackLabel | None = None,
+    ) -> None:
+        self.process, self.state, self.entry, self.label = process, state, entry, label
+        self.began_ns = -1
+        self.spinning = self.holds_group = self.broken = False
+        self.wait: Wait | None = None
+
+    @property
+    def node(self) -> str:
+        """Full name of the node whose code it is, or of the first node of its process."""
+        states = self.process.states
+        return self.state.name if self.state else states[0].name if states else ""
+
+    @property
+    def name(self) -> str:
+        """Name of the function, such as `publish_temperature`."""
+        if self.label is not None:
+            return self.label.name
+        return "main" if self.process.program else "__init__"
+
+
+class Wait:
+    """What a call waits for.
+
+    Args:
+        call: Who waits.
+        thread: The greenlet that goes on when the wait is over.
+        reason: What for, in words: `sleep`, or `an answer from /add`.
+        began_ns: Since when, in nanoseconds of virtual time.
+        until_ns: Until when at most; None without a limit.
+        met: Returns whether it has come true; None if only time or `wake` ends it.
+        needs: The entity of the same process whose callback has to run first, if there is one.
+
+    Attributes:
+        over: Whether it has ended.
+        error: What is raised in the call when it goes on.
+    """
+
+    __slots__ = ("began_ns", "call", "error", "met", "needs", "over", "reason", "thread", "until_ns")
+
+    def __init__(
+        self,
+        call: Call | None,
+        thread: greenlet,
+        reason: str,
+        began_ns: int,
+        until_ns: int | None = None,
+        met: Callable[[], object] | None = None,
+        needs: Any = None,  # noqa: ANN401 - any entity of rclpy
+    ) -> None:
+        self.call, self.thread, self.reason = call, thread, reason
+        self.began_ns, self.until_ns, self.met, self.needs = began_ns, until_ns, met, needs
+        self.over = False
+        self.error: BaseException | None = None
+
+    def is_for_good(self) -> bool:
+        """Return whether nothing but an event of the simulation can end it.
+
+        The `spin` of a program waits for whatever comes, and is not meant.
+        """
+        spins = self.call is not None and self.call.spinning and self.call.entry is None
+        return self.until_ns is None and not spins
+
+    def can_end(self) -> bool:
+        """Return whether it may still come true: its process has a thread for what it needs.
+
+        A single-threaded executor that waits in a callback takes no answer; nor does another one
+        if the answer's callback group is the one that this very callback occupies.
+        """
+        if self.until_ns is not None or self.needs is None or self.call is None:
+            return True
+        process, own = self.call.process, self.call.entry
+        if not process.spins:
+            return False
+        group = self.needs.callback_group
+        if self.call.holds_group and own is not None and own.entity.callback_group is group:
+            return bool(group.can_execute(self.needs))
+        if self.call.spinning:
+            return True
+        busy = [call for call in process.calls if not call.spinning]
+        return len(busy) < process.threads or any(not _is_for_good(call) for call in busy)
+
+
+def _is_for_good(call: Call) -> bool:
+    """Return whether a call waits for its own process, without a limit."""
+    wait = call.wait
+    return wait is not None and wait.until_ns is None and wait.needs is not None

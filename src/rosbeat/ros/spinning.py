@@ -1,0 +1,288 @@
+"""What `rclpy.spin` and its kin do for nodes of a session.
+
+They are written for a process that does nothing else. In the code of a node, and in a program that
+a session plays (see `simulated_program`), they suspend their simulated process in virtual time and
+let its callbacks run. In a cell, `spin` runs the nodes against the wall clock until Interrupt:
+rclpy's own waits in C, where Interrupt does not reach. Nodes that belong to no session are spun by
+rclpy itself.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable
+from functools import wraps
+from types import FrameType
+from typing import Any
+
+import rclpy
+from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+
+from rosbeat.errors import SessionError
+from rosbeat.ros.console import note
+from rosbeat.ros.context import show_briefly
+from rosbeat.ros.entities import NodeState
+from rosbeat.ros.recording import watcher_of
+
+#: Seconds between two looks at whether the learner pressed Interrupt.
+PULSE = 0.1
+
+
+def install() -> None:
+    """Put this module's functions in the places of rclpy's; a second call does nothing."""
+    if hasattr(rclpy.spin, "__wrapped__"):
+        return
+    rclpy.spin = _spin(rclpy.spin)
+    rclpy.spin_once = _spin_once(rclpy.spin_once)
+    rclpy.spin_until_future_complete = _spin_until(rclpy.spin_until_future_complete)
+    Executor.spin = _executor_spin(Executor.spin)
+    Executor.spin_until_future_complete = _executor_until(Executor.spin_until_future_complete)
+    for kind in (SingleThreadedExecutor, MultiThreadedExecutor):
+        kind.spin_once = _executor_once(kind.spin_once)
+
+
+# `rclpy.spin(node)` and its kin.
+
+
+def _spin(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def spin(node: Node, executor: Executor | None = None) -> None:
+        world: Any = watcher_of(node)
+        if world is None:
+            _spin_until_interrupt(node, executor or _executor_for(node))
+        elif _plays_program(world):
+            _play(world, executor, [world.state_of(node)])
+        else:
+            _spin_in_session(world, node)
+
+    return spin
+
+
+def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def spin_once(
+        node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
+    ) -> None:
+        world: Any = watcher_of(node)
+        if world is None:
+            wait = PULSE if timeout_sec is None else timeout_sec
+            original(node, executor=executor, timeout_sec=wait)
+        elif _is_simulated(world):
+            world.virtual.spin(_spun_with(world, node), world.virtual.after(timeout_sec), most=1)
+        else:
+            raise SessionError(
+                "rclpy.spin_once was called for a node of a session.",
+                "The session runs this node's callbacks itself.",
+                "Use `ros.run(seconds=1)`, or any other number of seconds.",
+            )
+
+    return spin_once
+
+
+def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def spin_until_future_complete(
+        node: Node,
+        future: Future,
+        executor: Executor | None = None,
+        timeout_sec: float | None = None,
+    ) -> None:
+        world: Any = watcher_of(node)
+        if world is None:
+            original(node, future, executor, timeout_sec)
+        elif _is_simulated(world):
+            _play_until(world, _spun_with(world, node), future, timeout_sec)
+        else:
+            world.refuse_in_callback("rclpy.spin_until_future_complete")
+            world.spin_node(world.state_of(node))
+            if world.live is not None:
+                world.live.wait_for(future, timeout_sec)
+            else:
+                world.wait_until(lambda: future.done() or future.cancelled(), timeout_sec)
+
+    return spin_until_future_complete
+
+
+# Executors that a program makes itself.
+
+
+def _executor_spin(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def spin(executor: Executor) -> None:
+        world = _world_of(executor)
+        if world is None:
+            original(executor)
+        else:
+            _play(world, executor, _states(world, executor))
+
+    return spin
+
+
+def _executor_once(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def spin_once(executor: Executor, timeout_sec: float | None = None) -> None:
+        world = _world_of(executor)
+        if world is None:
+            original(executor, timeout_sec)
+            return
+        nodes = executor.get_nodes()
+        world.virtual.spin(_states(world, executor), world.virtual.after(timeout_sec), most=1)
+        _give_back(nodes, executor)
+
+    return spin_once
+
+
+def _executor_until(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def spin_until_future_complete(
+        executor: Executor, future: Future, timeout_sec: float | None = None
+    ) -> None:
+        world = _world_of(executor)
+        if world is None:
+            original(executor, future, timeout_sec)
+            return
+        nodes = executor.get_nodes()
+        _play_until(world, _states(world, executor), future, timeout_sec)
+        _give_back(nodes, executor)
+
+    return spin_until_future_complete
+
+
+def _world_of(executor: Executor) -> Any:  # noqa: ANN401 - World imports this room
+    """Return the session in whose code an executor spins, or None."""
+    world = getattr(executor.context, "watcher", None)
+    return world if world is not None and _is_simulated(world) else None
+
+
+def _states(world: Any, executor: Executor) -> list[NodeState]:  # noqa: ANN401
+    found = [world.state_of(node) for node in executor.get_nodes()]
+    return sorted((one for one in found if one is not None), key=lambda one: one.number)
+
+
+def _give_back(nodes: list[Node], executor: Executor) -> None:
+    """Let nodes be a program's executor's again; while they spun they were the session's."""
+    for node in nodes:
+        if node.executor is not executor and watcher_of(node) is not None:
+            node.executor = executor
+
+
+# In virtual time.
+
+
+def _is_simulated(world: Any) -> bool:  # noqa: ANN401
+    return world.live is None and bool(world.virtual.in_callback)
+
+
+def _plays_program(world: Any) -> bool:  # noqa: ANN401
+    return _is_simulated(world) and world.virtual.current.process.program is not None
+
+
+def _play(world: Any, executor: Executor | None, states: list[NodeState]) -> None:  # noqa: ANN401
+    """Spin until the program's context is shut down, as `spin` of a process does."""
+    process = world.virtual.current.process
+    before = process.threads
+    if isinstance(executor, MultiThreadedExecutor):
+        process.threads = executor._executor._max_workers
+    try:
+        while rclpy.ok():
+            world.virtual.spin(states)
+    finally:
+        process.threads = before
+
+
+def _play_until(
+    world: Any,  # noqa: ANN401
+    states: list[NodeState],
+    future: Future,
+    timeout_sec: float | None,
+) -> None:
+    until = world.virtual.after(timeout_sec)
+    client = next((one for state in states for one in _clients(state) if _asked(one, future)), None)
+    world.virtual.spin(
+        states, until, lambda: future.done() or future.cancelled(), needs=client
+    )
+
+
+def _clients(state: NodeState) -> list[Any]:
+    return list(state.node.clients) if state.node is not None else []
+
+
+def _asked(client: Any, future: Future) -> bool:  # noqa: ANN401
+    return any(one is future for one in client._pending_requests.values())
+
+
+def _spun_with(world: Any, node: Node) -> list[NodeState]:  # noqa: ANN401
+    """Return the nodes that the global executor of a process has, with one that is added to it."""
+    state, process = world.state_of(node), world.virtual.current.process
+    alone = len(process.states) == 1 or process.program is not None
+    others = [one for one in process.states if one.spinning and one is not state] if alone else []
+    return [state, *others]
+
+
+# In a cell.
+
+
+def _executor_for(node: Node) -> Executor:
+    if node.context is rclpy.get_default_context():
+        return rclpy.get_global_executor()
+    # While a session is open its context is the default, which is not the node's.
+    return SingleThreadedExecutor(context=node.context)
+
+
+def _spin_until_interrupt(node: Node, executor: Executor) -> None:
+    try:
+        executor.add_node(node)
+        while executor.context.ok():
+            executor.spin_once(timeout_sec=PULSE)
+    except KeyboardInterrupt as interrupt:
+        show_briefly(interrupt, f"{node.get_name()} has stopped spinning.")
+        raise
+    finally:
+        executor.remove_node(node)
+
+
+def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401
+    """Run the session's nodes against the wall clock until Interrupt."""
+    world.refuse_in_callback("rclpy.spin")
+    _refuse_in_constructor(node)
+    state = world.state_of(node)
+    world.spin_node(state)
+    was_live = world.live is not None
+    if not was_live:
+        world.go_live()
+    note(f"{state.name} spins in real time until you interrupt the cell.")
+    pulse = threading.Event()  # nobody sets it: it is a sleep that Interrupt ends at once
+    try:
+        while world.live is not None and not state.ended:
+            world.show_news()
+            pulse.wait(PULSE / 2)
+    except KeyboardInterrupt as interrupt:
+        show_briefly(interrupt, f"{state.name} has stopped spinning; the session goes on.")
+        world.hurry()
+        raise
+    finally:
+        if not was_live:
+            world.go_virtual()
+        world.show_news()
+
+
+def _refuse_in_constructor(node: Node) -> None:
+    """Refuse to spin a node while it is being made: it would never be there.
+
+    Raises:
+        SessionError: If the node's own `__init__` is running.
+    """
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None:
+        code = frame.f_code
+        if code.co_name == "__init__" and frame.f_locals.get(code.co_varnames[0]) is node:
+            raise SessionError(
+                "`rclpy.spin` was called from inside the constructor.",
+                "It does not return while the node runs, so the constructor does not end either, "
+                "on a real robot too.",
+                "Whoever makes the node spins it, when it is ready. In a session: `ros.run(10)`.",
+            )
+        frame = frame.f_back
