@@ -12,7 +12,8 @@ from rosbeat.record_json import parse, record, write
 from rosbeat.records import Observation
 
 FORMAT = "rosbeat observation"
-#: Raised by one whenever a field is added, taken away or given another meaning.
+#: Raised by one whenever a field is added, taken away or given another meaning; not for a field
+#: that is omitted while it is empty (`records.OMIT_EMPTY`).
 VERSION = 3
 
 

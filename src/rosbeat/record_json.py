@@ -3,6 +3,9 @@
 JSON (RFC 8259) has no infinity and no NaN, so such a number is written as `{"$float": "nan"}`; no
 ROS field can be called `$float`. Long tuples of records may be written by columns,
 `{"$columns": {...}}`, which is a tenth of the work.
+
+A field with the metadata `records.OMIT_EMPTY` is omitted while it is empty, and may be missing when
+a record is read.
 """
 
 from __future__ import annotations
@@ -25,6 +28,8 @@ _FLOAT, _COLUMNS = "$float", "$columns"
 #: From how many records on a tuple is written by columns.
 _MANY = 32
 _SIMPLE = {int, str, bool, NoneType}
+#: The key in a field's metadata that says so; see `records.OMIT_EMPTY`.
+_OMIT_EMPTY = "omit_empty"
 _ODD_FLOATS = {"nan": float("nan"), "inf": float("inf"), "-inf": float("-inf")}
 
 
@@ -49,11 +54,23 @@ def write(
     return json.dumps(document, sort_keys=sort_keys, allow_nan=False, separators=(",", ":"))
 
 
+@cache
+def _field_names(kind: Any) -> tuple[tuple[str, ...], frozenset[str]]:  # noqa: ANN401
+    """The names of all fields of a record, and of those that are omitted while empty."""
+    optional = (one.name for one in fields(kind) if one.metadata.get(_OMIT_EMPTY))
+    return tuple(one.name for one in fields(kind)), frozenset(optional)
+
+
 # A record, or anything that a message may hold.
 def _plain(value: Any, columns: bool = False) -> Any:  # noqa: ANN401
     if is_dataclass(value):
-        names = (field.name for field in fields(value))
-        return {name: _plain(getattr(value, name), columns) for name in names}
+        kind: Any = type(value)
+        every, optional = _field_names(kind)
+        return {
+            name: _plain(item, columns)
+            for name in every
+            if (item := getattr(value, name)) or name not in optional
+        }
     if isinstance(value, dict):
         return {name: _plain(item, columns) for name, item in value.items()}
     if isinstance(value, tuple | list):
@@ -67,11 +84,13 @@ def _plain(value: Any, columns: bool = False) -> Any:  # noqa: ANN401
 
 def _by_columns(values: Sequence[Any]) -> dict[str, Any] | None:
     """Records of one class by their fields; None if they are of several classes."""
-    kinds = set(map(type, values))
+    kinds: set[Any] = set(map(type, values))
     if len(kinds) != 1:
         return None
-    names = [field.name for field in fields(values[0])]
-    return {_COLUMNS: {name: _column(list(map(attrgetter(name), values))) for name in names}}
+    every, optional = _field_names(*kinds)
+    columns = {name: list(map(attrgetter(name), values)) for name in every}
+    kept = {name: column for name, column in columns.items() if name not in optional or any(column)}
+    return {_COLUMNS: {name: _column(column) for name, column in kept.items()}}
 
 
 def _column(values: list[Any], nests: bool = True) -> Any:  # noqa: ANN401 - columns again, or not
@@ -138,7 +157,8 @@ def record(kind: Any, value: Any, path: str) -> Any:  # noqa: ANN401 - a datacla
         path: What it is called in an error.
 
     Raises:
-        RecordError: If any field is missing, unknown or of another type.
+        RecordError: If any field is missing, unknown or of another type; one that is left out while
+            it is empty may be missing.
     """
     try:
         return _reader(kind)(value)
@@ -177,18 +197,23 @@ def _reader(kind: Any) -> Read:  # noqa: ANN401
 
 def _record_reader(kind: Any) -> Read:  # noqa: ANN401
     hints = get_type_hints(kind)
-    names = [field.name for field in fields(kind)]
+    names, optional = _field_names(kind)
     wanted, known = ", ".join(names), set(names)
-    readers = [(name, _field_reader(name, hints[name])) for name in names]
+    required = known - optional
+    readers = [(name, _field_reader(name, hints[name])) for name in names if name in required]
+    others = [(name, _field_reader(name, hints[name])) for name in names if name in optional]
 
     def read(value: Any) -> Any:  # noqa: ANN401
-        if type(value) is not dict or value.keys() != known:
+        if type(value) is not dict or not required <= value.keys() <= known:
             found = ", ".join(value) if isinstance(value, dict) else type(value).__name__
             raise _WrongError("is not as it should be.", f"Wanted {wanted}: {found}.")
         made = {}
         try:
             for name, reader in readers:
                 made[name] = reader(value[name])
+            for name, reader in others:
+                if name in value:
+                    made[name] = reader(value[name])
         except _WrongError as wrong:
             wrong.path.append(f".{name}")
             raise
@@ -248,25 +273,33 @@ def _tuple_reader(kinds: tuple[Any, ...]) -> Read:
 
 def _columns_reader(kind: Any) -> Read:  # noqa: ANN401
     hints = get_type_hints(kind)
-    names = [field.name for field in fields(kind)]
+    names, optional = _field_names(kind)
     readers = {name: _column_reader(name, hints[name]) for name in names}
+    empty = {one.name: [one.default] for one in fields(kind) if one.name in optional}
 
     def read(value: dict[str, Any]) -> Any:  # noqa: ANN401
-        columns = _columns(value, names)
-        made = [_in(f".{name}", readers[name], columns[name]) for name in names]
-        if len(set(map(len, made))) != 1:
+        columns = _columns(value, names, optional)
+        found = (name for name in names if name in columns)
+        made = {name: _in(f".{name}", readers[name], columns[name]) for name in found}
+        lengths = set(map(len, made.values()))
+        if len(lengths) != 1:
             raise _WrongError("has columns of several lengths.", "They should be equally long.")
-        return tuple(records_of(kind, *made))
+        (count,) = lengths
+        made |= {name: one * count for name, one in empty.items() if name not in made}
+        return tuple(records_of(kind, *map(made.__getitem__, names)))
 
     return read
 
 
-def _columns(value: dict[str, Any], names: Sequence[str]) -> dict[str, Any]:
+def _columns(
+    value: dict[str, Any], names: Sequence[str], optional: frozenset[str] = frozenset()
+) -> dict[str, Any]:
     found = value.get(_COLUMNS)
-    if len(value) != 1 or type(found) is not dict or (names and found.keys() != set(names)):
-        said = f"Wanted {', '.join(names)}." if names else "Wanted columns."
-        raise _WrongError("is not as it should be.", said)
-    return found
+    is_complete = not names or (type(found) is dict and found.keys() | optional == set(names))
+    if len(value) == 1 and type(found) is dict and is_complete:
+        return found
+    said = f"Wanted {', '.join(names)}." if names else "Wanted columns."
+    raise _WrongError("is not as it should be.", said)
 
 
 def _column_reader(name: str, kind: Any) -> Callable[[Any], list[Any]]:  # noqa: ANN401

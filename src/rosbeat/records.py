@@ -12,10 +12,14 @@ property `time` gives the same in seconds. Names of nodes and topics are fully q
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 NANOSECONDS = 1_000_000_000
+
+#: Metadata of a field that JSON omits while it is empty. A field that is added later has it, so
+#: that older files can still be read and digests stay the same.
+OMIT_EMPTY = {"omit_empty": True}
 
 #: Topics that every node brings along; pictures and lists leave them out unless asked.
 INFRASTRUCTURE_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
@@ -94,7 +98,7 @@ class CallbackRecord(Timed):
     """One run of a callback.
 
     Attributes:
-        time_ns: When it began, in nanoseconds of virtual time. It takes none, unless it sleeps.
+        time_ns: When it began, in nanoseconds of virtual time. It takes none, unless it waits.
         node: Full name of the node whose callback it was.
         kind: `timer`, `subscription`, `service`, `client`, `action server`, `action client`,
             `event`, `guard condition`, `waitable` or `task`; or `expired`, for a subscription's
@@ -109,6 +113,25 @@ class CallbackRecord(Timed):
     kind: str
     name: str
     source: str
+
+
+@dataclass(frozen=True, slots=True)
+class WaitRecord(Timed):
+    """One wait of a callback, in which virtual time passed.
+
+    Attributes:
+        time_ns: When the wait began, in nanoseconds of virtual time.
+        until_ns: When it ended; the end of the observation if it still lasts.
+        node: Full name of the node whose callback waited.
+        callback: The callback function's name, as in its `CallbackRecord`.
+        reason: `sleep`, or what it waited for, such as `an answer from /add`.
+    """
+
+    time_ns: int
+    until_ns: int
+    node: str
+    callback: str
+    reason: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,11 +233,14 @@ class GraphSnapshot:
             session has joined their domain, sorted.
         endpoints: Their endpoints, in the same order, those that every node has included.
         timers: Their timers, in order of creation.
+        processes: For each process with more than one node, the full names of its nodes, in order
+            of creation. Every node that is not named here has a process of its own.
     """
 
     nodes: tuple[str, ...] = ()
     endpoints: tuple[Endpoint, ...] = ()
     timers: tuple[TimerRecord, ...] = ()
+    processes: tuple[tuple[str, ...], ...] = field(default=(), metadata=OMIT_EMPTY)
 
     def topics(self, infrastructure: bool = False) -> tuple[str, ...]:
         """Names of the topics, sorted; with `infrastructure` also what nodes and actions bring."""
@@ -261,6 +287,7 @@ class Observation(Timed):
         subject: Full name of the node that was looked at, among others; empty if there was none.
         printed: How many characters it printed.
         replies: What the steps of a scenario got that ask for something, in order.
+        waits: Every wait of a callback, in the order in which they began.
     """
 
     time_ns: int
@@ -273,6 +300,7 @@ class Observation(Timed):
     subject: str = ""
     printed: int = 0
     replies: tuple[Reply, ...] = ()
+    waits: tuple[WaitRecord, ...] = field(default=(), metadata=OMIT_EMPTY)
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from rosbeat.records import (
     QoS,
     Sample,
     TimerRecord,
+    WaitRecord,
 )
 
 TIMES = st.integers(0, 2**63)
@@ -42,6 +43,7 @@ GRAPHS = st.builds(
     st.lists(TEXTS, max_size=2).map(tuple),
     several(Endpoint, TEXTS, TEXTS, TEXTS, TEXTS, st.builds(QoS), st.integers(-1, 9)),
     several(TimerRecord, TEXTS, TEXTS, TIMES, st.integers(0, 9)),
+    st.lists(st.lists(TEXTS, max_size=3).map(tuple), max_size=2).map(tuple),
 )
 OBSERVATIONS = st.builds(
     Observation,
@@ -52,6 +54,7 @@ OBSERVATIONS = st.builds(
     several(CallbackRecord, TIMES, TEXTS, TEXTS, TEXTS, TEXTS),
     several(Fault, TIMES, TEXTS, TEXTS, TEXTS, TEXTS, st.integers(0, 999), TEXTS),
     GRAPHS,
+    waits=several(WaitRecord, TIMES, TIMES, TEXTS, TEXTS, TEXTS),
 )
 ONE = Observation(5, 7, (Sample(1, "/t", "std_msgs/msg/Float32", "/n", {"data": 1.5}),))
 
@@ -128,3 +131,24 @@ def test_anything_else_is_refused(text):
 def test_the_format_is_named():
     document = json.loads(to_json(ONE))
     assert (document["format"], document["version"]) == (FORMAT, VERSION)
+
+
+def test_waits_and_processes_are_omitted_while_they_are_empty():
+    document = json.loads(to_json(ONE))
+    assert "waits" not in document
+    assert "processes" not in document["graph"]
+    # The digest from before the two fields were added.
+    assert digest(ONE) == "b2c4b6795fbd7f6584b13191b862d47cdb3b59072ee24b4cbce3cba993c01609"
+
+
+def test_waits_and_processes_are_written_and_read():
+    graph = GraphSnapshot(("/a", "/b"), processes=(("/a", "/b"),))
+    seen = replace(ONE, graph=graph, waits=(WaitRecord(1, 3, "/a", "read", "sleep"),))
+    assert from_json(to_json(seen)) == seen
+    assert digest(seen) != digest(ONE)
+
+
+@pytest.mark.parametrize("waits", [None, {}, [5], [{"time_ns": 1}]])
+def test_wrong_waits_are_refused(waits):
+    with pytest.raises(RecordError):
+        from_json(changed(waits=waits))

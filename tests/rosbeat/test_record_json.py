@@ -1,5 +1,5 @@
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf, nan
 from typing import Any
 
@@ -7,6 +7,7 @@ import pytest
 
 from rosbeat.errors import RecordError
 from rosbeat.record_json import parse, record, write
+from rosbeat.records import OMIT_EMPTY
 
 HEAD = {"format": "a test", "version": 1}
 
@@ -120,3 +121,43 @@ def test_columns_of_messages_are_checked(data):
     document["messages"]["$columns"]["data"] = data
     with pytest.raises(RecordError):
         record(Many, parse(json.dumps(document), "test", "a test", 1), "test")
+
+
+@dataclass(frozen=True)
+class Grown:
+    """A record to which a field has been added."""
+
+    time_ns: int
+    added: tuple[str, ...] = field(default=(), metadata=OMIT_EMPTY)
+
+
+@dataclass(frozen=True)
+class AllGrown:
+    rows: tuple[Grown, ...]
+
+
+@pytest.mark.parametrize("columns", [True, False])
+@pytest.mark.parametrize("with_added", [0, 1, 50])
+def test_an_added_field_is_omitted_while_it_is_empty(columns, with_added):
+    rows = tuple(Grown(n, ("new",) if n < with_added else ()) for n in range(50))
+    again, text = there_and_back(AllGrown(rows), columns)
+    assert again == AllGrown(rows)
+    assert text.count("added") == (min(with_added, 1) if columns else with_added)
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        [{}],
+        [{"time_ns": 1, "added": [], "other": 1}],
+        [{"time_ns": 1, "added": None}],
+        {"$columns": {}},
+        {"$columns": {"added": [[]]}},
+        {"$columns": {"time_ns": 5}},
+        {"$columns": {"time_ns": [1], "other": [1]}},
+        {"$columns": {"time_ns": [1, 2], "added": [[]]}},
+    ],
+)
+def test_a_record_with_an_added_field_is_checked_as_before(rows):
+    with pytest.raises(RecordError):
+        record(AllGrown, {"rows": rows}, "test")

@@ -20,7 +20,8 @@ from rosbeat.scenarios.reports import Report
 from rosbeat.scenarios.system_run import SystemRun
 
 FORMAT = "rosbeat evidence"
-#: Raised by one whenever a field is added, taken away or given another meaning.
+#: Raised by one whenever a field is added, taken away or given another meaning; not for a field
+#: that is omitted while it is empty (`records.OMIT_EMPTY`).
 VERSION = 4
 KINDS: dict[str, type] = {
     kind.__name__: kind
