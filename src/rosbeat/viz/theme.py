@@ -37,6 +37,10 @@ GREEN = "#008C66"
 VERMILLION = "#D55E00"
 PURPLE = "#A34C80"
 
+#: A frame around the nodes of one process.
+FRAME = "#74808D"
+FRAME_FILL = "#F0F3F5"
+
 #: Shapes of the graph: pale inside, so that the name on them stays readable.
 NODE_FILL = "#DDEBF6"
 NODE_FILL_STRONG = "#B5D6EF"

@@ -46,8 +46,8 @@ WHITE = np.array([0.95047, 1.0, 1.08883])
 
 TEXT_ON = {
     theme.INK: (theme.CARD, theme.NODE_FILL, theme.NODE_FILL_STRONG, theme.TOPIC_FILL,
-                theme.TOPIC_FILL_STRONG),
-    theme.MUTED: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG),
+                theme.TOPIC_FILL_STRONG, theme.FRAME_FILL),
+    theme.MUTED: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG, theme.FRAME_FILL),
     theme.ALERT_TEXT: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG),
     theme.TAKEN_TEXT: (theme.CARD,),
 }  # fmt: skip
@@ -100,7 +100,13 @@ def test_text_has_a_contrast_of_at_least_4_5(text, grounds):
     } == {}
 
 
-@pytest.mark.parametrize("ground", [theme.CARD, *theme.BANDS])
+@pytest.mark.parametrize("ground", [theme.CARD, theme.FRAME_FILL])
+@pytest.mark.parametrize("line", [theme.FRAME, theme.BLUE, theme.TOPIC_EDGE, theme.ALERT])
+def test_outlines_have_a_contrast_of_at_least_3(line, ground):
+    assert contrast(line, ground) >= 3
+
+
+@pytest.mark.parametrize("ground", [theme.CARD, theme.FRAME_FILL, *theme.BANDS])
 def test_lines_have_a_contrast_of_at_least_3(ground):
     assert all(contrast(look.colour, ground) >= 3 for look in theme.STYLES)
 
