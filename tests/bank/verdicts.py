@@ -10,7 +10,7 @@ from bank.running import outcome_of
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import Outcome
-from rosbeat.runtime.scenario import observe
+from rosbeat.ros.scenario import observe
 
 #: Of the answers with one mistake, how many have to be told its name.
 SHARE_NAMED = 0.95

@@ -12,7 +12,7 @@ def main(options):
     # Only now, for it starts threads.
     from rosbeat.grading import worker
     from rosbeat.grading.sandbox.limits import MB, Limits
-    from rosbeat.runtime import scenario
+    from rosbeat.ros import scenario
 
     worker.WALL = 4.0
     # To use up a whole gigabyte takes a busy machine seconds; an answer needs less than 50 MB.

@@ -33,7 +33,7 @@ DEEDS = (
         "import rosbeat.exercises.registry\nrosbeat.exercises.registry.EXERCISES = {}", WRONG),
         words="imports rosbeat", alone="There is no module"),
     Deed("rosbeat's recorder", before(
-        "from rosbeat.runtime.recorder import Recorder\nRecorder.samples = None", WRONG),
+        "from rosbeat.ros.recording import Recorder\nRecorder.samples = None", WRONG),
         words="imports rosbeat", alone="immutable"),
     Deed("rosbeat's evidence", before(
         "import rosbeat.scenarios.evidence as e\ne.to_json = lambda seen: '{}'", WRONG),

@@ -1,42 +1,5 @@
 """Each test owns its sessions."""
 
-import time
-from collections.abc import Callable, Iterator
+from session_fixtures import eventually, ros, says
 
-import pytest
-
-from rosbeat import Session
-from rosbeat.errors import RosbeatError
-
-
-@pytest.fixture
-def ros() -> Iterator[Session]:
-    with Session(seed=1) as session:
-        yield session
-
-
-@pytest.fixture
-def eventually() -> Callable[[Callable[[], object], float], None]:
-    """Wait until a predicate is true; fail when the deadline comes first."""
-
-    def wait(predicate: Callable[[], object], seconds: float = 10.0) -> None:
-        deadline = time.monotonic() + seconds
-        while not predicate():
-            assert time.monotonic() < deadline, "the deadline came first"
-            time.sleep(0.005)
-
-    return wait
-
-
-@pytest.fixture
-def says() -> Callable[[RosbeatError, str], None]:
-    """Check that an error has its three parts, and a text in one of them."""
-
-    def check(error: RosbeatError, *texts: str) -> None:
-        assert error.what
-        assert error.means
-        assert error.to_try
-        for text in texts:
-            assert text in str(error)
-
-    return check
+__all__ = ["eventually", "ros", "says"]

@@ -57,7 +57,7 @@ def test_a_session_gives_its_id_back():
 def test_a_session_that_finds_none_leaves_nothing(monkeypatch, says):
     import rclpy.utilities
 
-    monkeypatch.setattr("rosbeat.runtime.world.lease_domain", lambda: lease_domain(range(0)))
+    monkeypatch.setattr("rosbeat.ros.world.lease_domain", lambda: lease_domain(range(0)))
     before = rclpy.utilities.g_default_context
     with pytest.raises(DomainsExhaustedError) as caught:
         Session()

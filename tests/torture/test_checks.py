@@ -19,7 +19,7 @@ PRELUDE = """
 import builtins, os, sys, threading, time
 from rclpy import spin  # before rosbeat puts its own in its place
 from rosbeat import check
-from rosbeat.runtime import scenario
+from rosbeat.ros import scenario
 import nasty
 
 alive = [True]

@@ -13,7 +13,7 @@ from rosbeat.bags.sources import Run, chosen, full_name, observed, types_of
 from rosbeat.bags.types import installed_types
 from rosbeat.bags.writing import wires
 from rosbeat.records import Observation, QoS, Sample
-from rosbeat.runtime.replaying import NodeFactory, Outlet, Turn, player
+from rosbeat.ros.playback import NodeFactory, Outlet, Turn, player
 
 
 def replay(

@@ -10,7 +10,7 @@ from std_msgs.msg import Float32, String
 
 from rosbeat.clinic.plans import DIARY, DISPLAY, GUARD, OVER, SENSOR, STEP, TEACHER, Orders, Part
 from rosbeat.records import QoS
-from rosbeat.runtime.feeding import profile
+from rosbeat.ros.test_nodes import profile
 
 #: From degrees Celsius.
 _UNITS: dict[str, Callable[[float], float]] = {

@@ -41,9 +41,9 @@ def beside_the_greenhouse(said: Report) -> GreenhouseFindings:
 def _watched() -> tuple[Observation, dict[str, Any]]:
     """Run the greenhouse once: it is the same each time."""
     # Here, so that judges can be imported where ROS is not installed.
-    from rosbeat.runtime import stranger
+    from rosbeat.ros import test_nodes
 
-    return stranger.watched()
+    return test_nodes.watched()
 
 
 def full(name: str) -> str:

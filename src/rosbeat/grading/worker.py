@@ -36,8 +36,7 @@ from rosbeat.grading.sandbox.sandboxes import Sandboxes
 from rosbeat.grading.sandbox.unsafe import Bare
 from rosbeat.grading.workspaces import read_workspace
 from rosbeat.records import Observation
-from rosbeat.runtime.message_classes import mend_message_classes
-from rosbeat.runtime.type_support import load_type_support
+from rosbeat.ros.recording import load_type_support, mend_message_classes
 from rosbeat.scenarios import registry
 from rosbeat.scenarios.evidence import from_json
 
@@ -48,7 +47,7 @@ _PREPARED = (
     *("rclpy", "rclpy.node", "rclpy.qos", "rclpy.executors", "rclpy.action"),
     *("numpy", "numpy.random"),
     *("std_msgs.msg", "std_srvs.srv", "sensor_msgs.msg", "rcl_interfaces.msg", "test_msgs.action"),
-    *("rosbeat.runtime.scenario", "rosbeat.runtime.drift", "rosbeat.runtime.systems"),
+    *("rosbeat.ros.scenario", "rosbeat.ros.test_nodes"),
 )
 #: Types of messages that answers use, and of the services and topics that every node has.
 _TYPES = (

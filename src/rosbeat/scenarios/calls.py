@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from rosbeat.runtime.guard import within
+from rosbeat.ros.isolation import within
 
 
 @dataclass(frozen=True)

@@ -47,8 +47,8 @@ def heat(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands
     Args:
         answer: What should be a node class.
     """
-    from rosbeat.runtime.room import room
-    from rosbeat.runtime.steps import SendGoal
+    from rosbeat.ros.scenario import SendGoal
+    from rosbeat.ros.test_nodes import room
 
     steps = [
         SendGoal(

@@ -25,7 +25,7 @@ READINGS = (
 
 
 def _tune(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
-    from rosbeat.runtime.steps import SetParameter
+    from rosbeat.ros.scenario import SetParameter
 
     sensor = feeder("temperature_sensor", TEMPERATURE, FLOAT, READINGS)
     steps = [
@@ -80,7 +80,7 @@ LINES = (
 
 
 def _log(answer: Any) -> Observation:  # noqa: ANN401
-    from rosbeat.runtime.steps import Publish
+    from rosbeat.ros.scenario import Publish
 
     steps = [
         Publish(

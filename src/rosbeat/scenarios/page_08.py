@@ -51,7 +51,7 @@ _END_OF_COMMANDS = 30.0
 
 
 def _keep(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
-    from rosbeat.runtime.steps import Add, Publish
+    from rosbeat.ros.scenario import Add, Publish
 
     steps = [Publish(at, topic=COMMAND, type_name=STRING, values=(word,)) for at, word in COMMANDS]
     late = [Add(one.joins, make=_display(one)) for one in DISPLAYS if one.joins]
@@ -77,7 +77,7 @@ _AWAY = (5.5, 13.5)
 
 
 def _archive(answer: Any) -> Observation:  # noqa: ANN401
-    from rosbeat.runtime.steps import Pause, Resume
+    from rosbeat.ros.scenario import Pause, Resume
 
     sensors = [
         feeder(name.strip("/"), READING, FLOAT, values, qos=_QUALITIES[name])
@@ -98,7 +98,7 @@ _END_OF_SILENCE = 25.0
 
 
 def _watch(answer: Any) -> Observation:  # noqa: ANN401
-    from rosbeat.runtime.steps import Publish
+    from rosbeat.ros.scenario import Publish
 
     qos = QoS(deadline_ns=round(LIMIT * NANOSECONDS))
     steps = [Publish(at, topic=TEMPERATURE, values=(21.5,), qos=qos) for at in TIMES]

@@ -19,7 +19,7 @@ READINGS = (5.25, 6.25, 7.25, 10.0, 11.0, 12.0, 20.0, 21.0, 23.5, 31.0, 32.0, 34
 
 
 def _silenced(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
-    from rosbeat.runtime.steps import Publish
+    from rosbeat.ros.scenario import Publish
 
     steps = [Publish(at, topic=TEMPERATURE, type_name=FLOAT, values=(22.0,)) for at in READINGS]
     return observe(answer, READINGS[-1] + 2, steps=steps)
@@ -34,7 +34,7 @@ _WATCHED = 29.0
 
 
 def _ordered(answer: Any) -> Observation:  # noqa: ANN401
-    from rosbeat.runtime.steps import Publish
+    from rosbeat.ros.scenario import Publish
 
     steps = [Publish(at, topic=ORDER, type_name=INT, values=(number,)) for at, number in ORDERS]
     return observe(answer, _WATCHED, steps=steps)

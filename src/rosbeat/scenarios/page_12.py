@@ -75,7 +75,7 @@ def _asked(answer: Any, requests: Sequence[Request], step: Callable[..., Any]) -
 
 
 def _by_service(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
-    from rosbeat.runtime.steps import Call
+    from rosbeat.ros.scenario import Call
 
     def call(at: float, values: dict[str, float]) -> Call:
         name = SERVICE.strip("/")
@@ -85,7 +85,7 @@ def _by_service(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learne
 
 
 def _by_parameter(answer: Any) -> Observation:  # noqa: ANN401
-    from rosbeat.runtime.steps import SetParameters
+    from rosbeat.ros.scenario import SetParameters
 
     return _asked(answer, BY_PARAMETER, lambda at, values: SetParameters(at, values=values))
 

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 from typing import Any
 
-from rosbeat.runtime.guard import within
+from rosbeat.ros.isolation import within
 
 #: Seconds of wall time that the function may take.
 SECONDS = 2.0

@@ -1,4 +1,4 @@
-"""What `runtime` runs answers with, imported when the first one runs.
+"""What `ros` runs answers with, imported when the first one runs.
 
 So scenarios can be imported, and their evidence judged, where ROS is not installed, and a page that
 only shows hints need not wait for it.
@@ -16,8 +16,8 @@ Node = Any
 
 
 def observe(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
-    """Run an answer in virtual time; see `rosbeat.runtime.scenario.observe`."""
-    from rosbeat.runtime import scenario
+    """Run an answer in virtual time; see `rosbeat.ros.scenario.observe`."""
+    from rosbeat.ros import scenario
 
     return scenario.observe(answer, seconds, **options)
 
@@ -29,57 +29,57 @@ def feeder(
     values: Iterable[Any],
     **options: Any,  # noqa: ANN401
 ) -> Callable[[], Node]:
-    """A node that publishes one value a second; see `rosbeat.runtime.scenario.feeder`."""
-    from rosbeat.runtime import scenario
+    """A node that publishes one value a second; see `rosbeat.ros.scenario.feeder`."""
+    from rosbeat.ros import scenario
 
     return scenario.feeder(name, topic, type_name, values, **options)
 
 
 def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
-    """A node that logs what it hears; see `rosbeat.runtime.hearing.hearer`."""
-    from rosbeat.runtime import hearing
+    """A node that logs what it hears; see `rosbeat.ros.test_nodes.hearer`."""
+    from rosbeat.ros import test_nodes
 
-    return hearing.hearer(name, topic, type_name, qos)
+    return test_nodes.hearer(name, topic, type_name, qos)
 
 
 def started(make: Any, **start: Any) -> Any:  # noqa: ANN401
     """A node to run beside an answer, started like `Session.add(make, **start)`."""
-    from rosbeat.runtime import launch
+    from rosbeat.ros import launch
 
     names = ("name", "namespace", "remappings", "parameters")
     return launch.Maker(make, launch.checked(*(start.get(name) for name in names)))
 
 
 def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
-    """A node that tilts random numbers; see `rosbeat.runtime.drift.drift`."""
-    from rosbeat.runtime import drift as module
+    """A node that tilts random numbers; see `rosbeat.ros.test_nodes.drift`."""
+    from rosbeat.ros import test_nodes as module
 
     return module.drift(phases)
 
 
 def observe_system(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
-    """Run several nodes in virtual time; see `rosbeat.runtime.systems.observe_system`."""
-    from rosbeat.runtime import systems
+    """Run several nodes in virtual time; see `rosbeat.ros.scenario.observe_system`."""
+    from rosbeat.ros import scenario
 
-    return systems.observe_system(answer, seconds, **options)
+    return scenario.observe_system(answer, seconds, **options)
 
 
 def station(name: str, topic: str, readings: Iterable[float | None]) -> Callable[[], Node]:
-    """A sensor that may be silent for a while; see `rosbeat.runtime.weather.station`."""
-    from rosbeat.runtime import weather
+    """A sensor that may be silent for a while; see `rosbeat.ros.test_nodes.station`."""
+    from rosbeat.ros import test_nodes
 
-    return weather.station(name, topic, readings)
+    return test_nodes.station(name, topic, readings)
 
 
 def adding(at: float, make: Callable[[], Node]) -> Any:  # noqa: ANN401
     """A step that adds a node."""
-    from rosbeat.runtime.steps import Add
+    from rosbeat.ros.scenario import Add
 
     return Add(at, make=make)
 
 
 def removing(at: float, node: str) -> Any:  # noqa: ANN401
     """A step that destroys a node."""
-    from rosbeat.runtime.steps import Remove
+    from rosbeat.ros.scenario import Remove
 
     return Remove(at, node)

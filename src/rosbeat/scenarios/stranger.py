@@ -11,6 +11,6 @@ def greenhouse(session: Any) -> None:  # noqa: ANN401 - a Session, which is not 
     Args:
         session: The session.
     """
-    from rosbeat.runtime import stranger
+    from rosbeat.ros import test_nodes
 
-    stranger.settle(session)
+    test_nodes.settle(session)

@@ -15,8 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from rosbeat.records import Endpoint, ProgramRun
-from rosbeat.runtime.outpost import Outpost
-from rosbeat.runtime.programs import Program, private_domain, surroundings
+from rosbeat.ros.programs import Outpost, Program, private_domain, surroundings
 from rosbeat.scenarios.looking import CommandMeaning, look_at_workspace, meaning_of
 from rosbeat.scenarios.sources import Source, read_source
 from rosbeat.workspace.packages import Package

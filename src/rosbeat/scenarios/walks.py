@@ -1,6 +1,6 @@
 """Random walks between two limits, looked at until they have shown both of their ends.
 
-The walk is driven up, then down, and then left alone (see `runtime.drift`). So both limits are
+The walk is driven up, then down, and then left alone (see `ros.test_nodes`). So both limits are
 met, and a walk that is still beyond a limit when the drift has turned gives itself away: what is
 published was cut off, and what is kept was not. Numbers that the drift does not reach may wander
 for long before they meet a limit; then more readings are needed. That is decided here without

@@ -10,8 +10,8 @@ from rclpy.serialization import deserialize_message, serialize_message
 from any_message import ANY, STORE, TYPES
 from rosbeat.bags.plain import from_wire, to_wire
 from rosbeat.bags.writing import MISFITS
-from rosbeat.runtime.messages import plain
-from rosbeat.runtime.scenario import message_class
+from rosbeat.ros.recording import plain
+from rosbeat.ros.scenario import message_class
 
 pytestmark = pytest.mark.ros
 FLOAT, BYTES = "std_msgs/msg/Float32", "std_msgs/msg/ByteMultiArray"

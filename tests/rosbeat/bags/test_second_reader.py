@@ -16,8 +16,8 @@ from nodes import Talker
 from rosbeat import Session
 from rosbeat.bags import record
 from rosbeat.records import NANOSECONDS, Observation
-from rosbeat.runtime.messages import plain
-from rosbeat.runtime.scenario import message_class
+from rosbeat.ros.recording import plain
+from rosbeat.ros.scenario import message_class
 
 pytestmark = pytest.mark.ros
 

@@ -11,7 +11,7 @@ from broken_nodes import BROKEN, IMPORTS, UNKNOWN, sensor
 from rosbeat.checks.verdicts import before_judging
 from rosbeat.diagnosis.faults import diagnose_fault
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.runtime.scenario import feeder, observe
+from rosbeat.ros.scenario import feeder, observe
 
 pytestmark = pytest.mark.ros
 

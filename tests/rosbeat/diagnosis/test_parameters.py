@@ -5,8 +5,8 @@ from rclpy.node import Node
 
 from rosbeat.diagnosis.faults import diagnose_fault
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.runtime.launch import Launch
-from rosbeat.runtime.scenario import observe
+from rosbeat.ros.launch import Launch
+from rosbeat.ros.scenario import observe
 
 pytestmark = pytest.mark.ros
 

@@ -53,7 +53,7 @@ def test_rclpy_says_the_same():
     from rclpy.duration import Duration
     from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 
-    from rosbeat.runtime.introspection import qos_of
+    from rosbeat.ros.graph import qos_of
 
     profiles = [
         QoSProfile(

@@ -18,7 +18,7 @@ from rosbeat.records import (
     Sample,
     TimerRecord,
 )
-from rosbeat.runtime.scenario import feeder, observe
+from rosbeat.ros.scenario import feeder, observe
 
 FLOAT = "std_msgs/msg/Float32"
 WIRE = Wire("/temperature", FLOAT)

@@ -196,7 +196,7 @@ def test_what_is_prepared_is_all_that_an_answer_needs():
     program = (
         "from rosbeat.grading.worker import prepare\nprepare()\n"
         "import sys\nfrom rclpy.node import Node\nfrom std_msgs.msg import Float32\n"
-        "from rosbeat.runtime.scenario import observe\nknown = set(sys.modules)\n"
+        "from rosbeat.ros.scenario import observe\nknown = set(sys.modules)\n"
         "class Beat(Node):\n"
         "    def __init__(self):\n"
         "        super().__init__('beat')\n"

@@ -20,8 +20,8 @@ from pkgutil import walk_packages
 import rosbeat.scenarios
 for module in walk_packages(rosbeat.scenarios.__path__, "rosbeat.scenarios."):
     import_module(module.name)
-for module in ("scenario", "systems", "hearing", "weather", "drift", "steps", "launch"):
-    import_module(f"rosbeat.runtime.{module}")
+for module in ("scenario", "test_nodes", "launch"):
+    import_module(f"rosbeat.ros.{module}")
 print(*sorted(sys.modules))
 """
 

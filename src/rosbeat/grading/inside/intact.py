@@ -15,7 +15,7 @@ from operator import is_
 from types import FunctionType, ModuleType
 from typing import Any
 
-from rosbeat.runtime.words import PARTS, Words, words_of_bodies, words_of_changes
+from rosbeat.grading.inside.words import PARTS, Words, words_of_bodies, words_of_changes
 
 #: Packages in which nothing may be changed: they run, observe and write down. `typing` is none of
 #: them: it changes a few of its own functions the first time that they are used. Nor are message

@@ -28,7 +28,7 @@ def said(code):
      ("del Node.create_timer", "immutable type"),
      ("json.dumps = None", "cannot set 'dumps' of the module 'json'"),
      ("del json.dumps", "cannot delete 'dumps' of the module 'json'"),
-     ("from rosbeat.runtime.recorder import Recorder as R; R.samples = 1", "immutable type"),
+     ("from rosbeat.ros.recording import Recorder as R; R.samples = 1", "immutable type"),
      ("from contextlib import ExitStack as E; E.__exit__ = 1", "immutable type")],
 )  # fmt: skip
 def test_what_is_there_stays_as_it_is(code, words):

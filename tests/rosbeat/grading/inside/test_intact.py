@@ -10,7 +10,7 @@ from std_msgs.msg import Float32
 
 from rosbeat.grading.inside import intact
 from rosbeat.grading.inside.intact import census, differences
-from rosbeat.runtime import world
+from rosbeat.ros import world
 
 pytestmark = pytest.mark.ros
 
@@ -33,7 +33,7 @@ def test_nothing_has_changed_where_nothing_was_done():
         (random, "uniform", "random.uniform"),
         (Node, "create_timer", "rclpy.node.Node.create_timer"),
         (rclpy.node, "Node", "rclpy.node.Node"),
-        (world, "SeededRandom", "rosbeat.runtime.world.SeededRandom"),
+        (world, "SeededRandom", "rosbeat.ros.world.SeededRandom"),
         (intact, "differences", "rosbeat.grading.inside.intact.differences"),
     ],
 )

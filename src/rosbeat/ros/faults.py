@@ -1,0 +1,252 @@
+"""Exceptions: the learner's own line, the call of rclpy that failed, and a suggestion."""
+
+from __future__ import annotations
+
+import builtins
+import linecache
+import sysconfig
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from difflib import SequenceMatcher, get_close_matches
+from functools import partial
+from itertools import pairwise
+from pathlib import Path
+from traceback import walk_tb
+from types import BuiltinFunctionType, FrameType, FunctionType, MethodType, ModuleType
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+from rosbeat.diagnosis.callbacks import CALLED, is_argument
+from rosbeat.records import Fault
+
+# What Python itself would propose for a name that it does not know.
+#
+# A traceback in a terminal ends with `Did you mean: 'publisher_'?`. The exception's text has no
+# such end: Python adds it while it prints, and differently in each version.
+
+
+#: `logger` and `get_logger` are alike, `temperature` and `publish_temperature` are not.
+_LIKE = 0.75
+
+
+def suggestion(error: BaseException) -> str:
+    """The nearest name to one that does not exist, or an empty text.
+
+    Args:
+        error: An exception; only an AttributeError or a NameError has a suggestion.
+    """
+    name = getattr(error, "name", None)
+    if not isinstance(name, str) or not name.strip("_"):
+        return ""  # nothing, or a blank that was not filled in
+    if isinstance(error, AttributeError):
+        return _nearest(name, _attributes(error.obj)) or _same_verb(name, error.obj)
+    if isinstance(error, NameError) and not isinstance(error, UnboundLocalError):
+        return _nearest(name, _names(error, name))
+    return ""
+
+
+def _nearest(name: str, groups: Iterable[Iterable[str]]) -> str:
+    """The name that is most alike; of two that are equally so, that of the earlier group."""
+    best, likeness = "", _LIKE
+    for group in groups:
+        names = [one for one in group if isinstance(one, str) and not one.startswith("_")]
+        if name in names:
+            return f"self.{name}"
+        for near in get_close_matches(name, names, 1, likeness):
+            rated = SequenceMatcher(None, near, name).ratio()
+            best, likeness = (near, rated) if not best or rated > likeness else (best, likeness)
+    return best
+
+
+def _same_verb(name: str, owner: object) -> str:
+    """The only method of the learner's that begins alike: `publish_humidity` for `publish_x`."""
+    if not isinstance(owner, Node):
+        return ""
+    verb, _, rest = name.partition("_")
+    found = {
+        one
+        for kind in type.mro(type(owner))
+        if not kind.__module__.startswith("rclpy.")
+        for one, it in vars(kind).items()
+        if isinstance(it, FunctionType) and verb and rest and one.startswith(f"{verb}_")
+    }
+    return found.pop() if len(found) == 1 else ""
+
+
+def _attributes(owner: object) -> Iterator[Iterable[str]]:
+    """Names that an object has, its own before those of its classes."""
+    if not isinstance(owner, type):
+        yield list(getattr(owner, "__dict__", ()))
+    if isinstance(owner, ModuleType):
+        return
+    for kind in type.mro(owner if isinstance(owner, type) else type(owner)):
+        # `publishers` and `timers` are every node's, and never what was meant by `publisher_`.
+        foreign = kind.__module__.startswith("rclpy.")
+        yield [name for name, it in vars(kind).items() if not foreign or callable(it)]
+
+
+def _names(error: NameError, name: str) -> Iterator[Iterable[str]]:
+    frame = _frame(error)
+    if frame is None:
+        return
+    # `tick` where `self.tick` is meant is the same name, and so nearer than any other.
+    node = frame.f_locals.get("self")
+    own = [list(group) for group in _attributes(node)] if isinstance(node, Node) else []
+    yield from ([name] for group in own if name in group)
+    for known in (frame.f_locals, frame.f_globals, vars(builtins)):
+        yield [one for one in known if one != name]
+
+
+def _frame(error: NameError) -> FrameType | None:
+    frames = [frame for frame, _ in walk_tb(error.__traceback__)]
+    return frames[-1] if frames else None
+
+
+# Which call of rclpy failed, and with arguments of which types, noted on the exception.
+#
+# rclpy's own texts often do not tell: `missing 1 required positional argument: 'qos_profile'` is
+# the same for a callback that was left out and for a queue depth. `diagnosis.calls` reads what is
+# written here. Nothing of a learner's is called in order to describe it.
+
+
+_NOTE = "_rosbeat_asked"
+
+
+@contextmanager
+def asking(method: str, *given: Any, **named: Any) -> Iterator[None]:  # noqa: ANN401
+    """Note a call on the exception that it raises; the innermost call counts."""
+    try:
+        yield
+    except Exception as error:
+        if not asked_by(error):
+            setattr(error, _NOTE, asked_text(method, given, named))
+        raise
+
+
+def asked_by(error: BaseException) -> str:
+    """The call that was noted on an exception, or an empty text."""
+    return str(getattr(error, _NOTE, ""))
+
+
+def value_text(value: object) -> str:
+    """The type of a value that a message's field refused, as `Fault.asked` has it."""
+    return f"field({_kind(value)})"
+
+
+def asked_text(method: str, given: tuple[Any, ...], named: dict[str, Any]) -> str:
+    """A call with the types of what it was given, as `Fault.asked` has it."""
+    words = [_kind(one) for one in given]
+    words += [f"{name}={_kind(one)}" for name, one in named.items()]
+    return f"{method}({', '.join(words)})"
+
+
+def _kind(one: Any) -> str:  # noqa: ANN401
+    if isinstance(one, type):
+        kind = "message_type" if is_message_class(one) else "type"
+        return f"{kind}[{_safe(one.__name__)}]"
+    if isinstance(one, MethodType):
+        return f"method[{_signature(one.__func__)}]"
+    if isinstance(one, FunctionType):
+        return f"function[{_signature(one)}]"
+    if is_message_class(type(one)):
+        return f"message[{_safe(type(one).__name__)}]"
+    return _plain(one)
+
+
+def _plain(one: Any) -> str:  # noqa: ANN401
+    for base in (QoSProfile, partial, BuiltinFunctionType, ModuleType, bool, int, float, str):
+        if isinstance(one, base):
+            return _safe(base.__name__)
+    return _safe(type(one).__name__)
+
+
+def is_message_class(kind: type) -> bool:
+    """Whether a class is that of a ROS message."""
+    return "_fields_and_field_types" in vars(kind)
+
+
+def _signature(function: Any) -> str:  # noqa: ANN401 - what a method is bound to may be anything
+    code = getattr(function, "__code__", None)
+    if code is None:
+        return _safe(type(function).__name__)
+    # The names of the parameters come first among the local ones.
+    names = code.co_varnames[: code.co_argcount]
+    return f"{_safe(code.co_name)}({', '.join(map(_safe, names))})"
+
+
+def _safe(name: object) -> str:
+    """A name that Python's parser can read; `<lambda>` is none."""
+    text = str(name)
+    return text if text.isidentifier() else "function"
+
+
+# From an exception to the learner's own line.
+
+
+# A frame in the standard library, in an installed package or in rosbeat is not the learner's.
+_FOREIGN = tuple(
+    {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}
+    | {str(Path(__file__).parents[1])}
+)
+
+
+def is_learners(frame: FrameType) -> bool:
+    """Whether a frame runs code that the learner wrote, and not a library or rosbeat."""
+    name = frame.f_code.co_filename
+    if name == "<string>":  # code that a library has written, as for a dataclass, is of its module
+        name = str(frame.f_globals.get("__file__", name))
+    return not name.startswith(_FOREIGN) and not name.startswith("<frozen")
+
+
+def learners_line(error: BaseException) -> tuple[int, str]:
+    """Number and text of the innermost line that the learner wrote, or `(0, "")`."""
+    own = _own_lines(error)
+    return own[-1][1:] if own else (0, "")
+
+
+def _own_lines(error: BaseException) -> list[tuple[str, int, str]]:
+    """Function, number and text of each line of the learner's at work, outermost first."""
+    return [
+        (
+            frame.f_code.co_name,
+            line,
+            linecache.getline(frame.f_code.co_filename, line, frame.f_globals).strip(),
+        )
+        for frame, line in walk_tb(error.__traceback__)
+        if is_learners(frame)
+    ]
+
+
+def _refused_by_field(error: BaseException) -> str:
+    """What a field of a message was given: the generated setter of the field raised."""
+    frames = [frame for frame, _ in walk_tb(error.__traceback__)]
+    if not isinstance(error, AssertionError) or not frames:
+        return ""
+    setter = frames[-1]
+    of_message = ".msg._" in str(setter.f_globals.get("__name__"))
+    known = of_message and "value" in setter.f_locals
+    return value_text(setter.f_locals["value"]) if known else ""
+
+
+def error_text(error: BaseException) -> str:
+    """The exception's message, with the proposal that Python makes in a traceback."""
+    try:
+        text = str(error)
+    except Exception:  # a class of the learner's own
+        return ""
+    meant = suggestion(error)
+    asks = "Did you mean" in text or not meant
+    return text if asks else f"{text.rstrip('.')}. Did you mean: '{meant}'?"
+
+
+def fault_of(error: BaseException, time_ns: int, node: str, callback: str) -> Fault:
+    """The record of an exception that left a callback."""
+    line, code = learners_line(error)
+    kind, asked = type(error).__name__, asked_by(error) or _refused_by_field(error)
+    for (_, at, text), (called, *_) in pairwise(_own_lines(error)):
+        # `create_timer(1.0, self.tick())`: what failed in `tick` is not where the mistake is.
+        if is_argument(text, called):
+            line, code, asked = at, text, f"create({CALLED}[{called}])"
+    return Fault(time_ns, node, callback, kind, error_text(error), line, code, asked)

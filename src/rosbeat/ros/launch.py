@@ -1,0 +1,261 @@
+"""How a node is started and made."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from inspect import isclass
+from math import isfinite
+from typing import TYPE_CHECKING, Any, TypedDict
+
+from rclpy.exceptions import InvalidHandle
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from rosbeat.diagnosis.faults import first_sentence, meaning_of
+from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError, SessionError
+from rosbeat.records import Fault
+from rosbeat.ros.faults import fault_of
+from rosbeat.ros.recording import mend_message_classes
+
+if TYPE_CHECKING:
+    from rosbeat.ros.world import Watching
+
+
+# How a node is started: under which name and namespace, with which topics and parameters.
+#
+# The same four things that an `Node(...)` action of a launch file sets, and `ros2 run` behind
+# `--ros-args`. They reach the node the same way, as arguments that rcl reads, so an unmodified
+# class is what is started.
+#
+# Source: design.ros2.org, "ROS Command Line Arguments"; launch_ros, `actions/node.py`.
+
+
+_EXAMPLE = (
+    'Write for example `ros.add(TemperatureMonitor, remappings={"temperature": "humidity"}, '
+    'parameters={"high": 60.0})`.'
+)
+
+
+class Start(TypedDict, total=False):
+    """The keyword arguments of `Session.add`; see `Launch`."""
+
+    name: str | None
+    namespace: str | None
+    remappings: Mapping[str, str] | None
+    parameters: Mapping[str, Any] | None
+
+
+@dataclass(frozen=True)
+class Launch:
+    """How a node is started.
+
+    Attributes:
+        name: Its name, in the place of its own; empty to keep that.
+        namespace: The namespace before its name and its relative topics, such as `/greenhouse`.
+        remappings: New names of topics and services, by the names in its code.
+        parameters: Values of parameters that it declares, by their names.
+    """
+
+    name: str = ""
+    namespace: str = ""
+    remappings: Mapping[str, str] = field(default_factory=dict)
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+
+    def __bool__(self) -> bool:
+        return bool(self.name or self.namespace or self.remappings or self.parameters)
+
+    def options(self) -> dict[str, Any]:
+        """The same as keyword arguments of `Session.add`."""
+        return {name: value for name, value in vars(self).items() if value}
+
+    def arguments(self) -> list[str]:
+        """The arguments of the command line that say the same."""
+        rules = dict(self.remappings)
+        rules |= {"__node": self.name} if self.name else {}
+        rules |= {"__ns": "/" + self.namespace.strip("/")} if self.namespace else {}
+        said = [word for old, new in rules.items() for word in ("-r", f"{old}:={new}")]
+        for name, value in self.parameters.items():
+            said += ["-p", f"{name}:={_yaml(value)}"]
+        return ["--ros-args", *said, "--"] if said else []
+
+
+@dataclass(frozen=True)
+class Maker:
+    """What a session was handed to make a node of.
+
+    Attributes:
+        make: A node class, or a function that returns a node.
+        start: How the node is started.
+    """
+
+    make: Callable[[], Any]
+    start: Launch = Launch()
+
+
+def checked(name: object, namespace: object, remappings: object, parameters: object) -> Launch:
+    """Make a `Launch` of what a caller gave.
+
+    Raises:
+        SessionError: If a name is no text, or a value is none that a parameter can have.
+    """
+    for what, one in (("name", name), ("namespace", namespace)):
+        if one is not None and not (isinstance(one, str) and one.strip("/")):
+            raise _refused(f"{what}={one!r}", "It has to be a name in quotation marks.")
+    renamed, values = _mapping("remappings", remappings), _mapping("parameters", parameters)
+    for old, new in renamed.items():
+        if not (isinstance(new, str) and new):
+            raise _refused(f"{old!r}: {new!r} in remappings", "The new name has to be a text.")
+    for key, value in values.items():
+        if not _is_value(value):
+            raise _refused(
+                f"{key!r}: {value!r} in parameters",
+                "A parameter is a number, a text, True or False, or a list of one of these.",
+            )
+    return Launch(str(name or ""), str(namespace or ""), renamed, values)
+
+
+def _mapping(what: str, given: object) -> dict[str, Any]:
+    if given is None:
+        return {}
+    if isinstance(given, Mapping) and all(isinstance(key, str) and key for key in given):
+        return dict(given)
+    raise _refused(f"{what}={given!r}", "It has to be a dict, with names on the left.")
+
+
+def _is_value(value: object) -> bool:
+    if isinstance(value, float):
+        return isfinite(value)
+    if isinstance(value, list | tuple):
+        kinds = {type(one) for one in value}
+        return len(kinds) == 1 and kinds <= {bool, int, float, str}
+    return isinstance(value, bool | int | str)
+
+
+def _yaml(value: Any) -> str:  # noqa: ANN401 - checked above
+    """A value as rcl reads it: YAML, of which JSON is a part."""
+    return json.dumps(list(value) if isinstance(value, tuple) else value)
+
+
+def _refused(what: str, means: str) -> SessionError:
+    return SessionError(f"A node cannot be started with {what}.", means, _EXAMPLE)
+
+
+# From what a learner hands to `add` to a node.
+
+
+Buildable = type[Node] | Node | Callable[[], Node]
+
+_NOT_READY = "The constructor, `__init__`, raised before the node was ready, so there is no node."
+
+
+def build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
+    """Make a node from a class, a factory, or a node.
+
+    Raises:
+        NodeClassError: If it is none of these, or the factory returns something else.
+        NodeConstructionError: If the constructor or factory raises.
+    """
+    if isinstance(target, Node):
+        return target
+    if isclass(target) and not issubclass(target, Node):
+        raise NodeClassError(
+            f"{target.__name__} is a class, but not a node.",
+            "A node is a class that inherits from `rclpy.node.Node`.",
+            f"Write `class {target.__name__}(Node):`, with `from rclpy.node import Node` above it.",
+        )
+    if not callable(target):
+        raise _not_a_node(repr(target), target)
+    made = _call(target)
+    if not isinstance(made, Node):
+        raise _not_a_node(f"What {_name(target)}() returned, {made!r},", made)
+    return made
+
+
+def build_in(world: Watching, target: Any, start: Launch) -> Node:  # noqa: ANN401
+    """Make a node in a session; if that fails, nothing of it is left there.
+
+    Args:
+        world: The session's.
+        target: A class, a factory, or a node.
+        start: How it is started.
+
+    Raises:
+        NodeClassError, NodeConstructionError: As `build_node` does.
+    """
+    before = world.states()
+    try:
+        with world.starting(start):
+            return build_node(target)
+    except BaseException:  # Interrupt, too
+        for state in world.states():
+            if state not in before:
+                world.destroy(state)
+        raise
+
+
+def _not_a_node(subject: str, found: object) -> NodeClassError:
+    return NodeClassError(
+        f"{subject} is not a node, but of type {type(found).__name__}.",
+        "A session runs nodes: it needs the class, a function that returns a node, or a node.",
+        "Hand over the class itself, without quotes or brackets: `ros.add(TemperatureSensor)`.",
+    )
+
+
+def _call(target: Callable[[], Any]) -> Any:  # noqa: ANN401
+    try:
+        made = target()
+        if isinstance(made, Node):
+            with suppress(InvalidHandle):  # destroyed; that is told elsewhere
+                Node.get_name(made)  # raises if super().__init__ was never called
+        return made
+    except (Exception, SystemExit) as error:
+        raise _refusal(_name(target), error) from error
+
+
+def _refusal(name: str, error: BaseException) -> NodeConstructionError:
+    mend_message_classes()
+    fault = fault_of(error, 0, "", "__init__")
+    where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+    text, means, to_try = _told(error, fault)
+    what = f"{name} could not be made: {fault.kind}: {text}{where}"
+    return NodeConstructionError(what, means, to_try)
+
+
+def _told(error: BaseException, fault: Fault) -> tuple[str, str, str]:
+    """What is said of an exception: its text, what it means, what to try."""
+    if isinstance(error, RosbeatError):
+        return error.what, error.means, error.to_try
+    known = meaning_of(fault)
+    if known is not None:
+        return (
+            first_sentence(fault.text),
+            known.beside_error,
+            f"{known.to_try} Then run the cell again.",
+        )
+    line = f"line {fault.line}, then run the cell again." if fault.line else "`__init__`."
+    return fault.text, _NOT_READY, f"Mend {line}"
+
+
+def _name(target: Any) -> str:  # noqa: ANN401
+    return getattr(target, "__name__", type(target).__name__)
+
+
+# The parameter `use_sim_time`, kept truthful.
+
+
+NAME = "use_sim_time"
+
+
+def show_sim_time(node: Node | None, active: bool) -> None:
+    """Let a node's `use_sim_time` say whether its time is virtual.
+
+    The value is put in place directly, not with `set_parameters`: that would call the node's own
+    callback for parameter changes, which may count the change or refuse it, would publish it on
+    `/parameter_events`, and would subscribe the node to `/clock`, which makes every wait of the
+    live executor longer. The node's clock does not depend on it; see `SessionClock`.
+    """
+    if node is not None and NAME in node._parameters:
+        node._parameters[NAME] = Parameter(NAME, value=active)

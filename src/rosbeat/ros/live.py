@@ -1,0 +1,159 @@
+"""Nodes against the wall clock, in one background thread."""
+
+from __future__ import annotations
+
+import ctypes
+import time
+from contextlib import suppress
+from threading import Event, Thread, current_thread
+from typing import Any, Protocol
+
+from rclpy.context import Context
+from rclpy.executors import (
+    ConditionReachedException,
+    ExternalShutdownException,
+    ShutdownException,
+    SingleThreadedExecutor,
+)
+from rclpy.node import Node
+from rclpy.task import Future, Task
+
+from rosbeat.ros.entities import NodeState
+
+#: Seconds that a callback may still take when live mode ends; then it is broken off.
+PATIENCE = 2.0
+#: The same when the learner presses Interrupt.
+HURRY = 0.1
+
+
+class LiveHost(Protocol):
+    """What the live executor asks of its session."""
+
+    def spinning_nodes(self) -> list[NodeState]:
+        """The nodes whose callbacks run, in order of creation."""
+
+    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
+        """A callback of this entity is about to run."""
+
+    def entity_raised(self, node: Node | None, entity: Any, error: BaseException) -> None:  # noqa: ANN401
+        """An exception left a callback of this entity."""
+
+
+class BrokenOff(BaseException):
+    """Thrown into a callback that does not return although Interrupt or an end was asked for."""
+
+    def __str__(self) -> str:
+        return "it did not return, so it was broken off"
+
+
+class LiveExecutor(SingleThreadedExecutor):
+    """rclpy's own single-threaded executor, supervised.
+
+    rclpy re-raises what a callback raises, which would end the thread and silence every node. Here
+    the session is told, the node that raised is taken out, and the others go on.
+
+    Args:
+        context: The session's context.
+        host: The session.
+
+    Attributes:
+        current: The node whose callback is running, or None.
+    """
+
+    def __init__(self, context: Context, host: LiveHost) -> None:
+        self.current: Node | None = None
+        self._handler: Task | None = None
+        self._host = host
+        self._stopping = Event()
+        super().__init__(context=context)
+        self._thread = Thread(target=self.spin, name="rosbeat live", daemon=True)
+
+    def get_nodes(self) -> list[Node]:
+        """The nodes in order of creation; rclpy's own answer comes from an unordered set."""
+        mine = self._nodes
+        return [state.node for state in self._host.spinning_nodes() if state.node in mine]
+
+    def start(self) -> None:
+        """Begin to run callbacks."""
+        self._thread.start()
+
+    @property
+    def at_work(self) -> object:
+        """What stands for the callback that is running now; None if none is."""
+        return self._handler
+
+    def is_this_thread(self) -> bool:
+        """Whether the caller is a callback of this executor."""
+        return current_thread() is self._thread
+
+    def wait_for(self, future: Future, seconds: float | None) -> None:
+        """Wait in another thread until a future is done, at most so many seconds."""
+        arrived = Event()
+        future.add_done_callback(lambda _: arrived.set())
+        arrived.wait(None if seconds is None or seconds < 0 else seconds)
+
+    def finish(self) -> None:
+        """Stop running callbacks and wait until the thread has ended.
+
+        Without the wait the interpreter may be gone while the thread is still inside rclpy, which
+        aborts the process. `Executor.shutdown` alone would pull the guard condition from under a
+        callback that is just being begun.
+        """
+        self._stopping.set()
+        self.wake()
+        self._thread.join(PATIENCE)
+        if self._thread.is_alive():
+            self._break_off()
+            self._thread.join(PATIENCE)
+        for task, _, _ in self._tasks:
+            with suppress(ValueError):  # it does not wait but runs, in a call that nobody can end
+                task.cancel()  # a coroutine that still waits; this frees its callback group
+        self.shutdown()
+
+    def hurry(self) -> None:
+        """Break off the callback that is running now, unless it returns at once.
+
+        An endless loop in a callback leaves other threads so little time that even showing the
+        interrupt would take seconds.
+        """
+        running, deadline = self._handler, time.monotonic() + HURRY
+        while running is not None and self._handler is running:
+            if time.monotonic() > deadline:
+                self._break_off()
+                return
+            time.sleep(0.001)
+
+    def spin(self) -> None:
+        """Run callbacks until `finish`."""
+        while True:
+            try:
+                self._run_one()
+            except BrokenOff:
+                self._cb_iter = None  # it came just after the callback had returned
+            except (ConditionReachedException, ShutdownException, ExternalShutdownException):
+                return
+
+    def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
+        self._host.callback_ran(entity, node)
+        return super()._make_handler(entity, node, take)
+
+    def _run_one(self) -> None:
+        handler, entity, node = self.wait_for_ready_callbacks(condition=self._stopping.is_set)
+        error: BaseException | None = None
+        self.current, self._handler = node, handler
+        try:
+            handler()
+        except BaseException as stop:  # SystemExit would end the thread unheard
+            error = stop
+            handler.cancel()
+        finally:
+            self.current = self._handler = None
+        error = error or handler.exception()
+        if error is not None:
+            self._host.entity_raised(node, entity, error)
+
+    def _break_off(self) -> None:
+        # The documented way to stop Python code in another thread; it cannot stop a sleep in C,
+        # which then goes on by itself, in a daemon thread.
+        number = ctypes.c_ulong(self._thread.ident or 0)
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(number, ctypes.py_object(BrokenOff))

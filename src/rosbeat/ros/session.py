@@ -1,0 +1,409 @@
+"""The session: real ROS nodes, run in a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TypeVar, overload
+from weakref import finalize
+
+from rclpy.node import Node
+
+from rosbeat.diagnosis.explanation import Explanation
+from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
+from rosbeat.ros.context import install_learner_calls, show_briefly
+from rosbeat.ros.errors import (
+    check_end,
+    check_name,
+    check_whole,
+    duration_ns,
+    is_made_already,
+    node_has_ended,
+    session_has_ended,
+    session_is_live,
+    session_is_not_live,
+)
+from rosbeat.ros.graph import wait_for_nodes, wait_live
+from rosbeat.ros.instruments import open_panel
+from rosbeat.ros.launch import Maker, Start, build_in, checked
+from rosbeat.ros.silence import explained
+from rosbeat.ros.virtual_time import run_until
+from rosbeat.ros.world import World, find, log_lines, observation, samples, state_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from rosbeat.panel.panel import Panel
+
+
+SomeNode = TypeVar("SomeNode", bound=Node)
+
+install_learner_calls()
+
+
+class Session:
+    """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
+
+    ::
+
+        with Session(seed=7) as ros:
+            sensor = ros.add(TemperatureSensor)
+            ros.run(seconds=60)
+            ros.messages("temperature")
+
+    The nodes are real `rclpy` nodes on the real middleware, in a ROS context and domain of their
+    own. In virtual time (`run`) the clock jumps from one timer to the next, so a minute takes
+    milliseconds and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes
+    run against the wall clock, and other processes in the same domain can talk to them.
+
+    It ends with its `with` block, with `close()`, when nothing refers to it or with the kernel, and
+    leaves nothing behind. While it is open, a node without a context belongs to the last session.
+
+    Args:
+        seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
+            global generator. The same seed gives the same run.
+        domain_id: The ROS domain to join, 0 to 101; the session then sees the nodes of other
+            processes there, too. By default it has a domain to itself, and neither another session
+            nor a terminal hears it.
+
+    Raises:
+        SessionError: If the seed or the domain id is not a whole number in its range.
+        DomainsExhaustedError: If no private domain id is left on this machine.
+    """
+
+    def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
+        check_whole("seed", seed, 0, 2**63)
+        if domain_id is not None:
+            check_whole("domain_id", domain_id, 0, 101)
+        self._seed = seed
+        self._world = World(seed, domain_id)
+        # Also runs at interpreter exit, before the middleware is torn down.
+        self._finalizer = finalize(self, self._world.close)
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self._world.closed:
+            return "Session(closed)"
+        names = ", ".join(state.name for state in self._world.states()) or "no nodes"
+        mode = "live" if self.is_live else "virtual time"
+        return f"Session({mode}, {self.time:g} s, {names})"
+
+    # State.
+
+    @property
+    def time(self) -> float:
+        """Seconds of virtual time since the session began; live time counts as it passes."""
+        return self._world.now() / 1e9
+
+    @property
+    def domain_id(self) -> int:
+        """The ROS domain id, for `ROS_DOMAIN_ID` of a process that shall hear these nodes."""
+        return int(self._world.domain_id or 0)
+
+    @property
+    def is_live(self) -> bool:
+        """Whether the nodes run against the wall clock now."""
+        return self._world.live is not None
+
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """The nodes of this session, in order of creation."""
+        return tuple(state.node for state in self._world.states())
+
+    # Nodes.
+
+    @overload  # a class is a function that makes one, too
+    def add(self, node: Callable[[], SomeNode], **start: Unpack[Start]) -> SomeNode: ...
+    @overload
+    def add(self, node: SomeNode) -> SomeNode: ...
+    def add(
+        self,
+        node: Any,
+        *,
+        name: str | None = None,
+        namespace: str | None = None,
+        remappings: Mapping[str, str] | None = None,
+        parameters: Mapping[str, Any] | None = None,
+    ) -> Any:
+        """Make a node and run its callbacks from now on.
+
+        A node of the same name that runs in this session is replaced. The other arguments do what
+        `ros2 run` does behind `--ros-args`, with `-r` and `-p`; the class stays as it is.
+
+        Args:
+            node: A node class, a function that returns a node, or a node made in this session.
+            name: The node's name, in the place of its own.
+            namespace: A namespace before its name and its relative topics, such as `greenhouse`.
+            remappings: New names of topics and services: `{"temperature": "humidity"}`.
+            parameters: Values of parameters that the node declares: `{"high": 60.0}`.
+
+        Returns:
+            The node.
+
+        Raises:
+            NodeClassError: If it is none of these, or belongs to another context.
+            NodeConstructionError: If the constructor raises.
+            SessionError: If it cannot be started so, or exists already and is to be renamed.
+            ClosedSessionError: If the session has ended.
+        """
+        start = checked(name, namespace, remappings, parameters)
+        with self._running("add"):
+            if start and isinstance(node, Node):
+                raise is_made_already(node)
+            made = build_in(self._world, node, start)
+            self._world.spin_node(state_of(self._world, made))
+            if made is not node:
+                self._world.makers[made] = Maker(node, start)
+        return made
+
+    def remove(self, node: Node | str) -> None:
+        """Destroy a node, given itself or by name.
+
+        Raises:
+            SessionError: If the session has no such node.
+        """
+        self._check_open()
+        self._world.destroy(find(self._world, node))
+
+    def pause(self, node: Node | str) -> None:
+        """Run none of this node's callbacks for a while, as if it were busy.
+
+        Messages go on arriving and wait in its queues, as many as each queue holds.
+
+        Args:
+            node: The node, or its name.
+
+        Raises:
+            SessionError: If the session has no such node.
+        """
+        self._check_open()
+        state = find(self._world, node)
+        self._world.rest_node(state)
+        state.paused = True
+
+    def resume(self, node: Node | str) -> None:
+        """Run a paused node's callbacks again; it first gets what waits in its queues.
+
+        Args:
+            node: The node, or its name.
+
+        Raises:
+            SessionError: If the session has no such node, or it ended with an exception.
+        """
+        self._check_open()
+        state = find(self._world, node)
+        if state.ended:
+            raise node_has_ended(state.name)
+        self._world.spin_node(state)
+
+    # Time.
+
+    def run(self, seconds: float, *, quiet: bool = False) -> None:
+        """Advance virtual time and run every callback that is due.
+
+        Timers due exactly at the end run too: a 1 Hz timer fires 60 times in the first 60 seconds.
+        `time.sleep` in a callback takes virtual time; beyond the end it prolongs the run.
+
+        Args:
+            seconds: Virtual seconds, 0 or more.
+            quiet: Print no log lines; `logs()` has them all the same.
+
+        Raises:
+            DurationError: If `seconds` is not a number from 0 up.
+            EndlessChainError: If callbacks cause one another for ever while no time passes.
+            SessionError: If the session is live, or `run` is called from a callback.
+        """
+        span = duration_ns(seconds)
+        with self._running("run"):
+            if self.is_live:
+                raise session_is_live()
+            self._world.console.begin(quiet)
+            try:
+                run_until(self._world, check_end(self._world.now() + span))
+            except KeyboardInterrupt as interrupt:
+                show_briefly(interrupt, f"stopped at {self.time:g} s; the session goes on.")
+                raise
+            finally:
+                self._world.console.end()
+
+    def start(self) -> None:
+        """Go live: run the nodes against the wall clock, in a background thread.
+
+        Other processes in this ROS domain see the nodes and can talk to them. A session that is
+        live already stays so. Each timer begins a new period; the parameter `use_sim_time` reads
+        False while the session is live.
+
+        Raises:
+            SessionError: If `start` is called from a callback.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.start")
+        if not self.is_live:
+            self._world.go_live()
+
+    def wait(
+        self, seconds: float | None = None, *, until: Callable[[], object] | None = None
+    ) -> bool:
+        """Let a live session run, and print what its nodes log meanwhile.
+
+        Args:
+            seconds: Wall-clock seconds at most; None waits until Interrupt.
+            until: Stop waiting as soon as this returns something true.
+
+        Returns:
+            Whether `until` came true; False if the time was up first.
+
+        Raises:
+            DurationError: If `seconds` is not a number from 0 up.
+            SessionError: If the session is not live, or `wait` is called from a callback.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.wait")
+        if not self.is_live:
+            raise session_is_not_live()
+        span = None if seconds is None else duration_ns(seconds, "wait(seconds=...)") / 1e9
+        return wait_live(self._world, until or bool, span)
+
+    def wait_for_nodes(self, *names: str, timeout: float = 10.0) -> None:
+        """Wait until nodes are in the graph, those of other processes too, as a terminal's.
+
+        Processes need up to some seconds to find each other. The session need not be live.
+
+        Args:
+            names: Names of the nodes; `sensor` and `/sensor` are the same.
+            timeout: Wall-clock seconds at most.
+
+        Raises:
+            DurationError: If `timeout` is not a number from 0 up.
+            SessionError: If they do not come, the session has no `domain_id`, a name is not a text,
+                or `wait_for_nodes` is called from a callback.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.wait_for_nodes")
+        wanted = ["/" + check_name("wait_for_nodes", name).lstrip("/") for name in names]
+        seconds = duration_ns(timeout, "wait_for_nodes(timeout=...)") / 1e9
+        wait_for_nodes(self._world, wanted, seconds)
+
+    def stop(self) -> None:
+        """End live mode; virtual time goes on from here. Does nothing if the session is not live.
+
+        Each timer begins a new period. A callback that has not returned after two seconds is broken
+        off.
+
+        Raises:
+            SessionError: If `stop` is called from a callback.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.stop")
+        self._world.go_virtual()
+        self._world.show_news()
+
+    def close(self) -> None:
+        """End the session: destroy its nodes and its ROS context. A second call does nothing."""
+        self._finalizer()
+
+    # What happened.
+
+    def messages(self, topic: str) -> tuple[Sample, ...]:
+        """What was published on a topic, in order.
+
+        In a domain that was joined with `domain_id`, what other processes publish is included from
+        the moment at which a node of this session subscribes.
+
+        Args:
+            topic: The topic's name; `temperature` and `/temperature` are the same.
+
+        Raises:
+            UnknownTopicError: If the topic never had a publisher in this session.
+            SessionError: If `topic` is not a name.
+        """
+        self._world.show_faults()
+        return samples(self._world, topic)
+
+    def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
+        """What the nodes said, in order.
+
+        Args:
+            node: Only the lines of this node, given itself or by name.
+
+        Raises:
+            SessionError: If `node` is neither a name nor a node that is or was in this session.
+        """
+        self._world.show_faults()
+        return log_lines(self._world, node)
+
+    def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:
+        """Say why nothing arrives on a topic, or that all is well, with the rate.
+
+        It goes by what the session has recorded, which takes no time. In a domain that was joined
+        with `domain_id`, it also listens to the other processes and asks their nodes whether they
+        run.
+
+        Args:
+            topic: The topic's name; `temperature` and `/temperature` are the same. Nobody need use
+                it.
+            seconds: How long to listen to other processes at most, in seconds of wall time.
+
+        Returns:
+            The explanation; at the end of a cell it shows itself, and `viz.graph` draws it.
+
+        Raises:
+            DurationError: If `seconds` is not a number from 0 up.
+            SessionError: If `topic` cannot be the name of a topic, or `explain` is called from a
+                callback.
+            ClosedSessionError: If the session has ended.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.explain")
+        return explained(self._world, topic, seconds)
+
+    def panel(self) -> Panel:
+        """Open the instrument panel: what the live nodes do, and controls to disturb them.
+
+        An open panel makes room for the new one; the last one ends with the session. Where no
+        browser can show it, it is a still picture of the graph.
+
+        Raises:
+            SessionError: If `panel` is called from a callback.
+            ClosedSessionError: If the session has ended.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.panel")
+        return open_panel(self._world)
+
+    def graph(self) -> GraphSnapshot:
+        """The nodes, topics, services and timers as they are now, or were when the session ended.
+
+        In a domain that was joined with `domain_id`, the nodes of other processes are included as
+        far as they are known yet; see `wait_for_nodes`.
+        """
+        self._world.show_faults()
+        return self._world.graph()
+
+    def observation(self) -> Observation:
+        """Everything that was recorded so far, as plain data.
+
+        Of a session that has ended it holds the graph as it was just before the end.
+        """
+        self._world.show_faults()
+        return observation(self._world, self._seed)
+
+    # How it works.
+
+    @contextmanager
+    def _running(self, what: str) -> Iterator[None]:
+        """Nodes of this session are about to run in this thread."""
+        self._check_open()
+        self._world.refuse_in_callback(f"ros.{what}")
+        with self._world.running():
+            yield
+
+    def _check_open(self) -> None:
+        if self._world.closed:
+            raise session_has_ended()
+        self._world.show_faults()

@@ -1,0 +1,815 @@
+"""What one session owns: a context, a clock, an executor, a recorder and nodes."""
+
+from __future__ import annotations
+
+import time
+from abc import abstractmethod
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from functools import partial
+from threading import get_ident
+from typing import Any, Protocol
+from weakref import WeakKeyDictionary, WeakSet
+
+from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
+from rclpy.node import Node
+from rclpy.validate_full_topic_name import validate_full_topic_name
+
+from rosbeat.domains import DomainLease, lease_domain
+from rosbeat.errors import SessionError
+from rosbeat.records import INFRASTRUCTURE_TOPICS, GraphSnapshot, LogRecord, Observation, Sample
+from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
+from rosbeat.ros.console import Console, note
+from rosbeat.ros.context import SessionContext
+from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
+from rosbeat.ros.errors import check_name, foreign_node, no_such_node, unknown_topic
+from rosbeat.ros.faults import fault_of
+from rosbeat.ros.graph import Arrivals, Lookout, snapshot, with_outside
+from rosbeat.ros.launch import Launch, Maker, show_sim_time
+from rosbeat.ros.live import LiveExecutor
+from rosbeat.ros.qos_events import Limits, event_source, topic_of, wait_for_stored
+from rosbeat.ros.recording import (
+    Memory,
+    PublisherTap,
+    Recorder,
+    SessionLogger,
+    mend_message_classes,
+    tap_client,
+    tap_rate,
+    tap_timer,
+    type_name,
+)
+from rosbeat.ros.virtual_time import (
+    SeededRandom,
+    SessionClock,
+    VirtualTimeExecutor,
+    make_clock,
+    run_until,
+    waitable_kind,
+    waitable_name,
+)
+
+# The part of a session that actions ask.
+
+
+class Acting:
+    """What a session does for its actions; see `actions.Place`.
+
+    Attributes:
+        arrivals: Records what comes from outside; None in a private domain.
+        live: The live executor while the session is live, else None.
+    """
+
+    arrivals: Arrivals | None
+    live: LiveExecutor | None
+    _states: dict[Node, NodeState]
+    _made: WeakSet[Any]
+    _goals = 0
+
+    @abstractmethod
+    def states(self) -> list[NodeState]:
+        """All nodes that have not been destroyed, in order of creation."""
+
+    @abstractmethod
+    def state_of(self, node: Node | None) -> NodeState | None:
+        """What is known of a node."""
+
+    @abstractmethod
+    def refuse_in_callback(self, call: str) -> None:
+        """Nothing that waits for nodes may be called by a node."""
+
+    @abstractmethod
+    def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
+        """Run virtual time until `done` is true, at most so many seconds."""
+
+    @abstractmethod
+    def _sender(self, kind: str, name: str) -> Callable[[], None]:
+        """What to call when something was sent in virtual time."""
+
+    def action_made(
+        self,
+        node: Node,
+        kind: str,
+        entity: Any,  # noqa: ANN401
+        name: str,
+        options: dict[str, Any],
+    ) -> None:
+        """An action server or client was made."""
+        state = self._states[node]
+        state.actions.append(ActionEnd(self, state, kind, entity, name, options))
+        self._made.add(entity)
+
+    def destroy_actions(self) -> None:
+        """Destroy every action server and client; destroying its node leaves it in the graph."""
+        for entity in list(self._made):
+            with suppress(Exception):  # destroyed already, or half-made
+                entity.destroy()
+
+    def sent(self, kind: str, name: str) -> None:
+        """Something was sent to the `kind` entities called `name`."""
+        self._sender(kind, name)()
+
+    def wait(self, call: str, done: Callable[[], bool], seconds: float | None) -> bool:
+        """Run nodes until `done` is true; `call` is refused in a callback."""
+        self.refuse_in_callback(call)
+        if self.live is None:
+            return self.wait_until(done, seconds)
+        return wait_by_the_wall(done, seconds)
+
+    def next_goal(self) -> int:
+        """How many goals were sent in this session; 0 in a domain with other processes in it."""
+        self._goals += 1
+        return self._goals if self.arrivals is None else 0
+
+    @abstractmethod
+    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
+        """A callback of an action is about to run."""
+
+    @abstractmethod
+    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
+        """An exception left the work on a goal; the node goes on."""
+
+
+# The part of a session that learns of nodes and of what they make.
+
+
+class Watching(Acting):
+    """What the hooks tell of new nodes and entities; see `hooks.Watcher`.
+
+    Attributes:
+        clock: The one clock of all nodes.
+        recorder: What happened so far.
+        arrivals: Records what comes from outside; None in a private domain.
+        virtual: The executor of virtual time; it also keeps the time while nothing runs.
+        live: The live executor while the session is live, else None.
+        start: How the node that is being made is started.
+        limits: The deadlines and lifespans that the session counts.
+    """
+
+    limits: Limits
+    clock: SessionClock
+    recorder: Recorder
+    arrivals: Arrivals | None
+    virtual: VirtualTimeExecutor
+    live: LiveExecutor | None
+
+    def __init__(self) -> None:
+        self._states: dict[Node, NodeState] = {}
+        self._entries: dict[Any, Entry] = {}
+        self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
+        self._made: WeakSet[Any] = WeakSet()
+        self._count = 0
+        self.start = Launch()
+        self._rosout_heard: Callable[[], None] | None = None
+
+    @abstractmethod
+    def now(self) -> int:
+        """Nanoseconds since the session began."""
+
+    @abstractmethod
+    def show_news(self) -> None:
+        """Print what has not been printed yet."""
+
+    @abstractmethod
+    def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
+        """Run virtual time until `done` is true, at most so many seconds."""
+
+    # Which nodes there are.
+
+    def states(self) -> list[NodeState]:
+        """All nodes that have not been destroyed, in order of creation."""
+        return list(self._states.values())
+
+    def spinning_nodes(self) -> list[NodeState]:
+        """The nodes whose callbacks run, in order of creation."""
+        return [state for state in self.states() if state.spinning]
+
+    def named(self, name: str) -> NodeState | None:
+        """The node of this full name."""
+        return next((state for state in self.states() if state.name == name), None)
+
+    def state_of(self, node: Node | None) -> NodeState | None:
+        """What is known of a node."""
+        return self._states.get(node)
+
+    def name_of(self, node: Node) -> str | None:
+        """The full name of a node that is or was in this session; a destroyed one cannot say it."""
+        return self._names.get(node)
+
+    def graph(self) -> GraphSnapshot:
+        """The graph as it is now."""
+        return snapshot(self.states())
+
+    def destroy(self, state: NodeState) -> None:
+        """Destroy a node, whole or half-made."""
+        if state.node is None:
+            return
+        try:
+            state.node.destroy_node()
+        except Exception:
+            # Its constructor stopped half-way, or its own destroy_node raises, or did half of it.
+            with suppress(AttributeError, InvalidHandle):
+                Node.destroy_node(state.node)
+            self.node_ends(state.node)
+
+    @contextmanager
+    def starting(self, start: Launch) -> Iterator[None]:
+        """Nodes that are made in this block are started so."""
+        before, self.start = self.start, start
+        try:
+            yield
+        finally:
+            self.start = before
+
+    # What the hooks tell.
+
+    def node_begins(self, name: str, namespace: str) -> None:
+        """A node is about to be made: one of the same name makes room for it.
+
+        It has to go first: rcl keeps one log publisher for each name and removes it with the first
+        node of that name that is destroyed.
+        """
+        old = self.named(full_name(name, namespace))
+        if old is not None:
+            self.destroy(old)
+
+    def node_made(self, node: Node) -> None:
+        """`Node.__init__` has returned."""
+        self.entity_begins(node)
+        show_sim_time(node, self.live is None)
+
+    def entity_begins(self, node: Node) -> None:
+        """Give a new node the session's clock, before anything of it reads the time."""
+        if "_clock" in node.__dict__ and node._clock is not self.clock:
+            node._clock = self.clock
+        if node not in self._states:
+            name = node.get_fully_qualified_name()
+            self._states[node] = NodeState(len(self._states), name, node, born_ns=self.now())
+            self._names[node] = name
+
+    def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
+        """Tap what sends; run the callbacks of whatever has some."""
+        state = self._states[node]
+        if kind == "publisher":
+            self._tap_publisher(state, entity)
+        elif kind == "rate":
+            tap_rate(entity, partial(self._sleep, self._entries[entity._timer]))
+        else:
+            self._watch(state, kind, entity)
+
+    def node_ends(self, node: Node) -> None:
+        """A node is about to be destroyed."""
+        state = self._states.pop(node, None)
+        if state is None:
+            return
+        state.spinning, state.ended = False, True
+        self.virtual.forget(state)
+        for entry in state.entries:
+            self._entries.pop(entry.entity, None)
+        if node.executor is not None:
+            node.executor.remove_node(node)
+
+    def logger_of(self, node: Node, original: Any) -> Any:  # noqa: ANN401
+        """The logger that the node's code gets."""
+        state = self._states.get(node)
+        if state is None:
+            return original
+        if state.logger is None:
+            state.logger = SessionLogger(original.name, self._logged, self.clock)
+        return state.logger
+
+    def explain_init(self) -> None:
+        """The learner called `rclpy.init()`."""
+        note("rclpy.init() has nothing to do here: the session has started ROS already.")
+
+    def explain_shutdown(self) -> None:
+        """The learner called `rclpy.shutdown()`: in a callback it ends that node."""
+        current = self.virtual.current
+        if self.live is not None and self.live.is_this_thread():
+            current = self.state_of(self.live.current)
+        if current is None:
+            note("rclpy.shutdown() leaves this session open; `ros.close()` ends it.")
+            return
+        current.spinning, current.ended = False, True
+        note(f"{current.name} called rclpy.shutdown() and stops; the other nodes go on.")
+
+    def refuse_in_callback(self, call: str) -> None:
+        """Nothing that waits for nodes may be called by a node.
+
+        Raises:
+            SessionError: If one of this session's callbacks is running, in this thread.
+        """
+        if self.virtual.running or (self.live is not None and self.live.is_this_thread()):
+            raise SessionError(
+                f"`{call}` was called from inside a callback.",
+                "It waits for other callbacks, and they can only run when this one has returned: "
+                "a deadlock, on a real robot too.",
+                "For a service use `call_async` and add a done callback, or make the callback "
+                "`async def` and await the future, with the client in a callback group of its "
+                "own. To do something again and again, create a timer.",
+            )
+
+    @property
+    def counts_limits(self) -> bool:
+        """Whether deadlines and lifespans of what is made now are counted here; see `Limits`."""
+        return self.live is None and self.arrivals is None
+
+    def next_number(self) -> int:
+        """The place of a new entity in the order of creation."""
+        self._count += 1
+        return self._count
+
+    # How it works.
+
+    def _watch(self, state: NodeState, kind: str, entity: Any) -> None:  # noqa: ANN401
+        name = "" if kind == "timer" else _name_of(kind, entity)
+        source = period_text(entity.timer_period_ns) if kind == "timer" else name
+        called = "answer" if kind == "client" else callback_name(entity.callback)
+        label = self.recorder.label(state.name, kind, called, source)
+        entry = Entry(self.next_number(), state, kind, entity, name, label, TAKERS.get(kind))
+        state.entries.append(entry)
+        self._entries[entity] = entry
+        prepare = {"timer": self._timer, "subscription": self._subscription, "client": self._client}
+        prepare.get(kind, bool)(entry)
+        self.virtual.watch(entry)
+
+    def _timer(self, entry: Entry) -> None:
+        if entry.entity.clock is not self.clock:
+            entry.kind = "wall timer"
+            note(
+                f"a timer of {entry.state.name} has a clock of its own, which counts real time: it "
+                "fires only while the session is live."
+            )
+            return
+        tap_timer(entry.entity, partial(self._timer_reset, entry))
+
+    def _timer_reset(self, entry: Entry) -> None:
+        if self.live is None:
+            self.virtual.timer_reset(entry)
+
+    def _client(self, entry: Entry) -> None:
+        check = partial(self._check_call, entry)
+        asked = self._sender("service", entry.name)
+        tap_client(entry.entity, check, asked, partial(self._wait_for_answer, entry.entity))
+
+    def _check_call(self, entry: Entry) -> None:
+        self.refuse_in_callback("client.call")
+        if not entry.state.spinning:
+            raise SessionError(
+                f"{entry.state.name} asks {entry.name} before it runs itself.",
+                "Nobody takes the answer of a node that is still being made, was not added, or is "
+                "paused. Outside a page the call would wait for ever.",
+                "Add the node first, with `ros.add(...)`, and ask then, or in a timer's callback "
+                "with `call_async`.",
+            )
+
+    def _subscription(self, entry: Entry) -> None:
+        entry.born = self.recorder.mark()
+        taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
+        wait_for_stored(taps, entry.entity)
+        if self.counts_limits:
+            self.limits.subscription_made(entry)
+        if self.arrivals is not None:
+            self.arrivals.watch_subscription(entry.entity)
+
+    def _tap_publisher(self, state: NodeState, publisher: Any) -> None:  # noqa: ANN401
+        topic = publisher.topic_name
+        memory = Memory(publisher.msg_type)
+        happened = self.virtual.sender("subscription", topic)
+        if topic in INFRASTRUCTURE_TOPICS:
+            quiet = self._sender("subscription", topic)
+            state.taps.append(PublisherTap(publisher, memory, lambda _: quiet()))
+            return
+        kind = type_name(publisher.msg_type)
+        channel = self.recorder.channel(topic, kind, state.name, memory)
+        heard = self._published(happened, self.recorder.sampler(channel))
+        tap = PublisherTap(publisher, memory, heard)
+        tap.channel = channel
+        state.taps.append(tap)
+        if self.counts_limits:
+            self.limits.publisher_made(state, publisher, tap)
+        if self.arrivals is not None:
+            self.arrivals.watch_publisher(publisher)
+
+    def _published(
+        self, happened: Callable[[], None], add: Callable[[int, Any], None]
+    ) -> Callable[[Any], None]:
+        virtual, home = self.virtual, get_ident()
+
+        def heard(copy: Any) -> None:  # noqa: ANN401
+            if self.live is None:
+                if get_ident() != home:  # a thread of the node's own
+                    virtual.elsewhere.append(partial(heard_elsewhere, copy))
+                    return
+                add(virtual.now, copy)
+                happened()
+                return
+            with self.recorder.lock:
+                add(self.now(), copy)
+
+        def heard_elsewhere(copy: Any) -> None:  # noqa: ANN401
+            add(virtual.now, copy)
+            happened()
+
+        return heard
+
+    def _sender(self, kind: str, name: str) -> Callable[[], None]:
+        happened = self.virtual.sender(kind, name)
+
+        def sent() -> None:
+            if self.live is None:
+                happened()
+
+        return sent
+
+    def _logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
+        record = LogRecord(self.now(), level, name, text, function, line)
+        self.recorder.logs.append(record)
+        if self._rosout_heard is None:
+            self._rosout_heard = self._sender("subscription", "/rosout")
+        self._rosout_heard()
+        if self.live is None:
+            self.show_news()
+
+    def _wait_for_answer(self, client: Any, future: Any, timeout_sec: float | None) -> Any:  # noqa: ANN401
+        if self.live is None:
+            self.wait_until(future.done, timeout_sec)
+        else:
+            self.live.wait_for(future, timeout_sec)
+        if not future.done():
+            client.remove_pending_request(future)
+            if timeout_sec is None:
+                raise _unanswered(client.service_name)
+        return future.result()
+
+    def _sleep(self, entry: Entry, original: Callable[[], None]) -> None:
+        self.refuse_in_callback("rate.sleep")
+        calls = entry.calls
+        if self.live is None:
+            self.wait_until(lambda: entry.calls > calls, None)
+        else:
+            original()
+
+
+def _unanswered(service: str) -> SessionError:
+    return SessionError(
+        f"Nobody has answered the call to {service}.",
+        "Either no node of this session offers that service, or its callback does not end. "
+        "Outside a page the call would wait for ever.",
+        "Add the node that offers the service first, and compare the two names.",
+    )
+
+
+def _name_of(kind: str, entity: Any) -> str:  # noqa: ANN401
+    name: str = entity.topic_name if kind == "subscription" else entity.service_name
+    return name
+
+
+#: Virtual seconds that a call without a limit of its own waits for another node.
+LONGEST_WAIT = 3600.0
+
+
+class Closable(Protocol):
+    """What ends with the session."""
+
+    def close(self) -> None:
+        """End."""
+
+
+class World(Watching):
+    """Everything behind a `Session`.
+
+    It is what the hooks tell of new nodes and entities (see `Watching`), and what the executors ask
+    for nodes. It never refers to the `Session`, so that a session nobody holds any more is closed
+    at once.
+
+    Args:
+        seed: Seed of the random numbers that the nodes draw.
+        domain_id: The ROS domain to join, or None for a private one.
+
+    Attributes:
+        console: Where log lines are printed.
+        context: The ROS context.
+        lookout: Sees the other processes; None in a private domain, where there are none.
+        closed: Whether `close` was called.
+        panel: The instrument panel, or None.
+        makers: What the session was handed to make each node, and how it was started.
+    """
+
+    def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
+        super().__init__()
+        mend_message_classes()
+        self._lease: DomainLease | None = lease_domain() if domain_id is None else None
+        self.domain_id = self._lease.domain_id if self._lease else domain_id
+        self.clock = make_clock()
+        self.recorder = Recorder()
+        self.console = Console()
+        self.context = SessionContext(self, self.domain_id or 0)
+        self.virtual = VirtualTimeExecutor(self.context, self.clock, self.recorder, self)
+        self.live: LiveExecutor | None = None
+        self.limits = Limits(self)
+        self.closed = False
+        self.panel: Closable | None = None
+        self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
+        self._random = SeededRandom(seed)
+        self._live_since = 0
+        self._shown_logs = 0
+        self._shown_faults = 0
+        self._last_graph: GraphSnapshot | None = None
+        self.lookout = None if domain_id is None else Lookout(self.context)
+        self.arrivals = self.lookout and Arrivals(self.lookout, self.recorder, self.now)
+        self.context.install()
+
+    # Time.
+
+    def now(self) -> int:
+        """Nanoseconds since the session began."""
+        if self.live is None:
+            return self.virtual.now
+        return self.virtual.now + time.monotonic_ns() - self._live_since
+
+    # Nodes.
+
+    def spin_node(self, state: NodeState) -> None:
+        """Run this node's callbacks from now on."""
+        state.spinning, state.paused = True, False
+        executor = self.live or self.virtual
+        state.node.executor = executor  # type: ignore[union-attr]
+        executor.wake()
+        self.virtual.resume(state)
+
+    def rest_node(self, state: NodeState) -> None:
+        """Run none of this node's callbacks until `spin_node`; its messages wait in queues."""
+        state.spinning = False
+        if self.live is not None:
+            self.live.wake()  # it may be waiting for this node
+
+    # What the executors tell.
+
+    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
+        """A callback of this entity is about to run, in live mode or through rclpy's wait set."""
+        entry = self._entries.get(entity)
+        state = self.state_of(node)
+        if entry is not None:
+            entry.calls += 1
+            label = entry.label
+        elif state is not None:
+            kind, name = waitable_kind(entity), waitable_name(entity)
+            source = event_source(entity, topic_of(entity, node)) if kind == "event" else ""
+            if action_of(entity, state):
+                return  # which tells when it knows what it was
+            label = self.recorder.label(state.name, kind, name, source)
+            self.virtual.calling = label
+        else:
+            return
+        with self.recorder.lock:
+            self.recorder.add_callback(self.now(), label.number)
+
+    def entity_raised(self, node: Node | None, entity: Any, error: BaseException) -> None:  # noqa: ANN401
+        """An exception left a callback, in live mode."""
+        entry = self._entries.get(entity)
+        state = entry.state if entry else self.state_of(node)
+        name = entry.label.name if entry else "a task" if entity is None else waitable_name(entity)
+        self.callback_raised(state, name, error)
+
+    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
+        """An exception left a callback: record it, end the node, let the others go on."""
+        node = state.name if state else "A task"
+        self.recorder.faults.append(fault_of(error, self.now(), node, name))
+        mend_message_classes()
+        if state is not None:
+            self.rest_node(state)
+            state.ended = True
+        if self.live is None:
+            self.show_news()
+
+    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
+        """A callback of an action is about to run."""
+        self.virtual.calling = label = self.recorder.label(state.name, kind, name, source)
+        with self.recorder.lock:
+            self.recorder.add_callback(self.now(), label.number)
+
+    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
+        """An exception left the work on a goal: record it; rclpy aborts the goal and logs it."""
+        fault = fault_of(error, self.now(), state.name, name)
+        self.recorder.faults.append(fault)
+        self._shown_faults += 1
+        self.console.work(fault)
+
+    def show_news(self) -> None:
+        """Print the log lines and faults that have not been printed yet."""
+        logs = self.recorder.logs
+        while self._shown_logs < len(logs):
+            self._shown_logs += 1
+            self.console.log(logs[self._shown_logs - 1])
+        self.show_faults()
+
+    def show_faults(self) -> None:
+        """Print the faults that have not been printed yet."""
+        faults = self.recorder.faults
+        while self._shown_faults < len(faults):
+            self._shown_faults += 1
+            self.console.fault(faults[self._shown_faults - 1])
+
+    # Running.
+
+    @contextmanager
+    def running(self) -> Iterator[None]:
+        """While nodes of this session run in this thread, they are at home.
+
+        Their context is rclpy's default, and the random numbers they draw are the session's.
+        """
+        before = self.context.install()
+        try:
+            with self._random.lent():
+                yield
+        finally:
+            self.context.uninstall(before)
+
+    def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
+        """Run virtual time until `done` is true, at most so many seconds (default one hour)."""
+        limit = LONGEST_WAIT if seconds is None or seconds < 0 else seconds
+        with self.running():
+            run_until(self, self.virtual.now + round(limit * 1e9), done)
+        return bool(done())
+
+    def go_live(self) -> None:
+        """Run the nodes against the wall clock, in a background thread."""
+        self.live = LiveExecutor(self.context, self)
+        self.virtual.deadlines.forget()
+        self._live_since = time.monotonic_ns()
+        self.clock.follow_wall()
+        self._change_over(self.live, virtual=False)
+        self.live.start()
+
+    def go_virtual(self) -> None:
+        """End live mode; virtual time goes on from where the wall clock has come to."""
+        if self.live is None:
+            return
+        self.live.finish()
+        self.virtual.now, self.live = self.now(), None
+        self.clock.follow_session(self.virtual.now)
+        self._change_over(self.virtual, virtual=True)
+        self.virtual.look_anew()
+
+    def graph(self) -> GraphSnapshot:
+        """The graph as it is now, or as it was when the session ended."""
+        if self._last_graph is not None:
+            return self._last_graph
+        own = super().graph()
+        return own if self.lookout is None else with_outside(own, self.lookout)
+
+    def known_topics(self) -> set[str]:
+        """Every topic of which it is known what was published."""
+        return self.recorder.topics() | (self.arrivals.topics() if self.arrivals else set())
+
+    def hurry(self) -> None:
+        """Interrupt was pressed while the nodes run live; a callback that hangs ends, too."""
+        if self.live is not None:
+            self.live.hurry()
+
+    def close(self) -> None:
+        """Destroy the nodes, end the context and give the domain id back."""
+        if self.closed:
+            return
+        if self.panel is not None:
+            self.panel.close()
+        self.closed = True
+        self.go_virtual()
+        self._last_graph = self.graph()
+        for state in reversed(self.states()):
+            self.destroy(state)
+        self.destroy_actions()
+        if self.lookout is not None:
+            self.lookout.destroy_node()
+        self.virtual.shutdown()
+        self.context.end()
+        if self._lease:
+            self._lease.release()
+
+    # How it works.
+
+    def _change_over(self, executor: LiveExecutor | VirtualTimeExecutor, virtual: bool) -> None:
+        for state in self.states():
+            show_sim_time(state.node, virtual)
+            if state.spinning:
+                state.node.executor = executor  # type: ignore[union-attr]
+            for entry in state.entries:
+                # Each timer begins a new period: its deadline is a reading of the other clock.
+                if entry.kind.endswith("timer"):
+                    _restart(entry)
+
+
+def _restart(entry: Entry) -> None:
+    with suppress(InvalidHandle):  # destroyed by its node
+        if not entry.entity.is_canceled():
+            entry.entity.reset()
+
+
+# From what a caller names to what a session has of it.
+
+
+def state_of(world: World, node: Node) -> NodeState:
+    """What is known of a node.
+
+    Raises:
+        NodeClassError: If it does not belong to the session.
+    """
+    state = world.state_of(node)
+    if state is None:
+        raise foreign_node(node, world.name_of(node))
+    return state
+
+
+def find(world: World, node: Node | str) -> NodeState:
+    """A node, given itself or by name.
+
+    Raises:
+        SessionError: If the session has no such node.
+    """
+    if isinstance(node, Node):
+        return state_of(world, node)
+    name = "/" + str(node).lstrip("/")
+    state = world.named(name)
+    if state is None:
+        raise no_such_node(name, [other.name for other in world.states()])
+    return state
+
+
+def samples(world: World, topic: Any) -> tuple[Sample, ...]:  # noqa: ANN401 - unchecked input
+    """The messages of a topic.
+
+    Raises:
+        UnknownTopicError: If it never had a publisher.
+        SessionError: If `topic` is not a name.
+    """
+    name = "/" + check_name("messages", topic).lstrip("/")
+    known = world.known_topics()
+    if name not in known:
+        raise unknown_topic(name, known, world.graph())
+    return tuple(world.recorder.samples(name))
+
+
+def log_lines(world: World, node: Node | str | None) -> tuple[LogRecord, ...]:
+    """The log lines of one node, or of all.
+
+    Raises:
+        SessionError: If `node` is neither a name nor a node that is or was in the session.
+    """
+    records = tuple(world.recorder.logs)
+    if node is None:
+        return records
+    wanted = _checked_name(world, node).strip("/").replace("/", ".")
+    return tuple(record for record in records if record.name == wanted)
+
+
+def observation(world: World, seed: int) -> Observation:
+    """Everything that was recorded so far, as plain data."""
+    recorder = world.recorder
+    return Observation(
+        world.now(),
+        seed,
+        tuple(recorder.samples()),
+        tuple(recorder.logs),
+        tuple(recorder.callbacks()),
+        tuple(recorder.faults),
+        world.graph(),
+    )
+
+
+def _checked_name(world: World, node: Node | str) -> str:
+    if not isinstance(node, Node):
+        return check_name("logs", node)
+    name = world.name_of(node)
+    if name is None:
+        raise foreign_node(node)
+    return name
+
+
+def full_topic(call: str, topic: Any) -> str:  # noqa: ANN401 - unchecked input
+    """The full name of a topic, such as `/temperature`; nobody need use it.
+
+    Args:
+        call: Who asks, for the error.
+        topic: What was typed.
+
+    Raises:
+        SessionError: If it is no text, or ROS does not allow it as a name.
+    """
+    name = "/" + check_name(call, topic).lstrip("/")
+    try:
+        validate_full_topic_name(name)
+    except InvalidTopicNameException as error:
+        raise SessionError(
+            f"{topic!r} cannot be the name of a topic.",
+            f"ROS does not allow it: {_reason(error)}.",
+            "Names have letters, digits, `_` and `/`, and no part of them begins with a digit: "
+            "`room_1/temperature`.",
+        ) from None
+    return name
+
+
+def _reason(error: InvalidTopicNameException) -> str:
+    """What is wrong, from an exception that also repeats the name and draws an arrow below it."""
+    parts = str(error).split("\n")[0].split(":")
+    return parts[1].strip() if len(parts) > 1 else "it breaks the rules for names"

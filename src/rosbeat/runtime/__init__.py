@@ -1,6 +1,0 @@
-"""Nodes in a page: the only room of the house that imports rclpy.
-
-`session` is the door. Behind it: `world` and `watching` (what one session owns and learns of its
-nodes), `virtual_time` and `live` (the two executors), `hooks`, `taps` and `recorder` (how nodes are
-observed without being changed), `learner_calls` (what `rclpy.init` and `rclpy.spin` do in a page).
-"""

@@ -1,0 +1,153 @@
+"""The command `rosbeat explain`, beside nodes in processes of their own."""
+
+import os
+import pty
+import signal
+import subprocess
+import sys
+from contextlib import ExitStack
+from select import select
+
+import pytest
+
+from other_process import other_process
+from rosbeat import cli
+from rosbeat.diagnosis.situation import StaleBuild
+from rosbeat.domains import lease_domain
+from rosbeat.environment import SHARED_DOMAINS
+from rosbeat.errors import CommandError
+from rosbeat.ros.silence import explain_domain
+
+pytestmark = pytest.mark.ros
+NODES = (
+    "Talker(period=0.1), Listener(), Listener('other', 'cuont'), "
+    "Talker('weak', 'weak', 0.1, qos=qos_profile_sensor_data), Listener('strong', 'weak'),"
+)
+CLEAR = "\r\x1b[K"
+SETUP = "__import__('builtins').__dict__.update(vars(__import__('rclpy.qos').qos)) or "
+
+
+@pytest.fixture(scope="module")
+def domain():
+    with ExitStack() as stack:
+        lease = lease_domain()
+        stack.callback(lease.release)
+        stack.enter_context(other_process(lease.domain_id, f"*({SETUP}()), {NODES}"))
+        yield lease.domain_id
+
+
+@pytest.fixture
+def empty():
+    lease = lease_domain()
+    yield lease.domain_id
+    lease.release()
+
+
+def explain(*words):
+    return cli.main(["explain", *map(str, words)])
+
+
+def test_all_is_well(domain, capsys):
+    assert explain("count", "--domain-id", domain, "--seconds", 20) == 0
+    said = capsys.readouterr()
+    assert "All is well on /count" in said.out
+    assert "arrive at /listener" in said.out
+    assert said.err == ""
+
+
+def test_nobody_publishes_and_the_near_name(domain, capsys):
+    assert explain("cuont", "--domain-id", domain, "--seconds", 20) == cli.FAILED
+    assert "Nobody publishes on /cuont" in capsys.readouterr().out
+    assert explain("counts", "--domain-id", domain) == cli.FAILED
+    assert "Did you mean /count?" in capsys.readouterr().out
+
+
+def test_qualities_of_both_ends(domain, capsys):
+    assert explain("weak", "--domain-id", domain, "--seconds", 20) == cli.FAILED
+    said = capsys.readouterr().out
+    assert "/weak offers BEST_EFFORT, and /strong asks for RELIABLE" in " ".join(said.split())
+    assert "/weak publishes Int32 (BEST_EFFORT, VOLATILE)" in said
+
+
+def test_the_domain_of_the_terminal(domain, capsys, monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    assert explain("nothing_like_it") == cli.FAILED
+    assert "Topics that are used: /count" in capsys.readouterr().out
+
+
+def test_another_domain(empty, capsys):
+    with ExitStack() as stack:
+        there = lease_domain(SHARED_DOMAINS)
+        stack.callback(there.release)
+        stack.enter_context(other_process(there.domain_id, "Talker('abroad', 'far_away'),"))
+        assert explain("far_away", "--domain-id", empty) == cli.FAILED
+    said = " ".join(capsys.readouterr().out.split())
+    assert f"In ROS domain {there.domain_id}, /abroad publishes on /far_away" in said
+    assert f"this is domain {empty}" in said
+
+
+def test_a_build_that_is_older_than_its_source(empty):
+    build = StaleBuild("sensor_simulator", "temperature_publisher", "a/b.py")
+    asked = []
+    found = explain_domain("count", empty, 0, lambda topic: asked.append(topic) or (build,))
+    assert asked == ["/count"]
+    assert [one.mistake for one in found.diagnoses] == ["not-rebuilt", "topic-unknown"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["room temperature"], "cannot be the name of a topic"),
+        (["count", "--seconds", "-1"], "--seconds"),
+        (["count", "--seconds", "nan"], "--seconds"),
+        (["count", "--seconds", "soon"], "--seconds"),
+        (["count", "--domain-id", "300"], "--domain-id is 300"),
+        (["count", "--domain-id", "-1"], "--domain-id"),
+        (["count", "--domain-id", "x"], "--domain-id"),
+        ([], "TOPIC"),
+    ],
+)
+def test_misuse_ends_with_2(words, said, capsys):
+    assert explain(*words) == cli.MISUSED
+    told = capsys.readouterr().err
+    assert said in told
+    assert "What to try:" in told
+
+
+def test_a_bad_variable_is_named(monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "mine")
+    with pytest.raises(CommandError, match="ROS_DOMAIN_ID is 'mine'"):
+        explain_domain("count", None, 0, lambda _: ())
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_is_stopped_quietly_and_its_line_goes_away(domain, number):
+    """On a terminal: one line while it looks, nothing when it is stopped."""
+    ours, theirs = pty.openpty()  # both stay open, so that nothing in between is lost
+    words = ["rosout", "--domain-id", str(domain), "--seconds", "60"]  # nobody speaks there
+    process = subprocess.Popen(
+        [sys.executable, "-m", "rosbeat", "explain", *words], stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=theirs, start_new_session=True,
+    )  # fmt: skip
+    with process:
+        try:
+            told = _read(process, ours, "...")
+            process.send_signal(number)
+            assert process.wait(60) == cli.INTERRUPTED
+            assert process.stdout.read() == b""
+            told += _read(process, ours, CLEAR)
+        finally:
+            process.kill()
+    os.close(ours)
+    os.close(theirs)
+    assert told == f"Looking at /rosout in ROS domain {domain} ...{CLEAR}"
+
+
+def _read(process, terminal, until):
+    """What a terminal shows, up to a text."""
+    told = ""
+    while until not in told:
+        came, _, _ = select([terminal], [], [], 60)
+        assert came, f"after {told!r} came nothing, and it ended with {process.poll()}"
+        told += os.read(terminal, 1024).decode()
+    return told

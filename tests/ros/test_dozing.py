@@ -1,0 +1,227 @@
+"""A sleep in a callback takes virtual time, on a page as in a check."""
+
+import time
+from time import sleep
+
+import pytest
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+from rosbeat import Session
+from rosbeat.ros.scenario import observe
+from rosbeat.ros.virtual_time import LONGEST
+
+pytestmark = pytest.mark.ros
+
+
+class Beat(Node):
+    """Says `beat` each second."""
+
+    def __init__(self, name="beat"):
+        super().__init__(name)
+        self.pub = self.create_publisher(Float32, name, 10)
+        self.create_timer(1.0, lambda: self.pub.publish(Float32(data=1.0)))
+
+
+class Worker(Beat):
+    """Beats, and sleeps as long as it is told to."""
+
+    def __init__(self):
+        super().__init__("worker")
+        self.create_subscription(Float32, "order", self.work, 10)
+
+    def work(self, msg):
+        time.sleep(msg.data)
+        self.get_logger().info("done")
+
+
+class Boss(Node):
+    """Gives one order, of 3 s, at 1.5 s."""
+
+    def __init__(self, seconds=3.0):
+        super().__init__("boss")
+        self.pub = self.create_publisher(Float32, "order", 10)
+        self.timer = self.create_timer(1.5, self.order)
+        self.seconds = seconds
+
+    def order(self):
+        self.timer.cancel()
+        self.pub.publish(Float32(data=self.seconds))
+
+
+def times(ros, topic):
+    return [one.time for one in ros.messages(topic)]
+
+
+def test_a_page_and_a_check_see_the_same(ros):
+    begin = time.monotonic()
+    for node in (Boss, Beat, Worker):
+        ros.add(node)
+    ros.run(seconds=8)
+    assert times(ros, "beat") == [1, 2, 3, 4, 5, 6, 7, 8]
+    assert times(ros, "worker") == [1, 4.5, 5, 6, 7, 8]
+    assert [(one.time, one.text) for one in ros.logs()] == [(4.5, "done")]
+    seen = observe(Worker, 8, others=[Boss, Beat])
+    assert seen.samples == ros.observation().samples
+    assert seen.callbacks == ros.observation().callbacks
+    assert time.monotonic() - begin < 3  # twice 3 s were slept, and not here
+
+
+def test_a_sleep_beyond_the_end_prolongs_the_run_and_says_so(ros, capsys):
+    for node in (Boss, Beat, Worker):
+        ros.add(node)
+    ros.run(seconds=2)
+    assert ros.time == 4.5
+    assert "/worker slept beyond the end of this run, which so went on until 4.5 s." in (
+        capsys.readouterr().out
+    )
+    ros.run(seconds=1.5)
+    assert ros.time == 6
+    assert times(ros, "beat") == [1, 2, 3, 4, 5, 6]
+    assert "slept" not in capsys.readouterr().out
+
+
+def test_two_sleepers_wake_in_the_order_last_in_first_out_and_it_says_so(ros, capsys):
+    class Late(Worker):
+        def work(self, msg):
+            time.sleep(0.5)
+            time.sleep(msg.data)
+            self.get_logger().info("late")
+
+    ros.add(Boss)
+    ros.add(Worker)
+    ros.add(Late, name="late")
+    ros.run(seconds=6)
+    assert [(one.time, one.name) for one in ros.logs()] == [(5, "late"), (5, "worker")]
+    assert "/worker woke late, at 5 s, after one that slept longer." in capsys.readouterr().out
+
+
+def test_who_never_wakes_ends_with_an_error_that_says_so(ros, capsys):
+    ros.add(lambda: Boss(10.0 * LONGEST))
+    ros.add(Beat)
+    ros.add(Worker)
+    ros.run(seconds=2)
+    assert ros.time == LONGEST + 2
+    (fault,) = ros.observation().faults
+    assert (fault.node, fault.kind, fault.code) == (
+        "/worker",
+        "SessionError",
+        "time.sleep(msg.data)",
+    )
+    assert "A callback of /worker does not wake up." in capsys.readouterr().err
+    ros.run(seconds=2)  # the others go on
+    assert times(ros, "beat")[-1] == LONGEST + 4
+
+
+def test_every_way_to_sleep_counts(ros):
+    def nap(node):
+        sleep(1)  # a name of this module
+        node.get_clock().sleep_for(rclpy_seconds(1))
+
+    node = ros.add(lambda: Node("napper"))
+    timer = node.create_timer(1.0, lambda: (timer.cancel(), nap(node), node.get_logger().info("")))
+    ros.run(seconds=1)
+    assert [one.time for one in ros.logs("napper")] == [3]
+
+
+def rclpy_seconds(number):
+    from rclpy.duration import Duration
+
+    return Duration(seconds=number)
+
+
+def test_outside_of_callbacks_and_live_a_sleep_is_a_sleep(ros):
+    class Slow(Beat):
+        def __init__(self):
+            time.sleep(0.05)
+            super().__init__("slow")
+
+    begin = time.monotonic()
+    ros.add(Slow)
+    ros.run(seconds=1)
+    assert (ros.time, time.monotonic() - begin >= 0.05) == (1, True)
+    assert time.sleep is sleep
+    begin = time.monotonic()
+    ros.add(Worker)
+    ros.add(lambda: Boss(0.05)).timer.timer_period_ns = 10_000_000
+    ros.start()
+    assert ros.wait(10, until=lambda: ros.logs("worker"))
+    assert time.monotonic() - begin >= 0.05
+
+
+def test_one_that_is_paused_or_removed_in_its_sleep_stays_so(ros):
+    ros.add(Boss)
+    worker = ros.add(Worker)
+    helper = ros.add(lambda: Node("helper"))
+    helper.create_timer(2.0, lambda: ros.pause(worker))
+    ros.run(seconds=8)
+    assert times(ros, "worker") == [1]
+    assert [one.time for one in ros.logs("worker")] == [4.5]
+    ros.resume(worker)
+    ros.remove(helper)
+    ros.run(seconds=2)
+    assert times(ros, "worker")[1:] == [8, 9, 10]
+
+
+def test_waiting_for_a_future_sleeps_in_virtual_time_too(ros):
+    import rclpy
+    from std_srvs.srv import Trigger
+
+    server = ros.add(lambda: Node("server"))
+    client = server.create_client(Trigger, "go")
+
+    def answer(_, response):
+        time.sleep(30)
+        return response
+
+    helper = ros.add(lambda: Node("helper"))
+    helper.create_service(Trigger, "go", answer)
+    future = client.call_async(Trigger.Request())
+    begin = time.monotonic()
+    rclpy.spin_until_future_complete(server, future)
+    assert future.done()
+    assert ros.time == 30
+    assert time.monotonic() - begin < 5
+
+
+def test_an_interrupt_ends_a_sleep(ros, monkeypatch):
+    node = ros.add(lambda: Node("napper"))
+    ros.add(Beat)
+    timer = node.create_timer(1.0, lambda: time.sleep(1000))
+    stopper = ros.add(lambda: Node("stopper"))
+
+    def stop():
+        raise KeyboardInterrupt
+
+    stopper.create_timer(5.0, stop)
+    with pytest.raises(KeyboardInterrupt):
+        ros.run(seconds=20)
+    assert ros.time == 5
+    assert time.sleep is sleep
+    timer.cancel()
+    ros.remove(stopper)
+    with Session() as other:
+        other.run(seconds=1)
+    ros.run(seconds=2)
+    assert times(ros, "beat")[-1] == 7
+
+
+def test_a_node_that_is_slower_than_its_messages_falls_behind_and_the_run_ends(ros):
+    class Slow(Node):
+        def __init__(self):
+            super().__init__("slow")
+            self.create_subscription(Float32, "beat", self.work, 5)
+
+        def work(self, msg):
+            time.sleep(4.0)
+            self.get_logger().info("done")
+
+    ros.add(Beat)
+    ros.add(Slow)
+    ros.run(seconds=60)
+    assert 60 <= ros.time < 64
+    done = [line.time for line in ros.logs("slow")]
+    assert done == [5.0 + 4 * n for n in range(15)]
+    ros.run(seconds=8)
+    assert len(ros.logs("slow")) in (17, 18)
+    assert not ros.observation().faults

@@ -1,0 +1,114 @@
+"""Nodes started under another name, in a namespace, with other topics and parameters."""
+
+import pytest
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+from rosbeat.errors import SessionError
+from rosbeat.ros.launch import Launch, Maker, checked
+from rosbeat.ros.scenario import Add, observe
+from rosbeat.ros.session import Session
+
+pytestmark = pytest.mark.ros
+
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.declare_parameter("value", 1.0)
+        self.words = self.declare_parameter("words", ["a"]).value
+        self.pub = self.create_publisher(Float32, "temperature", 10)
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.pub.publish(Float32(data=self.get_parameter("value").value))
+
+
+def test_a_node_keeps_its_class_and_gets_another_place():
+    with Session() as ros:
+        node = ros.add(
+            Talker,
+            name="hygrometer",
+            namespace="greenhouse",
+            remappings={"temperature": "humidity"},
+            parameters={"value": 60.5, "words": ["x: y", "'"]},
+        )
+        ros.run(seconds=2)
+        assert ros.graph().nodes == ("/greenhouse/hygrometer",)
+        assert [one.value for one in ros.messages("greenhouse/humidity")] == [60.5, 60.5]
+        assert list(node.words) == ["x: y", "'"]
+        assert type(node) is Talker
+
+
+def test_only_the_node_that_is_added_is_started_so():
+    with Session() as ros:
+        ros.add(Talker, name="one")
+        ros.add(Talker)
+        assert ros.graph().nodes == ("/one", "/talker")
+
+
+def test_the_same_name_makes_room_for_the_new_one_and_another_does_not():
+    with Session() as ros:
+        ros.add(Talker, name="one")
+        ros.add(Talker, name="two")
+        ros.add(Talker, name="one", namespace="/a/")
+        ros.add(Talker, name="two")
+        assert sorted(ros.graph().nodes) == ["/a/one", "/one", "/two"]
+
+
+@pytest.mark.parametrize(
+    "start",
+    [
+        {"name": 3},
+        {"name": ""},
+        {"namespace": "/"},
+        {"remappings": ["a"]},
+        {"remappings": {"a": 3}},
+        {"remappings": {3: "a"}},
+        {"parameters": {"a": None}},
+        {"parameters": {"a": float("nan")}},
+        {"parameters": {"a": [1, "b"]}},
+        {"parameters": {"a": []}},
+    ],
+)
+def test_what_cannot_be_a_name_or_a_value_is_refused(start, says):
+    with Session() as ros, pytest.raises(SessionError) as caught:
+        ros.add(Talker, **start)
+    says(caught.value, "cannot be started with", "ros.add(")
+
+
+def test_a_name_that_ros_does_not_allow_is_an_error_of_the_constructor():
+    with Session() as ros, pytest.raises(SessionError, match="could not be made"):
+        ros.add(Talker, name="my sensor")
+
+
+def test_a_node_that_exists_cannot_be_renamed(says):
+    with Session() as ros:
+        node = ros.add(Talker)
+        with pytest.raises(SessionError) as caught:
+            ros.add(node, name="other")
+        says(caught.value, "made already", "without brackets")
+
+
+def test_arguments_are_those_of_the_command_line():
+    start = checked("a", "b", {"c": "d"}, {"e": True, "f": (1.0, 2.0)})
+    assert start.arguments() == [
+        *("--ros-args", "-r", "c:=d", "-r", "__node:=a", "-r", "__ns:=/b"),
+        *("-p", "e:=true", "-p", "f:=[1.0, 2.0]", "--"),
+    ]
+    assert Launch().arguments() == []
+    assert not Launch()
+
+
+def test_a_scenario_starts_its_answer_and_the_others():
+    seen = observe(
+        Talker,
+        3,
+        others=[Maker(Talker, Launch(name="other"))],
+        start=Launch(namespace="house", parameters={"value": 2.0}),
+        steps=[Add(1.5, make=Talker, start=Launch(name="late"))],
+    )
+    assert not seen.faults
+    assert seen.subject == "/house/talker"
+    assert {"/other", "/late", "/house/talker"} == set(seen.graph.nodes)
+    assert [one.value for one in seen.samples if one.topic == "/house/temperature"] == [2.0] * 3
