@@ -204,7 +204,9 @@ def _record_reader(kind: Any) -> Read:  # noqa: ANN401
     others = [(name, _field_reader(name, hints[name])) for name in names if name in optional]
 
     def read(value: Any) -> Any:  # noqa: ANN401
-        if type(value) is not dict or not required <= value.keys() <= known:
+        if type(value) is not dict or not (
+            value.keys() == known or required <= value.keys() <= known
+        ):
             found = ", ".join(value) if isinstance(value, dict) else type(value).__name__
             raise _WrongError("is not as it should be.", f"Wanted {wanted}: {found}.")
         made = {}

@@ -1155,10 +1155,10 @@ class VirtualTimeExecutor(WaitSetExecutor):
                     handle.call_timer()
         except InvalidHandle:
             return  # destroyed
+        self._agenda.add(entry, self.now)  # before the callback, which may wait for longer
         if due:
             self._chain.timer_fires(entry)
             self._call(entry, entry.entity.callback)
-        self._agenda.add(entry, self.now)
 
     def _take(self, entry: Entry) -> bool:
         """Take one thing and run the callback; return whether there was something."""

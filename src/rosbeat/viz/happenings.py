@@ -16,6 +16,8 @@ from rosbeat.records import (
     Sample,
     is_hidden,
 )
+from rosbeat.viz.runs import Run, levels_of, runs_of
+from rosbeat.viz.wiring import shared
 
 #: More messages and callbacks than this cannot be told apart in one picture.
 MOST_EVENTS = 60
@@ -45,7 +47,7 @@ class Happenings:
     """Everything in one timeline.
 
     Attributes:
-        lanes: Full names of the nodes, in order of creation.
+        lanes: Full names of the nodes, in order of creation; those that share a process together.
         topics: Full names of the topics, in order of first use.
         messages: The messages, in order.
         callbacks: The runs of callbacks, in order.
@@ -53,6 +55,9 @@ class Happenings:
         faults: The exceptions that ended nodes in lanes.
         end: The last time shown, in seconds.
         skipped: How many messages and callbacks came later and are not shown.
+        processes: The nodes in lanes that share a process.
+        runs: The runs of callbacks that take time.
+        levels: For every callback its place in the stack of runs of its node that overlap.
     """
 
     lanes: tuple[str, ...]
@@ -63,6 +68,9 @@ class Happenings:
     faults: tuple[Fault, ...]
     end: float
     skipped: int
+    processes: tuple[tuple[str, ...], ...] = ()
+    runs: tuple[Run, ...] = ()
+    levels: tuple[int, ...] = ()
 
 
 def happenings(
@@ -81,26 +89,59 @@ def happenings(
     """
     samples = [one for one in seen.samples if one.topic in topics and not is_hidden(one.node)]
     lanes = _lanes(seen, topics, samples, everyone)
+    processes = shared(seen.graph.processes, lanes)
+    lanes = _together(lanes, processes)
     callbacks = [one for one in seen.callbacks if _belongs(one, lanes, topics)]
-    times = sorted(one.time_ns for one in (*samples, *callbacks))
+    runs = runs_of((one for one in seen.waits if one.node in lanes), seen.callbacks)
+    times = sorted([*(one.time_ns for one in (*samples, *callbacks)), *_more(runs, callbacks)])
     last = _last(times, until_ns)
     end = _end(seen, times, last, until_ns)
     shown = [one for one in samples if one.time_ns <= last]
+    ran = tuple(one for one in callbacks if one.time_ns <= last)
     return Happenings(
         lanes,
         tuple(dict.fromkeys(one.topic for one in shown)),
         _messages(shown, callbacks),
-        tuple(one for one in callbacks if one.time_ns <= last),
+        ran,
         tuple(one for one in seen.logs if node_of(one) in lanes and one.time_ns <= end),
         tuple(one for one in seen.faults if one.node in lanes and one.time_ns <= end),
         end / NANOSECONDS,
         sum(time > last for time in times),
+        processes,
+        tuple(run for run in runs if run.time_ns <= last),
+        levels_of(ran, runs),
     )
 
 
 def node_of(log: LogRecord) -> str:
     """Full name of the node that a log line comes from."""
     return "/" + log.name.replace(".", "/")
+
+
+def level_at(
+    shown: Happenings, node: str, time_ns: int, callback: str = "", topic: str = ""
+) -> int:
+    """The level of what a node does at an instant; the first, if it does several things.
+
+    Args:
+        shown: What the timeline shows.
+        node: Full name of the node.
+        time_ns: The instant, in nanoseconds of virtual time.
+        callback: Name of the callback function that does it, if it is known.
+        topic: The topic whose message it takes, if it takes one.
+    """
+    pairs = zip(shown.callbacks, shown.levels, strict=True)
+    found = [
+        level
+        for one, level in pairs
+        if (one.node, one.time_ns) == (node, time_ns)
+        and callback in ("", one.name)
+        and (not topic or (one.kind, one.source) == ("subscription", topic))
+    ]
+    if not topic:
+        ours = (run for run in shown.runs if run.node == node and callback in ("", run.callback))
+        found += [run.level for run in ours if run.resumes(time_ns)]
+    return min(found, default=0)
 
 
 def _lanes(
@@ -110,8 +151,22 @@ def _lanes(
     part = {one.node for one in seen.callbacks if everyone or one.source in topics}
     part |= {one.node for one in samples}
     part |= {end.node for end in seen.graph.endpoints if end.name in topics}
+    part |= {one.node for one in seen.waits if everyone}
     order = dict.fromkeys((*seen.graph.nodes, *(one.node for one in seen.callbacks), *sorted(part)))
     return tuple(name for name in order if name in part and not is_hidden(name))
+
+
+def _together(lanes: tuple[str, ...], processes: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
+    """The lanes with those of one process side by side, where the first of them was."""
+    home = {name: names for names in processes for name in names}
+    order = (one for name in lanes for one in home.get(name, (name,)))
+    return tuple(dict.fromkeys(order))
+
+
+def _more(runs: Sequence[Run], callbacks: Sequence[CallbackRecord]) -> list[int]:
+    """When runs began of which no callback tells, such as a wait in a constructor."""
+    told = {(one.node, one.name, one.time_ns) for one in callbacks}
+    return [run.time_ns for run in runs if (run.node, run.callback, run.time_ns) not in told]
 
 
 def _belongs(one: CallbackRecord, lanes: Sequence[str], topics: Sequence[str]) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rosbeat.viz import theme
+from rosbeat.viz import bars, theme
 from rosbeat.viz.canvas import Canvas, line_height, text_width
 
 _MARK = 26.0
@@ -24,11 +24,13 @@ class Entry:
         words: The meaning.
         style: Colour, marker and dash; an empty marker or dash leaves that part out.
         fill: Colour inside the marker if it is not the line's.
+        bar: A stretch of time in place of marker and line.
     """
 
     words: str
     style: theme.Style
     fill: str = ""
+    bar: theme.Bar | None = None
 
 
 def rows(entries: Sequence[Entry], width: float) -> list[list[Entry]]:
@@ -63,6 +65,8 @@ def draw(canvas: Canvas, entries: Sequence[Entry], left: float, top: float, widt
 def _draw_mark(canvas: Canvas, entry: Entry, x: float, y: float) -> None:
     look = entry.style
     middle = x + (_MARK - 6) / 2
+    if entry.bar:
+        bars.draw(canvas, [bars.Part(x, x + _MARK - 6, entry.bar)], y, 10.0)
     if look.dash:
         ends = [x, x + _MARK - 6]
         canvas.axes.plot(ends, [y, y], color=look.colour, ls=look.dash, lw=1.6)

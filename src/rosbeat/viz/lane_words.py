@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 
+from rosbeat.records import NANOSECONDS
 from rosbeat.viz.happenings import Happenings, node_of
+from rosbeat.viz.run_words import say_runs
+from rosbeat.viz.wiring import say_shared
 from rosbeat.viz.words import count, listing, number
 
 
@@ -12,6 +15,9 @@ def describe(shown: Happenings) -> str:
     """The timeline in whole sentences."""
     said = [f"A timeline from 0 s to {number(shown.end)} s with {count(len(shown.lanes), 'node')}."]
     said += [_lane(shown, name) for name in shown.lanes]
+    said += say_shared(shown.processes)
+    end_ns = round(shown.end * NANOSECONDS)
+    said += say_runs(shown.runs, shown.callbacks, shown.processes, end_ns)
     said += [line for topic in shown.topics for line in _topic(shown, topic)]
     said += [
         f"At {number(one.time)} s, {one.kind} in {one.callback} ended {one.node}."
@@ -35,6 +41,8 @@ def _lane(shown: Happenings, node: str) -> str:
     logs = sum(node_of(one) == node for one in shown.logs)
     if logs:
         done.append(count(logs, "log line"))
+    if not done and any(run.node == node for run in shown.runs):
+        return f"{node} does nothing but wait."
     return f"{node}: {listing(done) or 'nothing happens'}."
 
 

@@ -6,19 +6,20 @@ Nodes are ellipses and topics are rectangles, as rqt_graph draws them.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rosbeat.diagnosis.explanation import Explanation
 from rosbeat.errors import PictureError
 from rosbeat.records import GraphSnapshot
-from rosbeat.viz import arrows, sources, theme
+from rosbeat.viz import arrows, frames, sources, theme
 from rosbeat.viz.canvas import Canvas, blank
+from rosbeat.viz.clusters import Clustering, Rim, clustered, enclosed
 from rosbeat.viz.labels import Label, node_label, topic_label
 from rosbeat.viz.layers import Layering, layering
 from rosbeat.viz.marked import Marked, has_head, marked, say
 from rosbeat.viz.notes import Note
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.placement import Placement, needed, place
+from rosbeat.viz.placement import Box, Placement, needed, place
 from rosbeat.viz.wiring import Edge, describe, node_key, topic_key, wiring
 
 #: Widest line of a name in CSS pixels and font size in points, tried in this order.
@@ -55,6 +56,8 @@ def graph(
     infrastructure: bool = False,
 ) -> Picture:
     """Draw which nodes publish to which topics and which nodes subscribe.
+
+    Nodes that share a process have a frame around them, with what only they use.
 
     Services and actions have boxes, too, with what they are below their names; an arrow leads from
     who uses one to who offers it. What every node brings along is left out.
@@ -109,13 +112,34 @@ def _layout(shown: Marked, strong: set[str]) -> _Layout:
     starts.update((topic_key(name), 1) for name in shown.wiring.topics)
     starts.update(dict.fromkeys(shown.notes, 1))
     starts.update((offer.key, 1) for offer in shown.wiring.offers)
-    plan = layering(starts, [(edge.source, edge.target) for edge in _edges(shown)])
+    plan = _framed(shown, layering(starts, [(edge.source, edge.target) for edge in _edges(shown)]))
     tries = [(down, *fit) for down in (False, True) for fit in _FITS]
     for down, limit, size in tries:
         layout = _attempt(plan, _labels(shown, strong, limit, size), down)
         if layout and layout.size[0] <= theme.WIDTH:
             return layout
     return layout or _forced(plan, _labels(shown, strong, *_FITS[-1]))
+
+
+def _framed(shown: Marked, plan: Layering) -> Layering:
+    """The columns with a cluster for every process of several nodes, if there is one."""
+    if not shown.wiring.processes:
+        return plan
+    groups = [list(map(node_key, names)) for names in shown.wiring.processes]
+    others = [*map(topic_key, shown.wiring.topics), *shown.notes]
+    others += [offer.key for offer in shown.wiring.offers]
+    return clustered(plan, enclosed(groups, [*plan.chains, *plan.back], others))
+
+
+def _rimmed(plan: Layering, down: bool) -> Layering:
+    """The columns with room in their frames for the label, which is on the upper edge, left."""
+    if not isinstance(plan, Clustering):
+        return plan
+    width = frames.least_width()
+    if down:
+        # Arrows come in over the upper edge, too, so the boxes stand beside the label.
+        return replace(plan, rim=Rim((16.0, width - 8), (10.0, 10.0)))
+    return replace(plan, rim=Rim((10.0, 16.0), (10.0, 10.0), (width, 0.0)))
 
 
 def _edges(shown: Marked) -> list[Edge]:
@@ -129,6 +153,7 @@ def _edges(shown: Marked) -> list[Edge]:
 
 def _attempt(plan: Layering, labels: dict[str, Label | Note], down: bool) -> _Layout | None:
     sizes = {name: _extent(label, down) for name, label in labels.items()}
+    plan = _rimmed(plan, down)
     if not down and needed(plan, sizes) > _ROOM:
         return None
     return _Layout(labels, place(plan, sizes, 0.0 if down else _ROOM), down)
@@ -142,7 +167,7 @@ def _extent(label: Label | Note, down: bool) -> tuple[float, float]:
 
 def _forced(plan: Layering, labels: dict[str, Label | Note]) -> _Layout:
     sizes = {name: label.size for name, label in labels.items()}
-    return _Layout(labels, place(plan, sizes, _ROOM), down=False)
+    return _Layout(labels, place(_rimmed(plan, down=False), sizes, _ROOM), down=False)
 
 
 def _labels(shown: Marked, strong: set[str], limit: float, size: float) -> dict[str, Label | Note]:
@@ -164,6 +189,8 @@ def _labels(shown: Marked, strong: set[str], limit: float, size: float) -> dict[
 
 def _draw(canvas: Canvas, shown: Marked, layout: _Layout) -> None:
     place_of = layout.placement
+    for frame in place_of.frames:
+        _draw_frame(canvas, frame, layout)
     for edge in _edges(shown):
         stroke, head = arrows.BROKEN if edge.fault else arrows.PLAIN, has_head(edge)
         link = (edge.source, edge.target)
@@ -175,3 +202,10 @@ def _draw(canvas: Canvas, shown: Marked, layout: _Layout) -> None:
             arrows.draw(canvas, arrows.cornered(points), stroke, head)
     for name, box in place_of.boxes.items():
         layout.labels[name].draw(canvas, *layout.point(box.along, box.across))
+
+
+def _draw_frame(canvas: Canvas, frame: Box, layout: _Layout) -> None:
+    half = frame.length / 2, frame.breadth / 2
+    first = layout.point(frame.along - half[0], frame.across - half[1])
+    last = layout.point(frame.along + half[0], frame.across + half[1])
+    frames.draw(canvas, first[0], last[1], last[0], first[1])

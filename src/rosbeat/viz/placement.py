@@ -10,6 +10,8 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from rosbeat.viz import clusters
+from rosbeat.viz.clusters import Clustering, Extent
 from rosbeat.viz.layers import Layering, Link
 
 Point = tuple[float, float]
@@ -44,6 +46,7 @@ class Placement:
         returns: For every back link the corners of its way around.
         length: Extent along the flow, from 0.
         breadth: Extent across the flow, from 0.
+        frames: For every cluster a box that encloses it and nothing else.
     """
 
     boxes: dict[str, Box]
@@ -51,12 +54,14 @@ class Placement:
     returns: dict[Link, tuple[Point, ...]]
     length: float
     breadth: float
+    frames: tuple[Box, ...] = ()
 
 
 def needed(plan: Layering, sizes: Mapping[str, Point]) -> float:
     """The least extent along the flow for boxes of these sizes (length, breadth)."""
     lengths = _lengths(plan, sizes)
-    return sum(lengths) + GAP_LEAST * (len(lengths) - 1) + _rims(plan) * GAP_LEAST
+    gaps = GAP_LEAST * (len(lengths) - 1) + _rims(plan) * GAP_LEAST
+    return sum(lengths) + gaps + sum(_ends(plan))
 
 
 def place(plan: Layering, sizes: Mapping[str, Point], room: float) -> Placement:
@@ -70,21 +75,24 @@ def place(plan: Layering, sizes: Mapping[str, Point], room: float) -> Placement:
     lengths = _lengths(plan, sizes)
     rims = _rims(plan)
     gaps = max(1, len(lengths) - 1 + rims)
-    gap = min(GAP_MOST, max(GAP_LEAST, (room - sum(lengths)) / gaps))
-    across = _across(plan, sizes)
+    before, after = _ends(plan)
+    gap = min(GAP_MOST, max(GAP_LEAST, (room - before - after - sum(lengths)) / gaps))
+    across, stretches = _across(plan, sizes)
     boxes: dict[str, Box] = {}
-    at = gap * rims / 2
+    at = before + gap * rims / 2
     for layer, length in zip(plan.layers, lengths, strict=True):
         for name in layer:
             own = sizes.get(name, (length, 0.0))
             boxes[name] = Box(at + length / 2, across[name], *own)
         at += length + gap
     breadth = max((box.across + box.breadth / 2 for box in boxes.values()), default=0.0)
+    breadth = max([breadth, *(end for _, end in stretches)])
     returns = _returns(plan, boxes, lengths, gap, breadth)
     routes = {link: _route(chain, boxes) for link, chain in plan.chains.items()}
     shown = {name: box for name, box in boxes.items() if name in sizes}
-    total = at - gap + gap * rims / 2
-    return Placement(shown, routes, returns, total, breadth + LANE * len(returns))
+    total = at - gap + gap * rims / 2 + after
+    frames = _frames(plan, boxes, stretches)
+    return Placement(shown, routes, returns, total, breadth + LANE * len(returns), frames)
 
 
 def spread(wishes: Sequence[float], distances: Sequence[float]) -> list[float]:
@@ -111,7 +119,39 @@ def spread(wishes: Sequence[float], distances: Sequence[float]) -> list[float]:
 
 
 def _lengths(plan: Layering, sizes: Mapping[str, Point]) -> list[float]:
-    return [max(sizes.get(name, (0.0, 0.0))[0] for name in layer) for layer in plan.layers]
+    lengths = [max(sizes.get(name, (0.0, 0.0))[0] for name in layer) for layer in plan.layers]
+    if isinstance(plan, Clustering):
+        # Columns with a frame are wide enough for it; one over several columns always is.
+        least = plan.rim.least[0] - sum(_ends(plan))
+        for rank, layer in enumerate(plan.layers):
+            if any(name in block for block in plan.clusters for name in layer):
+                lengths[rank] = max(lengths[rank], least)
+    return lengths
+
+
+def _ends(plan: Layering) -> Extent:
+    """Room for frames before the first column and after the last."""
+    if isinstance(plan, Clustering):
+        return plan.rim.before[0], plan.rim.after[0]
+    return 0.0, 0.0
+
+
+def _frames(
+    plan: Layering, boxes: Mapping[str, Box], stretches: Sequence[Extent]
+) -> tuple[Box, ...]:
+    if not isinstance(plan, Clustering):
+        return ()
+    return tuple(
+        _frame(plan, [boxes[name] for name in block], stretch)
+        for block, stretch in zip(plan.clusters, stretches, strict=True)
+    )
+
+
+def _frame(plan: Clustering, boxes: Sequence[Box], stretch: Extent) -> Box:
+    begin = min(box.along - box.length / 2 for box in boxes) - plan.rim.before[0]
+    end = max(box.along + box.length / 2 for box in boxes) + plan.rim.after[0]
+    length = max(end - begin, plan.rim.least[0])
+    return Box((begin + end) / 2, sum(stretch) / 2, length, stretch[1] - stretch[0])
 
 
 def _rims(plan: Layering) -> int:
@@ -119,10 +159,18 @@ def _rims(plan: Layering) -> int:
     return 1 if plan.back else 0
 
 
-def _across(plan: Layering, sizes: Mapping[str, Point]) -> dict[str, float]:
+def _across(
+    plan: Layering, sizes: Mapping[str, Point]
+) -> tuple[dict[str, float], Sequence[Extent]]:
     """Places across the flow, each as near to the middle of its neighbours as the others let it."""
-    before, after = plan.neighbours()
     breadth = {name: sizes.get(name, (0, THREAD))[1] for layer in plan.layers for name in layer}
+    if isinstance(plan, Clustering):
+        return clusters.across(plan, breadth, SPACE)
+    return _across_freely(plan, breadth), ()
+
+
+def _across_freely(plan: Layering, breadth: Mapping[str, float]) -> dict[str, float]:
+    before, after = plan.neighbours()
     gaps = [
         [(breadth[a] + breadth[b]) / 2 + SPACE for a, b in itertools.pairwise(layer)]
         for layer in plan.layers

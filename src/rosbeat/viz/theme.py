@@ -37,6 +37,16 @@ GREEN = "#008C66"
 VERMILLION = "#D55E00"
 PURPLE = "#A34C80"
 
+#: A frame around the nodes of one process.
+FRAME = "#74808D"
+FRAME_FILL = "#F0F3F5"
+
+#: Bars of callbacks that take time: pale inside, so that marks and arrows on them can be seen.
+SLEEP_FILL = "#CBE3F4"
+WAIT_FILL = "#FFE7B8"
+BAR_EDGE = "#45525F"
+HATCH = "#B98A2E"
+
 #: Shapes of the graph: pale inside, so that the name on them stays readable.
 NODE_FILL = "#DDEBF6"
 NODE_FILL_STRONG = "#B5D6EF"
@@ -68,6 +78,23 @@ class Style:
     marker: str
     dash: str | tuple[float, tuple[float, ...]]
 
+
+@dataclass(frozen=True)
+class Bar:
+    """How a stretch of time is marked: by its colour and by its hatch.
+
+    Attributes:
+        fill: Colour inside.
+        hatch: Matplotlib hatch; empty for none.
+    """
+
+    fill: str
+    hatch: str
+
+
+#: A callback that takes time, and why.
+SLEEP = Bar(SLEEP_FILL, "")
+WAIT = Bar(WAIT_FILL, "////")
 
 #: One style per series, in order of use.
 STYLES = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from rosbeat.records import (
@@ -47,6 +47,7 @@ class Wiring:
             `node_key` and `topic_key`.
         hidden: Names of nodes left out because a part of their name begins with `_`.
         offers: Services and actions that a node offers or uses, those of every node left out.
+        processes: The nodes shown that share a process, for each process with more than one.
     """
 
     nodes: tuple[str, ...]
@@ -54,6 +55,7 @@ class Wiring:
     edges: tuple[Edge, ...]
     hidden: tuple[str, ...] = ()
     offers: tuple[Offer, ...] = ()
+    processes: tuple[tuple[str, ...], ...] = ()
 
     def around(self, topic: str) -> tuple[list[Edge], list[Edge]]:
         """The edges into a topic and those out of it."""
@@ -93,7 +95,32 @@ def wiring(graph: GraphSnapshot, infrastructure: bool = False) -> Wiring:
         ends = [end for end in ends if ACTION_PART not in end.name]
     shown = [end for end in ends if end.node in nodes]
     hidden, offers = tuple(filter(is_hidden, names)), offers_of(graph, nodes)
-    return Wiring(nodes, _topics(shown), _edges(shown, ends), hidden, offers)
+    processes = shared(graph.processes, nodes)
+    return Wiring(nodes, _topics(shown), _edges(shown, ends), hidden, offers, processes)
+
+
+def shared(
+    processes: Iterable[Iterable[str]], nodes: Collection[str]
+) -> tuple[tuple[str, ...], ...]:
+    """The nodes that share a process, as far as they are shown.
+
+    Args:
+        processes: Full names of the nodes of each process.
+        nodes: Full names of the nodes that are shown.
+    """
+    taken: set[str] = set()
+    found: list[tuple[str, ...]] = []
+    for process in processes:
+        # Nodes of one name have one place in a picture, so it is in one process.
+        names = [name for name in dict.fromkeys(process) if name in nodes and name not in taken]
+        taken.update(names)
+        found.append(tuple(names))
+    return tuple(names for names in found if len(names) > 1)
+
+
+def say_shared(processes: Iterable[tuple[str, ...]]) -> list[str]:
+    """Which nodes share a process, in whole sentences."""
+    return [f"{listing(names)} share one process." for names in processes]
 
 
 def describe(shown: Wiring) -> str:
@@ -107,6 +134,7 @@ def describe(shown: Wiring) -> str:
     if alone:
         verb = "uses" if len(alone) == 1 else "use"
         said.append(f"{listing(alone)} {verb} no topic.")
+    said += say_shared(shown.processes)
     if shown.hidden:
         said.append(f"Left out: {count(len(shown.hidden), 'hidden node')}.")
     return " ".join(said)

@@ -27,3 +27,11 @@ def test_marks_are_drawn_as_in_the_picture():
     assert mark.get_marker() == theme.style(1).marker
     assert mark.get_markerfacecolor() == theme.CARD
     assert [text.get_text() for text in canvas.axes.texts] == ["waits"]
+
+
+def test_a_stretch_of_time_is_drawn_as_a_bar():
+    with blank(80) as canvas:
+        entry = key.Entry("callback waits", theme.Style("", "", ""), bar=theme.WAIT)
+        key.draw(canvas, [entry], 10, 70, 700)
+    (bar,) = canvas.axes.patches
+    assert bar.get_hatch() == theme.WAIT.hatch

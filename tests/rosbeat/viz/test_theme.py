@@ -46,8 +46,8 @@ WHITE = np.array([0.95047, 1.0, 1.08883])
 
 TEXT_ON = {
     theme.INK: (theme.CARD, theme.NODE_FILL, theme.NODE_FILL_STRONG, theme.TOPIC_FILL,
-                theme.TOPIC_FILL_STRONG),
-    theme.MUTED: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG),
+                theme.TOPIC_FILL_STRONG, theme.FRAME_FILL),
+    theme.MUTED: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG, theme.FRAME_FILL),
     theme.ALERT_TEXT: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG),
     theme.TAKEN_TEXT: (theme.CARD,),
 }  # fmt: skip
@@ -58,6 +58,7 @@ TOGETHER = {
     "arrows": [theme.INK, theme.ALERT],
     "shapes": [theme.BLUE, theme.TOPIC_EDGE],
     "bands": list(theme.BANDS[:3]),
+    "bars": [theme.SLEEP.fill, theme.WAIT.fill],
 }
 # CIE76 distances; 2.3 is just noticeable (Mahy et al., 1994). Bands have names and dashed limits.
 LEAST = {"bands": 4.0}
@@ -100,9 +101,26 @@ def test_text_has_a_contrast_of_at_least_4_5(text, grounds):
     } == {}
 
 
-@pytest.mark.parametrize("ground", [theme.CARD, *theme.BANDS])
+@pytest.mark.parametrize("ground", [theme.CARD, theme.FRAME_FILL])
+@pytest.mark.parametrize("line", [theme.FRAME, theme.BLUE, theme.TOPIC_EDGE, theme.ALERT])
+def test_outlines_have_a_contrast_of_at_least_3(line, ground):
+    assert contrast(line, ground) >= 3
+
+
+@pytest.mark.parametrize("ground", [theme.CARD, theme.FRAME_FILL, *theme.BANDS])
 def test_lines_have_a_contrast_of_at_least_3(ground):
     assert all(contrast(look.colour, ground) >= 3 for look in theme.STYLES)
+
+
+@pytest.mark.parametrize("look", [theme.SLEEP, theme.WAIT])
+def test_on_a_bar_its_name_and_the_marks_can_be_read(look):
+    assert contrast(theme.INK, look.fill) >= 7
+    marks = (theme.BLUE, theme.TAKEN, theme.PURPLE, theme.BAR_EDGE)
+    assert all(contrast(mark, look.fill) >= 3 for mark in marks)
+
+
+def test_bars_differ_in_more_than_their_colour():
+    assert theme.SLEEP.hatch != theme.WAIT.hatch
 
 
 @pytest.mark.parametrize("page", ["#FFFFFF", "#111111"])
