@@ -10,6 +10,7 @@
     │   ├── DurationError           a time span that is negative, not finite or not a number
     │   ├── UnknownTopicError       nobody published on that topic
     │   ├── EndlessChainError       callbacks cause each other for ever without time passing
+    │   ├── DeadlockError           callbacks wait for ever
     │   ├── DomainsExhaustedError   no private ROS domain id is left on this machine
     │   ├── NoSessionError          a node was made on a page with no session open
     │   └── ClosedSessionError      the session has ended
@@ -66,6 +67,10 @@ class RosbeatError(Exception):
 
 class SessionError(RosbeatError):
     """A session was asked for something it cannot do."""
+
+
+class DeadlockError(SessionError):
+    """Callbacks wait for something that can never come."""
 
 
 class NodeClassError(SessionError):

@@ -200,7 +200,10 @@ def test_send_goal_in_a_cell_runs_virtual_time(ros, pair):
 
 
 def test_send_goal_in_a_callback_is_explained(ros, pair, capsys):
-    ros.add(partial(Doer, lambda _: pair[1].client.send_goal(Fibonacci.Goal(order=2))))
+    def ask(node):
+        ActionClient(node, Fibonacci, "fibonacci").send_goal(Fibonacci.Goal(order=2))
+
+    ros.add(partial(Doer, ask))
     ros.run(1)
     (fault,) = ros.observation().faults
     assert "deadlock" in fault.text

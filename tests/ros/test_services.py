@@ -77,7 +77,7 @@ def test_call_in_a_callback_is_explained(ros, capsys):
     ros.add(Waits)
     ros.run(1)
     (fault,) = ros.observation().faults
-    assert fault.kind == "SessionError"
+    assert fault.kind == "DeadlockError"
     assert "deadlock" in fault.text
     assert "call_async" in fault.text
     assert fault.code == "self.client.call(Trigger.Request())"

@@ -173,6 +173,8 @@ def blocks(fault: Fault) -> Meaning | None:
     """A callback or a constructor that does not return (row 16)."""
     if fault.kind == "DeadlinePassed":
         return _stuck_making(fault) if fault.callback == "__init__" else _stuck(fault)
+    if fault.kind == "DeadlockError":
+        return Meaning("callback-blocks", fault.text.partition("\n")[0], _WHO_SPINS)
     if not matched(fault, r"was called (from )?inside|spin_once was called for", "SessionError"):
         return None
     call = matched(fault, r"`?(rclpy\.\w+|[\w.]+)`? was called")
@@ -180,9 +182,14 @@ def blocks(fault: Fault) -> Meaning | None:
         "callback-blocks",
         f"{call[1] if call else 'A wait'} waits for callbacks, and none can run before this one "
         "has returned.",
-        "A node only says what is to be done, in callbacks that return soon; spinning is the "
-        "business of whoever runs the node.",
+        _WHO_SPINS,
     )
+
+
+_WHO_SPINS = (
+    "A node only says what is to be done, in callbacks that return soon; spinning is the "
+    "business of whoever runs the node."
+)
 
 
 def _stuck(fault: Fault) -> Meaning:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 
 from rosbeat.diagnosis.faults import first_sentence, meaning_of
+from rosbeat.errors import RosbeatError
 from rosbeat.records import Fault, LogRecord
 
 #: Log lines printed for one call of `run`; the rest is counted and stays in `logs()`.
@@ -96,6 +97,14 @@ class Console:
     def work(self, fault: Fault) -> None:
         """Print an exception that left the work on a goal."""
         print(work_text(fault), file=sys.stderr)
+
+    def deadlock(self, fault: Fault, error: RosbeatError) -> None:
+        """Print that a callback waits for ever."""
+        where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+        print(
+            f"{error.what}{where}\n  What it means: {error.means}\n  What to try:   {error.to_try}",
+            file=sys.stderr,
+        )
 
     def end(self) -> None:
         """Say how many lines were not printed."""

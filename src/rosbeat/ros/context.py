@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-import sys
 import threading
 from collections.abc import Callable
 from contextlib import suppress
@@ -105,6 +104,42 @@ class SessionContext(Context):
     def _be_default(self) -> None:
         with rclpy.utilities.g_context_lock:
             rclpy.utilities.g_default_context = self
+
+
+class ProgramContext(Context):
+    """The default context of a program that a session plays; see `simulated_program`.
+
+    It is a real one, so that `init`, `ok` and `shutdown` do and say what they do in a process of
+    its own. The program's nodes are made in the session's context.
+
+    Args:
+        watcher: The session.
+        program: The program; told of a shutdown.
+
+    Attributes:
+        home: The context in which nodes are made.
+    """
+
+    def __init__(self, watcher: Any, program: Any) -> None:  # noqa: ANN401
+        super().__init__()
+        self.watcher, self._program = watcher, program
+        self.home: Context = watcher.context
+
+    @property
+    def ros_arguments(self) -> list[str]:
+        """What stands behind `--ros-args` on the command line, with that word."""
+        words: list[str] = self._program.argv
+        return words[words.index("--ros-args") :] if "--ros-args" in words else []
+
+    def shutdown(self) -> None:
+        """Shut down, and let a `spin` of the program return."""
+        super().shutdown()
+        self._program.shut_down()
+
+    def try_shutdown(self) -> None:
+        """Shut down if that was not done yet, and let a `spin` of the program return."""
+        super().try_shutdown()
+        self._program.shut_down()
 
 
 def _living(context: Context | None) -> Context | None:
@@ -213,6 +248,9 @@ def _init(original: Callable[..., None]) -> Callable[..., None]:
         target = context or rclpy.get_default_context()
         if isinstance(target, SessionContext):
             target.init(args)
+            return
+        if isinstance(target, ProgramContext):
+            target.init(args, domain_id=options.get("domain_id"))
             return
         if in_kernel():
             options.setdefault("signal_handler_options", rclpy.signals.SignalHandlerOptions.NO)

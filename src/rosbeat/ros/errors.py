@@ -13,6 +13,7 @@ from rclpy.node import Node
 
 from rosbeat.errors import (
     ClosedSessionError,
+    DeadlockError,
     DurationError,
     NodeClassError,
     SessionError,
@@ -81,11 +82,11 @@ def check_end(time_ns: int) -> int:
     )
 
 
-def session_is_live() -> SessionError:
-    """`run` while live."""
+def session_is_live(call: str = "run") -> SessionError:
+    """Return the error for what needs virtual time, while live."""
     return SessionError(
         "This session is live, so its time passes by itself.",
-        "`run` moves virtual time, which stands still while the wall clock counts.",
+        f"`{call}` moves virtual time, which stands still while the wall clock counts.",
         "Use `ros.wait(seconds)`, or `ros.stop()` first.",
     )
 
@@ -125,7 +126,7 @@ _INSTEAD_OF_WAITING = (
 )
 
 
-def deadlock(waits: Sequence[Wait]) -> SessionError:
+def deadlock(waits: Sequence[Wait]) -> DeadlockError:
     """Return the error for callbacks that can never go on.
 
     Args:
@@ -138,7 +139,7 @@ def deadlock(waits: Sequence[Wait]) -> SessionError:
         if own
         else "Nothing else is left to do, so nobody will end that"
     )
-    return SessionError(
+    return DeadlockError(
         f"{'; '.join(told)}: for ever.",
         f"{why}: a deadlock, on a real robot too.",
         _INSTEAD_OF_WAITING,

@@ -55,12 +55,16 @@ def qos_of(profile: QoSProfile) -> QoS:
     )
 
 
-def snapshot(states: Iterable[NodeState]) -> GraphSnapshot:
+def snapshot(
+    states: Iterable[NodeState], processes: tuple[tuple[str, ...], ...] = ()
+) -> GraphSnapshot:
     """The graph of these nodes as it is now, destroyed entities left out."""
     alive = [state for state in states if state.node is not None]
     endpoints = (end for state in alive for end in _endpoints(state))
     timers = (timer for state in alive for timer in _timers(state))
-    return GraphSnapshot(tuple(state.name for state in alive), tuple(endpoints), tuple(timers))
+    return GraphSnapshot(
+        tuple(state.name for state in alive), tuple(endpoints), tuple(timers), processes
+    )
 
 
 def _endpoints(state: NodeState) -> Iterator[Endpoint]:
@@ -230,7 +234,8 @@ def with_outside(own: GraphSnapshot, lookout: Lookout) -> GraphSnapshot:
     ends = (*_topic_ends(lookout), *_service_ends(lookout, set(nodes) - set(own.nodes)))
     order = {name: rank for rank, name in enumerate(nodes)}
     shown = sorted((end for end in ends if end.node in order), key=lambda end: order[end.node])
-    return GraphSnapshot((*own.nodes, *nodes), (*own.endpoints, *shown), own.timers)
+    endpoints = (*own.endpoints, *shown)
+    return GraphSnapshot((*own.nodes, *nodes), endpoints, own.timers, own.processes)
 
 
 def is_settled(lookout: Lookout) -> bool:

@@ -1,8 +1,9 @@
 """Simulated processes: what runs callbacks, and what a callback is while it waits.
 
-On a robot most nodes are processes of their own, and each process has one executor. A callback that
-sleeps or waits holds up its process, and no other. So the unit of the simulation is the process: its
-nodes, the number of threads of its executor, and the callbacks that have begun and not returned.
+On a robot most nodes are processes of their own, and each process has one executor. A callback
+that sleeps or waits holds up its process, and no other. So the unit of the simulation is the
+process: its nodes, the number of threads of its executor, and the callbacks that have begun and not
+returned.
 """
 
 from __future__ import annotations
@@ -30,7 +31,9 @@ class Spin:
 
     __slots__ = ("left", "states")
 
-    def __init__(self, states: Collection[NodeState] | None = None, left: int | None = None):
+    def __init__(
+        self, states: Collection[NodeState] | None = None, left: int | None = None
+    ) -> None:
         self.states, self.left = states, left
 
 
@@ -107,6 +110,15 @@ class Process:
         self._round = deque(sorted(ready, key=_place))
         return self._round.popleft() if self._round else None
 
+    def is_in_round(self) -> bool:
+        """Return whether something that the last look found ready has not had its turn."""
+        return any(entry in self.pending for entry in self._round)
+
+    def count_down(self) -> None:
+        """Note that a callback has ended: `spin_once` waits for one."""
+        if self.spins and self.spins[-1].left:
+            self.spins[-1].left -= 1
+
     def forget(self, state: NodeState) -> None:
         """Drop a node that is destroyed."""
         self.states.remove(state)
@@ -146,7 +158,8 @@ class Call:
     """
 
     __slots__ = (
-        "began_ns", "broken", "entry", "holds_group", "label", "process", "spinning", "state", "wait",
+        "began_ns", "broken", "entry", "holds_group", "label", "process", "spinning", "state",
+        "wait",
     )  # fmt: skip
 
     def __init__(
@@ -190,9 +203,12 @@ class Wait:
     Attributes:
         over: Whether it has ended.
         error: What is raised in the call when it goes on.
+        told: Whether it was reported as a deadlock.
     """
 
-    __slots__ = ("began_ns", "call", "error", "met", "needs", "over", "reason", "thread", "until_ns")
+    __slots__ = (
+        "began_ns", "call", "error", "met", "needs", "over", "reason", "thread", "told", "until_ns",
+    )  # fmt: skip
 
     def __init__(
         self,
@@ -206,7 +222,7 @@ class Wait:
     ) -> None:
         self.call, self.thread, self.reason = call, thread, reason
         self.began_ns, self.until_ns, self.met, self.needs = began_ns, until_ns, met, needs
-        self.over = False
+        self.over = self.told = False
         self.error: BaseException | None = None
 
     def is_for_good(self) -> bool:

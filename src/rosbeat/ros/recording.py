@@ -860,15 +860,18 @@ def watcher_of(node: Node) -> Watcher | None:
 def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401
-        context: Context | None = kwargs.get("context")
-        watcher = getattr(context or _default_context(), "watcher", None)
+        context: Any = kwargs.get("context") or _default_context()
+        watcher = getattr(context, "watcher", None)
         name = kwargs.get("node_name", args[0] if args else None)
         with asking("Node.__init__", node, *args, **kwargs):
             if watcher is None or not isinstance(name, str) or isinstance(node, Unwatched):
                 _make_alone(partial(original, node, *args, **kwargs))
                 return
-            start = watcher.start
-            kwargs["cli_args"] = [*(kwargs.get("cli_args") or ()), *start.arguments()] or None
+            start, said = watcher.start, list(kwargs.get("cli_args") or ())
+            if hasattr(context, "home") and context.ok():  # a program's: see `ProgramContext`
+                kwargs["context"] = context.home
+                said += context.ros_arguments
+            kwargs["cli_args"] = [*said, *start.arguments()] or None
             namespace = start.namespace or kwargs.get("namespace") or "/"
             watcher.node_begins(start.name or name, namespace)
             original(node, *args, **kwargs)

@@ -535,10 +535,10 @@ class Scene:
 
     # Waiting.
 
-    def _nap(self, span_ns: int) -> None:
+    def _nap(self, span_ns: int, reason: str) -> None:
         self._slept += span_ns
         if self._slept > self._end:
-            self._never_back = self._late_fault("", "__init__", "asleep", sys._getframe(1))
+            self._never_back = self._late_fault("", "__init__", reason, sys._getframe(1))
             raise _NeverMade
 
     def _note_who_waits(self) -> None:
@@ -549,12 +549,13 @@ class Scene:
                 continue
             if call.began_ns > self._end / 2 and (wait.until_ns or 0) < 2 * self._end:
                 continue
-            doing = "asleep" if wait.reason == "sleep" else f"waiting for {wait.reason}"
             frame = wait.thread.gr_frame
-            self._never_back = self._late_fault(call.node, call.name, doing, frame)
+            self._never_back = self._late_fault(call.node, call.name, wait.reason, frame)
             return
 
-    def _late_fault(self, node: str, callback: str, doing: str, frame: FrameType | None) -> Fault:
+    def _late_fault(self, node: str, callback: str, reason: str, frame: FrameType | None) -> Fault:
+        known = {"sleep": "asleep", "spin": "spinning"}
+        doing = known.get(reason, f"waiting for {reason}")
         text = f"still {doing} after {self._end / NANOSECONDS:g} s"
         place = line_of(frame)
         return Fault(self._world.now(), node, callback, "DeadlinePassed", text, *place)
@@ -614,6 +615,7 @@ class Scene:
             self.subject,
             printed,
             self._stage.replies,
+            self._world.virtual.all_waits()[:most],
         )
 
     def _graph(self) -> GraphSnapshot:

@@ -31,6 +31,7 @@ from rosbeat.ros.instruments import open_panel
 from rosbeat.ros.launch import Maker, Start, build_in, checked
 from rosbeat.ros.processes import Process
 from rosbeat.ros.silence import explained
+from rosbeat.ros.simulated_program import SimulatedProgram
 from rosbeat.ros.world import World, find, log_lines, observation, samples, state_of
 
 if TYPE_CHECKING:
@@ -127,7 +128,7 @@ class Session:
     @overload
     def add(self, node: SomeNode, /) -> SomeNode: ...
     @overload
-    def add(self, *nodes: Any, threads: int = 1) -> tuple[Node, ...]: ...
+    def add(self, *nodes: object, threads: int = 1) -> tuple[Node, ...]: ...
     def add(
         self,
         *nodes: Any,
@@ -186,6 +187,33 @@ class Session:
                 if node is not given:
                     self._world.makers[node] = Maker(given, start)
         return made if len(made) > 1 else made[0]
+
+    def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401
+        """Start a program: a Python file with a function `main`, run unchanged in virtual time.
+
+        It is a process of its own, as one that `ros2 run` starts: with a default context, command
+        line and signal handlers that are its own. It goes on whenever the session runs.
+
+        Args:
+            program: The file, or a function such as `main`.
+            arguments: Its arguments, such as `"--ros-args", "-r", "temperature:=humidity"`.
+
+        Returns:
+            The program. `program.send_signal(signal.SIGINT)` presses Ctrl+C, and
+            `program.returncode` and `program.stderr` say how it ended.
+
+        Raises:
+            SessionError: If it is no program, or the session is live.
+            ClosedSessionError: If the session has ended.
+        """
+        for word in arguments:
+            check_name("spawn", word)
+        with self._running("spawn", [program]):
+            if self.is_live:
+                raise session_is_live("spawn")
+            made = SimulatedProgram(self._world, program, arguments)
+            made.start()
+        return made
 
     def remove(self, node: Node | str) -> None:
         """Destroy a node, given itself or by name.

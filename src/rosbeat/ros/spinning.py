@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import wraps
 from types import FrameType
 from typing import Any
@@ -71,7 +72,8 @@ def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
             wait = PULSE if timeout_sec is None else timeout_sec
             original(node, executor=executor, timeout_sec=wait)
         elif _is_simulated(world):
-            world.virtual.spin(_spun_with(world, node), world.virtual.after(timeout_sec), most=1)
+            with _global_executor(world, node) as states:
+                world.virtual.spin(states, world.virtual.after(timeout_sec), most=1)
         else:
             raise SessionError(
                 "rclpy.spin_once was called for a node of a session.",
@@ -94,7 +96,8 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
         if world is None:
             original(node, future, executor, timeout_sec)
         elif _is_simulated(world):
-            _play_until(world, _spun_with(world, node), future, timeout_sec)
+            with _global_executor(world, node) as states:
+                _play_until(world, states, future, timeout_sec)
         else:
             world.refuse_in_callback("rclpy.spin_until_future_complete")
             world.spin_node(world.state_of(node))
@@ -201,9 +204,7 @@ def _play_until(
 ) -> None:
     until = world.virtual.after(timeout_sec)
     client = next((one for state in states for one in _clients(state) if _asked(one, future)), None)
-    world.virtual.spin(
-        states, until, lambda: future.done() or future.cancelled(), needs=client
-    )
+    world.virtual.spin(states, until, lambda: future.done() or future.cancelled(), needs=client)
 
 
 def _clients(state: NodeState) -> list[Any]:
@@ -214,12 +215,24 @@ def _asked(client: Any, future: Future) -> bool:  # noqa: ANN401
     return any(one is future for one in client._pending_requests.values())
 
 
-def _spun_with(world: Any, node: Node) -> list[NodeState]:  # noqa: ANN401
-    """Return the nodes that the global executor of a process has, with one that is added to it."""
+@contextmanager
+def _global_executor(world: Any, node: Node) -> Iterator[list[NodeState]]:  # noqa: ANN401
+    """Give the nodes that the global executor of a process has, with one that is added to it.
+
+    A node that another executor spins is taken away from that one, and at the end nobody spins it
+    (rclpy, `Node.executor` and `spin_once`).
+    """
     state, process = world.state_of(node), world.virtual.current.process
-    alone = len(process.states) == 1 or process.program is not None
-    others = [one for one in process.states if one.spinning and one is not state] if alone else []
-    return [state, *others]
+    has_own = process.program is None and (len(process.states) > 1 or process.threads > 1)
+    others = [] if has_own else [one for one in process.states if one.spinning and one is not state]
+    taken_away = has_own and state.spinning
+    yield [state, *others]
+    if taken_away:
+        world.rest_node(state)
+        note(
+            f"a spin function of rclpy has taken {state.name} from the executor of its process, "
+            "and given it to nobody: its callbacks run no more."
+        )
 
 
 # In a cell.

@@ -11,9 +11,9 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from std_msgs.msg import Bool, Float32, Int32, String
 
 from rosbeat.records import Observation, QoS
+from rosbeat.ros.randomness import tilt
 from rosbeat.ros.recording import message_class
 from rosbeat.ros.session import Session
-from rosbeat.ros.randomness import tilt
 
 # Nodes that publish what they were given.
 

@@ -50,7 +50,7 @@ from rosbeat.errors import EndlessChainError, SessionError
 from rosbeat.records import WaitRecord
 from rosbeat.ros.context import Interrupts
 from rosbeat.ros.entities import Entry, NodeState, callback_name
-from rosbeat.ros.errors import deadlock, never_made
+from rosbeat.ros.errors import never_made
 from rosbeat.ros.processes import Call, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
 from rosbeat.ros.recording import CallbackLabel, Recorder
@@ -122,7 +122,6 @@ class Agenda:
 # Programs that never let time pass.
 
 
-
 #: A message that causes a message that causes a message ... this many times, all at one instant.
 LONGEST_CHAIN = 1_000
 #: Callbacks that may follow from one timer, more than `SUSPICIOUS` steps after it. A circle that
@@ -130,8 +129,8 @@ LONGEST_CHAIN = 1_000
 MOST_FOLLOWERS = 100_000
 #: Timers that may fire at one instant.
 MOST_FIRINGS = 10_000
-#: Turns that coroutines and tasks may get at one instant.
-MOST_TURNS = 10_000
+#: Steps that coroutines and tasks may take at one instant.
+MOST_TURNS = 100_000
 #: From here on followers are counted: few programs ever come here, so it costs the others nothing.
 SUSPICIOUS = 12
 _TRAIL = 24
@@ -238,10 +237,14 @@ class Waiting:
 
     @property
     def rests(self) -> bool:
-        """Whether it cannot go on now: its node is paused, or its process is busy."""
+        """Whether it cannot go on now: its node is paused, or its process is busy.
+
+        rclpy looks at its tasks again when it has handled all that its last look found ready.
+        """
         if self.task.executing() or (self.state is not None and not self.state.spinning):
             return True
-        return self.process is not None and not self.process.has_thread()
+        process = self.process
+        return process is not None and (not process.has_thread() or process.is_in_round())
 
     def place(self) -> object:
         """Return what it awaits, innermost: another object each time it has got further."""
@@ -259,6 +262,8 @@ def _awaited_by(waiting: Any) -> Any:  # noqa: ANN401 - a coroutine, a generator
 class Coroutines:
     """All coroutines of one executor, in the order in which they began.
 
+    Of each process the newest goes on first, as in rclpy (`_wait_for_ready_callbacks`).
+
     Args:
         executor: The executor that future results are scheduled on.
 
@@ -269,6 +274,7 @@ class Coroutines:
     def __init__(self, executor: Executor) -> None:
         self._executor = executor
         self.waiting: list[Waiting] = []
+        self._round: deque[Waiting] = deque()
 
     def add_task(self, task: Task, callback: object, call: Call | None) -> None:
         """Begin a task at the next turn, in the process of the call that has created it."""
@@ -284,10 +290,20 @@ class Coroutines:
         self.waiting.append(waiting)
         return waiting
 
-    def turn(self, run: Callable[[Waiting], None]) -> bool:
-        """Let each one go on until it waits again; return whether any has got further."""
-        turns = [self._one(waiting, run) for waiting in list(self.waiting)]
-        return any(turns)
+    def step(self, run: Callable[[Waiting], None]) -> bool:
+        """Let one of them go on until it waits again; return whether any has got further.
+
+        Each gets its turn before one of them gets another.
+        """
+        for _ in range(2):
+            while self._round:
+                if self._one(self._round.popleft(), run):
+                    return True
+            of_process: dict[int, list[Waiting]] = {}
+            for waiting in self.waiting:
+                of_process.setdefault(id(waiting.process), []).append(waiting)
+            self._round.extend(one for group in of_process.values() for one in reversed(group))
+        return False
 
     def end(self, waiting: Waiting) -> None:
         """Forget one that has ended, and free its callback group."""
@@ -338,6 +354,9 @@ class Host(Protocol):
 
     def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
         """Record an exception that left a callback, and end its process."""
+
+    def deadlocked(self, waits: list[Wait]) -> None:
+        """Record that callbacks wait for ever."""
 
 
 class WaitSetExecutor(SingleThreadedExecutor):
@@ -543,8 +562,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         calling: The callback that is running, or ran last; None before the first.
         elsewhere: What threads of the nodes' own have published since the last step.
         deadlines: How long publishers and subscriptions may stay without a message.
-        waits: What has been waited for so far, in the order of the ends.
-        nap: What is called, with nanoseconds, in the place of a sleep of a constructor that a
+        nap: What is called, with nanoseconds and the reason, when a constructor waits that a
             scenario calls; None to let virtual time pass.
         thread: The thread in which the nodes run.
     """
@@ -557,8 +575,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.calling: CallbackLabel | None = None
         self.elsewhere: deque[Callable[[], None]] = deque()
         self.deadlines = Deadlines()
-        self.waits: list[WaitRecord] = []
-        self.nap: Callable[[int], None] | None = None
+        self._waits: list[WaitRecord] = []
+        self.nap: Callable[[int, str], None] | None = None
         # Not `_clock`: rclpy's executor has a steady clock of that name.
         self._session_clock, self._host = clock, host
         self._note_time, self._note_label = recorder.callback_columns()
@@ -584,7 +602,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._main: greenlet = getcurrent()
         self.thread = threading.get_ident()
         self._variables = contextvars.copy_context()
-        self._end, self._done = 0, _never
+        self._end = 0
+        self._done: Callable[[], object] = _never
         self._ends_idle = self._closing = False
         # Where tasks run that no code of a node has created.
         self._nowhere = Process()
@@ -616,6 +635,15 @@ class VirtualTimeExecutor(WaitSetExecutor):
         """The callbacks, constructors and programs that wait now, in order of creation."""
         found = {id(state.process): state.process for state in self._host.states()}
         return [call for process in found.values() for call in process.calls]
+
+    def all_waits(self) -> tuple[WaitRecord, ...]:
+        """Return what callbacks have waited for, and what they wait for now, in order of time."""
+        now = [
+            WaitRecord(call.wait.began_ns, self.now, call.node, call.name, call.wait.reason)
+            for call in self.suspended
+            if call.wait is not None and not call.spinning and call.wait.began_ns < self.now
+        ]
+        return tuple(sorted([*self._waits, *now], key=lambda one: one.time_ns))
 
     def watch(self, entry: Entry) -> None:
         """Run this entity's callback from now on, whenever its node spins."""
@@ -786,7 +814,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             return True
         here = getcurrent()
         if here is self._main or not self.running:
-            return self._block_main(until, met)
+            return self._block_main(reason, until, met)
         call = self.current
         assert call is not None  # only code of a node runs in another greenlet
         if call.broken or self._closing:
@@ -795,7 +823,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._suspend(call, wait, spinning)
         try:
             if not wait.can_end():
-                raise deadlock([wait])
+                self._host.deadlocked([wait])
             self._next_driver().switch()
         finally:
             self._unsuspend(call, wait)
@@ -845,9 +873,14 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def end_wait(self, call: Call, error: BaseException | None = None) -> None:
         """Let a call that waits go on, and raise an exception in it if one is given."""
-        if call.wait is not None and not call.wait.over:
-            call.wait.error = error
-            self._woken.append(call.wait)
+        wait, spins = call.wait, call.process.spins
+        if wait is None or wait.over:
+            return
+        wait.error = wait.error or error
+        if call.spinning and spins:
+            spins[-1].left = 0  # no other callback begins before the `spin` has returned
+            call.process.refresh()
+        self._woken.append(wait)
 
     def break_off(self, call: Call) -> None:
         """End a call that waits, as the end of its process would: only its `finally` blocks run."""
@@ -880,18 +913,18 @@ class VirtualTimeExecutor(WaitSetExecutor):
             time.sleep(max(0, until - self.now) / 1e9)  # a thread of the node's own: in real time
         elif until > self.now:
             if self.nap is not None and not self.running:
-                self.nap(until - self.now)
+                self.nap(until - self.now, "sleep")
             else:
                 self.block("sleep", until)
 
-    def _block_main(self, until: int | None, met: Callable[[], object] | None) -> bool:
+    def _block_main(self, reason: str, until: int | None, met: Callable[[], object] | None) -> bool:
         """Run the others until then; the greenlet that waits for the run cannot be suspended."""
         call, label = self.current, self.calling
         latest = self.longest() if until is None else until
         if self.nap is not None:
             self.run_until(self.now, met)
             if met is None or not met():
-                self.nap(latest - self.now)
+                self.nap(latest - self.now, reason)
         elif call is None:
             self.run_until(latest, met, ends_idle=until is None)
         else:  # a constructor that a cell has called
@@ -903,6 +936,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         return bool(met()) if met is not None else True
 
     def _suspend(self, call: Call, wait: Wait, spinning: bool) -> None:
+        if call.process.program is not None:
+            call.process.program.leave()
         call.wait, call.spinning = wait, spinning
         if call.began_ns < 0:
             call.began_ns = self.now
@@ -924,12 +959,14 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if wait in self._looking:
             self._looking.remove(wait)
         if self.now > wait.began_ns and not call.spinning:
-            self.waits.append(
+            self._waits.append(
                 WaitRecord(wait.began_ns, self.now, call.node, call.name, wait.reason)
             )
         call.wait, call.spinning = None, False
         call.process.refresh()
         self.current, self.calling = call, call.label or self.calling
+        if call.process.program is not None:
+            call.process.program.enter()
 
     def _resume(self, wait: Wait) -> None:
         """Go on with a call whose wait is over; the greenlet of the caller stands by."""
@@ -1026,10 +1063,9 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def _nothing_left(self) -> bool:
         """Nothing will ever happen: who waits without a limit waits for ever, and is told."""
-        stuck = [wait for wait in self._looking if wait.is_for_good()]
-        if stuck and stuck[0].call is not None:
-            self.end_wait(stuck[0].call, deadlock(stuck))
-            return True
+        stuck = [wait for wait in self._looking if wait.is_for_good() and not wait.told]
+        if stuck:
+            self._host.deadlocked(stuck)
         if not self._ends_idle:
             self._advance(max(self._end, self.now))
         return False
@@ -1098,11 +1134,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
                 elif entry.state.spinning:
                     chain.depth = depth - 1
                     self._hold(entry)
-            if self._run_one_behind():
-                continue
             chain.depth = 0
-            further = self._resume_coroutines() or self.ask_rclpy() or ready
-            if not further and all(process.due for process in self._behind):
+            progress = self._step_coroutine()
+            if not progress and self._run_one_behind():
+                continue
+            # After each step of a coroutine, too: other processes take what it has sent.
+            if not (self.ask_rclpy() or progress or ready):
                 return
             turns += 1
             if turns > MOST_TURNS:
@@ -1129,16 +1166,13 @@ class VirtualTimeExecutor(WaitSetExecutor):
         return False
 
     def _run_pending(self, entry: Entry, depth: int) -> None:
-        process, calls = entry.state.process, entry.calls
+        process = entry.state.process
         if entry.kind == "timer":
             self._fire(entry)
         elif self._take(entry) and not entry.state.ended:
             process.pending.setdefault(entry, depth)  # there may be more
             self._catch_up(process)
         process.refresh()
-        spin = process.spins[-1] if process.spins else None
-        if spin is not None and spin.left and entry.calls > calls:
-            spin.left -= 1
 
     def _fire(self, entry: Entry) -> None:
         state = entry.state
@@ -1184,27 +1218,36 @@ class VirtualTimeExecutor(WaitSetExecutor):
         state = entry.state
         self.current = call = Call(state.process, state, entry, entry.label)
         self.calling = entry.label
+        program = state.process.program
+        if program is not None:
+            program.enter()
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
             self._interrupts.insist()
+            self._raised(call, entry.label.name, error)
+        except KeyboardInterrupt as error:
+            if program is None or program.interrupt is not error:
+                raise
             self._raised(call, entry.label.name, error)
         else:
             # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
             if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
                 self._begin(result, entry)
         finally:
+            if program is not None:
+                program.leave()
             self.current = None
             if call.began_ns >= 0:
                 self._end_suspended(call)
+            if not state.open:
+                state.process.count_down()
 
     def _end_call(self, call: Call) -> None:
         self.current = None
         if call.began_ns >= 0:
             self._end_suspended(call)
-        spins = call.process.spins
-        if spins and spins[-1].left:
-            spins[-1].left -= 1
+        call.process.count_down()
 
     def _end_suspended(self, call: Call) -> None:
         """Free the thread and the group of a callback that has waited and has returned."""
@@ -1216,10 +1259,15 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._changed = True
         process.refresh()
         self._catch_up(process)
+        if process.program is not None:
+            process.program.callback_ended()
 
     def _raised(self, call: Call, name: str, error: BaseException) -> None:
         """Hand what a callback raised to the `spin` in which it ran, or to the session."""
-        spinner = next((one for one in reversed(call.process.calls) if one.spinning), None)
+        process = call.process
+        if isinstance(error, SystemExit) and process.program is not None and process.threads > 1:
+            return  # a thread of the executor's pool swallows it (`concurrent.futures`)
+        spinner = next((one for one in reversed(process.calls) if one.spinning), None)
         if spinner is not None:
             self.end_wait(spinner, error)
         else:
@@ -1231,12 +1279,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if waiting.ended:
             self._coroutine_ended(waiting)
 
-    def _resume_coroutines(self) -> bool:
-        """Give every waiting coroutine a turn; return whether anything came of it."""
+    def _step_coroutine(self) -> bool:
+        """Let a waiting coroutine go on; return whether any has got further."""
         if not self._coroutines.waiting:
             return False
         self._coroutines.drop_abandoned()
-        further = self._coroutines.turn(self._resume_one)
+        further = self._coroutines.step(self._resume_one)
         for waiting in [waiting for waiting in self._coroutines.waiting if waiting.ended]:
             self._coroutine_ended(waiting)
         return further

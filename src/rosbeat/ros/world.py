@@ -2,41 +2,51 @@
 
 from __future__ import annotations
 
+import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from threading import get_ident
 from typing import Any, Protocol
 from weakref import WeakKeyDictionary, WeakSet
 
+from greenlet import getcurrent
 from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
 from rclpy.node import Node
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.errors import SessionError
-from rosbeat.records import INFRASTRUCTURE_TOPICS, GraphSnapshot, LogRecord, Observation, Sample
+from rosbeat.records import (
+    INFRASTRUCTURE_TOPICS,
+    Fault,
+    GraphSnapshot,
+    LogRecord,
+    Observation,
+    Sample,
+)
 from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
 from rosbeat.ros.blocking import VirtualWaits
 from rosbeat.ros.console import Console, note
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
 from rosbeat.ros.errors import (
-    asleep_while_going_live,
     asks_before_it_runs,
+    asleep_while_going_live,
     called_in_callback,
     check_name,
+    deadlock,
     foreign_node,
     no_such_node,
     unanswered_call,
     unknown_topic,
 )
-from rosbeat.ros.faults import fault_of
+from rosbeat.ros.faults import fault_of, line_of
 from rosbeat.ros.graph import Arrivals, Lookout, snapshot, with_outside
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
-from rosbeat.ros.processes import Call, Process
+from rosbeat.ros.processes import Call, Process, Wait
 from rosbeat.ros.qos_events import Limits, event_source, topic_of, wait_for_stored
 from rosbeat.ros.randomness import SeededRandom
 from rosbeat.ros.recording import (
@@ -156,12 +166,22 @@ class World:
         """Return the graph as it is now, or as it was when the session ended."""
         if self._last_graph is not None:
             return self._last_graph
-        own = snapshot(self.states())
+        own = snapshot(self.states(), self.shared())
         return own if self.lookout is None else with_outside(own, self.lookout)
+
+    def shared(self) -> tuple[tuple[str, ...], ...]:
+        """Return the names of nodes that share a process, in order of creation.
+
+        Live, one executor runs all nodes; each is taken for a process of its own there, too.
+        """
+        found = {id(state.process): state.process for state in self.states()}
+        names = (tuple(state.name for state in one.states) for one in found.values())
+        return tuple(group for group in names if len(group) > 1)
 
     def known_topics(self) -> set[str]:
         """Return every topic of which it is known what was published."""
-        return self.recorder.topics() | (self.arrivals.topics() if self.arrivals else set())
+        outside = self.arrivals.topics() if self.arrivals else ()
+        return self.recorder.topics().union(outside)
 
     def next_number(self) -> int:
         """Return the place of a new entity in the order of creation."""
@@ -207,7 +227,7 @@ class World:
 
     @contextmanager
     def starting(self, start: Launch, process: Process | None = None) -> Iterator[None]:
-        """Let nodes that are made in this block be started so, in a process (by default a new one)."""
+        """Let nodes that are made in this block be started so, in a process of theirs."""
         before, self.start = self.start, start
         caller, self.virtual.current = self.virtual.current, Call(process or Process())
         try:
@@ -366,6 +386,26 @@ class World:
             if others:
                 note(f"{', '.join(others)} ran in the same process, which has ended.")
 
+    def deadlocked(self, waits: Sequence[Wait]) -> None:
+        """Record that callbacks wait for ever, at the line where the first of them waits."""
+        for wait in waits:
+            wait.told = True
+        call, error = waits[0].call, deadlock(waits)
+        if call is None:
+            return
+        thread = waits[0].thread
+        frame = thread.gr_frame if thread is not getcurrent() else sys._getframe(1)
+        now, name = self.now(), type(error).__name__
+        fault = Fault(now, call.node, call.name, name, str(error), *line_of(frame))
+        self.recorder.faults.append(fault)
+        self._shown_faults += 1
+        self.console.deadlock(fault, error)
+
+    def program_failed(self, fault: Fault) -> None:
+        """Record that a program ended with an exception, whose traceback is printed by itself."""
+        self.recorder.faults.append(fault)
+        self._shown_faults += 1
+
     def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
         """Record a callback of an action that is about to run."""
         self.virtual.calling = label = self.recorder.label(state.name, kind, name, source)
@@ -398,7 +438,8 @@ class World:
             self.refuse_in_callback(call)
             return wait_by_the_wall(done, seconds)
         if self.virtual.in_callback:
-            return self.virtual.block(reason, self.virtual.after(seconds), done, needs=needs)
+            needed = self._own(needs)
+            return self.virtual.block(reason, self.virtual.after(seconds), done, needs=needed)
         return self.wait_until(done, seconds)
 
     def next_goal(self) -> int:
@@ -639,7 +680,8 @@ class World:
         in_callback = self.live is None and self.virtual.in_callback
         if in_callback:
             reason = f"an answer from {client.service_name}"
-            self.virtual.block(reason, self.virtual.after(timeout_sec), future.done, needs=client)
+            until, needed = self.virtual.after(timeout_sec), self._own(client)
+            self.virtual.block(reason, until, future.done, needs=needed)
         elif self.live is None:
             self.wait_until(future.done, timeout_sec)
         else:
@@ -650,13 +692,21 @@ class World:
                 raise unanswered_call(client.service_name)
         return future.result()
 
+    def _own(self, entity: Any) -> Any:  # noqa: ANN401 - any entity of rclpy
+        """Return an entity if it belongs to the process that runs now, else None."""
+        call = self.virtual.current
+        mine = call.process.states if call is not None else []
+        found = (one.entity for state in mine for one in (*state.entries, *state.actions))
+        return entity if any(one is entity for one in found) else None
+
     def _sleep(self, entry: Entry, original: Callable[[], None]) -> None:
         calls = entry.calls
         if self.live is not None:
             self.refuse_in_callback("rate.sleep")
             original()
         elif self.virtual.in_callback:
-            self.virtual.block("a rate", None, lambda: entry.calls > calls, needs=entry.entity)
+            needed = self._own(entry.entity)
+            self.virtual.block("a rate", None, lambda: entry.calls > calls, needs=needed)
         else:
             self.wait_until(lambda: entry.calls > calls, None)
 
@@ -740,6 +790,7 @@ def observation(world: World, seed: int) -> Observation:
         tuple(recorder.callbacks()),
         tuple(recorder.faults),
         world.graph(),
+        waits=world.virtual.all_waits(),
     )
 
 

@@ -1,0 +1,361 @@
+"""Programs in virtual time: a file with `main()`, run unchanged as a simulated process.
+
+`rclpy.init`, `spin`, `destroy_node` and `shutdown` do what they do in a process of its own: the
+program has a default context, arguments and signal handlers that are its own, and a module that is
+imported afresh. Ctrl+C and SIGTERM come at a chosen time, and what they do is what rclpy's signal
+handlers and Python do: the context is shut down, and `KeyboardInterrupt` is raised where the
+program is (rclpy 7.1, `signal_handler.cpp`; `tests/conformance` compares the two).
+
+Its nodes live in the session's context, so that one participant carries all messages; the
+program's own context has no nodes.
+"""
+
+from __future__ import annotations
+
+import linecache
+import signal
+import sys
+import traceback
+from collections.abc import Callable, Sequence
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import rclpy.utilities
+from greenlet import GreenletExit
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+from rosbeat.errors import SessionError
+from rosbeat.ros.context import ProgramContext
+from rosbeat.ros.faults import error_text, fault_of
+from rosbeat.ros.processes import Call, Process
+
+if TYPE_CHECKING:
+    from rosbeat.ros.world import World
+
+_OWN = str(Path(__file__).parents[1])
+_KNOWN_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
+
+
+class SimulatedProgram:
+    """A program that a session runs; `Session.spawn` makes one.
+
+    Its methods are those of `subprocess.Popen`, as far as they make sense in virtual time.
+
+    Args:
+        world: The session.
+        target: A file with a function `main`, or such a function.
+        arguments: What stands behind the program's name on the command line.
+
+    Attributes:
+        name: The file's name without `.py`, or the function's module and name.
+        returncode: The exit code; negative for a signal that ended it; None while it runs.
+        stderr: The traceback with which it ended; empty if there was none.
+
+    Raises:
+        SessionError: If it is neither a file nor a function.
+    """
+
+    def __init__(self, world: World, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401
+        self._target = _checked(target)
+        self.name = target.__name__ if callable(target) else self._target.stem
+        self.returncode: int | None = None
+        self.stderr = ""
+        self._world = world
+        self._process = Process(program=self)
+        self._main: Call | None = None
+        #: The exception that a simulated Ctrl+C raises, to be told from a real one.
+        self.interrupt: KeyboardInterrupt | None = None
+        self._handlers: dict[int, Any] = {
+            signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL,
+        }  # fmt: skip
+        self._replaced: set[int] = set()
+        self._argv = [self.name, *arguments]
+        self._context: Context | None = None
+        self._modules: dict[str, ModuleType] = {}
+        self._outside: tuple[Any, ...] = ()
+
+    def __repr__(self) -> str:
+        state = "running" if self.returncode is None else f"exit code {self.returncode}"
+        return f"SimulatedProgram({self.name}, {state})"
+
+    # What a page asks.
+
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """The nodes that it has made and not destroyed."""
+        return tuple(state.node for state in self._process.states if state.node is not None)
+
+    def poll(self) -> int | None:
+        """Return the exit code, or None while it runs."""
+        return self.returncode
+
+    def send_signal(self, number: int) -> None:
+        """Send a signal to the program, as `kill` and Ctrl+C (`SIGINT`) do.
+
+        What it does then happens at this instant: the session has run it when this returns.
+
+        Args:
+            number: `signal.SIGINT`, `signal.SIGTERM` or `signal.SIGKILL`.
+
+        Raises:
+            SessionError: If it is another signal, or a callback calls this.
+        """
+        if number not in _KNOWN_SIGNALS:
+            raise SessionError(
+                f"The signal {number!r} cannot be sent to a simulated program.",
+                "A session plays what Ctrl+C, the system's request to end and `kill -9` do.",
+                "Use `signal.SIGINT`, `signal.SIGTERM` or `signal.SIGKILL`.",
+            )
+        self._world.refuse_in_callback("send_signal")
+        if self.returncode is not None:
+            return
+        if number == signal.SIGKILL:
+            self._end(-number)
+            return
+        with self._world.running():
+            self._deliver(signal.Signals(number))
+            self._world.virtual.run_until(self._world.virtual.now)
+
+    def terminate(self) -> None:
+        """Send SIGTERM."""
+        self.send_signal(signal.SIGTERM)
+
+    def kill(self) -> None:
+        """End it at once, as `kill -9` does."""
+        if self.returncode is None:
+            self._end(-signal.SIGKILL)
+
+    # What the session calls.
+
+    def start(self) -> None:
+        """Run it until it waits for the first time."""
+        virtual = self._world.virtual
+        virtual.start_thread(self._run, self._process)
+        virtual.run_until(virtual.now)
+
+    @property
+    def argv(self) -> list[str]:
+        """Its command line, as `sys.argv` has it."""
+        return self._argv
+
+    def enter(self) -> None:
+        """Make the process of Python look as the program's own does, while its code runs."""
+        utilities = rclpy.utilities
+        self._outside = (
+            utilities.g_default_context, utilities.Context, sys.argv, signal.signal, list(sys.path),
+        )  # fmt: skip
+        utilities.Context = self._new_context
+        utilities.g_default_context = self._context
+        sys.argv = self._argv
+        signal.signal = self._set_handler  # type: ignore[assignment]
+        sys.modules.update(self._modules)
+        if isinstance(self._target, Path):
+            sys.path.insert(0, str(_root_of(self._target)))
+
+    def leave(self) -> None:
+        """Put everything back; the program's own state is kept for the next time."""
+        utilities = rclpy.utilities
+        self._context = utilities.g_default_context
+        (utilities.g_default_context, utilities.Context, sys.argv, signal.signal, path) = (
+            self._outside
+        )
+        sys.path[:] = path
+        for name in self._modules:
+            sys.modules.pop(name, None)
+
+    def shut_down(self) -> None:
+        """Let a `spin` of the program return: its context was shut down."""
+        main = self._main
+        if main is not None and main.spinning and self._is_idle():
+            self._world.virtual.end_wait(main)
+
+    def callback_ended(self) -> None:
+        """Let `spin` return if the context was shut down while a callback waited."""
+        if self._context is not None and not self._context.ok():
+            self.shut_down()
+
+    # How it works.
+
+    def _new_context(self) -> ProgramContext:
+        return ProgramContext(self._world, self)
+
+    def _set_handler(self, number: int, handler: Any) -> Any:  # noqa: ANN401
+        """Do what `signal.signal` does, for this program only."""
+        before = self._handlers.get(number, signal.SIG_DFL)
+        self._handlers[number] = handler
+        if self._context is not None and self._context.ok():
+            self._replaced.add(number)
+        return before
+
+    def _run(self) -> None:
+        self._main = self._world.virtual.current
+        error: BaseException | None = None
+        self.enter()
+        try:
+            try:
+                code = self._load()()
+                sys.exit(code)
+            except BaseException as raised:
+                error = raised
+        finally:
+            self.leave()
+        if isinstance(error, GreenletExit):
+            return
+        if isinstance(error, KeyboardInterrupt) and error is not self.interrupt:
+            self._end(-signal.SIGINT)
+            raise error  # a real one, meant for the cell
+        self._finish(error)
+
+    def _load(self) -> Callable[[], Any]:
+        """Return `main` of the file, imported afresh, as the script of an entry point does."""
+        if not isinstance(self._target, Path):
+            found: Callable[[], Any] = self._target
+            return found
+        file = self._target
+        linecache.checkcache(str(file))
+        root, before = _root_of(file), set(sys.modules)
+        name = ".".join(file.relative_to(root).with_suffix("").parts)
+        own = {known for known, one in sys.modules.items() if _is_below(one, root)}
+        hidden = {known: sys.modules.pop(known) for known in own}
+        try:
+            spec = spec_from_file_location(name, file)
+            assert spec is not None
+            assert spec.loader is not None
+            module = module_from_spec(spec)
+            sys.modules[name] = module
+            spec.loader.exec_module(module)
+        finally:
+            new = {known for known in sys.modules if known not in before or known in own}
+            self._modules = {
+                known: sys.modules[known] for known in new if _is_below(sys.modules[known], root)
+            }
+            for known, one in hidden.items():
+                sys.modules.setdefault(known, one)
+        main: Callable[[], Any] = module.main
+        return main
+
+    def _deliver(self, number: signal.Signals) -> None:
+        """Do what the handlers of rclpy and of Python do."""
+        handler = self._handlers[number]
+        had_context = self._context is not None and self._context.ok()
+        if had_context and number not in self._replaced:
+            Context.try_shutdown(self._context)  # without waking anybody yet
+        if handler is signal.SIG_DFL:
+            if not had_context:
+                self._end(-number)
+                return
+            self._external_shutdown()
+        elif callable(handler):
+            self._raise(self._interrupt_of(handler, number))
+
+    def _interrupt_of(self, handler: Any, number: int) -> BaseException | None:  # noqa: ANN401
+        """Call the program's handler; return what it raises."""
+        self.enter()
+        try:
+            handler(number, None)
+        except KeyboardInterrupt as error:
+            self.interrupt = error.with_traceback(None)
+            return self.interrupt
+        except BaseException as error:
+            return error
+        finally:
+            self.leave()
+        return None
+
+    def _raise(self, error: BaseException | None) -> None:
+        """Raise an exception where the main thread of the program is, or wake its `spin`."""
+        if error is None:
+            self.shut_down()
+            return
+        calls = [call for call in self._process.calls if call.wait is not None]
+        single = self._process.threads == 1
+        where = calls[-1] if single and calls else self._main
+        if where is not None:
+            self._world.virtual.end_wait(where, error)
+
+    def _external_shutdown(self) -> None:
+        """End a `spin` that waits, as rclpy does when a context is shut down from outside."""
+        main = self._main
+        if main is None or not main.spinning or not self._is_idle():
+            return  # it sees for itself when it looks next
+        alone = self._process.threads == 1
+        self._world.virtual.end_wait(main, ExternalShutdownException() if alone else None)
+
+    def _is_idle(self) -> bool:
+        return all(call.spinning for call in self._process.calls)
+
+    def _finish(self, error: BaseException | None) -> None:
+        code = 0
+        if isinstance(error, SystemExit):
+            code = error.code if isinstance(error.code, int) else int(error.code is not None)
+            if error.code is not None and not isinstance(error.code, int):
+                self.stderr = f"{error.code}\n"
+        elif error is not None:
+            self.stderr = _traceback_of(error)
+            code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
+            self._world.program_failed(fault_of(error, self._world.now(), self.name, "main"))
+        if self.stderr:
+            print(self.stderr, end="", file=sys.stderr)
+        self._end(code)
+
+    def _end(self, code: int) -> None:
+        """End the process: its callbacks, its nodes and its context."""
+        self.returncode = code
+        virtual = self._world.virtual
+        for call in list(self._process.calls):
+            if call is not virtual.current:
+                virtual.break_off(call)
+        for state in list(self._process.states):
+            self._world.destroy(state)
+        if self._context is not None:
+            Context.try_shutdown(self._context)
+
+
+def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input
+    """Return the file or the function, refuse anything else."""
+    if callable(target) and not isinstance(target, type):
+        return target
+    if isinstance(target, str | Path):
+        file = Path(target).expanduser().resolve()
+        if file.is_file():
+            return file
+        raise SessionError(
+            f"There is no file {str(target)!r}.",
+            "`ros.spawn` runs a program: a Python file with a function `main`.",
+            f"Look at the folder: `{file.parent}` "
+            + ("has no such file." if file.parent.is_dir() else "does not exist."),
+        )
+    raise SessionError(
+        f"{target!r} is no program.",
+        "`ros.spawn` runs a Python file with a function `main`, or such a function.",
+        'Write for example `ros.spawn("temperature_publisher.py")`; a class goes to `ros.add`.',
+    )
+
+
+def _root_of(file: Path) -> Path:
+    """Return the folder from which a file is imported: above its package, if it is in one."""
+    folder = file.parent
+    while (folder / "__init__.py").is_file():
+        folder = folder.parent
+    return folder
+
+
+def _is_below(module: Any, root: Path) -> bool:  # noqa: ANN401 - anything may stand in sys.modules
+    file = getattr(module, "__file__", None)
+    return isinstance(file, str) and Path(file).is_relative_to(root)
+
+
+def _traceback_of(error: BaseException) -> str:
+    """Return what Python prints for an exception that nobody catches, without our own frames."""
+    told = traceback.TracebackException.from_exception(error)
+    kept = [one for one in told.stack if not one.filename.startswith(_OWN)]
+    told.stack = traceback.StackSummary.from_list(kept)
+    lines = list(told.format(chain=True))
+    if isinstance(error, AttributeError | NameError):
+        # Up to Python 3.11 only the interpreter's own printing adds what was probably meant.
+        lines[-1] = f"{type(error).__name__}: {error_text(error)}\n"
+    return "".join(lines)
