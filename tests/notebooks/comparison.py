@@ -7,7 +7,7 @@ from typing import Any
 from nbformat import NotebookNode, from_dict
 
 from rosbeat.authoring.execution import BACKGROUND
-from rosbeat.authoring.transforms.failures import quiet_message
+from rosbeat.authoring.transforms.failures import quiet_message, quiet_traceback
 
 REPLACING = ("clear_output", "update_display_data")
 
@@ -57,6 +57,8 @@ class Watch:
 def _comparable(output: NotebookNode) -> NotebookNode:
     if output.output_type == "error":
         output.evalue = quiet_message(output.evalue)
+    elif output.output_type == "stream" and output.name == "stderr":
+        output.text = quiet_traceback(output.text)
     data = output.get("data", {})
     for mime in list(data):
         if mime.startswith("image/") or (mime == "text/html" and ";base64," in data[mime]):

@@ -61,6 +61,26 @@ def test_a_failure_keeps_its_message_and_loses_its_frames():
     assert output.traceback == ["E: no way", "(cell, line 1)"]
 
 
+def test_of_a_printed_traceback_the_learners_own_lines_stay():
+    printed = (
+        "Traceback (most recent call last):\n"
+        '  File "/tmp/ipykernel_12/34.py", line 9, in main\n'
+        "    rclpy.shutdown()\n"
+        "    ~~~~~~~~~~~~~~^^\n"
+        '  File "/x/site-packages/rclpy/__init__.py", line 134, in shutdown\n'
+        "    _shutdown(context=context)\n"
+        "    ^^^^^^^^^^\n"
+        "RCLError: no\n"
+    )
+    quiet = quiet_failures(page(stream(printed, "stderr"))).cells[0].outputs[0].text
+    assert quiet == (
+        "Traceback (most recent call last):\n"
+        '  File "cell", line 9, in main\n'
+        "    rclpy.shutdown()\n"
+        "RCLError: no\n"
+    )
+
+
 def test_a_kernels_file_names_are_nobodys_business():
     assert quiet_message('File "/x/ipykernel_12/34.py", line 1') == 'File "cell", line 1'
 
