@@ -154,7 +154,7 @@ class Call:
         spinning: Whether it waits in a `spin`, so that its thread runs other callbacks.
         wait: What it waits for now.
         holds_group: Whether it occupies its callback group.
-        broken: Whether it is being ended from outside, so that it must not wait again.
+        broken: How often it was told to end, from outside; it must not wait again.
     """
 
     __slots__ = (
@@ -171,7 +171,8 @@ class Call:
     ) -> None:
         self.process, self.state, self.entry, self.label = process, state, entry, label
         self.began_ns = -1
-        self.spinning = self.holds_group = self.broken = False
+        self.spinning = self.holds_group = False
+        self.broken = 0
         self.wait: Wait | None = None
 
     @property

@@ -818,6 +818,9 @@ class VirtualTimeExecutor(WaitSetExecutor):
         call = self.current
         assert call is not None  # only code of a node runs in another greenlet
         if call.broken or self._closing:
+            call.broken += 1
+            if call.broken > _MOST_EXITS:  # it catches everything: it is left where it is
+                here.parent.switch()
             raise GreenletExit
         wait = Wait(call, here, reason, self.now, until, met, needs)
         self._suspend(call, wait, spinning)
@@ -884,7 +887,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def break_off(self, call: Call) -> None:
         """End a call that waits, as the end of its process would: only its `finally` blocks run."""
-        wait, call.broken = call.wait, True
+        wait, call.broken = call.wait, 1
         if wait is not None and not wait.over and wait.thread is not getcurrent():
             before = self.current, self.calling
             wait.over = True
@@ -1327,6 +1330,10 @@ class VirtualTimeExecutor(WaitSetExecutor):
 LONGEST_WAIT = 3600 * 1_000_000_000
 #: Virtual nanoseconds that a constructor may wait while it is called by a cell.
 LONGEST_START = 600 * 1_000_000_000
+
+
+#: How often a callback is told to end that catches even that.
+_MOST_EXITS = 100
 
 
 def _never() -> bool:

@@ -1,0 +1,371 @@
+"""Nodes that share a process, callbacks that wait, and deadlocks."""
+
+import gc
+import threading
+import time
+
+import pytest
+import rclpy
+from greenlet import greenlet
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.node import Node
+from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
+
+from rosbeat import Session
+from rosbeat.errors import NodeConstructionError, SessionError
+
+pytestmark = pytest.mark.ros
+
+
+class Beat(Node):
+    """Says a number each half second."""
+
+    def __init__(self, name="beat"):
+        super().__init__(name)
+        self.pub = self.create_publisher(Int32, name, 10)
+        self.create_timer(0.5, lambda: self.pub.publish(Int32(data=1)))
+
+
+class Sleeper(Node):
+    """Sleeps for 1.2 s in a callback, once, at 1 s."""
+
+    def __init__(self):
+        super().__init__("sleeper")
+        self.timer = self.create_timer(1.0, self.sleep)
+
+    def sleep(self):
+        self.timer.cancel()
+        time.sleep(1.2)
+        self.get_logger().info("awake")
+
+
+class Two(Node):
+    """Two timers, of 1 s and 1.3 s, whose callbacks sleep for 1 s each, once."""
+
+    def __init__(self, one, other):
+        super().__init__("two")
+        self.timers_ = [
+            self.create_timer(1.0, lambda: self.work(0), one),
+            self.create_timer(1.3, lambda: self.work(1), other),
+        ]
+
+    def work(self, number):
+        self.timers_[number].cancel()
+        self.get_logger().info(f"{number} begins")
+        time.sleep(1.0)
+        self.get_logger().info(f"{number} ends")
+
+
+def times(ros, topic):
+    return [one.time for one in ros.messages(topic)]
+
+
+def lines(ros):
+    return [(line.time, line.text) for line in ros.logs()]
+
+
+# One process or two.
+
+
+def test_nodes_of_one_process_wait_for_one_another(ros):
+    sleeper, beat = ros.add(Sleeper, Beat)
+    assert (sleeper.get_name(), beat.get_name()) == ("sleeper", "beat")
+    ros.run(3)
+    # The timer of 1.0 s is late, the one of 1.5 and 2.0 s is skipped, and the grid stays.
+    assert times(ros, "beat") == [0.5, 2.2, 2.5, 3.0]
+
+
+def test_nodes_of_two_processes_do_not(ros):
+    ros.add(Sleeper)
+    ros.add(Beat)
+    ros.run(3)
+    assert times(ros, "beat") == [0.5, 1, 1.5, 2, 2.5, 3]
+
+
+def test_the_graph_tells_which_nodes_share_a_process(ros):
+    ros.add(Sleeper)
+    assert ros.graph().processes == ()
+    ros.add(Beat, lambda: Beat("other"))
+    assert ros.graph().processes == (("/beat", "/other"),)
+    assert ros.observation().graph.processes == (("/beat", "/other"),)
+
+
+def test_waits_are_recorded(ros):
+    ros.add(Sleeper)
+    ros.run(2)
+    (wait,) = ros.observation().waits
+    assert (wait.time, wait.until_ns / 1e9) == (1, 2)
+    assert (wait.node, wait.callback, wait.reason) == ("/sleeper", "sleep", "sleep")
+    ros.run(2)
+    (wait,) = ros.observation().waits
+    assert wait.until_ns / 1e9 == 2.2
+
+
+def test_an_exception_ends_all_nodes_of_its_process(ros, capsys):
+    def fail():
+        raise ValueError("no more")
+
+    def bad():
+        node = Node("bad")
+        node.create_timer(1.2, fail)
+        return node
+
+    ros.add(bad, Beat)
+    ros.add(lambda: Beat("other"))
+    ros.run(3)
+    assert times(ros, "beat") == [0.5, 1]
+    assert times(ros, "other")[-1] == 3
+    assert "/beat ran in the same process, which has ended." in capsys.readouterr().out
+
+
+def test_timers_of_an_instant_come_before_the_messages_they_send(ros):
+    class Both(Node):
+        def __init__(self):
+            super().__init__("both")
+            self.pub = self.create_publisher(Int32, "number", 10)
+            self.create_subscription(Int32, "number", lambda m: self.say(f"got {m.data}"), 10)
+            for number in (1, 2):
+                self.create_timer(1.0, lambda number=number: self.send(number))
+
+        def say(self, text):
+            self.get_logger().info(text)
+
+        def send(self, number):
+            self.say(f"send {number}")
+            self.pub.publish(Int32(data=number))
+
+    ros.add(Both)
+    ros.run(1)
+    assert [text for _, text in lines(ros)] == ["send 1", "send 2", "got 1", "got 2"]
+
+
+# Threads and callback groups.
+
+
+def test_one_group_is_one_at_a_time_whatever_the_threads(ros):
+    group = MutuallyExclusiveCallbackGroup()
+    ros.add(lambda: Two(group, group), threads=4)
+    ros.run(4)
+    assert lines(ros) == [(1, "0 begins"), (2, "0 ends"), (2, "1 begins"), (3, "1 ends")]
+
+
+def test_two_groups_overlap_in_two_threads(ros):
+    make = MutuallyExclusiveCallbackGroup
+    ros.add(lambda: Two(make(), make()), threads=2)
+    ros.run(4)
+    assert lines(ros) == [(1, "0 begins"), (1.3, "1 begins"), (2, "0 ends"), (2.3, "1 ends")]
+
+
+def test_two_groups_do_not_overlap_in_one_thread(ros):
+    make = MutuallyExclusiveCallbackGroup
+    ros.add(lambda: Two(make(), make()))
+    ros.run(4)
+    assert lines(ros) == [(1, "0 begins"), (2, "0 ends"), (2, "1 begins"), (3, "1 ends")]
+
+
+def test_a_reentrant_group_overlaps_itself(ros):
+    class Again(Node):
+        def __init__(self):
+            super().__init__("again")
+            self.create_timer(1.0, self.work, ReentrantCallbackGroup())
+            self.begun = 0
+
+        def work(self):
+            self.begun += 1
+            number = self.begun
+            time.sleep(1.5)
+            self.get_logger().info(str(number))
+
+    ros.add(Again, threads=3)
+    ros.run(5)
+    assert lines(ros) == [(2.5, "1"), (3.5, "2"), (4.5, "3")]
+
+
+# Deadlocks.
+
+
+class Asker(Node):
+    """Calls a service in a callback, at 1 s."""
+
+    def __init__(self, group=None, timeout=None):
+        super().__init__("asker")
+        self.client = self.create_client(Trigger, "ask", callback_group=group)
+        self.timer = self.create_timer(1.0, self.ask)
+        self.timeout = timeout
+
+    def ask(self):
+        self.timer.cancel()
+        answer = self.client.call(Trigger.Request(), self.timeout)
+        self.get_logger().info("nothing" if answer is None else "answered")
+
+
+class Server(Node):
+    """Answers after a sleep of 0.7 s."""
+
+    def __init__(self):
+        super().__init__("server")
+        self.create_service(Trigger, "ask", self.answer)
+
+    def answer(self, _, response):
+        time.sleep(0.7)
+        return response
+
+
+def test_a_call_waits_in_virtual_time(ros):
+    ros.add(Server)
+    ros.add(lambda: Asker(ReentrantCallbackGroup()), threads=2)
+    ros.run(3)
+    assert lines(ros) == [(1.7, "answered")]
+
+
+def test_a_call_with_a_timeout_returns_none(ros):
+    ros.add(Server)
+    ros.add(lambda: Asker(timeout=0.5))
+    ros.run(3)
+    assert lines(ros) == [(1.5, "nothing")]
+    assert not ros.observation().faults
+
+
+def test_a_deadlock_says_who_waits_for_what_and_the_others_go_on(ros, capsys):
+    ros.add(Server)
+    ros.add(Asker, Beat)
+    ros.add(lambda: Beat("other"))
+    ros.run(3)
+    (fault,) = ros.observation().faults
+    assert (fault.node, fault.callback, fault.kind) == ("/asker", "ask", "DeadlockError")
+    assert fault.code == "answer = self.client.call(Trigger.Request(), self.timeout)"
+    err = capsys.readouterr().err
+    assert "/asker waits in `ask` for an answer from /ask: for ever." in err
+    assert "a deadlock, on a real robot too" in err
+    assert times(ros, "beat") == [0.5]
+    assert times(ros, "other")[-1] == 3
+    ros.run(3)
+    assert capsys.readouterr().err == ""  # it is told once
+
+
+def test_two_that_wait_for_each_other(ros, capsys):
+    class Friend(Node):
+        def __init__(self, name, other):
+            super().__init__(name)
+            self.client = self.create_client(
+                Trigger, other, callback_group=MutuallyExclusiveCallbackGroup()
+            )
+            self.create_service(Trigger, name, lambda _, response: response)
+            self.timer = self.create_timer(1.0, self.ask)
+
+        def ask(self):
+            self.timer.cancel()
+            time.sleep(0.1)  # so that both are busy when they ask
+            self.client.call(Trigger.Request())
+
+    ros.add(lambda: Friend("one", "other"), threads=2)
+    ros.add(lambda: Friend("other", "one"), threads=2)
+    ros.run(10)
+    (fault,) = ros.observation().faults
+    assert "/one waits in `ask` for an answer from /other; /other waits in `ask`" in fault.text
+    capsys.readouterr()
+
+
+# Constructors.
+
+
+def test_a_constructor_that_waits_for_ever_says_so(ros, says):
+    class Patient(Node):
+        def __init__(self):
+            super().__init__("patient")
+            client = self.create_client(Trigger, "ask")
+            while not client.wait_for_service(timeout_sec=1.0):
+                self.get_logger().info("waiting again")
+
+    with pytest.raises(NodeConstructionError) as caught:
+        ros.add(Patient)
+    says(caught.value, "still waits after 600 s of virtual time", "ros.spawn")
+    assert ros.nodes == ()
+    ros.add(Server)
+    ros.add(Patient)
+
+
+# What is left behind.
+
+
+def all_greenlets():
+    gc.collect()
+    return [one for one in gc.get_objects() if isinstance(one, greenlet) and not one.dead]
+
+
+def test_a_session_leaves_no_greenlet_thread_or_patched_function():
+    sleep, spin, before = time.sleep, rclpy.spin, len(all_greenlets())
+    threads = threading.active_count()
+    ended = []
+
+    class Careful(Sleeper):
+        def sleep(self):
+            try:
+                super().sleep()
+            finally:
+                ended.append(self.get_name())
+
+    for leave in ("close", "interrupt"):
+        with Session() as ros:
+            ros.add(Careful)
+            ros.run(1.5)
+            if leave == "interrupt":
+                node = ros.add(lambda: Node("stopper"))
+
+                def stop():
+                    raise KeyboardInterrupt
+
+                node.create_timer(0.1, stop)
+                with pytest.raises(KeyboardInterrupt):
+                    ros.run(5)
+        del ros
+    assert ended == ["sleeper", "sleeper"]
+    assert (time.sleep, rclpy.spin) == (sleep, spin)
+    assert len(all_greenlets()) == before
+    assert threading.active_count() == threads
+
+
+def test_a_callback_that_will_not_end_is_left_behind_when_the_session_closes():
+    def stubborn():
+        while True:
+            try:
+                time.sleep(10)
+            except BaseException:  # noqa: S110 - the worst that can be
+                pass
+
+    ros = Session()
+    ros.add(lambda: Node("stubborn")).create_timer(1.0, stubborn)
+    ros.run(2)
+    ros.close()
+
+
+# Bad input.
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.5, "4", True, None])
+def test_threads_have_to_be_a_number(ros, says, threads):
+    with pytest.raises(SessionError) as caught:
+        ros.add(Beat, threads=threads)
+    says(caught.value, "threads=")
+
+
+def test_add_needs_a_node_and_one_name_for_each(ros, says):
+    with pytest.raises(SessionError) as caught:
+        ros.add()
+    says(caught.value, "was given no node")
+    with pytest.raises(SessionError) as caught:
+        ros.add(Beat, Sleeper, name="both")
+    says(caught.value, "both")
+
+
+def test_if_one_of_several_cannot_be_made_none_is(ros):
+    def broken():
+        raise ValueError("no")
+
+    with pytest.raises(NodeConstructionError):
+        ros.add(Beat, broken)
+    assert ros.nodes == ()
+    ros.add(Beat)
+    ros.run(1)
+    assert times(ros, "beat") == [0.5, 1]
