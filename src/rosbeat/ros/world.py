@@ -24,7 +24,7 @@ from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
 from rosbeat.ros.errors import check_name, foreign_node, no_such_node, unknown_topic
 from rosbeat.ros.faults import fault_of
-from rosbeat.ros.graph import Arrivals, Lookout, snapshot, with_outside
+from rosbeat.ros.graph import ExternalMessages, GraphObserver, snapshot, with_other_processes
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
 from rosbeat.ros.qos_events import Limits, event_source, topic_of, wait_for_stored
@@ -56,11 +56,11 @@ class Acting:
     """What a session does for its actions; see `actions.Place`.
 
     Attributes:
-        arrivals: Records what comes from outside; None in a private domain.
+        external_messages: Records what comes from outside; None in a private domain.
         live: The live executor while the session is live, else None.
     """
 
-    arrivals: Arrivals | None
+    external_messages: ExternalMessages | None
     live: LiveExecutor | None
     _states: dict[Node, NodeState]
     _made: WeakSet[Any]
@@ -119,7 +119,7 @@ class Acting:
     def next_goal(self) -> int:
         """How many goals were sent in this session; 0 in a domain with other processes in it."""
         self._goals += 1
-        return self._goals if self.arrivals is None else 0
+        return self._goals if self.external_messages is None else 0
 
     @abstractmethod
     def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
@@ -139,7 +139,7 @@ class Watching(Acting):
     Attributes:
         clock: The one clock of all nodes.
         recorder: What happened so far.
-        arrivals: Records what comes from outside; None in a private domain.
+        external_messages: Records what comes from outside; None in a private domain.
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
         start: How the node that is being made is started.
@@ -149,7 +149,7 @@ class Watching(Acting):
     limits: Limits
     clock: SessionClock
     recorder: Recorder
-    arrivals: Arrivals | None
+    external_messages: ExternalMessages | None
     virtual: VirtualTimeExecutor
     live: LiveExecutor | None
 
@@ -312,7 +312,7 @@ class Watching(Acting):
     @property
     def counts_limits(self) -> bool:
         """Whether deadlines and lifespans of what is made now are counted here; see `Limits`."""
-        return self.live is None and self.arrivals is None
+        return self.live is None and self.external_messages is None
 
     def next_number(self) -> int:
         """The place of a new entity in the order of creation."""
@@ -369,8 +369,8 @@ class Watching(Acting):
         wait_for_stored(taps, entry.entity)
         if self.counts_limits:
             self.limits.subscription_made(entry)
-        if self.arrivals is not None:
-            self.arrivals.watch_subscription(entry.entity)
+        if self.external_messages is not None:
+            self.external_messages.watch_subscription(entry.entity)
 
     def _tap_publisher(self, state: NodeState, publisher: Any) -> None:  # noqa: ANN401
         topic = publisher.topic_name
@@ -388,8 +388,8 @@ class Watching(Acting):
         state.taps.append(tap)
         if self.counts_limits:
             self.limits.publisher_made(state, publisher, tap)
-        if self.arrivals is not None:
-            self.arrivals.watch_publisher(publisher)
+        if self.external_messages is not None:
+            self.external_messages.watch_publisher(publisher)
 
     def _published(
         self, happened: Callable[[], None], add: Callable[[int, Any], None]
@@ -490,7 +490,7 @@ class World(Watching):
     Attributes:
         console: Where log lines are printed.
         context: The ROS context.
-        lookout: Sees the other processes; None in a private domain, where there are none.
+        graph_observer: Sees the other processes; None in a private domain, where there are none.
         closed: Whether `close` was called.
         panel: The instrument panel, or None.
         makers: What the session was handed to make each node, and how it was started.
@@ -516,8 +516,10 @@ class World(Watching):
         self._shown_logs = 0
         self._shown_faults = 0
         self._last_graph: GraphSnapshot | None = None
-        self.lookout = None if domain_id is None else Lookout(self.context)
-        self.arrivals = self.lookout and Arrivals(self.lookout, self.recorder, self.now)
+        self.graph_observer = None if domain_id is None else GraphObserver(self.context)
+        self.external_messages = self.graph_observer and ExternalMessages(
+            self.graph_observer, self.recorder, self.now
+        )
         self.context.install()
 
     # Time.
@@ -657,11 +659,15 @@ class World(Watching):
         if self._last_graph is not None:
             return self._last_graph
         own = super().graph()
-        return own if self.lookout is None else with_outside(own, self.lookout)
+        return (
+            own if self.graph_observer is None else with_other_processes(own, self.graph_observer)
+        )
 
     def known_topics(self) -> set[str]:
         """Every topic of which it is known what was published."""
-        return self.recorder.topics() | (self.arrivals.topics() if self.arrivals else set())
+        return self.recorder.topics() | (
+            self.external_messages.topics() if self.external_messages else set()
+        )
 
     def hurry(self) -> None:
         """Interrupt was pressed while the nodes run live; a callback that hangs ends, too."""
@@ -680,8 +686,8 @@ class World(Watching):
         for state in reversed(self.states()):
             self.destroy(state)
         self.destroy_actions()
-        if self.lookout is not None:
-            self.lookout.destroy_node()
+        if self.graph_observer is not None:
+            self.graph_observer.destroy_node()
         self.virtual.shutdown()
         self.context.end()
         if self._lease:
