@@ -109,9 +109,9 @@ _EVERY_PARTICIPANT = "ros_discovery_info"
 #: Every node logs on this topic, below rclpy: snapshots of a session's own nodes leave it out.
 _LOG_TOPIC = "/rosout"
 _LOOK_EVERY = 0.02
-#: The graph is stable if it was the same so many times in a row. Not a time: on a busy machine
-#: time passes in which no news could have come in.
-_SAME_LOOKS = 8
+#: The graph is stable if so many looks before the last one saw the same. Not a time: on a busy
+#: machine time passes in which no news could have come in.
+_SAME_LOOKS = 7
 #: A process without the course's discovery settings announces itself each 3 s. If there is no news
 #: for longer, whoever is missing has stopped. While there is news, a busy machine is waited for.
 _NO_NEWS, _AT_MOST = 4.0, 20.0
@@ -188,28 +188,29 @@ class GraphObserver(HiddenNode):
             for one in self.publishers(topic) + self.subscriptions(topic)
         )
 
-    def wait_until_stable(self) -> bool:
+    def wait_until_stable(self) -> None:
         """Wait until every process of this machine is seen, with its names, and nothing changes.
 
-        Returns:
-            Whether that came; False if some seconds without news came first.
+        It gives up after some seconds without news.
         """
         begin = changed = time.monotonic()
-        last, same = None, 0
+        looks = self.looks()
         while time.monotonic() < min(begin + _AT_MOST, changed + _NO_NEWS):
-            now = self._look()
-            if now != last:
-                last, changed, same = now, time.monotonic(), 0
-            same += 1
+            same = next(looks)
+            changed = changed if same else time.monotonic()
             if same >= _SAME_LOOKS and self._sees_every_process() and self.knows_all_names():
-                return True
+                return
             time.sleep(_LOOK_EVERY)
-        return False
 
-    def _look(self) -> object:
-        topics = self.topics()
-        counts = [(self.count_publishers(one), self.count_subscribers(one)) for one in topics]
-        return self.nodes(), topics, counts, sorted(self.get_service_names_and_types())
+    def looks(self) -> Iterator[int]:
+        """Look at the graph again and again; yield how many looks in a row saw the same before."""
+        last, same = None, 0
+        while True:
+            topics = self.topics()
+            counts = [(self.count_publishers(one), self.count_subscribers(one)) for one in topics]
+            now = self.nodes(), topics, counts, sorted(self.get_service_names_and_types())
+            last, same = now, same + 1 if now == last else 0
+            yield same
 
     def _sees_every_process(self) -> bool:
         publishers = self.get_publishers_info_by_topic(_EVERY_PARTICIPANT, True)
@@ -414,25 +415,22 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     observer = world.graph_observer
     if observer is None:
         raise nobody_else_here()
-    seen, same = GraphSnapshot(), 0
+    wanted, looks = set(names), observer.looks()
 
     def are_there() -> bool:
         # A node's name, its publishers and its subscriptions come one after the other.
-        nonlocal seen, same
-        before, seen = seen, world.graph()
-        unchanged = (seen.nodes, seen.endpoints) == (before.nodes, before.endpoints)
-        same = same + 1 if unchanged else 0
-        complete = same >= _SAME_POLLS and set(names) <= set(seen.nodes)
-        return complete and observer.knows_all_names()
+        unchanged = next(looks) >= _SAME_POLLS
+        return unchanged and wanted <= set(world.graph().nodes) and observer.knows_all_names()
 
     try:
         poll(are_there, time.monotonic() + seconds)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, "you stopped waiting; the session goes on.")
         raise
-    missing = [name for name in names if name not in seen.nodes]
+    seen = world.graph().nodes
+    missing = [name for name in names if name not in seen]
     if missing:
-        raise nodes_did_not_come(missing, seen.nodes, seconds, world.domain_id or 0)
+        raise nodes_did_not_come(missing, seen, seconds, world.domain_id or 0)
 
 
 # Messages that other processes publish, recorded when a node of the session gets them.

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -179,13 +179,17 @@ def _former(graph: GraphSnapshot, messages: _Messages) -> tuple[Former, ...]:
 #: So many messages tell their rate, if they are not all in one burst; ten of each, if several nodes
 #: publish, since it cannot be told which is whose.
 _ENOUGH, _ENOUGH_OF_EACH, _AT_LEAST_SECONDS = 3, 10, 0.5
-#: A node has so many seconds to answer, and no less than so many turns of the executor: on a busy
-#: machine time passes in which it could not.
-_ANSWER_SECONDS, _ANSWER_TURNS = 2.0, 40
+#: Others have so many seconds to react, and no less than so many turns of the executor: on a busy
+#: machine time passes in which they could not.
+_REACTION_SECONDS, _REACTION_TURNS = 2.0, 40
 _TURN = 0.02
-#: Seconds after which a request is sent again.
+#: Seconds after which a request is sent again: an answer can be lost while the graph changes, as it
+#: does just after another process was killed.
 _RESEND = 0.4
 _QUEUE = 1000
+
+#: Runs the callbacks of a node for a turn.
+_Spin = Callable[[], None]
 
 
 @dataclass(frozen=True)
@@ -213,25 +217,33 @@ def _listen(
     publishers = outside(observer.publishers(topic))
     names = [owner(one) for one in publishers]
     both = dict.fromkeys([*names, *map(owner, outside(observer.subscriptions(topic)))])
+    asked = [one for one in both if graph.on(f"{one}/get_parameters", "server")]
+    stamps: tuple[int, ...] = ()
+    span: float | None = None
     with _temporary_node(world.context) as (node, spin):
-        asked = [one for one in both if graph.on(f"{one}/get_parameters", "server")]
-        requests = [_Request(node, one) for one in asked]
-        listener = _Listener(seconds, len(publishers))
-        if publishers and seconds:
-            listener.subscribe(node, world, topic, publishers[0].topic_type)
+        services = {
+            one: node.create_client(GetParameters, f"{one}/get_parameters") for one in asked
+        }
         # Listen first: a callback that does not return may only begin meanwhile.
-        while listener.is_waiting():
-            spin()
-        while sum(one.is_waiting() for one in requests):  # not `any`: all are asked at once
-            spin()
-    conditions = tuple(one.condition() for one in requests)
-    rate = listener.rate() if len(names) > 1 else 0.0
-    return _External(tuple(listener.beats(names)), conditions, rate)
+        if publishers and seconds:
+            stamps, span = _receive(world, node, topic, publishers, seconds, spin)
+        silent = _silent(services, spin)
+    rate = rate_of(sorted(stamps))
+    conditions = tuple(Condition(one, SILENT if one in silent else RUNNING) for one in asked)
+    if span is None or (stamps and len(names) > 1):
+        return _External((), conditions, rate)
+    watched = round(span * NANOSECONDS)
+    return _External(
+        tuple(
+            Beat(one, "publisher", len(stamps), rate_hz=rate, watched_ns=watched) for one in names
+        ),
+        conditions,
+    )
 
 
 @contextmanager
-def _temporary_node(context: Context) -> Iterator[tuple[Node, Callable[[], None]]]:
-    """Make a hidden node for a while, and what runs its callbacks for a turn."""
+def _temporary_node(context: Context) -> Iterator[tuple[Node, _Spin]]:
+    """Make a hidden node for a while, and what spins it."""
     node = HiddenNode(context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
@@ -242,115 +254,78 @@ def _temporary_node(context: Context) -> Iterator[tuple[Node, Callable[[], None]
         node.destroy_node()
 
 
-class _Patience:
-    """Counts seconds and turns until both are used up."""
-
-    def __init__(self) -> None:
-        self._since, self._turns = time.monotonic(), 0
-
-    def lasts(self) -> bool:
-        """Count another turn; return whether it is worth taking."""
-        self._turns += 1
-        return self._turns <= _ANSWER_TURNS or time.monotonic() - self._since < _ANSWER_SECONDS
-
-
-class _Request:
-    """Asks a node for none of its parameters: whatever it answers, it runs.
-
-    Args:
-        client_node: The node that asks.
-        node: Full name of the node that is asked.
-    """
-
-    def __init__(self, client_node: Node, node: str) -> None:
-        self._node = node
-        self._client = client_node.create_client(GetParameters, f"{node}/get_parameters")
-        self._futures: list[Any] = []
-        self._sent = 0.0
-        self._patience: _Patience | None = None
-
-    def is_waiting(self) -> bool:
-        """Send the request when the node can be asked; return whether an answer may still come.
-
-        It is sent again and again: an answer can be lost while the graph changes, as it does just
-        after another process was killed.
-        """
-        now = time.monotonic()
-        if self._client.service_is_ready() and now - self._sent > _RESEND:
-            self._patience = self._patience if self._futures else None
-            self._futures.append(self._client.call_async(GetParameters.Request()))
-            self._sent = now
-        self._patience = self._patience or _Patience()
-        return not self._is_answered() and self._patience.lasts()
-
-    def _is_answered(self) -> bool:
-        return any(one.done() for one in self._futures)
-
-    def condition(self) -> Condition:
-        """Return how the node does; one that could not be asked is believed to run."""
-        silent = self._futures and not self._is_answered()
-        return Condition(self._node, SILENT if silent else RUNNING)
-
-
-class _Listener:
-    """Notes when messages of other processes on a topic were sent.
-
-    Args:
-        seconds: How long to listen at most, once it is connected.
-        publishers: How many there are.
-    """
-
-    def __init__(self, seconds: float, publishers: int) -> None:
-        self._seconds = seconds
-        self._enough = _ENOUGH if publishers < 2 else _ENOUGH_OF_EACH * publishers
-        self._subscription: Any = None
-        self._stamps: list[int] = []
-        self._connected: float | None = None
-        self._patience = _Patience()
-
-    def subscribe(self, node: Node, world: World, topic: str, type_name: str) -> None:
-        """Begin to listen; best effort and volatile fits whatever a publisher offers."""
-        external = world.external_messages
-
-        def arrived(_: bytes, info: dict[str, int]) -> None:
-            if external is None or not external.is_own(topic, info):
-                self._stamps.append(info["source_timestamp"])
-
-        qos = QoSProfile(depth=_QUEUE, reliability=ReliabilityPolicy.BEST_EFFORT)
-        # The type may be unknown here, or this process knows another one under the topic's name.
-        with suppress(ImportError, AttributeError, ValueError, rclpy_implementation.RCLError):
-            kind = message_class(type_name)
-            self._subscription = node.create_subscription(kind, topic, arrived, qos, raw=True)
-
-    def is_waiting(self) -> bool:
-        """Return whether more messages may come."""
-        if self._subscription is None:
-            return False
-        if self._connected is None:
-            if not self._subscription.get_publisher_count():
-                return self._patience.lasts()
-            self._connected = time.monotonic()
-        span = self._span()
-        enough = span >= _AT_LEAST_SECONDS and len(self._stamps) >= self._enough
-        return span < self._seconds and not enough
-
-    def _span(self) -> float:
-        """Return for how long it has been connected, in seconds."""
-        since = 0.0 if self._connected is None else time.monotonic() - self._connected
-        return min(since, self._seconds)
-
-    def rate(self) -> float:
-        """Return the messages a second, by the clocks of their senders."""
-        return rate_of(sorted(self._stamps))
-
-    def beats(self, publishers: list[str]) -> Iterator[Beat]:
-        """Return the heartbeats of these nodes; of several it cannot be told which published."""
-        number = len(self._stamps)
-        if self._connected is None or (number and len(publishers) > 1):
+def _spin_until(spin: _Spin, done: Callable[[], object]) -> None:
+    """Spin until something is true, or others have had time enough to react."""
+    begin, turns = time.monotonic(), 0
+    while not done():
+        if turns >= _REACTION_TURNS and time.monotonic() - begin >= _REACTION_SECONDS:
             return
-        for node in publishers:
-            span = round(self._span() * NANOSECONDS)
-            yield Beat(node, "publisher", number, rate_hz=self.rate(), watched_ns=span)
+        spin()
+        turns += 1
+
+
+def _receive(
+    world: World, node: Node, topic: str, publishers: list[Any], seconds: float, spin: _Spin
+) -> tuple[tuple[int, ...], float | None]:
+    """Listen to other processes for a while.
+
+    Returns:
+        When each message was sent, by its sender's clock; and for how many seconds it listened, or
+        None if it could not be connected.
+    """
+    external = world.external_messages
+    stamps: list[int] = []
+
+    def arrived(_: bytes, info: dict[str, int]) -> None:
+        if external is None or not external.is_own(topic, info):
+            stamps.append(info["source_timestamp"])
+
+    # Best effort and volatile fits whatever a publisher offers.
+    qos = QoSProfile(depth=_QUEUE, reliability=ReliabilityPolicy.BEST_EFFORT)
+    try:
+        kind = message_class(publishers[0].topic_type)
+        subscription = node.create_subscription(kind, topic, arrived, qos, raw=True)
+    except (ImportError, AttributeError, ValueError, rclpy_implementation.RCLError):
+        return (), None  # the type is unknown here, or this process knows another under the name
+    _spin_until(spin, subscription.get_publisher_count)
+    if not subscription.get_publisher_count():
+        return (), None
+    enough = _ENOUGH if len(publishers) < 2 else _ENOUGH_OF_EACH * len(publishers)
+    begin, span = time.monotonic(), 0.0
+    while span < seconds and not (span >= _AT_LEAST_SECONDS and len(stamps) >= enough):
+        spin()
+        span = time.monotonic() - begin
+    return tuple(stamps), min(span, seconds)
+
+
+def _silent(services: Mapping[str, Any], spin: _Spin) -> set[str]:
+    """Ask nodes for none of their parameters, and return those that do not answer.
+
+    A node that cannot be asked is believed to run.
+
+    Args:
+        services: A client of each node's parameter service, by the node's name.
+        spin: Spins the clients' node.
+    """
+    _spin_until(spin, lambda: all(one.service_is_ready() for one in services.values()))
+    answers: dict[str, list[Any]] = {
+        name: [] for name, one in services.items() if one.service_is_ready()
+    }
+    sent = -_RESEND
+
+    def waiting() -> list[str]:
+        return [name for name, found in answers.items() if not any(one.done() for one in found)]
+
+    def all_have_answered() -> bool:
+        nonlocal sent
+        if time.monotonic() - sent >= _RESEND:
+            sent = time.monotonic()
+            for name in waiting():
+                answers[name].append(services[name].call_async(GetParameters.Request()))
+        return not waiting()
+
+    _spin_until(spin, all_have_answered)
+    return set(waiting())
 
 
 # Who uses the topic in another ROS domain of this machine.
