@@ -104,7 +104,7 @@ def _condition(world: World, state: NodeState) -> Condition:
 
 
 class _Messages:
-    """The messages of a topic so far.
+    """Keeps the messages of a topic so far.
 
     Args:
         world: The session.

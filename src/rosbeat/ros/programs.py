@@ -72,7 +72,7 @@ def private_domain() -> Iterator[int]:
 
 
 class Program:
-    """A program that runs; use it in a `with` block, which kills what is left of it.
+    """Runs a program; use it in a `with` block, which kills what is left of it.
 
     Args:
         command: The program and its arguments.
@@ -107,12 +107,12 @@ class Program:
 
     @property
     def output(self) -> str:
-        """What it has printed so far, both streams in one."""
+        """Return what it has printed so far, both streams in one."""
         return "".join(self._kept)
 
     @property
     def running(self) -> bool:
-        """Whether it has not ended yet."""
+        """Return whether it has not ended yet."""
         return self._process.poll() is None
 
     def wait(self, until: Callable[[str], object], seconds: float) -> bool:
@@ -171,9 +171,9 @@ class Program:
 
 
 class DomainProbe:
-    """A node in the domain of some programs, which publishes numbers on a topic and receives them.
+    """Publishes and receives numbers as a node in the domain of some programs.
 
-    Use it in a `with` block. Its session is live meanwhile.
+    Use it in a `with` block, in which its session is live.
 
     Args:
         domain_id: The domain.
@@ -210,7 +210,7 @@ class DomainProbe:
 
     @property
     def received(self) -> tuple[tuple[float, float], ...]:
-        """When each number came, in seconds since the first of them, and the number."""
+        """Return when each number came, in seconds since the first of them, and the number."""
         received = list(self._received)
         return tuple((at - received[0][0], value) for at, value in received)
 

@@ -161,7 +161,7 @@ def room(degrees: int) -> Callable[[], Node]:
     """
 
     class Room(Node):
-        """A room."""
+        """Publishes its temperature."""
 
         def __init__(self) -> None:
             super().__init__("room")
@@ -233,14 +233,14 @@ def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
 
 
 #: Virtual seconds after which everything has happened at least once.
-SECONDS = 20.0
+_SECONDS = 20.0
 _WETTEST, _DRIEST = 60, 30
 #: Seconds from one complaint to the next.
 _PATIENCE = 30
 
 
 class Weather(Node):
-    """A still day: temperature and light, always the same."""
+    """Publishes temperature and light of a still day, always the same."""
 
     def __init__(self) -> None:
         super().__init__("weather")
@@ -268,7 +268,7 @@ class Window(Node):
 
 
 class SoilProbe(Node):
-    """How wet the soil is, in per cent: it dries, and is wet again."""
+    """Publishes how wet the soil is, in per cent: it dries, and is wet again."""
 
     def __init__(self) -> None:
         super().__init__("soil_probe")
@@ -341,7 +341,7 @@ def observe_greenhouse() -> tuple[Observation, dict[str, Any]]:
     """
     with Session(seed=0) as session:
         add_greenhouse(session)
-        session.run(seconds=SECONDS, quiet=True)
+        session.run(seconds=_SECONDS, quiet=True)
         return session.observation(), _parameters(session)
 
 
