@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from rosbeat.exercises.checking import check as check
     from rosbeat.exercises.hinting import hint as hint
     from rosbeat.exercises.progress import progress as progress
-    from rosbeat.ros.session import Session as Session
+    from rosbeat.page_session import Session as Session
 
 __version__ = "0.1.0"
 __all__ = ["Session", "bags", "check", "clinic", "hint", "predict", "progress", "viz", "workspace"]
@@ -36,7 +36,7 @@ if os.environ.get("NBGRADER_EXECUTION"):
     import_module("rosbeat.workspace.graded_runs").settle_in()
 
 _HOMES = {
-    "Session": ("rosbeat.ros.session", "Session"),
+    "Session": ("rosbeat.page_session", "Session"),
     "bags": ("rosbeat.bags", None),
     "check": ("rosbeat.exercises.checking", "check"),
     "clinic": ("rosbeat.clinic", None),

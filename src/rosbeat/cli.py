@@ -101,7 +101,7 @@ def _explain_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _explain(options: argparse.Namespace) -> int:
-    from rosbeat.ros.silence import explain_domain
+    from rosbeat.explain_command import explain_domain
     from rosbeat.workspace.stale import stale_builds
 
     try:

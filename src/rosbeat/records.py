@@ -312,14 +312,12 @@ class ProgramRun:
         output: What it printed, both streams in one, up to a limit.
         exit_code: How it ended; negative for the number of a signal; None if it had to be killed.
         ended_early: Whether it ended before it was interrupted.
-        logs: The log lines among its output, times left at 0.
     """
 
     program: str
     output: str
     exit_code: int | None
     ended_early: bool = False
-    logs: tuple[LogRecord, ...] = ()
 
 
 @dataclass(frozen=True)

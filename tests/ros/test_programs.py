@@ -1,15 +1,15 @@
+"""Programs in processes of their own: started, watched, and ended with Ctrl+C."""
+
 import os
-import sys
 import time
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from threading import Timer
 
 import pytest
 
 from rosbeat.domains import lease_domain
-from rosbeat.ros.programs import MOST_OUTPUT, Program, log_lines, main_of, run_program
-
-NODES = Path(__file__).parents[2] / "solutions" / "sensor_simulator" / "sensor_simulator"
+from rosbeat.ros.programs import MOST_OUTPUT, Program, private_domain, program_environment
 
 
 def bash(text):
@@ -27,26 +27,18 @@ def alive(mark):
     return found
 
 
-@pytest.mark.ros
-def test_main_of_a_node_runs_until_ctrl_c():
-    run = run_program(NODES / "temperature_publisher.py", lambda out: "Publishing" in out, 60)
-    assert (run.program, run.exit_code, run.ended_early) == ("temperature_publisher", 0, False)
-    first = run.logs[0]
-    assert (first.level, first.name) == ("INFO", "temperature_sensor")
-    assert first.text == "Temperature Sensor Node Started"
+def run(command, until=bool, seconds=60):
+    """Run a program until its output is as wanted, then press Ctrl+C."""
+    with TemporaryDirectory() as folder, private_domain() as domain:
+        home = Path(folder)
+        with Program(command, program_environment(home, domain), home) as program:
+            program.wait(until, seconds)
+            return program.finish()
 
 
 def test_a_program_that_ends_by_itself():
-    run = run_program(bash("echo out; echo err >&2; exit 3"), lambda _: False, 60)
-    assert (run.exit_code, run.ended_early, run.output) == (3, True, "out\nerr\n")
-
-
-def test_a_file_without_main_says_so(tmp_path):
-    (tmp_path / "talk.py").write_text("print('loaded', __name__)\n")
-    run = run_program(tmp_path / "talk.py", lambda _: False, 60)
-    assert (run.program, run.exit_code) == ("talk", 1)
-    assert "loaded talk" in run.output
-    assert "no attribute 'main'" in run.output
+    done = run(bash("echo out; echo err >&2; exit 3"), lambda _: False)
+    assert (done.exit_code, done.ended_early, done.output) == (3, True, "out\nerr\n")
 
 
 def test_a_program_that_ignores_ctrl_c_is_killed_with_its_children(tmp_path):
@@ -63,19 +55,18 @@ def test_a_program_that_ignores_ctrl_c_is_killed_with_its_children(tmp_path):
 
 
 def test_what_it_prints_without_end_is_bounded():
-    run = run_program(["yes"], lambda out: len(out) > 1000, 60)
-    assert run.exit_code == -2
-    assert len(run.output) < MOST_OUTPUT + 100_000
+    done = run(["yes"], lambda out: len(out) > 1000)
+    assert done.exit_code == -2
+    assert len(done.output) < MOST_OUTPUT + 100_000
 
 
 def test_it_has_a_home_and_a_domain_of_its_own():
-    words = bash("echo $HOME $ROS_DOMAIN_ID $PYTEST_CURRENT_TEST $TOLD; pwd")
-    run = run_program(words, lambda _: False, 60, env={"TOLD": "yes"})
-    home, domain, told, place = run.output.split()
+    words = bash("echo $HOME $ROS_DOMAIN_ID $PYTEST_CURRENT_TEST; pwd")
+    done = run(words, lambda _: False)
+    home, domain, place = done.output.split()
     assert home == place
     assert not Path(home).exists()
     assert 51 <= int(domain) <= 101
-    assert told == "yes"
     lease_domain(range(int(domain), int(domain) + 1)).release()  # it was given back
 
 
@@ -84,22 +75,10 @@ def test_our_own_interrupt_leaves_nothing_behind():
     press = Timer(0.3, os.kill, (os.getpid(), 2))
     press.start()
     with pytest.raises(KeyboardInterrupt):
-        run_program(bash(f"sleep {mark}; true"), lambda _: False, 1000)
+        run(bash(f"sleep {mark}; true"), lambda _: False, 1000)
     assert not alive(mark)
 
 
 def test_a_program_that_does_not_exist():
     with pytest.raises(OSError, match="nothing-like-this"):
-        run_program(["nothing-like-this"])
-
-
-def test_the_command_of_a_main():
-    assert main_of(Path("/a/b.py"))[0] == sys.executable
-
-
-def test_log_lines_are_those_of_ros():
-    text = "x\n[INFO] [a.b]: one: two\n[WARN] [c]: \n[INFO] no\n"
-    assert [(log.level, log.name, log.text) for log in log_lines(text)] == [
-        ("INFO", "a.b", "one: two"),
-        ("WARN", "c", ""),
-    ]
+        run(["nothing-like-this"])

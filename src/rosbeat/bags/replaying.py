@@ -13,7 +13,7 @@ from rosbeat.bags.sources import Run, chosen, full_name, observed, types_of
 from rosbeat.bags.types import installed_types
 from rosbeat.bags.writing import wires
 from rosbeat.records import Observation, QoS, Sample
-from rosbeat.ros.playback import NodeFactory, Outlet, Turn, player
+from rosbeat.ros.playback import NodeFactory, PlayedStep, PlayedTopic, player
 
 
 def replay(
@@ -60,8 +60,8 @@ def replay(
     types, names = types_of(seen, topics), _renamed(seen, remap)
     samples = sorted(inject(chosen(seen, types), *faults), key=lambda one: one.time_ns)
     made = wires(installed_types(types.values()), samples)
-    outlets = [Outlet(names.get(one, one), types[one], _offer(seen, one)) for one in types]
-    return player(name, outlets, _turns(samples, made, list(types), speed))
+    played = [PlayedTopic(names.get(one, one), types[one], _offer(seen, one)) for one in types]
+    return player(name, played, _steps(samples, made, list(types), speed))
 
 
 def _renamed(seen: Observation, remap: Mapping[str, str] | None) -> dict[str, str]:
@@ -77,18 +77,18 @@ def _offer(seen: Observation, topic: str) -> QoS:
     return next((end.qos for end in seen.graph.on(topic, "publisher")), QoS())
 
 
-def _turns(
+def _steps(
     samples: Sequence[Sample], made: Sequence[bytes], topics: Sequence[str], speed: float
-) -> list[Turn]:
+) -> list[PlayedStep]:
     """What is published together: what one known node has published at one instant."""
     places = {topic: number for number, topic in enumerate(topics)}
 
-    def turn_of(item: tuple[int, tuple[Sample, bytes]]) -> tuple[int, str]:
+    def step_of(item: tuple[int, tuple[Sample, bytes]]) -> tuple[int, str]:
         number, (sample, _) = item
         return sample.time_ns, f"?{number}" if sample.node == UNKNOWN else sample.node
 
     pairs = enumerate(zip(samples, made, strict=True))
     return [
-        Turn(round(at / speed), tuple((places[one.topic], wire) for _, (one, wire) in group))
-        for (at, _), group in groupby(pairs, turn_of)
+        PlayedStep(round(at / speed), tuple((places[one.topic], wire) for _, (one, wire) in group))
+        for (at, _), group in groupby(pairs, step_of)
     ]

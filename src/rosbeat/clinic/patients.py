@@ -15,7 +15,7 @@ from rosbeat.diagnosis.explanation_parts import NODE
 from rosbeat.records import Observation
 
 if TYPE_CHECKING:
-    from rosbeat.ros.session import Session
+    from rosbeat.page_session import Session
 
 
 class Patient:
@@ -86,7 +86,7 @@ def _unspun(ros: Session, seen: Observation) -> set[str]:
 
 def _running(plan: Plan, seed: int) -> Session:
     # Here, so that judges can read charts where ROS is not installed.
-    from rosbeat.ros.session import Session
+    from rosbeat.page_session import Session
 
     ros = Session(seed=seed)
     # A session says at once which node has ended, and that is for the doctor to find out.

@@ -43,7 +43,7 @@ def _watched() -> tuple[Observation, dict[str, Any]]:
     # Here, so that judges can be imported where ROS is not installed.
     from rosbeat.ros import test_nodes
 
-    return test_nodes.watched()
+    return test_nodes.observe_greenhouse()
 
 
 def full(name: str) -> str:

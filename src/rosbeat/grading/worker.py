@@ -47,7 +47,7 @@ _PREPARED = (
     *("rclpy", "rclpy.node", "rclpy.qos", "rclpy.executors", "rclpy.action"),
     *("numpy", "numpy.random"),
     *("std_msgs.msg", "std_srvs.srv", "sensor_msgs.msg", "rcl_interfaces.msg", "test_msgs.action"),
-    *("rosbeat.ros.scenario", "rosbeat.ros.test_nodes"),
+    *("rosbeat.page_session", "rosbeat.ros.scenario", "rosbeat.ros.test_nodes"),
 )
 #: Types of messages that answers use, and of the services and topics that every node has.
 _TYPES = (

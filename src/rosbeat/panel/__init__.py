@@ -3,7 +3,7 @@
 `ros.panel()` opens it. It looks at the session 20 times a second, whatever the nodes do, and sends
 the browser what has changed; the session records everything in the meantime.
 
-- `instruments` says what the panel asks of a session, so that nothing else here knows ROS;
+- `instruments` asks a session what happens and acts on it; nothing else here knows ROS;
 - `sampling` turns a session into frames, `traffic` decides when one may be sent;
 - `layout` places the graph as the pictures of `rosbeat.viz` do;
 - `orders` understands what comes from the browser;

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter, deque
+from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-from rosbeat.panel.instruments import Arrival
-from rosbeat.records import NANOSECONDS
+from rosbeat.records import NANOSECONDS, Sample
 from rosbeat.viz.fields import paths
 from rosbeat.viz.words import rounded
 
@@ -18,6 +18,19 @@ _RATE_SPAN = 2.0
 _LONGEST = 120
 
 Point = tuple[float, float | None]
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """What came from one node on one topic since the last look.
+
+    Attributes:
+        count: How many messages.
+        newest: The last of them.
+    """
+
+    count: int
+    newest: Sample
 
 
 class Chart:

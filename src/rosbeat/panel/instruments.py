@@ -1,105 +1,212 @@
-"""What the panel asks of a session: eyes and hands, as plain data."""
+"""A session as the panel sees it and acts on it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import RLock
+from typing import TYPE_CHECKING, Any
 
-from rosbeat.records import Fault, GraphSnapshot, LogRecord, Sample
+from rosbeat.errors import SessionError
+from rosbeat.panel.charts import Arrival
+from rosbeat.panel.layout import NUMERIC_TYPES
+from rosbeat.panel.sampling import News
+from rosbeat.records import GraphSnapshot
+from rosbeat.ros.errors import no_such_node, node_has_ended, session_has_ended, session_is_not_live
+from rosbeat.ros.injection import Injector, TopicFault, make_again
+from rosbeat.ros.launch import Maker
+from rosbeat.ros.world import World, find, state_of
 
-#: Types of message that a slider can publish, and whose numbers a fault can change.
-NUMERIC_TYPES = frozenset({"std_msgs/msg/Float32", "std_msgs/msg/Float64"})
-#: What a fault does to the messages of a topic.
-FAULTS = ("none", "dropout", "nan", "offset")
+if TYPE_CHECKING:
+    from rosbeat.ros.entities import NodeState
+
+#: Seconds after which the graph is looked at anew although no node has changed.
+_FRESH = 1.0
 
 
-@dataclass(frozen=True)
-class Arrival:
-    """What came from one node on one topic since the last look.
+class SessionInstruments:
+    """Shows a session to the panel and acts on it. Every method may be called from any thread.
 
-    Attributes:
-        count: How many messages.
-        newest: The last of them.
+    Names of nodes and topics are full names. The methods that change something raise `RosbeatError`
+    if they cannot.
+
+    Args:
+        world: The session; the panel must not hold the `Session` itself, which ends when nothing
+            else does.
     """
 
-    count: int
-    newest: Sample
+    def __init__(self, world: World) -> None:
+        self._world = world
+        # Clicks come in whichever thread the kernel has for them.
+        self._lock = RLock()
+        self._messages = self._logs = self._faults = 0
+        self._stopped: dict[str, Maker] = {}
+        self._topic_faults: dict[str, TopicFault] = {}
+        self._injector: Injector | None = None
+        self._graph = GraphSnapshot()
+        self._outline: list[Any] = []
+        self._looked = 0.0
 
-
-@dataclass(frozen=True)
-class News:
-    """What happened in a session since the last look.
-
-    Attributes:
-        arrivals: One for each topic and publishing node that was heard.
-        logs: The log lines.
-        faults: The exceptions that ended nodes.
-    """
-
-    arrivals: tuple[Arrival, ...] = ()
-    logs: tuple[LogRecord, ...] = ()
-    faults: tuple[Fault, ...] = ()
-
-
-class Instruments(Protocol):
-    """A session as the panel sees it. Every method may be called from any thread.
-
-    Names of nodes and topics are full names. A method of the second half changes something; it
-    raises `RosbeatError` if it cannot.
-    """
+    # What happens.
 
     def now_ns(self) -> int:
-        """Nanoseconds since the session began."""
-        ...
+        """Return the nanoseconds since the session began."""
+        return self._world.now()
 
     def is_live(self) -> bool:
-        """Whether the nodes run against the wall clock."""
-        ...
+        """Return whether the nodes run against the wall clock."""
+        return self._world.live is not None
 
     def news(self) -> News:
-        """What happened since this was last asked."""
-        ...
+        """Return what happened since this was last asked."""
+        recorder = self._world.recorder
+        self._messages, found = recorder.since(self._messages)
+        logs, faults = recorder.logs[self._logs :], recorder.faults[self._faults :]
+        self._logs, self._faults = self._logs + len(logs), self._faults + len(faults)
+        arrivals = tuple(Arrival(count, newest) for _, count, newest in found)
+        return News(arrivals, tuple(logs), tuple(faults))
 
     def graph(self) -> GraphSnapshot:
-        """The nodes and topics."""
-        ...
+        """Return the graph; looked at anew when a node has changed, and every second."""
+        outline = [
+            (one.name, id(one.node), len(_publishers(one)), len(one.entries))
+            for one in self._world.states()
+        ]
+        if outline != self._outline or time.monotonic() - self._looked > _FRESH:
+            self._graph = self._world.graph()
+            self._outline, self._looked = outline, time.monotonic()
+            with self._lock:
+                self._apply_faults()
+        return self._graph
 
     def conditions(self) -> dict[str, str]:
-        """For every node: `running`, `paused`, `stopped`, `ended` or `not added`."""
-        ...
+        """Return `running`, `paused`, `stopped`, `ended` or `not added` for every node, by name.
+
+        The panel's own node is not among them.
+        """
+        states = [one for one in self._world.states() if one.node is not self._injector]
+        found = {state.name: _condition(state) for state in states}
+        for name in found:  # the page may have made one anew
+            self._stopped.pop(name, None)
+        return dict(sorted({**dict.fromkeys(list(self._stopped), "stopped"), **found}.items()))
+
+    # What the panel does.
 
     def pause(self, node: str) -> None:
         """Run none of a node's callbacks."""
-        ...
+        with self._acting():
+            state = find(self._world, node)
+            self._world.rest_node(state)
+            state.paused = True
 
     def resume(self, node: str) -> None:
         """Run a paused node's callbacks again."""
-        ...
+        with self._acting():
+            state = find(self._world, node)
+            if state.ended:
+                raise node_has_ended(state.name)
+            self._world.spin_node(state)
 
     def stop(self, node: str) -> None:
         """Destroy a node, and remember how it was made."""
-        ...
+        with self._acting():
+            state = find(self._world, node)
+            self._stopped[state.name] = self._maker(state)
+            self._world.destroy(state)
 
     def start(self, node: str) -> None:
         """Make a stopped or ended node again."""
-        ...
+        with self._acting():
+            state = self._world.named(node)
+            maker = self._maker(state) if state else self._stopped.get(node)
+            if maker is None:
+                raise no_such_node(node, list(self._stopped))
+            make_again(self._world, node, maker)
+            self._stopped.pop(node, None)
 
     def publish(self, topic: str, value: float) -> None:
         """Publish one number."""
-        ...
+        with self._acting():
+            self._injecting().send(topic, self._numeric_type(topic), value)
 
     def repeat(self, topic: str, value: float | None) -> None:
         """Publish a number every second from now on; None ends that."""
-        ...
+        with self._acting():
+            if value is not None:
+                self._injecting().send(topic, self._numeric_type(topic), value)
+            self._injecting().repeat(topic, value)
 
     def disturb(self, topic: str, kind: str, amount: float) -> None:
-        """Let what nodes publish on a topic be wrong, in one of the ways of `FAULTS`."""
-        ...
+        """Inject one of the faults of `orders.FAULTS` into what nodes publish on a topic."""
+        with self._acting():
+            self._numeric_type(topic)
+            fault = self._topic_faults.setdefault(topic, TopicFault(topic))
+            fault.kind, fault.amount = kind, amount
+            self._apply_faults()
 
     def load(self, milliseconds: float) -> None:
-        """Let a callback run for so long, once a second; 0 ends that."""
-        ...
+        """Run a callback for so long, once a second; 0 ends that."""
+        with self._acting():
+            self._injecting().load(milliseconds)
 
     def release(self) -> None:
-        """Take away everything that the panel has added."""
-        ...
+        """Take away everything that the panel has added; stopped nodes stay stopped."""
+        with self._lock:
+            for fault in self._topic_faults.values():
+                fault.remove()
+            self._topic_faults.clear()
+            state = self._world.state_of(self._injector)
+            if state is not None:
+                self._world.destroy(state)
+            self._injector = None
+
+    # How it works.
+
+    @contextmanager
+    def _acting(self) -> Iterator[None]:
+        with self._lock:
+            if self._world.closed:
+                raise session_has_ended()
+            if not self.is_live():
+                raise session_is_not_live()
+            yield
+
+    def _injecting(self) -> Injector:
+        """Return the panel's own node, made when it is first needed."""
+        if self._world.state_of(self._injector) is None:
+            self._injector = Injector(self._world.context)
+            self._world.spin_node(state_of(self._world, self._injector))
+        assert self._injector is not None
+        return self._injector
+
+    def _numeric_type(self, topic: str) -> str:
+        for end in self._graph.endpoints:
+            if end.name == topic and end.type_name in NUMERIC_TYPES:
+                return end.type_name
+        raise SessionError(
+            f"The panel cannot put a number on {topic}.",
+            "Only topics of type Float32 or Float64 are in reach of its sliders.",
+            "Choose another topic.",
+        )
+
+    def _apply_faults(self) -> None:
+        for fault in self._topic_faults.values():
+            for state in self._world.states():
+                if state.node is not self._injector:
+                    fault.apply(_publishers(state))
+
+    def _maker(self, state: NodeState) -> Maker:
+        """Return what made a node; its class, if a node was handed to `ros.add` ready-made."""
+        assert state.node is not None
+        return self._world.makers.get(state.node) or Maker(type(state.node))
+
+
+def _publishers(state: NodeState) -> list[Any]:
+    return list(state.node.publishers) if state.node else []
+
+
+def _condition(state: NodeState) -> str:
+    if state.ended or state.spinning:
+        return "ended" if state.ended else "running"
+    return "paused" if state.paused else "not added"

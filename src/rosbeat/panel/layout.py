@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from rosbeat.panel.instruments import NUMERIC_TYPES
 from rosbeat.viz import theme
 from rosbeat.viz.labels import Label, node_label, topic_label
 from rosbeat.viz.layers import Layering, layering
 from rosbeat.viz.placement import Box, Placement, Point, needed, place
 from rosbeat.viz.wiring import Wiring, describe, node_key, topic_key
 
+#: Types of message that a slider can publish, and whose numbers a fault can change.
+NUMERIC_TYPES = frozenset({"std_msgs/msg/Float32", "std_msgs/msg/Float64"})
 #: Widest line of a name in CSS pixels, tried in this order.
 _LIMITS = (200.0, 150.0, 115.0, 95.0)
 _ROOM = theme.WIDTH - 2 * theme.MARGIN

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rosbeat.errors import RosbeatError, SessionError
-from rosbeat.panel.instruments import FAULTS, Instruments
 
+if TYPE_CHECKING:
+    from rosbeat.panel.instruments import SessionInstruments
+
+#: What a fault does to the messages of a topic.
+FAULTS = ("none", "dropout", "nan", "offset")
 #: The longest callback that the slider offers, in milliseconds.
 LONGEST_LOAD = 900.0
 
 Order = Mapping[str, Any]
+Action = Callable[[Order, "SessionInstruments"], None]
 
 
-def carry_out(order: Order, instruments: Instruments) -> str:
+def carry_out(order: Order, instruments: SessionInstruments) -> str:
     """Do what the browser asked for.
 
     Args:
@@ -35,34 +40,34 @@ def carry_out(order: Order, instruments: Instruments) -> str:
     return ""
 
 
-def _on_node(name: str) -> Callable[[Order, Instruments], None]:
-    def act(order: Order, instruments: Instruments) -> None:
+def _on_node(name: str) -> Action:
+    def act(order: Order, instruments: SessionInstruments) -> None:
         getattr(instruments, name)(_text(order, "node"))
 
     return act
 
 
-def _publish(order: Order, instruments: Instruments) -> None:
+def _publish(order: Order, instruments: SessionInstruments) -> None:
     instruments.publish(_text(order, "topic"), _number(order, "value"))
 
 
-def _repeat(order: Order, instruments: Instruments) -> None:
+def _repeat(order: Order, instruments: SessionInstruments) -> None:
     value = _number(order, "value") if order.get("on") else None
     instruments.repeat(_text(order, "topic"), value)
 
 
-def _disturb(order: Order, instruments: Instruments) -> None:
+def _disturb(order: Order, instruments: SessionInstruments) -> None:
     kind = _text(order, "kind")
     if kind not in FAULTS:
         raise _unknown(order)
     instruments.disturb(_text(order, "topic"), kind, _number(order, "amount"))
 
 
-def _load(order: Order, instruments: Instruments) -> None:
+def _load(order: Order, instruments: SessionInstruments) -> None:
     instruments.load(max(0.0, min(LONGEST_LOAD, _number(order, "milliseconds"))))
 
 
-_ACTIONS: dict[str, Callable[[Order, Instruments], None]] = {
+_ACTIONS: dict[str, Action] = {
     **{name: _on_node(name) for name in ("pause", "resume", "stop", "start")},
     "publish": _publish,
     "repeat": _repeat,

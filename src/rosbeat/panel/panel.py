@@ -5,16 +5,18 @@ from __future__ import annotations
 import time
 from contextlib import suppress
 from threading import Event, RLock, Thread, current_thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from IPython.display import display, update_display
 
 from rosbeat.panel import orders
-from rosbeat.panel.instruments import Instruments
 from rosbeat.panel.sampling import Sampler
 from rosbeat.panel.still import is_for_a_browser, still, with_view
 from rosbeat.panel.traffic import Traffic
 from rosbeat.panel.widget import PanelWidget
+
+if TYPE_CHECKING:
+    from rosbeat.panel.instruments import SessionInstruments
 
 #: Seconds from one look at the session to the next: 20 frames a second.
 PERIOD = 0.05
@@ -42,7 +44,7 @@ class Panel:
         instruments: The session.
     """
 
-    def __init__(self, instruments: Instruments) -> None:
+    def __init__(self, instruments: SessionInstruments) -> None:
         self._instruments = instruments
         self._sampler = Sampler(instruments)
         self._traffic = Traffic()

@@ -3,18 +3,36 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
-from rosbeat.panel.charts import Chart
-from rosbeat.panel.instruments import Instruments
+from rosbeat.panel.charts import Arrival, Chart
 from rosbeat.panel.layout import layout
 from rosbeat.records import NANOSECONDS, Fault, LogRecord
 from rosbeat.viz.wiring import Wiring, wiring
+
+if TYPE_CHECKING:
+    from rosbeat.panel.instruments import SessionInstruments
 
 #: Log lines that the panel keeps, and how many it puts into one frame.
 KEPT_LINES, LINES_PER_FRAME = 500, 100
 
 Line = tuple[float, str, str, str]
+
+
+@dataclass(frozen=True)
+class News:
+    """What happened in a session since the last look.
+
+    Attributes:
+        arrivals: One for each topic and publishing node that was heard.
+        logs: The log lines.
+        faults: The exceptions that ended nodes.
+    """
+
+    arrivals: tuple[Arrival, ...] = ()
+    logs: tuple[LogRecord, ...] = ()
+    faults: tuple[Fault, ...] = ()
 
 
 class Sampler:
@@ -27,7 +45,7 @@ class Sampler:
         instruments: The session.
     """
 
-    def __init__(self, instruments: Instruments) -> None:
+    def __init__(self, instruments: SessionInstruments) -> None:
         self._instruments = instruments
         self._charts: dict[str, Chart] = {}
         self._changed: set[str] = set()

@@ -179,7 +179,7 @@ def build_in(
     world: World,
     targets: Sequence[Any],
     start: Launch,
-    process: Process,
+    process: Process | None = None,
 ) -> tuple[Node, ...]:
     """Make the nodes of a process in a session; if that fails, nothing of them is left there.
 
@@ -187,7 +187,7 @@ def build_in(
         world: The session's.
         targets: Classes, factories, or nodes.
         start: How they are started.
-        process: Where they run.
+        process: Where they run; by default a new one.
 
     Raises:
         NodeClassError, NodeConstructionError: As `build_node` does.

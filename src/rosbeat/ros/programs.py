@@ -1,9 +1,8 @@
-"""Programs in processes of their own, and a node of ours among them."""
+"""Programs in processes of their own, and a node of this process among them."""
 
 from __future__ import annotations
 
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -12,7 +11,6 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from rclpy.node import Node
@@ -20,41 +18,24 @@ from std_msgs.msg import Float32
 
 from rosbeat import environment
 from rosbeat.domains import lease_domain
-from rosbeat.records import Endpoint, LogRecord, ProgramRun
+from rosbeat.records import Endpoint, ProgramRun
 from rosbeat.ros.graph import poll
 from rosbeat.ros.session import Session
 
-# Programs in processes of their own: started, watched, ended with Ctrl+C, and nothing left behind.
-#
-# Nothing here needs rclpy: a node that runs as a program is a process like any other.
-
-
-#: Characters of output that are kept; the rest is read and forgotten, so that nobody waits.
+#: Characters of output that are kept; the rest is read and dropped, so that no program is held up.
 MOST_OUTPUT = 200_000
 #: Seconds that a program may take to end after Ctrl+C.
 GRACE = 5.0
 _LOOK_EVERY = 0.02
-
-#: Runs `main` of a file as its entry point would.
-_START_MAIN = """
-import importlib.util, sys
-spec = importlib.util.spec_from_file_location(sys.argv[1], sys.argv[2])
-module = importlib.util.module_from_spec(spec)
-del sys.argv[1:3]
-sys.modules[spec.name] = module
-spec.loader.exec_module(module)
-sys.exit(module.main())
-"""
 # What a kernel and its tests set for themselves, and what would change what programs print.
 _DROPPED = (
     *("PYTEST_CURRENT_TEST", "JPY_PARENT_PID", "JPY_SESSION_NAME", "MPLBACKEND", "COLCON_HOME"),
     *("PYTHONDONTWRITEBYTECODE", "PYTHONSTARTUP", "PYTHONINSPECT", "FORCE_COLOR", "PYTHONPATH"),
 )
-_LOG = re.compile(r"^\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[([\w./]+)\]: (.*)$", re.MULTILINE)
 
 
-def surroundings(home: Path, domain_id: int) -> dict[str, str]:
-    """What a program finds in its environment: the course, a home and a ROS domain of its own.
+def program_environment(home: Path, domain_id: int) -> dict[str, str]:
+    """Return the environment of a program: the course's, with its own home and ROS domain.
 
     Args:
         home: An empty folder.
@@ -76,19 +57,22 @@ def surroundings(home: Path, domain_id: int) -> dict[str, str]:
     }
 
 
-def main_of(file: Path) -> list[str]:
-    """The command that runs `main()` of a Python file, as an entry point does."""
-    return [sys.executable, "-c", _START_MAIN, file.stem, str(file)]
+@contextmanager
+def private_domain() -> Iterator[int]:
+    """Hold a ROS domain id that no session has.
 
-
-def log_lines(output: str) -> tuple[LogRecord, ...]:
-    """The log lines in what a program printed, times left at 0."""
-    found = _LOG.findall(output)
-    return tuple(LogRecord(0, level, name, text, "", 0) for level, name, text in found)
+    Raises:
+        DomainsExhaustedError: If no private domain id is left on this machine.
+    """
+    lease = lease_domain()
+    try:
+        yield lease.domain_id
+    finally:
+        lease.release()
 
 
 class Program:
-    """A program that runs; use it in a `with` block, which kills what is left of it.
+    """Runs a program; use it in a `with` block, which kills what is left of it.
 
     Args:
         command: The program and its arguments.
@@ -106,8 +90,8 @@ class Program:
         self._name = name or Path(command[-1]).name
         self._kept: list[str] = []
         self._length = 0
-        # A session of its own: Ctrl+C in our terminal is not meant for it, and its whole process
-        # group can be reached.
+        # A process session of its own: Ctrl+C in our terminal is not meant for it, and its whole
+        # process group can be reached.
         self._process = subprocess.Popen(
             list(command), env=dict(env), cwd=cwd, stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
@@ -123,12 +107,12 @@ class Program:
 
     @property
     def output(self) -> str:
-        """What it has printed so far, both streams in one."""
+        """Return what it has printed so far, both streams in one."""
         return "".join(self._kept)
 
     @property
     def running(self) -> bool:
-        """Whether it has not ended yet."""
+        """Return whether it has not ended yet."""
         return self._process.poll() is None
 
     def wait(self, until: Callable[[str], object], seconds: float) -> bool:
@@ -152,7 +136,7 @@ class Program:
         return True
 
     def finish(self, grace: float = GRACE) -> ProgramRun:
-        """Press Ctrl+C, wait for its end, and say what it did.
+        """Press Ctrl+C, wait for its end, and return what it did.
 
         Args:
             grace: Seconds of wall time after which it is killed.
@@ -160,15 +144,11 @@ class Program:
         early = not self.running
         if not early:
             self._send(signal.SIGINT)
-        code = self._wait_for_end(grace)
+        code: int | None = None
+        with suppress(subprocess.TimeoutExpired):
+            code = self._process.wait(grace)
         self._kill()
-        return ProgramRun(self._name, self.output, code, early, log_lines(self.output))
-
-    def _wait_for_end(self, grace: float) -> int | None:
-        try:
-            return self._process.wait(grace)
-        except subprocess.TimeoutExpired:
-            return None
+        return ProgramRun(self._name, self.output, code, early)
 
     def _kill(self) -> None:
         # The group may outlive the process that began it: children that it has left behind.
@@ -190,83 +170,28 @@ class Program:
                     self._length += len(data)
 
 
-def run_program(
-    command: Sequence[str] | Path,
-    until: Callable[[str], object] = bool,
-    seconds: float = 10.0,
-    *,
-    domain_id: int | None = None,
-    env: Mapping[str, str] | None = None,
-    cwd: Path | None = None,
-) -> ProgramRun:
-    """Run a program until its output is as wanted, then press Ctrl+C.
+class DomainProbe:
+    """Publishes and receives numbers as a node in the domain of some programs.
 
-    Args:
-        command: The program and its arguments, or a Python file whose `main()` is run.
-        until: Asked with its output; by default any output will do.
-        seconds: Seconds of wall time after which it is interrupted anyway.
-        domain_id: The ROS domain; by default a private one.
-        env: More variables of its environment.
-        cwd: Where it runs; by default an empty folder.
-
-    Raises:
-        OSError: If it cannot be started.
-        DomainsExhaustedError: If no private domain id is left on this machine.
-    """
-    words = main_of(command.resolve()) if isinstance(command, Path) else list(command)
-    name = command.stem if isinstance(command, Path) else ""
-    with TemporaryDirectory(prefix="rosbeat-") as folder, private_domain(domain_id) as domain:
-        home = Path(folder)
-        surround = {**surroundings(home, domain), **(env or {})}
-        with Program(words, surround, cwd or home, name) as program:
-            program.wait(until, seconds)
-            return program.finish()
-
-
-@contextmanager
-def private_domain(domain_id: int | None = None) -> Iterator[int]:
-    """Hold a ROS domain id that no session has.
-
-    Args:
-        domain_id: The id to use instead, if it is known.
-
-    Raises:
-        DomainsExhaustedError: If no private domain id is left on this machine.
-    """
-    if domain_id is not None:
-        yield domain_id
-        return
-    lease = lease_domain()
-    try:
-        yield lease.domain_id
-    finally:
-        lease.release()
-
-
-# A node of ours among programs: it says numbers on a topic, and hears what the programs say.
-
-
-NAME = "outpost"
-
-
-class Outpost:
-    """A live session in the domain of some programs; use it in a `with` block.
+    Use it in a `with` block, in which its session is live.
 
     Args:
         domain_id: The domain.
         topic: A topic of numbers, `std_msgs/msg/Float32`.
     """
 
+    _NAME = "domain_probe"
+
     def __init__(self, domain_id: int, topic: str) -> None:
-        self._heard: list[tuple[float, float]] = []
+        self._received: list[tuple[float, float]] = []
         self._topic = topic
         self._session = Session(domain_id=domain_id)
 
-    def __enter__(self) -> Outpost:
+    def __enter__(self) -> DomainProbe:
         try:
-            node: Any = self._session.add(lambda: Node(NAME))
+            node: Any = self._session.add(lambda: Node(self._NAME))
             self._publisher = node.create_publisher(Float32, self._topic, 10)
-            node.create_subscription(Float32, self._topic, self._hear, 10)
+            node.create_subscription(Float32, self._topic, self._receive, 10)
             self._session.start()
         except BaseException:
             self._session.close()
@@ -276,37 +201,33 @@ class Outpost:
     def __exit__(self, *_: object) -> None:
         self._session.close()
 
-    def _hear(self, message: Any) -> None:  # noqa: ANN401 - rclpy carries no types
-        self._heard.append((time.monotonic(), message.data))
+    def _receive(self, message: Any) -> None:  # noqa: ANN401 - rclpy carries no types
+        self._received.append((time.monotonic(), message.data))
 
-    def listen_anew(self) -> None:
-        """Forget what was heard so far."""
-        self._heard.clear()
+    def clear(self) -> None:
+        """Forget what was received so far."""
+        self._received.clear()
 
     @property
-    def heard(self) -> tuple[tuple[float, float], ...]:
-        """When each number came, in seconds since the first of them, and the number."""
-        heard = list(self._heard)
-        return tuple((at - heard[0][0], value) for at, value in heard)
+    def received(self) -> tuple[tuple[float, float], ...]:
+        """Return when each number came, in seconds since the first of them, and the number."""
+        received = list(self._received)
+        return tuple((at - received[0][0], value) for at, value in received)
 
-    def say(self, value: float) -> None:
+    def publish(self, value: float) -> None:
         """Publish a number."""
         self._publisher.publish(Float32(data=value))
 
-    def has_listener(self) -> bool:
-        """Whether somebody else listens."""
+    def has_subscriber(self) -> bool:
+        """Return whether a program subscribes to the topic."""
         return bool(self._publisher.get_subscription_count() > 1)
 
     def publishers(self) -> tuple[Endpoint, ...]:
-        """What the programs publish, topics that every node has left out."""
+        """Return what the programs publish, without the topics that every node has."""
         graph = self._session.graph()
-        return tuple(
-            end
-            for topic in graph.topics()
-            for end in graph.on(topic, "publisher")
-            if end.node != f"/{NAME}"
-        )
+        ends = (end for topic in graph.topics() for end in graph.on(topic, "publisher"))
+        return tuple(end for end in ends if end.node != f"/{self._NAME}")
 
     def wait(self, until: Callable[[], object], seconds: float) -> bool:
-        """Wait until something is so, at most so many seconds of wall time; say whether it is."""
+        """Wait until something is true, at most so many seconds; return whether it came true."""
         return poll(until, time.monotonic() + seconds)

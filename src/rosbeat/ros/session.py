@@ -9,7 +9,6 @@ from weakref import finalize
 
 from rclpy.node import Node
 
-from rosbeat.diagnosis.explanation import Explanation
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros import spinning
 from rosbeat.ros.context import install_learner_calls, show_briefly
@@ -27,17 +26,13 @@ from rosbeat.ros.errors import (
     session_is_not_live,
 )
 from rosbeat.ros.graph import wait_for_nodes, wait_live
-from rosbeat.ros.instruments import open_panel
 from rosbeat.ros.launch import Maker, Start, build_in, checked
 from rosbeat.ros.processes import Process
-from rosbeat.ros.silence import explained
 from rosbeat.ros.simulated_program import SimulatedProgram
 from rosbeat.ros.world import World, find, log_lines, observation, samples, state_of
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack
-
-    from rosbeat.panel.panel import Panel
+    from typing_extensions import Self, Unpack
 
 
 SomeNode = TypeVar("SomeNode", bound=Node)
@@ -86,7 +81,7 @@ class Session:
         # Also runs at interpreter exit, before the middleware is torn down.
         self._finalizer = finalize(self, self._world.close)
 
-    def __enter__(self) -> Session:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -390,45 +385,6 @@ class Session:
         """
         self._world.show_faults()
         return log_lines(self._world, node)
-
-    def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:
-        """Say why nothing arrives on a topic, or that all is well, with the rate.
-
-        It goes by what the session has recorded, which takes no time. In a domain that was joined
-        with `domain_id`, it also listens to the other processes and asks their nodes whether they
-        run.
-
-        Args:
-            topic: The topic's name; `temperature` and `/temperature` are the same. Nobody need use
-                it.
-            seconds: How long to listen to other processes at most, in seconds of wall time.
-
-        Returns:
-            The explanation; at the end of a cell it shows itself, and `viz.graph` draws it.
-
-        Raises:
-            DurationError: If `seconds` is not a number from 0 up.
-            SessionError: If `topic` cannot be the name of a topic, or `explain` is called from a
-                callback.
-            ClosedSessionError: If the session has ended.
-        """
-        self._check_open()
-        self._world.refuse_in_callback("ros.explain")
-        return explained(self._world, topic, seconds)
-
-    def panel(self) -> Panel:
-        """Open the instrument panel: what the live nodes do, and controls to disturb them.
-
-        An open panel makes room for the new one; the last one ends with the session. Where no
-        browser can show it, it is a still picture of the graph.
-
-        Raises:
-            SessionError: If `panel` is called from a callback.
-            ClosedSessionError: If the session has ended.
-        """
-        self._check_open()
-        self._world.refuse_in_callback("ros.panel")
-        return open_panel(self._world)
 
     def graph(self) -> GraphSnapshot:
         """The nodes, topics, services and timers as they are now, or were when the session ended.

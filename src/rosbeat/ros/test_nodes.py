@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import islice
 from typing import Any
 
 from rclpy.duration import Duration
@@ -15,41 +16,42 @@ from rosbeat.ros.randomness import tilt
 from rosbeat.ros.recording import message_class
 from rosbeat.ros.session import Session
 
-# Nodes that publish what they were given.
-
-
-#: How a node begins that only keeps an answer company: without the six services for its parameters,
-#: which nobody asks and which are two thirds of what a node costs (measured: 11 of 16 ms).
+_DEFAULT_DEPTH = 10
+#: How a test node begins: without the six services for its parameters, which nobody asks and which
+#: are two thirds of what a node costs (measured: 11 of 16 ms).
 BARE = {"start_parameter_services": False}
 
 
 def message(type_name: str, value: Any) -> Any:  # noqa: ANN401 - a message of any type
-    """A message that holds a value.
+    """Return a message that holds a value.
 
     Args:
         type_name: The type's ROS name.
-        value: What its field `data` holds, or a dict from field name to value.
+        value: The value of its field `data`, or a dict from field name to value.
     """
     fields = value if isinstance(value, dict) else {"data": value}
     return message_class(type_name)(**fields)
 
 
 def profile(qos: QoS | int) -> QoSProfile:
-    """A QoS profile from the record of one, or from a queue depth."""
-    wanted = QoS(depth=qos) if isinstance(qos, int) else qos
+    """Return the QoS profile of a record, or of a queue depth.
+
+    What a record does not know, as that of a recording, is ROS's default.
+    """
+    if isinstance(qos, int):
+        return QoSProfile(depth=qos)
+    best_effort, stored = qos.reliability == "BEST_EFFORT", qos.durability == "TRANSIENT_LOCAL"
+    limits = {"deadline": qos.deadline_ns, "lifespan": qos.lifespan_ns}
     return QoSProfile(
-        depth=wanted.depth,
-        history=HistoryPolicy[wanted.history],
-        reliability=ReliabilityPolicy[wanted.reliability],
-        durability=DurabilityPolicy[wanted.durability],
-        **limits(wanted),
+        reliability=ReliabilityPolicy.BEST_EFFORT if best_effort else ReliabilityPolicy.RELIABLE,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if stored else DurabilityPolicy.VOLATILE,
+        history=HistoryPolicy.KEEP_ALL if qos.history == "KEEP_ALL" else HistoryPolicy.KEEP_LAST,
+        depth=qos.depth or _DEFAULT_DEPTH,
+        **{name: Duration(nanoseconds=limit) for name, limit in limits.items() if limit},
     )
 
 
-def limits(qos: QoS) -> dict[str, Duration]:
-    """The limits of a quality of service as arguments of a QoS profile."""
-    found = {"deadline": qos.deadline_ns, "lifespan": qos.lifespan_ns}
-    return {name: Duration(nanoseconds=limit) for name, limit in found.items() if limit}
+# Nodes that publish what they were given, and nodes that log what they receive.
 
 
 def feeder(
@@ -62,14 +64,15 @@ def feeder(
     burst: int = 1,
     qos: QoS | int = 10,
 ) -> Callable[[], Node]:
-    """A node that publishes value after value, from one period on, and then falls silent.
+    """Return a node that publishes value after value, from one period on, and then falls silent.
 
     Args:
         name: The node's name.
-        topic: Where it publishes.
+        topic: The topic.
         type_name: A message type with a field `data`, such as `std_msgs/msg/Float32`; of another
             type the values are dicts from field name to value.
-        values: What it publishes, in order; NaN and infinity are values like others.
+        values: The values, in order; NaN and infinity are values like others, and None is a turn
+            without a message.
         period: Virtual seconds from one to the next.
         burst: How many it publishes each time, at one instant.
         qos: The quality of service of its publisher, or the depth of its queue.
@@ -77,62 +80,67 @@ def feeder(
     Returns:
         A function that makes the node, for `Session.add` or `observe`.
     """
-    waiting = [message(type_name, value) for value in values]
+    messages = [None if value is None else message(type_name, value) for value in values]
 
     class Feeder(Node):
         """Publishes what it was given."""
 
         def __init__(self) -> None:
             super().__init__(name, **BARE)
-            self._queue = list(waiting)
+            self._left = iter(messages)
             self._publisher = self.create_publisher(message_class(type_name), topic, profile(qos))
             self.create_timer(period, self._send)
 
         def _send(self) -> None:
-            for one in self._queue[:burst]:
-                self._publisher.publish(one)
-            del self._queue[:burst]
+            for one in islice(self._left, burst):
+                if one is not None:
+                    self._publisher.publish(one)
 
     return Feeder
 
 
-# Sensors that say what they are told, once a second, and may be silent for a while.
-
-
-_FLOAT = "std_msgs/msg/Float32"
-
-
 def station(name: str, topic: str, readings: Iterable[float | None]) -> Callable[[], Node]:
-    """A sensor that publishes one `Float32` a second, the first after one second.
+    """Return a sensor that publishes one `Float32` a second, the first after one second.
 
     Args:
         name: The node's name.
-        topic: Where it publishes.
-        readings: What it says, in order; None is a second without a message. Then it is silent.
+        topic: The topic.
+        readings: The readings, in order; None is a second without a message.
 
     Returns:
-        A class, for `Session.add` or a scenario.
+        A function that makes the node, for `Session.add` or a scenario.
     """
-    told = tuple(readings)
+    values = (None if reading is None else float(reading) for reading in readings)
+    return feeder(name, topic, "std_msgs/msg/Float32", values)
 
-    class Station(Node):
-        """Says what it was told."""
+
+def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
+    """Return a node that logs the field `data` of each message that it gets, and nothing else.
+
+    Args:
+        name: The node's name.
+        topic: The topic.
+        type_name: A message type with a field `data`, such as `std_msgs/msg/String`.
+        qos: The quality of service that it asks for, or the depth of its queue.
+
+    Returns:
+        A function that makes the node, for `Session.add`, `observe` or the step `Add`.
+    """
+
+    class Hearer(Node):
+        """Logs what it receives."""
 
         def __init__(self) -> None:
             super().__init__(name, **BARE)
-            self._left = iter(told)
-            self._publisher = self.create_publisher(message_class(_FLOAT), topic, 10)
-            self.create_timer(1.0, self._send)
+            self.create_subscription(message_class(type_name), topic, self._receive, profile(qos))
 
-        def _send(self) -> None:
-            value = next(self._left, None)
-            if value is not None:
-                self._publisher.publish(message(_FLOAT, float(value)))
+        def _receive(self, message: Any) -> None:  # noqa: ANN401 - a message of any type
+            self.get_logger().info(str(message.data))
 
-    return Station
+    return Hearer
 
 
-# A room with a heater, for scenarios: whole degrees, so that nothing depends on rounding.
+# A room with a heater: whole degrees, so that nothing depends on rounding.
 
 
 #: Seconds in which a room loses one degree while it is not heated.
@@ -140,32 +148,32 @@ _COOLS_IN = 5
 
 
 def room(degrees: int) -> Callable[[], Node]:
-    """A node that publishes its temperature each second.
+    """Return a node that publishes the temperature of a heated room each second.
 
     It gains one degree a second while the last message on `heater` was True, and else loses one
     in five seconds.
 
     Args:
-        degrees: Where it begins.
+        degrees: Its first temperature, in whole degrees.
 
     Returns:
         A function that makes the node, for `Session.add` or `observe`.
     """
 
     class Room(Node):
-        """A room."""
+        """Publishes its temperature."""
 
         def __init__(self) -> None:
             super().__init__("room")
             self._degrees, self._heating, self._cold = degrees, False, 0
             self._readings = self.create_publisher(Float32, "temperature", 10)
             self.create_subscription(Bool, "heater", self._switch, 10)
-            self.create_timer(1.0, self._let_a_second_pass)
+            self.create_timer(1.0, self._measure)
 
         def _switch(self, message: Bool) -> None:
             self._heating = bool(message.data)
 
-        def _let_a_second_pass(self) -> None:
+        def _measure(self) -> None:
             if self._heating:
                 self._degrees += 1
             else:
@@ -183,13 +191,11 @@ def room(degrees: int) -> Callable[[], Node]:
 # then freely. Each single number is one that could have been drawn anyway.
 
 
-#: The node that makes the drift; a judge may want to tell it from the learner's.
-NAME = "weather"
 _AT_ONCE = 1e-6
 
 
 def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
-    """A node that tilts what the nodes beside it draw with the functions of Python's `random`.
+    """Return a node that tilts what others draw with the functions of Python's `random`.
 
     NumPy's generators stay as they are, and so does a `random.Random` of a node's own.
 
@@ -201,52 +207,23 @@ def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
         A function that makes the node, for `Session.add` or `observe`.
     """
 
-    class Weather(Node):
-        """Turns the tendency at the end of each phase."""
+    class Drift(Node):
+        """Changes the tendency at the end of each phase."""
 
         def __init__(self) -> None:
-            super().__init__(NAME, **BARE)
+            super().__init__("weather", **BARE)
             self._left = list(phases)
             # A tilt lasts until the call of the session ends that set it, so not from here.
-            self._next = self.create_timer(_AT_ONCE, self._turn)
+            self._timer = self.create_timer(_AT_ONCE, self._next_phase)
 
-        def _turn(self) -> None:
-            self.destroy_timer(self._next)
+        def _next_phase(self) -> None:
+            self.destroy_timer(self._timer)
             seconds, exponent = self._left.pop(0)
             tilt(exponent)
             if self._left:
-                self._next = self.create_timer(seconds, self._turn)
+                self._timer = self.create_timer(seconds, self._next_phase)
 
-    return Weather
-
-
-# Nodes that say in their log what they hear.
-
-
-def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
-    """A node that logs the field `data` of each message that it gets, and nothing else.
-
-    Args:
-        name: The node's name.
-        topic: Where it listens.
-        type_name: A message type with a field `data`, such as `std_msgs/msg/String`.
-        qos: The quality of service that it asks for, or the depth of its queue.
-
-    Returns:
-        A function that makes the node, for `Session.add`, `observe` or the step `Add`.
-    """
-
-    class Hearer(Node):
-        """Logs what it hears."""
-
-        def __init__(self) -> None:
-            super().__init__(name, **BARE)
-            self.create_subscription(message_class(type_name), topic, self._hear, profile(qos))
-
-        def _hear(self, message: Any) -> None:  # noqa: ANN401 - a message of any type
-            self.get_logger().info(str(message.data))
-
-    return Hearer
+    return Drift
 
 
 # A small system that a learner did not write: a greenhouse of five nodes.
@@ -256,14 +233,14 @@ def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callab
 
 
 #: Virtual seconds after which everything has happened at least once.
-SECONDS = 20.0
+_SECONDS = 20.0
 _WETTEST, _DRIEST = 60, 30
 #: Seconds from one complaint to the next.
 _PATIENCE = 30
 
 
 class Weather(Node):
-    """A still day: temperature and light, always the same."""
+    """Publishes temperature and light of a still day, always the same."""
 
     def __init__(self) -> None:
         super().__init__("weather")
@@ -291,7 +268,7 @@ class Window(Node):
 
 
 class SoilProbe(Node):
-    """How wet the soil is, in per cent: it dries, and is wet again."""
+    """Publishes how wet the soil is, in per cent: it dries, and is wet again."""
 
     def __init__(self) -> None:
         super().__init__("soil_probe")
@@ -350,21 +327,21 @@ class Lamp(Node):
 GREENHOUSE = (Weather, Window, SoilProbe, Gardener, Lamp)
 
 
-def settle(session: Session) -> None:
+def add_greenhouse(session: Session) -> None:
     """Add the nodes of the greenhouse to a session."""
     for make in GREENHOUSE:
         session.add(make)
 
 
-def watched() -> tuple[Observation, dict[str, Any]]:
-    """Run a greenhouse of one's own in virtual time and write down what it does.
+def observe_greenhouse() -> tuple[Observation, dict[str, Any]]:
+    """Run a greenhouse in virtual time.
 
     Returns:
-        What was seen; and the value of each parameter that its nodes declare, by `/node name`.
+        The observation; and the value of each parameter that its nodes declare, by `/node name`.
     """
     with Session(seed=0) as session:
-        settle(session)
-        session.run(seconds=SECONDS, quiet=True)
+        add_greenhouse(session)
+        session.run(seconds=_SECONDS, quiet=True)
         return session.observation(), _parameters(session)
 
 

@@ -24,6 +24,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Collection, Coroutine, Iterable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from inspect import iscoroutine, iscoroutinefunction
@@ -357,6 +358,9 @@ class Host(Protocol):
 
     def deadlocked(self, waits: list[Wait]) -> None:
         """Record that callbacks wait for ever."""
+
+    def running(self) -> AbstractContextManager[None]:
+        """Make nodes feel at home while they run in this thread."""
 
 
 class WaitSetExecutor(SingleThreadedExecutor):
@@ -812,16 +816,15 @@ class VirtualTimeExecutor(WaitSetExecutor):
         """
         if met is not None and met():
             return True
-        here = getcurrent()
-        if here is self._main or not self.running:
-            return self._block_main(reason, until, met)
-        call = self.current
-        assert call is not None  # only code of a node runs in another greenlet
-        if call.broken or self._closing:
+        here, call = getcurrent(), self.current
+        if call is not None and (call.broken or self._closing):
             call.broken += 1
             if call.broken > _MOST_EXITS:  # it catches everything: it is left where it is
                 here.parent.switch()
             raise GreenletExit
+        if here is self._main or not self.running:
+            return self._block_main(reason, until, met)
+        assert call is not None  # only code of a node runs in another greenlet
         wait = Wait(call, here, reason, self.now, until, met, needs)
         self._suspend(call, wait, spinning)
         try:
@@ -891,7 +894,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if wait is not None and not wait.over and wait.thread is not getcurrent():
             before = self.current, self.calling
             wait.over = True
-            _throw(wait.thread, GreenletExit())
+            with self._host.running():  # its `finally` blocks may sleep, too
+                _throw(wait.thread, GreenletExit())
             self.current, self.calling = before
         if call in call.process.calls:
             call.process.calls.remove(call)

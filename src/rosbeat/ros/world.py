@@ -43,7 +43,7 @@ from rosbeat.ros.errors import (
     unknown_topic,
 )
 from rosbeat.ros.faults import fault_of, line_of
-from rosbeat.ros.graph import Arrivals, Lookout, snapshot, with_outside
+from rosbeat.ros.graph import ExternalMessages, GraphObserver, snapshot, with_other_processes
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
 from rosbeat.ros.processes import Call, Process, Wait
@@ -94,8 +94,8 @@ class World:
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
         limits: The deadlines and lifespans that the session counts.
-        lookout: Sees the other processes; None in a private domain, where there are none.
-        arrivals: Records what comes from outside; None in a private domain.
+        graph_observer: Sees the other processes; None in a private domain, where there are none.
+        external_messages: Records what comes from outside; None in a private domain.
         start: How the node that is being made is started.
         closed: Whether `close` was called.
         panel: The instrument panel, or None.
@@ -128,8 +128,10 @@ class World:
         self._live_since = 0
         self._shown_logs = self._shown_faults = 0
         self._last_graph: GraphSnapshot | None = None
-        self.lookout = None if domain_id is None else Lookout(self.context)
-        self.arrivals = self.lookout and Arrivals(self.lookout, self.recorder, self.now)
+        self.graph_observer = None if domain_id is None else GraphObserver(self.context)
+        self.external_messages = self.graph_observer and ExternalMessages(
+            self.graph_observer, self.recorder, self.now
+        )
         self.context.install()
 
     # Time.
@@ -167,7 +169,9 @@ class World:
         if self._last_graph is not None:
             return self._last_graph
         own = snapshot(self.states(), self.shared())
-        return own if self.lookout is None else with_outside(own, self.lookout)
+        return (
+            own if self.graph_observer is None else with_other_processes(own, self.graph_observer)
+        )
 
     def shared(self) -> tuple[tuple[str, ...], ...]:
         """Return the names of nodes that share a process, in order of creation.
@@ -180,7 +184,7 @@ class World:
 
     def known_topics(self) -> set[str]:
         """Return every topic of which it is known what was published."""
-        outside = self.arrivals.topics() if self.arrivals else ()
+        outside = self.external_messages.topics() if self.external_messages else ()
         return self.recorder.topics().union(outside)
 
     def next_number(self) -> int:
@@ -343,7 +347,7 @@ class World:
     @property
     def counts_limits(self) -> bool:
         """Whether deadlines and lifespans of what is made now are counted here; see `Limits`."""
-        return self.live is None and self.arrivals is None
+        return self.live is None and self.external_messages is None
 
     # What the executors tell.
 
@@ -445,7 +449,7 @@ class World:
     def next_goal(self) -> int:
         """Return how many goals were sent here; 0 in a domain with other processes in it."""
         self._goals += 1
-        return self._goals if self.arrivals is None else 0
+        return self._goals if self.external_messages is None else 0
 
     # What is printed.
 
@@ -543,8 +547,8 @@ class World:
         for entity in list(self._action_ends):  # destroying its node leaves it in the graph
             with suppress(Exception):  # destroyed already, or half-made
                 entity.destroy()
-        if self.lookout is not None:
-            self.lookout.destroy_node()
+        if self.graph_observer is not None:
+            self.graph_observer.destroy_node()
         self.virtual.shutdown()
         self.context.end()
         if self._lease:
@@ -613,8 +617,8 @@ class World:
         wait_for_stored(taps, entry.entity)
         if self.counts_limits:
             self.limits.subscription_made(entry)
-        if self.arrivals is not None:
-            self.arrivals.watch_subscription(entry.entity)
+        if self.external_messages is not None:
+            self.external_messages.watch_subscription(entry.entity)
 
     def _tap_publisher(self, state: NodeState, publisher: Any) -> None:  # noqa: ANN401
         topic = publisher.topic_name
@@ -632,8 +636,8 @@ class World:
         state.taps.append(tap)
         if self.counts_limits:
             self.limits.publisher_made(state, publisher, tap)
-        if self.arrivals is not None:
-            self.arrivals.watch_publisher(publisher)
+        if self.external_messages is not None:
+            self.external_messages.watch_publisher(publisher)
 
     def _published(
         self, happened: Callable[[], None], add: Callable[[int, Any], None]

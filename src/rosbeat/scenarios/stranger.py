@@ -13,4 +13,4 @@ def greenhouse(session: Any) -> None:  # noqa: ANN401 - a Session, which is not 
     """
     from rosbeat.ros import test_nodes
 
-    test_nodes.settle(session)
+    test_nodes.add_greenhouse(session)

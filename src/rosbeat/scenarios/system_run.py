@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from rosbeat.records import Endpoint, ProgramRun
-from rosbeat.ros.programs import Outpost, Program, private_domain, surroundings
+from rosbeat.ros.programs import DomainProbe, Program, private_domain, program_environment
 from rosbeat.scenarios.looking import CommandMeaning, look_at_workspace, meaning_of
 from rosbeat.scenarios.sources import Source, read_source
 from rosbeat.workspace.packages import Package
@@ -103,7 +103,7 @@ def _build_and_run(found: SystemRun, folder: Path) -> SystemRun:
         home.mkdir()
         ignored = shutil.ignore_patterns("__pycache__", ".git", "build", "install", "log")
         shutil.copytree(folder, root / "src" / PACKAGE, symlinks=True, ignore=ignored)
-        environ = surroundings(home, domain_id)
+        environ = program_environment(home, domain_id)
         command = ("colcon", "build", "--packages-select", PACKAGE)
         with Program(command, environ, root) as building:
             building.wait(lambda _: False, _TO_BUILD)
@@ -126,19 +126,19 @@ class _Play:
         """Run them and add what they did."""
         with ExitStack() as stack:
             monitor = stack.enter_context(self._start(MONITOR))
-            outpost = stack.enter_context(Outpost(self._domain_id, TOPIC))
-            met = outpost.wait(lambda: outpost.has_listener() or not monitor.running, _TO_MEET)
-            met = met and outpost.has_listener()
+            probe = stack.enter_context(DomainProbe(self._domain_id, TOPIC))
+            met = probe.wait(lambda: probe.has_subscriber() or not monitor.running, _TO_MEET)
+            met = met and probe.has_subscriber()
             if met:
-                _knock(outpost, monitor)
-            answers = tuple((value, _tell(outpost, monitor, value)) for value in TOLD if met)
-            outpost.listen_anew()
+                _knock(probe, monitor)
+            answers = tuple((value, _tell(probe, monitor, value)) for value in TOLD if met)
+            probe.clear()
             said = len(monitor.output)
             sensor = stack.enter_context(self._start(SENSOR))
-            publishers = _listen(outpost, sensor)
+            publishers = _listen(probe, sensor)
             repeated = monitor.output[said:]
             found = replace(
-                found, met=met, answers=answers, heard=outpost.heard, publishers=publishers,
+                found, met=met, answers=answers, heard=probe.received, publishers=publishers,
                 repeated=repeated, sensor=sensor.finish(), monitor=monitor.finish(),
             )  # fmt: skip
         return replace(found, meaning=self._meaning(found))
@@ -157,7 +157,7 @@ class _Play:
         return None
 
 
-def _knock(outpost: Outpost, monitor: Program) -> None:
+def _knock(probe: DomainProbe, monitor: Program) -> None:
     """Wait until the monitor has answered a number once.
 
     It listens before its constructor has ended, so what it prints first is no answer yet. A
@@ -165,22 +165,22 @@ def _knock(outpost: Outpost, monitor: Program) -> None:
     """
     sign = re.compile(rf"(?<![\d.]){_KNOCK:g}(?:[.]\d+)?(?!\d).*\n")
     before = len(monitor.output)
-    outpost.say(_KNOCK)
+    probe.publish(_KNOCK)
     monitor.wait(lambda output: bool(sign.search(output, before)), _TO_KNOCK)
 
 
-def _tell(outpost: Outpost, monitor: Program, value: float) -> str:
+def _tell(probe: DomainProbe, monitor: Program, value: float) -> str:
     """Tell the monitor a number; what it prints then."""
     before = len(monitor.output)
-    outpost.say(value)
+    probe.publish(value)
     monitor.wait(lambda output: "\n" in output[before:], _TO_ANSWER)
     return monitor.output[before:]
 
 
-def _listen(outpost: Outpost, sensor: Program) -> tuple[Endpoint, ...]:
+def _listen(probe: DomainProbe, sensor: Program) -> tuple[Endpoint, ...]:
     """Wait for some readings; what the sensor publishes."""
-    outpost.wait(lambda: outpost.publishers() or not sensor.running, _TO_READ)
-    named = [end.name for end in outpost.publishers()]
+    probe.wait(lambda: probe.publishers() or not sensor.running, _TO_READ)
+    named = [end.name for end in probe.publishers()]
     if f"/{TOPIC}" in named or not named:
-        outpost.wait(lambda: len(outpost.heard) >= _READINGS or not sensor.running, _TO_READ)
-    return outpost.publishers()
+        probe.wait(lambda: len(probe.received) >= _READINGS or not sensor.running, _TO_READ)
+    return probe.publishers()

@@ -4,7 +4,8 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from rosbeat.panel.instruments import Arrival, News
+from rosbeat.panel.charts import Arrival
+from rosbeat.panel.sampling import News
 from rosbeat.records import Endpoint, GraphSnapshot, Sample
 
 FLOAT = "std_msgs/msg/Float32"

@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from rosbeat.panel.charts import POINTS, Chart
-from rosbeat.panel.instruments import Arrival
+from rosbeat.panel.charts import POINTS, Arrival, Chart
 from rosbeat.records import Sample
 
 

@@ -16,7 +16,7 @@ from rosbeat.diagnosis.situation import StaleBuild
 from rosbeat.domains import lease_domain
 from rosbeat.environment import SHARED_DOMAINS
 from rosbeat.errors import CommandError
-from rosbeat.ros.silence import explain_domain
+from rosbeat.explain_command import explain_domain
 
 pytestmark = pytest.mark.ros
 NODES = (

@@ -1,5 +1,6 @@
-"""What the panel sees of a session and does to it."""
+"""The instrument panel of a session: what it sees and what it does."""
 
+import math
 import threading
 import time
 from functools import partial
@@ -13,10 +14,11 @@ from nodes import Doer, Speaker, Talker
 from rosbeat import Session
 from rosbeat.errors import SessionError
 from rosbeat.panel import panel as panels
-from rosbeat.ros.instruments import NAME, SessionInstruments, open_panel
+from rosbeat.panel.instruments import SessionInstruments
+from rosbeat.ros.injection import INJECTOR, TopicFault
 
 pytestmark = pytest.mark.ros
-PANEL = f"/{NAME}"
+PANEL = f"/{INJECTOR}"
 
 
 class Sensor(Node):
@@ -256,7 +258,7 @@ def test_running_the_cell_again_leaves_one_panel(live, in_a_browser):
         live._world.panel._instruments.graph()
         panel._heard({"do": "publish", "topic": "/temperature", "value": 1.0})
     assert len(panel_threads()) == 1
-    assert [node.get_name() for node in live.nodes] == ["sensor", NAME]
+    assert [node.get_name() for node in live.nodes] == ["sensor", INJECTOR]
     live.close()
     assert panel_threads() == []
     assert repr(panel) == "Panel(closed)"
@@ -277,7 +279,7 @@ def test_the_panel_changes_nothing_in_virtual_time(in_a_browser):
         with Session(seed=3) as ros:
             ros.add(partial(Talker, period=0.01))
             if look:
-                open_panel(ros._world)._heard({"do": "open"})
+                ros.panel()._heard({"do": "open"})
             ros.run(60)
             return ros.observation()
 
@@ -288,3 +290,74 @@ def test_a_closed_session_has_no_panel(ros):
     ros.close()
     with pytest.raises(SessionError):
         ros.panel()
+
+
+# Faults on a topic, in virtual time.
+
+
+@pytest.fixture
+def node(ros):
+    node = ros.add(lambda: Node("sensor"))
+    node.temperature = node.create_publisher(Float32, "temperature", 10)
+    node.humidity = node.create_publisher(Float32, "humidity", 10)
+    return node
+
+
+@pytest.fixture
+def publish(ros, node):
+    def values_of(*values):
+        for value in values:
+            node.temperature.publish(Float32(data=value))
+        return [sample.value for sample in ros.messages("temperature")]
+
+    return values_of
+
+
+@pytest.fixture
+def fault(node):
+    made = TopicFault("/temperature")
+    made.apply(node.publishers)
+    made.apply(node.publishers)  # again and again, as the graph is looked at
+    return made
+
+
+def test_what_is_recorded_is_what_went_out(publish, fault):
+    fault.kind, fault.amount = "offset", 5.0
+    assert publish(20.0, 21.5) == [25.0, 26.5]
+
+
+def test_the_nodes_own_message_stays_as_it_is(node, fault):
+    fault.kind, fault.amount = "offset", 5.0
+    message = Float32(data=1.0)
+    node.temperature.publish(message)
+    assert message.data == 1.0
+
+
+def test_not_a_number(publish, fault):
+    fault.kind = "nan"
+    assert all(map(math.isnan, publish(20.0, 21.5)))
+
+
+@pytest.mark.parametrize(("share", "least", "most"), [(0, 200, 200), (50, 70, 130), (100, 0, 0)])
+def test_a_share_of_the_messages_is_lost(publish, fault, share, least, most):
+    fault.kind, fault.amount = "dropout", float(share)
+    assert least <= len(publish(*[1.0] * 200)) <= most
+
+
+def test_other_topics_are_left_alone(ros, node, fault):
+    fault.kind = "nan"
+    node.humidity.publish(Float32(data=50.0))
+    assert [sample.value for sample in ros.messages("humidity")] == [50.0]
+
+
+def test_afterwards_all_is_as_before(node, publish, fault):
+    fault.kind = "nan"
+    fault.remove()
+    assert publish(20.0) == [20.0]
+    assert "TopicFault" not in repr(node.temperature.publish)
+
+
+def test_what_rclpy_refuses_it_refuses_still(node, fault):
+    fault.kind = "offset"
+    with pytest.raises(TypeError, match="Expected"):
+        node.temperature.publish(25.0)

@@ -1,0 +1,91 @@
+"""The session of a page: one of `rosbeat.ros` that can also explain itself and open a panel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rosbeat.diagnosis.explanation import Explanation
+from rosbeat.diagnosis.explanation import explain as explain_scene
+from rosbeat.ros import session
+from rosbeat.ros.context import show_briefly
+from rosbeat.ros.errors import duration_ns
+from rosbeat.ros.inspection import inspect_topic
+from rosbeat.ros.world import full_topic
+
+if TYPE_CHECKING:
+    from rosbeat.panel.panel import Panel
+
+
+class Session(session.Session):
+    """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
+
+    ::
+
+        with Session(seed=7) as ros:
+            sensor = ros.add(TemperatureSensor)
+            ros.run(seconds=60)
+            ros.messages("temperature")
+            ros.explain("temperature")
+
+    It ends with its `with` block, with `close()`, when nothing refers to it or with the kernel, and
+    leaves nothing behind.
+
+    Args:
+        seed: Seed of the random numbers that the nodes draw. The same seed gives the same run.
+        domain_id: The ROS domain to join, 0 to 101, to meet the nodes of other processes. By
+            default the session has a domain to itself.
+    """
+
+    def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:
+        """Say why nothing arrives on a topic, or that all is well, with the rate.
+
+        It goes by what the session has recorded, which takes no time. In a domain that was joined
+        with `domain_id`, it also listens to the other processes and asks their nodes whether they
+        run.
+
+        Args:
+            topic: The topic's name; `temperature` and `/temperature` are the same. Nobody need use
+                it.
+            seconds: How long to listen to other processes at most, in seconds of wall time.
+
+        Returns:
+            The explanation; at the end of a cell it shows itself, and `viz.graph` draws it.
+
+        Raises:
+            DurationError: If `seconds` is not a number from 0 up.
+            SessionError: If `topic` cannot be the name of a topic, or `explain` is called from a
+                callback.
+            ClosedSessionError: If the session has ended.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.explain")
+        name = full_topic("explain", topic)
+        span = duration_ns(seconds, "explain(seconds=...)") / 1e9
+        try:
+            return explain_scene(name, inspect_topic(self._world, name, span))
+        except KeyboardInterrupt as interrupt:
+            show_briefly(interrupt, "you stopped the looking; the session goes on.")
+            raise
+
+    def panel(self) -> Panel:
+        """Open the instrument panel: what the live nodes do, and controls to disturb them.
+
+        An open panel makes room for the new one; the last one ends with the session. Where no
+        browser can show it, it is a still picture of the graph.
+
+        Raises:
+            SessionError: If `panel` is called from a callback.
+            ClosedSessionError: If the session has ended.
+        """
+        self._check_open()
+        self._world.refuse_in_callback("ros.panel")
+        # The widgets take a while to load, and few pages need them.
+        from rosbeat.panel.instruments import SessionInstruments
+        from rosbeat.panel.panel import Panel
+
+        world = self._world
+        if world.panel is not None:
+            world.panel.close()
+        # The panel must not hold this session, which ends when nothing else refers to it.
+        world.panel = made = Panel(SessionInstruments(world))
+        return made

@@ -1,0 +1,357 @@
+"""The graph: of a session, of other processes in a domain that was joined, and waiting for it."""
+
+import gc
+import time
+from contextlib import ExitStack
+from dataclasses import replace
+from functools import partial
+
+import psutil
+import pytest
+from rclpy.node import Node
+from rclpy.qos import qos_profile_sensor_data
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+from nodes import SECOND, Doer, Listener, Server, Talker, Ticker
+from other_process import other_process
+from rosbeat import Session
+from rosbeat.domains import lease_domain
+from rosbeat.errors import DurationError, SessionError, UnknownTopicError
+from rosbeat.records import QoS
+from rosbeat.ros.graph import count_participants, domains_in_use, udp_ports
+from rosbeat.viz import graph as picture
+
+pytestmark = pytest.mark.ros
+
+# A session's own nodes.
+
+
+def test_endpoints_and_their_quality(ros):
+    ros.add(Talker)
+    ros.add(Listener)
+    ros.add(partial(Listener, "other", qos=qos_profile_sensor_data))
+    graph = ros.graph()
+    assert graph.nodes == ("/talker", "/listener", "/other")
+    assert graph.topics() == ("/count",)
+    assert "/rosout" not in graph.topics()
+    assert "/parameter_events" in graph.topics(infrastructure=True)
+    (publisher,) = graph.on("/count", "publisher")
+    assert (publisher.node, publisher.type_name) == ("/talker", "std_msgs/msg/Int32")
+    assert publisher.qos == QoS()
+    assert publisher.matched == 2
+    one, two = graph.on("/count", "subscription")
+    assert (one.qos.reliability, two.qos.reliability) == ("RELIABLE", "BEST_EFFORT")
+    assert (one.matched, two.matched) == (1, 1)
+
+
+def test_services_and_clients(ros):
+    ros.add(Server)
+    ros.add(lambda: Node("asker")).create_client(Trigger, "ask")
+    (server,), (client,) = ros.graph().on("/ask", "server"), ros.graph().on("/ask", "client")
+    assert (server.type_name, client.node) == ("std_srvs/srv/Trigger", "/asker")
+
+
+def test_timers(ros):
+    ticker = ros.add(partial(Ticker, 0.5, 2.0))
+    ros.run(4)
+    assert [(timer.period_ns, timer.calls) for timer in ros.graph().timers] == [
+        (SECOND // 2, 8), (2 * SECOND, 2),
+    ]  # fmt: skip
+    ticker.destroy_timer(ticker.clocks[0])
+    assert [timer.period_ns for timer in ros.graph().timers] == [2 * SECOND]
+
+
+def test_what_was_destroyed_is_not_there(ros):
+    talker, listener = ros.add(Talker), ros.add(Listener)
+    talker.destroy_publisher(talker.publisher)
+    listener.destroy_subscription(listener.subscription)
+    assert ros.graph().topics() == ()
+    ros.run(2)
+    ros.remove(talker)
+    assert ros.graph().nodes == ("/listener",)
+
+
+# Nodes of another process, in a domain that was joined.
+
+
+#: What the nodes of the other process are, each with a comma.
+NODES = "Talker(), Listener(), Server(), Listener('_hidden'),"
+
+
+@pytest.fixture(scope="module")
+def domain():
+    lease = lease_domain()
+    with other_process(lease.domain_id, NODES):
+        yield lease.domain_id
+    lease.release()
+
+
+@pytest.fixture
+def joined(domain):
+    with Session(domain_id=domain) as session:
+        session.wait_for_nodes("talker", "/listener", "server", timeout=30)
+        yield session
+
+
+def without_history(end):
+    return replace(end, qos=replace(end.qos, history="", depth=0), matched=-1)
+
+
+def test_the_nodes_of_another_process_are_there_without_an_own_one(joined):
+    graph = joined.graph()
+    assert graph.nodes == ("/listener", "/server", "/talker")
+    assert graph.topics() == ("/count",)
+    (talks,) = graph.on("/count", "publisher")
+    assert (talks.node, talks.type_name) == ("/talker", "std_msgs/msg/Int32")
+    assert talks.qos == QoS(history="UNKNOWN", depth=0)
+    assert [end.node for end in graph.on("/ask", "server")] == ["/server"]
+    assert joined.nodes == ()
+    assert repr(joined).endswith("no nodes)")
+
+
+def test_they_look_as_they_do_in_their_own_session(joined, ros):
+    for node in Listener, Server, Talker:
+        ros.add(node)
+    inside, outside = ros.graph(), joined.graph()
+    assert outside.nodes == inside.nodes
+    assert {*map(without_history, outside.endpoints)} == {*map(without_history, inside.endpoints)}
+
+
+def test_they_are_matched_among_themselves_and_with_own_nodes(joined, eventually):
+    def matched(kind):
+        return {end.node: end.matched for end in joined.graph().on("/count", kind)}
+
+    # The hidden one listens, too.
+    assert matched("publisher") == {"/talker": 2}
+    assert matched("subscription") == {"/listener": 1}
+    joined.add(partial(Listener, "ear"))
+    eventually(lambda: matched("subscription") == {"/ear": 1, "/listener": 1}, 30)
+    assert matched("publisher") == {"/talker": 3}
+    assert joined.graph().nodes == ("/ear", "/listener", "/server", "/talker")
+
+
+def test_a_pair_that_does_not_fit_is_not_matched(joined):
+    joined.add(lambda: Node("words")).create_publisher(String, "count", 10)
+    words, talker = joined.graph().on("/count", "publisher")
+    assert (words.node, words.matched, talker.matched) == ("/words", 0, 2)
+    (listener,) = joined.graph().on("/count", "subscription")
+    assert listener.matched == 1
+
+
+def test_two_nodes_of_one_name_are_two(joined):
+    joined.add(Talker)
+    assert sorted(joined.graph().nodes) == ["/listener", "/server", "/talker", "/talker"]
+
+
+def test_the_picture_shows_them(joined):
+    assert picture(joined.graph()).description == (
+        "3 nodes and 1 topic. /count (Int32): published by /talker, subscribed to by /listener. "
+        "/ask (Trigger) is a service: offered by /server, used by nobody."
+    )
+
+
+def test_the_observer_is_seen_by_nobody(joined):
+    with Session(domain_id=joined.domain_id) as other:
+        other.wait_for_nodes("talker", timeout=30)
+        assert other.graph() == joined.graph()
+
+
+def test_joining_again_and_again_leaves_nothing(domain, eventually):
+    process = psutil.Process()
+    Session(domain_id=domain).close()
+    gc.collect()
+    descriptors, threads = process.num_fds(), process.num_threads()
+    for _ in range(5):
+        ros = Session(domain_id=domain)  # the one before is dropped, not closed
+        ros.add(Listener)
+        ros.start()
+        ros.graph()
+    ros.close()
+    gc.collect()
+    eventually(lambda: process.num_threads() <= threads)
+    eventually(lambda: process.num_fds() <= descriptors)
+
+
+def test_after_the_end_the_graph_is_as_it_was(domain):
+    with Session(domain_id=domain) as ros:
+        ros.wait_for_nodes("talker", timeout=30)
+        before = ros.graph()
+    assert ros.graph() == before
+    assert before.nodes
+
+
+def test_a_node_that_does_not_come_gets_three_parts(joined, says):
+    begin = time.monotonic()
+    with pytest.raises(SessionError) as caught:
+        joined.wait_for_nodes("talker", "talkr", timeout=0.5)
+    assert 0.5 <= time.monotonic() - begin < 20
+    says(caught.value, "/talkr is not there after 0.5 s", "/listener, /server, /talker")
+    assert caught.value.to_try == "Did you mean /talker?"
+    with pytest.raises(SessionError) as caught:
+        joined.wait_for_nodes("zebra", "lion", timeout=0)
+    says(caught.value, "/zebra, /lion are not there", "in a terminal")
+
+
+def test_waiting_in_an_empty_domain(says):
+    lease = lease_domain()
+    with Session(domain_id=lease.domain_id) as ros:
+        assert ros.graph().nodes == ()
+        with pytest.raises(SessionError) as caught:
+            ros.wait_for_nodes("talker", timeout=0)
+        says(caught.value, f"In domain {lease.domain_id} the session sees: no node at all")
+        ros.add(Talker)
+        ros.wait_for_nodes("talker", timeout=30)
+    lease.release()
+
+
+def test_waiting_is_refused_where_nobody_can_come(ros, says):
+    with pytest.raises(SessionError) as caught:
+        ros.wait_for_nodes("talker")
+    says(caught.value, "domain to itself", "ROS_DOMAIN_ID")
+
+
+def test_what_is_asked_for_is_checked(joined, says, capsys):
+    with pytest.raises(SessionError) as caught:
+        joined.wait_for_nodes(5)
+    says(caught.value, "quotation marks")
+    with pytest.raises(DurationError) as error:
+        joined.wait_for_nodes("talker", timeout=-1)
+    says(error.value, "wait_for_nodes(timeout=...)")
+    joined.add(partial(Doer, lambda _: joined.wait_for_nodes("talker")))
+    joined.run(1)
+    assert [fault.kind for fault in joined.observation().faults] == ["SessionError"]
+    capsys.readouterr()
+
+
+def test_a_topic_that_only_others_use_is_explained(joined, says):
+    with pytest.raises(UnknownTopicError) as caught:
+        joined.messages("count")
+    says(caught.value, "/talker publishes there, in another process", "ros.add")
+
+
+# The hidden node through which a session sees other processes.
+
+
+@pytest.fixture
+def empty():
+    """A domain that nobody has joined."""
+    lease = lease_domain()
+    yield lease.domain_id
+    lease.release()
+
+
+def test_own_messages_are_told_from_those_of_another_session(empty, eventually):
+    with Session(domain_id=empty) as one, Session(domain_id=empty) as two:
+        one.add(Talker)
+        two.add(Talker)
+        eventually(lambda: len(one.graph().on("/count", "publisher")) == 2, 30)
+        eventually(lambda: one.graph().nodes == ("/talker", "/talker"), 30)
+
+
+def test_the_observer_is_no_node_of_the_session_and_has_nothing_to_say(empty):
+    with Session(domain_id=empty) as ros:
+        observer = ros._world.graph_observer
+        assert ros.nodes == ()
+        assert ros.graph().nodes == ros.graph().endpoints == ()
+        assert observer.get_name().startswith("_")
+        assert observer.get_service_names_and_types() == []
+        assert not any(observer.publishers("/rosout"))
+        assert observer.nodes() == [f"/{observer.get_name()}"]
+        ros.add(Listener)
+        ros.run(1)
+        assert ros.observation().callbacks == ()
+
+
+def test_a_private_session_has_none(ros):
+    ros.add(Listener)
+    ros.run(0)
+    assert ros._world.graph_observer is None
+
+
+def test_a_node_that_is_listed_after_it_has_left_does_not_count(empty, eventually, monkeypatch):
+    with Session(domain_id=empty) as one, Session(domain_id=empty) as two:
+        two.add(Talker)
+        eventually(lambda: one.graph().nodes == ("/talker",), 30)
+        # As the middleware does it now and then on a busy machine.
+        observer = one._world.graph_observer
+        listed = [*observer.get_node_names_and_namespaces(), ("ghost", "/"), ("talker", "/")]
+        monkeypatch.setattr(observer, "get_node_names_and_namespaces", lambda: listed)
+        assert one.graph().nodes == ("/talker",)
+
+
+def test_nodes_of_one_name_count_each(empty, eventually):
+    with ExitStack() as stack:
+        one, two, three = (stack.enter_context(Session(domain_id=empty)) for _ in range(3))
+        for session in two, three:
+            session.add(Talker)
+        eventually(lambda: one.graph().nodes == ("/talker", "/talker"), 30)
+
+
+# Participants, counted by the ports that they bind.
+
+HEAD = "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout"
+
+
+def table(*sockets):
+    """What the system says of sockets, each a port and a number."""
+    rows = [
+        f"  {n}: 00000000:{port:04X} 00000000:0000 07 00000000:00000000 00:00000000 00000000 0 0 "
+        f"{inode} 2 0000000000000000 0"
+        for n, (port, inode) in enumerate(sockets)
+    ]
+    return "\n".join([HEAD, *rows])
+
+
+def both(domain, number=0, inode=1):
+    first = 7400 + 250 * domain + 10 + 2 * number
+    return (first, inode), (first + 1, inode)
+
+
+def test_a_participant_holds_two_ports():
+    ports = udp_ports(table(*both(7), *both(7, 1), *both(8)))
+    assert [count_participants(domain, ports) for domain in (6, 7, 8)] == [0, 2, 1]
+
+
+def test_one_port_alone_is_somebody_elses():
+    for alone in (*both(7), (7400 + 250 * 7, 1)):
+        assert count_participants(7, udp_ports(table(alone))) == 0
+
+
+def test_the_process_itself_does_not_count():
+    ports = udp_ports(table(*both(7, inode=41), *both(8, inode=42)), ["41"])
+    assert [count_participants(domain, ports) for domain in (7, 8)] == [0, 1]
+
+
+def test_nothing_is_known_without_a_table():
+    assert udp_ports("") == udp_ports("nonsense\n1: 2") == set()
+
+
+def test_a_session_is_counted_and_is_no_other(ros):
+    ros.add(Talker)
+    assert count_participants(ros.domain_id) == 1
+    assert ros.domain_id not in domains_in_use()
+    with Session(domain_id=ros.domain_id):
+        assert count_participants(ros.domain_id) == 2
+
+
+# Waiting with a deadline.
+
+
+def test_what_is_true_already_is_not_waited_for(ros):
+    ros.start()
+    assert ros.wait(0, until=lambda: True) is True
+
+
+def test_the_deadline_ends_the_waiting(ros):
+    ros.start()
+    begin = time.monotonic()
+    assert ros.wait(0.12, until=lambda: False) is False
+    assert time.monotonic() >= begin + 0.12
+
+
+def test_without_a_deadline_it_asks_until_it_is_true(ros):
+    ros.start()
+    answers = [False, False, "yes"]
+    assert ros.wait(until=lambda: answers.pop(0)) is True
+    assert answers == []

@@ -1,0 +1,198 @@
+"""The nodes that scenarios put beside an answer, and the greenhouse of page 07."""
+
+import math
+import random
+
+import pytest
+from rclpy.node import Node
+
+from rosbeat import Session
+from rosbeat.records import QoS
+from rosbeat.ros.test_nodes import (
+    GREENHOUSE,
+    Lamp,
+    add_greenhouse,
+    drift,
+    feeder,
+    hearer,
+    observe_greenhouse,
+    station,
+)
+
+pytestmark = pytest.mark.ros
+STRING = "std_msgs/msg/String"
+KEPT = QoS(depth=2, durability="TRANSIENT_LOCAL")
+
+# Sensors.
+
+
+def test_one_reading_a_second_and_none_for_a_silence(ros):
+    ros.add(station("gauge", "level", [1, None, math.nan, 2.5]))
+    ros.run(seconds=9)
+    said = [(one.time, one.value) for one in ros.messages("level")]
+    assert [time for time, _ in said] == [1.0, 3.0, 4.0]
+    assert math.isnan(said[1][1])
+    assert (said[0][1], said[2][1]) == (1.0, 2.5)
+
+
+def test_every_node_begins_at_the_beginning(ros):
+    kind = station("gauge", "level", iter([1.0, 2.0]))
+    ros.add(kind)
+    ros.run(seconds=1)
+    ros.add(kind)
+    ros.run(seconds=2)
+    assert [one.value for one in ros.messages("level")] == [1.0, 1.0, 2.0]
+
+
+def test_who_keeps_an_answer_company_offers_nothing_for_parameters(ros):
+    ros.add(station("gauge", "level", [1.0]))
+    ros.add(feeder("feeder", "word", "std_msgs/msg/String", ["a"]))
+    ros.add(hearer("hearer", "word", "std_msgs/msg/String"))
+    ros.add(drift([(1.0, 1.0)]))
+    assert len(ros.graph().nodes) == 4
+    assert not [
+        end for end in ros.graph().endpoints if "parameter" in end.name and end.kind == "server"
+    ]
+
+
+# Nodes that log what they receive.
+
+
+def heard(*, joins, qos, offers=KEPT, words=("a", "b", "c", "d")):
+    with Session() as ros:
+        ros.add(feeder("speaker", "word", STRING, words, qos=offers))
+        ros.run(joins)
+        ros.add(hearer("ear", "word", STRING, qos))
+        ros.run(len(words) + 1 - joins)
+        return [line.text for line in ros.logs("ear")]
+
+
+def test_it_logs_each_message_once():
+    assert heard(joins=0, qos=10) == ["a", "b", "c", "d"]
+
+
+def test_it_asks_for_what_it_was_told_to():
+    assert heard(joins=3, qos=KEPT) == ["b", "c", "d"]
+    assert heard(joins=3, qos=10) == ["d"]
+    assert heard(joins=3, qos=KEPT, offers=10) == []
+
+
+# A tendency in the random numbers, for as long as a run lasts.
+
+
+class Dice(Node):
+    def __init__(self):
+        super().__init__("dice")
+        self.drawn = []
+        self.create_timer(1.0, lambda: self.drawn.append(random.uniform(2.0, 3.0)))
+
+
+def drawn(phases, seconds=300):
+    with Session(seed=5) as ros:
+        ros.add(drift(phases))
+        dice = ros.add(Dice)
+        ros.run(seconds)
+        return dice.drawn
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+def test_numbers_tend_upwards_then_downwards_then_nowhere():
+    values = drawn([(100, 1 / 3), (100, 3.0), (0, 1.0)])
+    assert mean(values[:100]) == pytest.approx(2.75, abs=0.06)
+    assert mean(values[100:200]) == pytest.approx(2.25, abs=0.06)
+    assert mean(values[200:]) == pytest.approx(2.5, abs=0.09)
+    assert all(2.0 <= value <= 3.0 for value in values)
+
+
+@pytest.mark.parametrize(
+    "draw",
+    [lambda: random.random(), lambda: random.choice(range(100)) / 100, lambda: random.gauss(1, 2)],
+)
+def test_other_functions_drift_too(draw):
+    class Gambler(Node):
+        def __init__(self):
+            super().__init__("gambler")
+            self.drawn = []
+            self.create_timer(1.0, lambda: self.drawn.append(draw()))
+
+    with Session(seed=5) as ros:
+        ros.add(drift([(200, 1 / 3), (0, 3.0)]))
+        gambler = ros.add(Gambler)
+        ros.run(400)
+    assert mean(gambler.drawn[:200]) != pytest.approx(mean(gambler.drawn[200:]), abs=0.2)
+
+
+def test_the_same_seed_gives_the_same_numbers():
+    assert drawn([(100, 3.0), (0, 1.0)]) == drawn([(100, 3.0), (0, 1.0)])
+
+
+def test_nothing_is_left_of_it():
+    plain = random.Random(9)
+    drawn([(0, 50.0)], 3)
+    random.seed(9)
+    assert [random.uniform(0, 1) for _ in range(5)] == [plain.uniform(0, 1) for _ in range(5)]
+
+
+def test_nothing_is_left_of_it_after_an_exception():
+    class Interrupted(Node):
+        def __init__(self):
+            super().__init__("interrupted")
+            self.create_timer(1.0, self.stop)
+
+        def stop(self):
+            raise KeyboardInterrupt
+
+    with Session() as ros:
+        ros.add(drift([(0, 50.0)]))
+        ros.add(Interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            ros.run(3)
+    shared = random.uniform.__self__
+    assert not {"random", "_randbelow"} & set(vars(shared))
+    assert random.random == shared.random
+
+
+# The greenhouse: what there is to find in it, and that it is the same each time.
+
+
+def test_two_runs_are_the_same(capfd):
+    assert observe_greenhouse() == observe_greenhouse()
+    assert capfd.readouterr() == ("", "")
+
+
+def test_there_is_one_answer_to_each_question():
+    system, parameters = observe_greenhouse()
+    graph, names = system.graph, system.graph.topics()
+    assert len(graph.nodes) == len(GREENHOUSE) == 5
+    assert [one.node for one in graph.on("/moisture", "publisher")] == ["/soil_probe"]
+    assert [name for name in names if not graph.on(name, "subscription")] == ["/lights"]
+    assert [name for name in names if not graph.on(name, "publisher")] == ["/light"]
+    assert {log.name for log in system.logs if log.level == "WARN"} == {"lamp"}
+    assert parameters == {"/window open_above": 25.0, "/gardener dry_below": 35}
+    assert not system.faults
+
+
+def test_it_opens_the_window_and_waters():
+    with Session() as ros:
+        add_greenhouse(ros)
+        ros.run(seconds=10, quiet=True)
+        (window,) = [node for node in ros.nodes if node.get_name() == "window"]
+        assert {one.value for one in ros.messages("window_state")} == {"shut"}
+        assert {one.value for one in ros.messages("watering")} == {"on", "off"}
+        window.set_parameters([window.get_parameter("open_above").__class__(
+            "open_above", value=22.0)])  # fmt: skip
+        ros.run(seconds=1, quiet=True)
+        assert ros.messages("window_state")[-1].value == "open"
+
+
+def test_the_lamp_is_content_once_it_hears():
+    with Session() as ros:
+        add_greenhouse(ros)
+        ros.run(seconds=5, quiet=True)
+        complaints = len(ros.logs("lamp"))
+        ros.add(Lamp, remappings={"light": "lights"})
+        ros.run(seconds=90, quiet=True)
+        assert complaints == len(ros.logs("lamp")) == 1
