@@ -2,7 +2,6 @@
 
 import math
 from functools import partial
-from types import SimpleNamespace
 
 import numpy
 import pytest
@@ -99,11 +98,9 @@ def test_a_text_is_what_the_wire_makes_of_it(kind, text):
     message = kind(**{"data" if kind is String else "frame_id": text})
     try:
         expected = by_the_wire(message)
-    except Exception as error:
-        with pytest.raises(type(error)):
-            remembered(message)
-    else:
-        assert remembered(message) == expected
+    except UnicodeEncodeError:
+        return  # nobody can publish half of a surrogate pair
+    assert remembered(message) == expected
 
 
 @pytest.mark.parametrize(
@@ -124,31 +121,6 @@ def test_other_values_are_what_the_wire_makes_of_them(message):
     found = remembered(message)
     assert repr(found) == repr(expected)
     assert list(map(type, found.values())) == list(map(type, expected.values()))
-
-
-@pytest.mark.parametrize(
-    ("kind", "values"),
-    [
-        (Float32, [0.1, -0.0, 1e-50, 3.4e38, float("inf"), 5.5]),
-        (Float32, [0.1, 5.0, Celsius(2.5)]),
-        (Float32, []),
-        (Float64, [0.1, 2.5]),
-        (Int32, [1, -5]),
-        (String, ["a", "ä", ""]),
-    ],
-)
-def test_many_messages_are_what_each_of_them_is(kind, values):
-    memory = Memory(kind)
-    copies = [memory.take(SimpleNamespace(_data=value)) for value in values]
-    assert repr(memory.all_plain(copies)) == repr([memory.plain(copy) for copy in copies])
-
-
-def test_many_messages_and_one_that_no_float32_holds():
-    memory = Memory(Float32)
-    with pytest.raises(Exception, match="float") as of_one:
-        memory.plain(1e300)
-    with pytest.raises(type(of_one.value), match="float"):
-        memory.all_plain([0.5, 1e300])
 
 
 def test_names_of_types():

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ctypes
 import time
+from collections.abc import Callable, Coroutine
 from contextlib import suppress
+from functools import partial
 from threading import Event, Thread, current_thread
 from typing import Any, Protocol
 
@@ -14,11 +16,12 @@ from rclpy.executors import (
     ExternalShutdownException,
     ShutdownException,
     SingleThreadedExecutor,
+    await_or_execute,
 )
 from rclpy.node import Node
 from rclpy.task import Future, Task
 
-from rosbeat.ros.entities import NodeState
+from rosbeat.ros.entities import Entry, NodeState, next_message, work_for
 
 #: Seconds that a callback may still take when live mode ends; then it is broken off.
 PATIENCE = 2.0
@@ -75,7 +78,24 @@ class LiveExecutor(SingleThreadedExecutor):
 
     def start(self) -> None:
         """Begin to run callbacks."""
+        for state in self._host.spinning_nodes():
+            for entry in state.entries:
+                self._hand_out_early(entry)
         self._thread.start()
+
+    def _hand_out_early(self, entry: Entry) -> None:
+        """Make tasks of messages that are in no queue any more; see `qos_events.TakenEarly`."""
+
+        def take(_: object) -> Callable[[], Coroutine[Any, Any, None]] | None:
+            taken = next_message(entry)
+            if taken is None:
+                return None
+            callback, arguments = work_for(entry, taken)
+            return partial(await_or_execute, callback, *arguments)
+
+        if entry.kind == "subscription" and entry.handle is not entry.entity.handle:
+            for _ in range(len(entry.handle)):
+                self._make_handler(entry.entity, entry.state.node, take)
 
     @property
     def at_work(self) -> object:

@@ -520,7 +520,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.deadlines = Deadlines()
         # Not `_clock`: rclpy's executor has a steady clock of that name.
         self._session_clock, self._host = clock, host
-        self._note_time, self._note_label = recorder.callback_columns()
+        self._note_callback = recorder.add_callback
         self._label = recorder.label
         self._agenda = Agenda()
         self._chain = ChainGuard()
@@ -592,7 +592,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
         """Look at everything again: the clock was changed from outside, or a run was broken off."""
         states = self._host.states()
         self._agenda.rebuild([e for s in states for e in s.entries if e.kind == "timer"], self.now)
-        self.deadlines.look_anew()
         self._ready.clear()
         for state in states:
             self.resume(state)
@@ -726,8 +725,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...] = ()
     ) -> None:
         entry.calls += 1
-        self._note_time(self.now)
-        self._note_label(entry.label_number)
+        self._note_callback(self.now, entry.label_number)
         self.current, self.calling = entry.state, entry.label
         try:
             result = callback(*arguments)
