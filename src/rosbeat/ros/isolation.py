@@ -209,9 +209,11 @@ class Deadline:
 
     def _may_be_hit(self, inside: Iterable[FrameType]) -> bool:
         """Return whether to raise here: in a learner's code always, in ours now and then."""
-        first = next((one for one in inside if is_learners(one) or _is_ours(one)), None)
-        if first is not None and is_learners(first):
-            return True
+        for frame in inside:
+            if is_learners(frame):
+                return True
+            if frame.f_code.co_filename.startswith(_OURS):
+                break
         now = _now()
         if now < self._spared_until:
             return False
@@ -267,31 +269,17 @@ def apart(do: Callable[[], object]) -> None:
     next(alone())
 
 
-def _is_ours(frame: FrameType) -> bool:
-    return frame.f_code.co_filename.startswith(_OURS)
+def _except_for(reserved: int, function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function of `signal` that leaves the deadline's signal or timer alone."""
+    return lambda which, *rest: None if which == reserved else function(which, *rest)
 
 
-# In a block, these stand in the place of the functions of `signal`, and leave `SIGALRM` alone.
-
-
-def _set_handler(number: int, handler: Any) -> Any:  # noqa: ANN401 - a handler
-    return signal.getsignal(number) if number == signal.SIGALRM else _signal(number, handler)
-
-
-def _set_timer(which: int, seconds: float, interval: float = 0.0) -> tuple[float, float]:
-    real = which == signal.ITIMER_REAL
-    return (0.0, 0.0) if real else _setitimer(which, seconds, interval)
-
-
-def _set_mask(how: int, mask: Iterable[int]) -> set[Any]:
-    return _mask(how, set(mask) - {signal.SIGALRM})
-
-
+#: What stands in the place of functions of `signal` in a block.
 _RESERVED: dict[str, Callable[..., Any]] = {
-    "signal": _set_handler,
-    "setitimer": _set_timer,
+    "signal": _except_for(signal.SIGALRM, _signal),
+    "setitimer": _except_for(signal.ITIMER_REAL, _setitimer),
     "alarm": lambda _: 0,
-    "pthread_sigmask": _set_mask,
+    "pthread_sigmask": lambda how, mask: _mask(how, set(mask) - {signal.SIGALRM}),
 }
 
 
@@ -329,7 +317,7 @@ class Sink(TextIOBase):
         self._others = {one.ident for one in threading.enumerate() if one.ident != here}
 
     def writable(self) -> bool:
-        """Return that one can write to it."""
+        """Return that it can be written to."""
         return True
 
     def write(self, text: str) -> int:

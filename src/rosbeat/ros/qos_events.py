@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 from math import inf
 from threading import get_ident
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rclpy.duration import Duration, Infinite
 from rclpy.event_handler import (
@@ -23,11 +23,10 @@ from rclpy.qos import HistoryPolicy, QoSProfile
 
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS
 from rosbeat.ros.entities import Entry, NodeState, Work, callback_name, next_message, work_for
-from rosbeat.ros.live import LiveExecutor
 
 if TYPE_CHECKING:
-    from rosbeat.ros.recording import PublisherTap, Recorder
-    from rosbeat.ros.virtual_time import VirtualTimeExecutor
+    from rosbeat.ros.recording import PublisherTap
+    from rosbeat.ros.world import World
 
 # Deadlines and lifespans that the middleware never sees pass, because the session counts them.
 #
@@ -198,8 +197,11 @@ class Deadline:
         period_ns: The longest time from one message to the next.
 
     Attributes:
+        entry: What its callback is to the executor.
         due: When it will be missed next, in nanoseconds; None before the first message.
     """
+
+    entry: Entry
 
     def __init__(self, handler: EventHandler, endpoint: Any, period_ns: int) -> None:  # noqa: ANN401
         self.endpoint, self._callback = endpoint.handle, handler.callback
@@ -233,38 +235,23 @@ class Deadline:
         return self._callback, (info,)
 
 
-class Deadlines:
+class Deadlines(list[Deadline]):
     """The deadlines of a session, which are few: each has a callback of a learner's."""
-
-    def __init__(self) -> None:
-        self._known: list[tuple[Entry, Deadline]] = []
-
-    def __bool__(self) -> bool:
-        return bool(self._known)
-
-    def add(self, entry: Entry, deadline: Deadline) -> None:
-        """Count a deadline from now on."""
-        self._known.append((entry, deadline))
 
     def next_due(self) -> int | None:
         """Return when the next one passes, in nanoseconds; None if none will."""
-        self._known = [
-            (entry, one)
-            for entry, one in self._known
-            if not entry.state.ended and is_alive(one.endpoint)
-        ]
-        return min((one.due for _, one in self._known if one.due is not None), default=None)
+        self[:] = [one for one in self if not one.entry.state.ended and is_alive(one.endpoint)]
+        return min((one.due for one in self if one.due is not None), default=None)
 
     def pass_next(self) -> Entry:
         """Let the next one pass; `next_due` has just been asked. Return whose callback is due."""
-        due = [(one.due, entry.number, entry, one) for entry, one in self._known if one.due]
-        _, _, entry, deadline = min(due)
+        _, _, deadline = min((one.due, one.entry.number, one) for one in self if one.due)
         deadline.miss()
-        return entry
+        return deadline.entry
 
     def forget(self) -> None:
         """Count nothing until further messages come: real time has taken over, or has ended."""
-        for _, deadline in self._known:
+        for deadline in self:
             deadline.forget()
 
 
@@ -299,13 +286,14 @@ class Sent:
         self.lifespan_ns = lifespan_ns
         self.messages: list[tuple[int, float]] = [(at, inf) for at in past]
 
-    def heard(self, now: int) -> None:
-        """Note a message that was just published."""
-        self.messages.append((now, time.time_ns()))
 
-
-class FreshOnly:
-    """Take messages from a subscription and drop those that are too old.
+def fresh_only(
+    lifespan_ns: int,
+    senders: Sequence[Sent],
+    now: Callable[[], int],
+    dropped: Callable[[], None],
+) -> Callable[[Entry, object], Work | None]:
+    """Return what takes messages from a subscription, and drops those that are too old.
 
     Args:
         lifespan_ns: The subscription's own lifespan; 0 without a limit.
@@ -313,42 +301,33 @@ class FreshOnly:
         now: Nanoseconds since the session began. The subscription has just been made.
         dropped: Called for each message that was too old.
     """
+    born = now()
 
-    def __init__(
-        self,
-        lifespan_ns: int,
-        senders: Sequence[Sent],
-        now: Callable[[], int],
-        dropped: Callable[[], None],
-    ) -> None:
-        self._lifespan, self._senders = lifespan_ns, senders
-        self._now, self._dropped = now, dropped
-        self._born = now()
-
-    def take(self, entry: Entry, _: object) -> Work | None:
-        """Return one message that is young enough, with the callback; see `entities`."""
-        while (taken := next_message(entry)) is not None:
-            if not self._is_too_old(taken[1]):
-                return work_for(entry, taken)
-            self._dropped()
-        return None
-
-    def _is_too_old(self, info: dict[str, int]) -> bool:
+    def is_too_old(info: dict[str, int]) -> bool:
         number, sent_ns = info["publication_sequence_number"], info["source_timestamp"]
         # Several publishers may have published one of that number.
-        found = []
-        for sender in self._senders:
-            if 0 < number <= len(sender.messages):
-                published, end = sender.messages[number - 1]
-                if end >= sent_ns - _SLACK_NS:
-                    found.append((end, published, sender.lifespan_ns))
+        found = [
+            (end, published, one.lifespan_ns)
+            for one in senders
+            for published, end in one.messages[number - 1 : number]
+            if end >= sent_ns - _SLACK_NS
+        ]
         if not found:
             return False  # published by nobody that the session knows
         _, published, stored_for = min(found)
         # What was published before the subscription was made has come from the publisher's store.
-        if 0 < stored_for <= self._born - published:
+        if 0 < stored_for <= born - published:
             return True
-        return 0 < self._lifespan <= self._now() - published
+        return 0 < lifespan_ns <= now() - published
+
+    def take(entry: Entry, _: object) -> Work | None:
+        while (taken := next_message(entry)) is not None:
+            if not is_too_old(taken[1]):
+                return work_for(entry, taken)
+            dropped()
+        return None
+
+    return take
 
 
 # Which deadlines and lifespans a session counts itself, and what has to be heard for that.
@@ -359,23 +338,6 @@ class FreshOnly:
 # first message in virtual time.
 
 
-class Home(Protocol):
-    """What is asked of a session."""
-
-    recorder: Recorder
-    virtual: VirtualTimeExecutor
-    live: LiveExecutor | None
-
-    def now(self) -> int:
-        """Return nanoseconds since the session began."""
-
-    def states(self) -> list[NodeState]:
-        """Return all nodes that have not been destroyed, in order of creation."""
-
-    def next_number(self) -> int:
-        """Return the place of a new entity in the order of creation."""
-
-
 class Limits:
     """The deadlines and lifespans of one session.
 
@@ -383,7 +345,7 @@ class Limits:
         home: The session.
     """
 
-    def __init__(self, home: Home) -> None:
+    def __init__(self, home: World) -> None:
         self._home, self._thread = home, get_ident()
         # By topic: the subscriptions that have a deadline, and how they hear of a message; and
         # what was sent, where a lifespan makes that matter.
@@ -429,10 +391,11 @@ class Limits:
         deadline = Deadline(handler, endpoint, period)
         called, source = callback_name(handler.callback), event_source(handler, topic)
         label = home.recorder.label(state.name, "event", called, source)
-        entry = Entry(home.next_number(), state, "event", handler, topic, label, deadline.take)
-        state.entries.append(entry)
-        home.virtual.watch(entry)
-        home.virtual.deadlines.add(entry, deadline)
+        number = home.next_number()
+        deadline.entry = Entry(number, state, "event", handler, topic, label, deadline.take)
+        state.entries.append(deadline.entry)
+        home.virtual.watch(deadline.entry)
+        home.virtual.deadlines.append(deadline)
         return partial(self._heard, deadline)
 
     def _heard(self, deadline: Deadline) -> None:
@@ -457,13 +420,13 @@ class Limits:
         def dropped() -> None:
             home.recorder.add_callback(home.now(), old.number)
 
-        entry.take = FreshOnly(lifespan, self._sent[entry.name], home.now, dropped).take
+        entry.take = fresh_only(lifespan, self._sent[entry.name], home.now, dropped)
 
     def _note_what_is_sent(self, tap: PublisherTap) -> None:
         assert tap.channel is not None
         sent = Sent(self._home.recorder.sent(tap.channel), tap.lifespan_ns)
         self._sent[tap.topic].append(sent)
-        tap.listen(lambda: sent.heard(self._home.now()))
+        tap.listen(lambda: sent.messages.append((self._home.now(), time.time_ns())))
 
     def _is_young(self, tap: PublisherTap, lifespan: int) -> bool:
         """Return whether anything that this publisher has stored has not been dropped by now."""

@@ -589,8 +589,7 @@ def _caller() -> FrameType:
 # rclpy offers no place to be told that a node, a publisher or a timer was made. The methods of
 # `Node` that make them are therefore wrapped once, when this module is first imported. A wrapper
 # looks at the node's own context: if that belongs to a session, the session's watcher is told; if
-# not, the original runs and nothing else happens. Nothing is kept here, so there is nothing to
-# share.
+# not, the original runs and nothing else happens.
 
 
 ENTITY_METHODS = {
@@ -604,25 +603,25 @@ ENTITY_METHODS = {
 
 
 class Watcher(Protocol):
-    """What a session does when its nodes change."""
+    """What the hooks tell a session."""
 
     start: Launch
 
     @property
     def counts_limits(self) -> bool:
-        """Whether the session, and not the middleware, counts deadlines and lifespans."""
+        """Return whether the session counts deadlines and lifespans, not the middleware."""
 
     def node_begins(self, name: str, namespace: str) -> None:
-        """A node of this name is about to be made."""
+        """Make room: a node of this name is about to be made."""
 
     def node_made(self, node: Node) -> None:
-        """`Node.__init__` has returned."""
+        """Take over a node whose `Node.__init__` has returned."""
 
     def entity_begins(self, node: Node) -> None:
-        """The node is about to make an entity."""
+        """Prepare a node that is about to make an entity."""
 
     def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
-        """The node has made an entity of that kind."""
+        """Watch an entity that the node has made."""
 
     def action_made(
         self,
@@ -632,27 +631,27 @@ class Watcher(Protocol):
         name: str,
         options: dict[str, Any],
     ) -> None:
-        """The node has made an action server or client; see `actions`."""
+        """Watch an action server or client that the node has made; see `actions`."""
 
     def node_ends(self, node: Node) -> None:
-        """The node is about to be destroyed."""
+        """Forget a node that is about to be destroyed."""
 
     def logger_of(self, node: Node, original: Any) -> Any:  # noqa: ANN401
-        """The logger that the node's code gets."""
+        """Return the logger that the node's code gets."""
 
     def explain_init(self) -> None:
-        """The learner called `rclpy.init()`."""
+        """Answer a learner who called `rclpy.init()`."""
 
     def explain_shutdown(self) -> None:
-        """The learner called `rclpy.shutdown()`."""
+        """Answer a learner who called `rclpy.shutdown()`."""
 
 
 class Unwatched:
-    """Mixed into a node that is part of the session itself, so that its watcher is not told."""
+    """Mix this into a node of the session's own, so that its watcher is not told."""
 
 
 def watcher_of(node: Node) -> Watcher | None:
-    """The watcher of a node's session, or None if it is in no session or not yet a node."""
+    """Return the watcher of a node's session; None if it is in no session, or not yet a node."""
     if isinstance(node, Unwatched):
         return None
     # Not `node.context`: a class that forgot super().__init__() must fail with rclpy's own error.
@@ -695,7 +694,7 @@ def _make_alone(make: Callable[[], None]) -> None:
 
 
 def in_kernel() -> bool:
-    """Whether this process is a Jupyter kernel."""
+    """Return whether this process is a Jupyter kernel."""
     return "ipykernel.kernelapp" in sys.modules
 
 
@@ -726,7 +725,7 @@ def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]
 
 
 def _refuse_a_message(call: str, kind: object) -> None:
-    """A message in the place of its class: rclpy takes it, and fails at the first use."""
+    """Refuse a message in the place of its class: rclpy takes it, and fails at the first use."""
     if not isinstance(kind, type) and is_message_class(type(kind)):
         name = type(kind).__name__
         raise SessionError(
@@ -736,40 +735,29 @@ def _refuse_a_message(call: str, kind: object) -> None:
         )
 
 
-def _watch_end(original: Callable[[Node], None]) -> Callable[[Node], None]:
-    @wraps(original)
-    def destroy_node(node: Node) -> None:
+def _install() -> None:
+    destroy, get_logger, infos = Node.destroy_node, Node.get_logger, Node._get_info_by_topic
+
+    @wraps(destroy)
+    def watched_destroy(node: Node) -> None:
         watcher = watcher_of(node)
         if watcher is not None:
             watcher.node_ends(node)
-        original(node)
+        destroy(node)
 
-    return destroy_node
-
-
-def _watch_logger(original: Callable[[Node], Any]) -> Callable[[Node], Any]:
-    @wraps(original)
-    def get_logger(node: Node) -> Any:  # noqa: ANN401
+    @wraps(get_logger)
+    def watched_logger(node: Node) -> Any:  # noqa: ANN401
         watcher = watcher_of(node)
-        return original(node) if watcher is None else watcher.logger_of(node, original(node))
+        return get_logger(node) if watcher is None else watcher.logger_of(node, get_logger(node))
 
-    return get_logger
-
-
-def _watch_infos(original: Callable[..., list[Any]]) -> Callable[..., list[Any]]:
-    @wraps(original)
-    def infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401
-        told = original(node, *args, **kwargs)
+    @wraps(infos)
+    def watched_infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401
+        told = infos(node, *args, **kwargs)
         return told if watcher_of(node) is None else as_written(told)
 
-    return infos
-
-
-def _install() -> None:
     Node.__init__ = _watch_birth(Node.__init__)
-    Node.destroy_node = _watch_end(Node.destroy_node)
-    Node.get_logger = _watch_logger(Node.get_logger)
-    Node._get_info_by_topic = _watch_infos(Node._get_info_by_topic)
+    Node.destroy_node, Node.get_logger = watched_destroy, watched_logger
+    Node._get_info_by_topic = watched_infos
     for method, kind in ENTITY_METHODS.items():
         setattr(Node, method, _watch_entity(getattr(Node, method), kind))
 
