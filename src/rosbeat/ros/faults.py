@@ -1,4 +1,4 @@
-"""Exceptions: the learner's own line, the call of rclpy that failed, and a suggestion."""
+"""Find in an exception the learner's own line, the call that failed, and a suggestion."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ class Deadline:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
     ) -> bool:
-        """End the watch; a passed deadline is no exception for what follows, an interrupt is.
+        """End the block; swallow a passed deadline, but no interrupt.
 
         Raises:
             KeyboardInterrupt: If Interrupt was pressed, whatever the code made of it.
@@ -122,9 +122,9 @@ class Deadline:
 
     @property
     def place(self) -> tuple[int, str]:
-        """Number and text of the learner's line where the time was up; `(0, "")` if there is none.
+        """Return number and text of the learner's line where the time was up, or `(0, "")`.
 
-        To be asked after the block: in it a learner's code may have changed what Python needs.
+        Ask after the block: in it a learner's code may have changed what Python needs.
         """
         if self._where is None:
             return 0, ""
@@ -132,7 +132,7 @@ class Deadline:
         return line, linecache.getline(file, line, names).strip()
 
     def expire(self) -> None:
-        """Let the time be up now, for a reason of the caller's own.
+        """End the block now, as if its time were up.
 
         Raises:
             DeadlinePassed: Always.
@@ -255,7 +255,7 @@ def within(
 
 
 def apart(do: Callable[[], object]) -> None:
-    """Run code that a deadline may hit, so that nothing of its exceptions stays.
+    """Run code that a deadline may hit, and leave no exception of it behind.
 
     An exception that hits the very beginning of an `except` or the end of a `with` leaves Python
     believing that the one before is still being handled (CPython 3.11): each later traceback of the
@@ -343,7 +343,7 @@ class Sink(TextIOBase):
 
 @contextmanager
 def unharmed() -> Iterator[Count]:
-    """Keep what belongs to the process and not to a node, and put it back afterwards.
+    """Restore what belongs to the process, and not to a node, after the block.
 
     That is: standard output and error, the current folder, the environment, Python's built-in
     names and those of `time`, `random` and rclpy's nodes, handlers of signals, hooks for exceptions
@@ -405,7 +405,7 @@ def _set_environment(before: dict[str, str]) -> None:
 
 
 def _names(owner: Any, names: tuple[str, ...]) -> Callable[[], object]:  # noqa: ANN401
-    """Return what puts the names of a module or class back."""
+    """Return a function that restores the names of a module or class."""
     # `_` is the last result of a cell, for IPython's own use.
     before = {name: vars(owner)[name] for name in names or vars(owner) if name != "_"}
 

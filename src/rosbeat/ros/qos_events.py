@@ -1,4 +1,4 @@
-"""Deadlines, lifespans and stored messages, by the session's clock."""
+"""Count deadlines and lifespans by the session's clock, and wait for stored messages."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ class _Stretched(QoSProfile):
         return made
 
     def get_c_qos_profile(self) -> Any:  # noqa: ANN401 - a class of C code
-        """Return what the middleware is given."""
+        """Return the profile that the middleware is given."""
         given = {slot[1:]: getattr(self, slot) for slot in QoSProfile.__slots__}
         for name in _LIMITS:
             limit = limit_ns(given[name])
@@ -134,13 +134,13 @@ _NAMES = {
 
 
 def event_name(handler: EventHandler) -> str:
-    """Return which event a handler answers, such as `deadline`."""
+    """Return the name of the event that a handler answers, such as `deadline`."""
     said: str = handler.event_type.name
     return next((name for end, name in _NAMES.items() if said.endswith(end)), said.lower())
 
 
 def event_source(handler: EventHandler, topic: str) -> str:
-    """Return what a run of the handler's callback is recorded to have answered."""
+    """Return the `source` with which a run of the handler's callback is recorded."""
     return f"{event_name(handler)} of {topic}"
 
 
@@ -226,7 +226,7 @@ class Deadline:
         self._untold += 1
 
     def take(self, _: Entry, __: object) -> Work | None:
-        """Return the callback with what it has not been told of; see `entities`."""
+        """Return the callback with the misses that it has not been told of; see `entities`."""
         if not self._untold:
             return None
         info = self._info()
@@ -293,7 +293,7 @@ def fresh_only(
     now: Callable[[], int],
     dropped: Callable[[], None],
 ) -> Callable[[Entry, object], Work | None]:
-    """Return what takes messages from a subscription, and drops those that are too old.
+    """Return a function that takes messages from a subscription and drops those that expired.
 
     Args:
         lifespan_ns: The subscription's own lifespan; 0 without a limit.
@@ -429,7 +429,7 @@ class Limits:
         tap.listen(lambda: sent.messages.append((self._home.now(), time.time_ns())))
 
     def _is_young(self, tap: PublisherTap, lifespan: int) -> bool:
-        """Return whether anything that this publisher has stored has not been dropped by now."""
+        """Return whether the newest message that this publisher has stored has not expired."""
         if not tap.lifespan_ns or tap.channel is None:
             return True
         age = self._home.now() - self._home.recorder.sent(tap.channel)[-1]

@@ -156,7 +156,7 @@ class Memory:
 # What happened, kept in columns while it happens and read back as records.
 #
 # A message or a callback costs one number in each of three columns instead of an object of its own:
-# 50 bytes for a message of one number.
+# 46 bytes for a message of one number (tests/benchmarks/memory.py).
 
 
 @dataclass(frozen=True)
@@ -220,7 +220,7 @@ class Recorder:
         return made
 
     def rename(self, channel: Channel, node: str) -> Channel:
-        """Correct who publishes there, for what has been recorded, too."""
+        """Correct the name of the publishing node, also for what has been recorded."""
         made = self._channels[channel.number] = replace(channel, node=node)
         return made
 
@@ -395,7 +395,7 @@ class PublisherTap:
         self._handle = publisher.handle
         self._qos: QoSProfile = publisher.qos_profile
         self._type = publisher.msg_type
-        self._further: list[Callable[[], None]] = []
+        self._listeners = listeners = list[Callable[[], None]]()
         self.lifespan_ns = limit_ns(self._qos.lifespan)
         send, take, message_type = publisher.publish, memory.take, publisher.msg_type
 
@@ -412,15 +412,15 @@ class PublisherTap:
                 copy = msg
             self.count += 1
             heard(copy)
-            for further in self._further:
-                further()
+            for listener in listeners:
+                listener()
 
         publish.__qualname__ = send.__qualname__  # for the errors of a call with other arguments
         publisher.publish = publish
 
-    def listen(self, further: Callable[[], None]) -> None:
+    def listen(self, listener: Callable[[], None]) -> None:
         """Call this, too, after each message."""
-        self._further.append(further)
+        self._listeners.append(listener)
 
     def fits(self, subscription: Any) -> bool:  # noqa: ANN401 - rclpy is untyped
         """Return whether a subscription of this topic is connected to this publisher."""
@@ -428,7 +428,7 @@ class PublisherTap:
 
     @property
     def stored(self) -> int:
-        """How many messages are stored at most: some may have expired."""
+        """Return how many messages are stored at most: some may have expired."""
         depth: int = self._qos.depth
         limited = self._qos.history == HistoryPolicy.KEEP_LAST
         return min(self.count, max(1, depth)) if limited else self.count
