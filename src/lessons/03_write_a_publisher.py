@@ -25,13 +25,15 @@
 # - `rclpy` is the ROS client library for Python: everything that talks to ROS goes through it;
 # - `Node` is the class that every node builds on;
 # - `Float32` is the message type: it carries one decimal number;
-# - `random` comes with Python and will make the temperature wander.
+# - `random` comes with Python and will make the temperature wander;
+# - `signal` does, too: further down it presses `Ctrl` + `C` for you.
 #
 # The last line brings the session, the pictures and the checks of this course, and the workspace, into
 # which the node goes at the end. The file on a robot does not need them.
 
 # %%
 import random
+import signal
 
 import rclpy
 from rclpy.node import Node
@@ -185,22 +187,67 @@ viz.graph(ros.graph())
 # %% [markdown]
 # ## Turn the class into a program
 #
-# On a robot, the class has a file of its own, with a function `main`:
+# On a robot, the class has a file of its own, with a function `main`. The next cell has the tutorial's `main`,
+# letter by letter:
 #
 # - `rclpy.init()` starts ROS in this process; it must come before the first node. `args` may hold
 #   arguments from the command line;
-# - `TemperatureSensor()` makes the node: it runs `__init__`;
+# - the next line makes the node: it runs `__init__`;
 # - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until it is stopped;
-# - `Ctrl` + `C` raises `KeyboardInterrupt`, and the line with `SIGTERM`, the system's request to end, makes
-#   that the same. `main` catches it, and the exception with which ROS itself ends. `pass` does nothing;
-# - at the end node and ROS are shut down.
+# - `Ctrl` + `C` raises `KeyboardInterrupt`. `main` catches it; `pass` does nothing;
+# - at the end, `main` destroys the node and shuts ROS down.
+#
+# `spawn` starts a whole program in a session, as a process of its own. **Predict:** what do you see?
+
+# %%
+def main(args=None):
+    rclpy.init(args=args)
+    node = TemperaturSensor()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+
+    node.destroy_node()
+    rclpy.shutdown()
+
+with Session(seed=8) as robot:
+    robot.spawn(main)
+
+# %% [markdown]
+# A `NameError`. The tutorial spells its class in two ways, `TemperatureSensor` and `TemperaturSensor`, and
+# Python compares names letter by letter, as ROS does with topics.
+#
+# The next cell gives the class its second name, too. After three seconds it presses `Ctrl` + `C`.
+#
+# **Predict:** what is the exit code?
+
+# %% predict=true
+TemperaturSensor = TemperatureSensor
+
+with Session(seed=8) as robot:
+    program = robot.spawn(main)
+    robot.run(seconds=3)
+    program.send_signal(signal.SIGINT)
+
+# --- answer
+predict("1", program.returncode, because="Its last line failed.")
+# --- blank
+# predict("____", program.returncode, because="Its last line failed.")
+# --- end
+
+# %% [markdown]
+# `main` caught the `KeyboardInterrupt`, and then its last line failed. rclpy shuts ROS down itself when you press
+# `Ctrl` + `C`, and a second `shutdown` is an error. `try_shutdown` shuts ROS down only if it still runs.
+#
+# There is one more way to end. When the system asks a program to stop, it sends the signal `SIGTERM`, and
+# `spin` raises an `ExternalShutdownException`. So your `main` catches both exceptions.
 #
 # Here is the whole file. `%%save` writes it into your package and runs it.
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_publisher.py"
 #!/usr/bin/env python3
 import random
-import signal
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -227,7 +274,6 @@ class TemperatureSensor(Node):
 
 
 def main(args=None):
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureSensor()
     try:
@@ -245,26 +291,26 @@ if __name__ == "__main__":
 # The very first line tells the system to run the file with Python 3. The last two lines start it: they call `main` if the file is run as a program, and not if it is imported, nor here:
 # `main` would spin until you interrupt it. On a page, `ros.run(...)` does its work.
 #
-# The class on the page is now the class in the file. **Predict:** with the seed of before, what does
-# it say?
+# **Predict:** how does the program in your file end?
 
-# %%
-with Session(seed=8) as saved:
-    saved.add(TemperatureSensor)
-    saved.run(seconds=3)
+# %% predict=true
+file = workspace.folder() / "src/sensor_simulator/sensor_simulator/temperature_publisher.py"
 
-# %% [markdown]
-# The same numbers. What you tried is what you will build.
-#
-# The tutorial's `main` differs, and you can learn from it. It ends with `rclpy.shutdown()`. In the ROS
-# version used here, `Ctrl` + `C` has shut ROS down already, and a second time is an error.
-# `try_shutdown` does it only if needed. And the tutorial spells its class in two
-# ways, `TemperatureSensor` and `TemperaturSensor`. With one in the class line and the other in `main`,
-# Python stops with a `NameError`: it compares names letter by letter, as ROS does with topics.
-#
-# It opens the file with `nano`, an editor. Here, a double click in the file browser does.
+with Session(seed=8) as robot:
+    program = robot.spawn(file)
+    robot.run(seconds=3)
+    program.send_signal(signal.SIGINT)
+
+# --- answer
+predict("0", program.returncode)
+# --- blank
+# predict("____", program.returncode)
+# --- end
 
 # %% [markdown]
+# The same numbers as before, and exit code 0. What you tried is what you will build. (The tutorial opens the
+# file with `nano`, an editor. Here, a double click in the file browser does.)
+#
 # **How the data flows:** `main` starts ROS and makes the node. The node makes its publisher and its
 # timer. Every second the timer calls `publish_temperature`, which takes a step, clamps it, publishes
 # a message and logs a line. This goes on until `Ctrl` + `C`.

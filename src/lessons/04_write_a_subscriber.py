@@ -15,6 +15,7 @@
 
 # %%
 import random
+import signal
 
 import rclpy
 from rclpy.node import Node
@@ -26,7 +27,7 @@ from rosbeat.records import queue_steps
 # %% [markdown]
 # The first lines are the publisher's. A subscriber must use the message type that the publisher uses,
 # or the two sides do not understand each other. In a file of its own the monitor needs no `random`;
-# here the sensor does. `String` and `queue_steps` are used further down.
+# here the sensor does. `signal`, `String` and `queue_steps` are used further down.
 #
 # ## Bring a sensor
 #
@@ -224,8 +225,6 @@ viz.queue(queue_steps(arrivals, takes, depth=10), depth=10)
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_subscriber.py"
 #!/usr/bin/env python3
-import signal
-
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -252,7 +251,6 @@ class TemperatureMonitor(Node):
 
 
 def main(args=None):
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureMonitor()
     try:
@@ -267,14 +265,40 @@ if __name__ == "__main__":
     main()
 
 # %% [markdown]
-# The tutorial's monitor leaves out the last two lines of `main`. The program ends anyway, and the system
-# takes back what it held. But if you tidy up every time, you do not have to think about when it matters.
+# The tutorial's own `main` leaves out two lines: it neither destroys the node nor shuts ROS down. Here it is,
+# beside a sensor.
 #
-# **How the data flows:** `main` makes the node, and the node its subscription. `rclpy.spin` waits.
-# A message arrives, the callback takes the number out, finds the status and logs it, and the waiting
-# goes on until `Ctrl` + `C`.
+# **Predict:** what is its exit code after `Ctrl` + `C`?
+
+# %% predict=true
+def main(args=None):
+    rclpy.init(args=args)
+    node = TemperatureMonitor()
+
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+
+with Session(seed=8) as robot:
+    robot.add(TemperatureSensor)
+    program = robot.spawn(main)
+    robot.run(seconds=3)
+    program.send_signal(signal.SIGINT)
+
+# --- answer
+predict("0", program.returncode)
+# --- blank
+# predict("____", program.returncode)
+# --- end
 
 # %% [markdown]
+# The program ends, and the system takes back what it held. Tidy up all the same: sometimes it matters.
+#
+# **How the data flows:** `main` makes the node, and the node its subscription. `rclpy.spin` waits.
+# A message arrives, the callback judges its number and logs the status, and the waiting goes on until
+# `Ctrl` + `C`.
+#
 # ## Compare the two
 #
 # | | publisher | subscriber |
@@ -285,7 +309,7 @@ if __name__ == "__main__":
 # | its method | is called by the timer and calls `publish()` | is called by ROS with a message |
 # | the data | is made here | is used here |
 #
-# A node may be both. The last two exercises listen *and* speak.
+# A node may do both, as in the last two exercises.
 #
 # ## Try it: watch a fridge
 #
@@ -417,8 +441,7 @@ with Session() as ros:
 # **Symptom:** the constructor fails, before any message. **Instrument:** the line that the error
 # names. **Cause:** the brackets call the method at once, without a message, so Python misses `msg`.
 # **Cure:** hand over the method itself, without brackets.
-
-# %% [markdown]
+#
 # ## Remember
 #
 # - `create_subscription(type, topic, callback, depth)` listens; ROS calls the callback.
@@ -426,8 +449,8 @@ with Session() as ros:
 # - A queue keeps the newest messages for a slow subscriber, as many as its depth.
 # - A publisher acts, a subscriber reacts, and a node may do both.
 #
-# The file `temperature_subscriber.py` in your package holds this class, unchanged. You have both
-# halves of a system now: one node speaks, one listens, and neither knows the other.
+# The file `temperature_subscriber.py` in your package holds this class, unchanged. You now have both
+# halves of a system, and neither knows the other.
 #
 # **Next:** [set the entry points](05_set_the_entry_points.ipynb), so that `ros2 run` finds them.
 

@@ -13,12 +13,13 @@
 #
 # **Time:** 35 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
 #
-# A **process** is a running program. It has memory of its own, and no other process can look into it.
+# A process is a running program. It has memory of its own, and no other process can look into it.
 # Two nodes in two processes share nothing but what ROS carries between them. The next cell makes
 # what earlier pages would have left here, if it is missing.
 
 # %%
 import os
+import signal
 
 from rosbeat import Session, check, hint, predict, progress, viz, workspace
 
@@ -126,8 +127,8 @@ ros.wait_for_nodes("temperature_sensor", "temperature_monitor")
 viz.graph(ros.graph())
 
 # %% [markdown]
-# You know this graph from the first pages. There it was one process, here there are two, and the picture
-# is the same: nodes do not care where the others run. On a robot they may even run on
+# You know this graph from the first pages. There a session played both nodes, here two programs run them, and
+# the picture is the same: nodes do not care where the others run. On a robot they may even run on
 # different computers. And no program in the middle keeps a list of them: each process tells the others
 # what it has and what it wants. That is called **discovery**.
 #
@@ -235,8 +236,8 @@ check("06b", workspace.folder())
 #
 # ## Clean up
 #
-# `Ctrl` + `C` in every terminal. With the tutorial's own `main` you would see a traceback here; yours says
-# nothing and ends with 0.
+# Press `Ctrl` + `C` in every terminal. The tutorial's own sensor would show a traceback here, as you saw on the
+# page about publishers. Your programs say nothing and end with 0.
 
 # %% tags=["nbval-ignore-output"]
 for name in ("sensor", "monitor", "third"):
@@ -247,6 +248,34 @@ ros.close()
 sensor.exit_code, monitor.exit_code
 
 # %% [markdown]
+# ## Rehearse in a session
+#
+# To try out a change, you need neither terminals nor a build. A session can run the same two files in virtual
+# time, each as a process of its own, and press `Ctrl` + `C` as well.
+#
+# **Predict:** both start at the same instant. How many of the first three readings does the monitor hear?
+
+# %% predict=true
+package = workspace.folder() / "src/sensor_simulator/sensor_simulator"
+
+with Session(seed=8) as rehearsal:
+    names = ("temperature_publisher", "temperature_subscriber")
+    programs = [rehearsal.spawn(package / f"{name}.py") for name in names]
+    rehearsal.run(seconds=3)
+    for program in programs:
+        program.send_signal(signal.SIGINT)
+    judged = [line for line in rehearsal.logs("temperature_monitor") if "Status" in line.text]
+
+print("exit codes:", [program.returncode for program in programs])
+# --- answer
+predict("3", len(judged))
+# --- blank
+# predict("____", len(judged))
+# --- end
+
+# %% [markdown]
+# All three: a session connects them at once. Real programs need a moment to find each other.
+#
 # ## Remember
 #
 # - **Build** in the workspace, **source** in each terminal, then **run**.

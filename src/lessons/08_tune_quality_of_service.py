@@ -121,9 +121,9 @@ viz.queue(queue_steps(arrivals, takes, depth=5), depth=5)
 # it is not: a slow subscriber fills a queue of its own. The picture shows that queue with depth 5. From 6
 # seconds on, each number pushes the oldest one out: that is `KEEP_LAST`.
 #
-# What is the publisher's depth good for, then? For those who come late; you see that in a moment. And over
-# a network, for messages that have to be sent again. In one process nothing gets lost on the way, so
-# this page cannot show that.
+# What is the publisher's depth good for, then? For those who come late; you see that in a moment. And for
+# messages that the middleware cannot deliver yet: the network is slow, or the subscriber's whole process stands
+# still. In a session every message is delivered at once, so this page cannot show that.
 
 # %% [markdown]
 # ## Reliability: offer and ask
@@ -327,6 +327,9 @@ print(late(kept_shortly, QoSProfile(depth=20, durability=KEPT)), "for a late col
 # The others were too old. And it is two queues again: the publisher's lifespan is for what it keeps for
 # those who come late, and what has reached a subscription stays there. (That is what Fast DDS does, the
 # middleware that runs here. Others may differ.)
+#
+# The session's clock counts deadlines and lifespans. Liveliness, one more policy, is watched by the middleware
+# itself, in real time: [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
 #
 # ## Try it: silence is news
 #

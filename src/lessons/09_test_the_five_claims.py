@@ -27,8 +27,6 @@ import threading
 import time
 
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
-from rclpy.context import Context
-from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import Float32, Int32, String
 
@@ -141,11 +139,9 @@ predict("0", meanwhile)
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # python3 temperature_subscriber.py
 
-# %% terminal="sensor --kill" tags=["nbval-ignore-output"]
-
 # %%
 sensor, monitor = workspace.terminal("sensor"), workspace.terminal("monitor")
-killed, lines = sensor.exit_code, len(monitor.wait_for("Status"))
+killed, lines = sensor.kill(show=lambda line: None), len(monitor.wait_for("Status"))
 print("killed:", killed, " the monitor runs:", monitor.busy)
 sensor.type("python3 temperature_publisher.py", until="Publishing", show=lambda line: None)
 print("it hears again:", len(monitor.wait_for("Status", lines + 2, 30)) > lines)
@@ -211,7 +207,7 @@ check("09a", Watchman)
 # arrive in all? (Write two numbers: `[..., ...]`.) Then comes what it costs: the time that the processor is
 # busy.
 
-# %%
+# %% predict=true
 class Counter(Node):
     def __init__(self):
         super().__init__("counter")
@@ -230,7 +226,6 @@ def crowd(size, seconds):
         cost = time.process_time() - begin
         return len(ros.messages("temperature")), sum(one.heard for one in counters), cost
 
-# %% predict=true
 published, arrived, _ = crowd(50, seconds=60)
 # --- answer
 predict("[60, 3000]", [published, arrived])
@@ -252,9 +247,11 @@ costs[50] > 2 * costs[1]
 #
 # ## 4. Concurrency: do two things at once
 #
-# *Nodes run independently, often in parallel.* Within a process, an **executor** calls the callbacks, and
-# the usual one calls one at a time. A worker should say each second that it is alive, and an order takes it 3
-# seconds. (In a session, `time.sleep` in a callback takes virtual time, and the other nodes go on.)
+# *Nodes run independently, often in parallel.* Within a process, an **executor** calls the callbacks. The usual
+# one, the **SingleThreadedExecutor**, calls one at a time.
+#
+# A heart beats once a second. A worker needs 3 seconds for an order: it sleeps, which takes virtual time
+# here. `ros.add(BusyWorker, Heart)` starts both nodes in *one* process, with one executor.
 #
 # **Predict:** an order comes at 2.5 s. When does the beat come that follows the one at 2 s?
 
@@ -272,38 +269,57 @@ class Boss(Node):
 class BusyWorker(Node):
     def __init__(self):
         super().__init__("busy_worker")
-        self.beats = self.create_publisher(String, "beat", 10)
-        self.create_timer(1.0, lambda: self.beats.publish(String(data="alive")))
         self.create_subscription(Int32, "order", self.work, 10)
 
     def work(self, msg):
         time.sleep(3.0)
-        self.get_logger().info(f"order {msg.data} is done")
+
+class Heart(Node):
+    def __init__(self):
+        super().__init__("heart")
+        self.beats = self.create_publisher(String, "beat", 10)
+        self.create_timer(1.0, lambda: self.beats.publish(String(data="alive")))
 
 ros = Session(seed=8)
-for node in (Boss, TemperatureSensor, BusyWorker):
-    ros.add(node)
+ros.add(Boss)
+ros.add(BusyWorker, Heart)
 ros.run(seconds=8)
-beats = [beat.time for beat in ros.messages("beat")]
+display(viz.timeline(ros.observation()))
 # --- answer
-predict("5.5", beats[2])
+predict("5.5", ros.messages("beat")[2].time)
 # --- blank
-# predict("____", beats[2])
+# predict("____", ros.messages("beat")[2].time)
 # --- end
 
-# %%
-viz.timeline(ros.observation())
+# %% [markdown]
+# The bar is the callback that sleeps, and the frame is the process. The heart's timer is due at 3 s, but it
+# has to wait until the other node's callback returns.
+#
+# Now each node gets a process of its own, as if you had typed `ros2 run` three times. **Predict:** when does
+# that beat come?
+
+# %% predict=true
+ros = Session(seed=8)
+for node in (Boss, BusyWorker, Heart):
+    ros.add(node)
+ros.run(seconds=8)
+display(viz.timeline(ros.observation()))
+# --- answer
+predict("3", ros.messages("beat")[2].time)
+# --- blank
+# predict("____", ros.messages("beat")[2].time)
+# --- end
 
 # %% [markdown]
-# The sensor, another node, beats on. The worker's beat has to wait until its other callback returns. (Nobody
-# listens to the beats here, so their arrows end in nothing.)
+# On time: processes do not wait for each other. Nobody listens to the beats here, so their arrows end in
+# nothing.
 #
 # ## Try it: work, and go on beating
 #
 # Write a worker that listens to `order` (`Int32`), works on each for 3 seconds, and then publishes its number
 # on `done` (`Int32`). On `beat` it publishes any `String` each second, whatever it does. Orders that come
-# meanwhile wait, and are done in order, one after the other. Do not sleep: the beat would wait. And no threads:
-# they count real time.
+# meanwhile wait, and are done in order, one after the other. Do not sleep: the beat would wait. And start no
+# threads: they count real time.
 
 # %% exercise="09b"
 class SteadyWorker(Node):
@@ -343,52 +359,97 @@ class SteadyWorker(Node):
 check("09b", SteadyWorker)
 
 # %% [markdown]
-# rclpy has a `MultiThreadedExecutor`, which runs callbacks in threads. But a node's callbacks are in one
-# **callback group**, which is *mutually exclusive*: one at a time, all the same. Other groups have to be asked
-# for. Here two callbacks meet at a door that opens only for two; after 3 seconds whoever is there goes home.
+# There is another way: a **MultiThreadedExecutor** runs callbacks in several threads. But all callbacks of a node
+# are in one **callback group** by default, and that is *mutually exclusive*: it runs one callback at a time. You
+# have to ask for other groups. In a *reentrant* group, callbacks may overlap, even a callback with itself.
 #
-# **Predict:** do they meet in one exclusive group? In two? In a *reentrant* one, whose callbacks may run
-# together? (Write three words: `yes` or `no`. You need not read the cells closely.)
-
-# %%
-class Pair(Node):
-    def __init__(self, context, one, other):
-        super().__init__("pair", context=context)
-        self.door, self.met = threading.Barrier(2), []
-        self.first = self.create_timer(0.01, lambda: self.come(self.first), one)
-        self.second = self.create_timer(0.01, lambda: self.come(self.second), other)
-
-    def come(self, timer):
-        timer.cancel()
-        try:
-            self.door.wait(timeout=3)
-            self.met.append("yes")
-        except threading.BrokenBarrierError:
-            self.met.append("no")
-
-def meet(one, other):
-    with Context() as context:
-        pair, executor = Pair(context, one, other), MultiThreadedExecutor(2, context=context)
-        executor.add_node(pair)
-        while len(pair.met) < 2:
-            executor.spin_once(timeout_sec=0.1)
-        executor.shutdown()
-        pair.destroy_node()
-    return pair.met[0]
+# Here one node works and beats. `threads=4` gives its process such an executor, and two orders come at 2.5 s.
+#
+# **Predict:** when does the third beat come with the default group, with two exclusive groups, and with a
+# reentrant one? Write three numbers.
 
 # %% predict=true
+class Worker(Node):
+    def __init__(self, beating, working):
+        super().__init__("worker")
+        self.beats = self.create_publisher(String, "beat", 10)
+        self.create_timer(1.0, lambda: self.beats.publish(String(data="alive")), beating)
+        self.create_subscription(Int32, "order", self.work, 10, callback_group=working)
+
+    def work(self, msg):
+        time.sleep(3.0)
+        self.get_logger().info(f"order {msg.data} is done")
+
+def third_beat(beating, working):
+    with Session(seed=8) as ros:
+        ros.add(Boss)
+        ros.add(Boss, name="second_boss")
+        ros.add(lambda: Worker(beating, working), threads=4)
+        ros.run(seconds=9)
+        return ros.messages("beat")[2].time
+
 Exclusive, Reentrant = MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
-alone, both = Exclusive(), Reentrant()
-met = [meet(alone, alone), meet(Exclusive(), Exclusive()), meet(both, both)]
+both = Reentrant()
+beats = [third_beat(None, None), third_beat(Exclusive(), Exclusive()), third_beat(both, both)]
 # --- answer
-predict("no, yes, yes", ", ".join(met))
+predict("[5.5, 3, 3]", beats)
 # --- blank
-# predict("____", ", ".join(met))
+# predict("____", beats)
 # --- end
 
 # %% [markdown]
-# Threads wait together. Do they *calculate* together, on two cores? The same sum, twice; of three tries, the
-# fastest:
+# With two groups, the beat is on time. In the reentrant group, the two orders overlap as well: both are done at
+# 5.5 s.
+#
+# Do real programs do the same? `pulse.py` starts the nodes that you name, with one `SingleThreadedExecutor`, and
+# ends after 4.8 seconds. First it runs both nodes in one process, then each in a process of its own.
+#
+# **Predict:** is the heart silent while the worker sleeps? Write two words, `yes` or `no`.
+
+# %% terminal="pulse --timeout 60" tags=["nbval-ignore-output"]
+# cd "$ROS2_WORKSPACE/scripts" && cat > pulse.py <<'EOF'
+# import sys, time
+# import rclpy
+# from rclpy.executors import SingleThreadedExecutor
+# from rclpy.node import Node
+#
+# class Heart(Node):
+#     def __init__(self):
+#         super().__init__("heart")
+#         self.create_timer(1.0, lambda: self.get_logger().info("beat"))
+#
+# class Worker(Node):
+#     def __init__(self):
+#         super().__init__("worker")
+#         self.create_timer(2.5, self.work)
+#     def work(self):
+#         self.get_logger().info("begins")
+#         time.sleep(2.0)
+#         self.get_logger().info("done")
+#
+# rclpy.init()
+# executor = SingleThreadedExecutor()
+# for name in sys.argv[1:]:
+#     executor.add_node(globals()[name]())
+# executor.spin_until_future_complete(rclpy.task.Future(), timeout_sec=4.8)
+# EOF
+# python3 pulse.py Heart Worker
+# (python3 pulse.py Heart & python3 pulse.py Worker; wait)
+
+# %% predict=true
+said = [line.text for line in workspace.terminal("pulse").logs()]
+begins, ends = ([n for n, text in enumerate(said) if text == word] for word in ("begins", "done"))
+silent = ["yes" if end - begin == 1 else "no" for begin, end in zip(begins, ends)]
+workspace.terminal("pulse").close()
+# --- answer
+predict("yes, no", ", ".join(silent))
+# --- blank
+# predict("____", ", ".join(silent))
+# --- end
+
+# %% [markdown]
+# They do. So threads can *wait* at the same time. Can they *calculate* at the same time, on two cores? Here is
+# the same sum, twice; of three tries, the fastest counts:
 
 # %% tags=["nbval-ignore-output"]
 task = "sum(n * n for n in range(3_000_000))"
@@ -442,15 +503,12 @@ with Session(seed=8) as ros:
     ros.add(TemperatureMonitor, name="humidity_monitor", **here)
     ros.run(seconds=1)
     said = ros.logs("greenhouse/humidity_monitor")[0].text.split("Status:")[-1]
-    there = ros.graph()
+    display(viz.graph(ros.graph()))
 # --- answer
 predict("High", said)
 # --- blank
 # predict("____", said)
 # --- end
-
-# %%
-viz.graph(there)
 
 # %% [markdown]
 # **Found: partly true.** The names moved, and the sensor's start. The monitor's limits and its *C* stand in its

@@ -15,6 +15,7 @@
 # [look inside the graph](07_look_inside_the_graph.ipynb).
 
 # %%
+import rclpy
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.node import Node
@@ -67,22 +68,33 @@ class Window(Node):
 
 # %% [markdown]
 # ROS hands the callback the request and an empty response. The callback fills it and **returns** it.
-# A client sends a request and gets a **future**: an answer that is still to come. `call` waits for it.
+#
+# A client first waits until the service is there; `wait_for_service` says whether it is. `call_async` sends the
+# request and gives you a **future**: a response that is still to come. `spin_until_future_complete` runs callbacks
+# until it has come.
 
 # %%
 ros = Session(seed=8)
 window = ros.add(Window)
 guest = ros.add(lambda: Node("guest"))
 client = guest.create_client(BasicTypes, "open_window")
-answers = [client.call(BasicTypes.Request(float32_value=value)) for value in (30.0, 250.0)]
-[(answer.bool_value, answer.string_value) for answer in answers]
+while not client.wait_for_service(timeout_sec=1.0):
+    guest.get_logger().info("service not available, waiting again...")
+future = client.call_async(BasicTypes.Request(float32_value=30.0))
+rclpy.spin_until_future_complete(guest, future)
+future.result().bool_value, window.percent
 
 # %% [markdown]
-# The second request was refused, with a reason, and changed nothing. **Predict:** NaN is "not a number".
-# How far is the window open after a request for NaN?
+# The official tutorial on clients has the same lines. `client.call` sends a request and waits for the response in
+# one step. In a cell that is handy, because the session runs the nodes meanwhile. In a callback it can wait for
+# ever, as you see at the end of this page.
+#
+# **Predict:** the next requests are for 250 percent and for NaN, "not a number". How far is the window open
+# after that?
 
 # %% predict=true
-client.call(BasicTypes.Request(float32_value=float("nan")))
+answers = [client.call(BasicTypes.Request(float32_value=value)) for value in (250.0, float("nan"))]
+print([(answer.bool_value, answer.string_value) for answer in answers])
 # --- answer
 predict("30", window.percent)
 # --- blank
@@ -90,7 +102,8 @@ predict("30", window.percent)
 # --- end
 
 # %% [markdown]
-# Every comparison with NaN is False, so it was refused, too: the code asks whether a value is *good*. A test for what is bad, `value < 0 or value > 100`, lets NaN pass.
+# Both were refused, with a reason, and changed nothing. Every comparison with NaN is False, and the code asks
+# whether a value is *good*. A test for what is bad, `value < 0 or value > 100`, lets NaN pass.
 #
 # ## Try it: a threshold behind a service
 #
@@ -377,7 +390,9 @@ check("12c", Thermostat)
 # This node asks in a callback, and waits there for the answer. **Predict:** what does it say after
 # three seconds?
 
-# %% terminal="home"
+# %% terminal="asker"
+# mkdir -p "$ROS2_WORKSPACE/scripts"
+# cd "$ROS2_WORKSPACE/scripts"
 # cat > deadlock.py <<'EOF'
 # import rclpy
 # from rclpy.node import Node
@@ -400,12 +415,25 @@ check("12c", Thermostat)
 
 # %% [markdown]
 # **Symptom:** it asks once, and nothing comes any more. **Instrument:** a deadline, here `timeout`, and exit code
-# 137. **Cause:** a **deadlock**. `call` waits until another callback takes the answer, and that waits until this
-# callback returns. **Cure:** `call_async`, and a done callback or an `await`. A session sees it coming:
+# 137. **Cause:** a **deadlock**. `call` waits until another callback takes the response, and the executor runs no
+# other callback until this one returns. **Cure:** `call_async`, and a done callback or an `await`.
+#
+# A session says so once, and then does what a robot does: the callback waits for ever, and its node is silent.
 
 # %%
-guest.create_timer(1.0, lambda: client.call(BasicTypes.Request()))
-ros.run(seconds=1)
+class Asker(Node):
+    def __init__(self):
+        super().__init__("asker")
+        self.client = self.create_client(BasicTypes, "open_window")
+        self.create_timer(1.0, self.ask)
+
+    def ask(self):
+        self.get_logger().info("I ask")
+        self.client.call(BasicTypes.Request())
+        self.get_logger().info("I know")
+
+ros.add(Asker)
+ros.run(seconds=3)
 
 # %% [markdown]
 # ## Remember

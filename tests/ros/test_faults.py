@@ -1,14 +1,22 @@
-"""An exception in a callback: shown once, with the learner's own line; the others go on."""
+"""Exceptions: the learner's own line, the call that failed, and a suggestion."""
 
+import math
+import random
 from functools import partial
 
 import pytest
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from std_msgs.msg import Float32
 from std_srvs.srv import Trigger
 
 from nodes import Doer, Listener, Server, Speaker, Talker, Ticker
 from rosbeat.errors import SessionError
-from rosbeat.ros.faults import fault_of, learners_line
+from rosbeat.ros.faults import asked_by, asked_text, asking, fault_of, learners_line, suggestion
+
+pytestmark = pytest.mark.ros
+
+# An exception in a callback: shown once, with the learner's own line; the others go on.
 
 
 class Bomb(Listener):
@@ -220,3 +228,153 @@ def test_the_line_is_the_one_that_calls_the_callback_too_early():
     fault = fault_of(caught.value, 0, "", "__init__")
     assert fault.code == "self.create_timer(1.0, self.tick())"
     assert fault.asked == "create(called[tick])"
+
+
+# The call of rclpy that failed is noted on the exception, without calling what it was given.
+
+
+class Deceiver:
+    """Anything that describes it by asking it is deceived."""
+
+    @property
+    def __code__(self):
+        raise RuntimeError("boom")
+
+    def __repr__(self):
+        raise RuntimeError("boom")
+
+    def listen(self, msg):
+        pass
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (Float32, "message_type[Float32]"),
+        (Float32(), "message[Float32]"),
+        (float, "type[float]"),
+        ("temperature", "str"),
+        (10, "int"),
+        (True, "bool"),
+        (1.0, "float"),
+        (None, "NoneType"),
+        (math, "module"),
+        (print, "builtin_function_or_method"),
+        (partial(print, 1), "partial"),
+        (QoSProfile(depth=1), "QoSProfile"),
+        (lambda msg: msg, "function[function(msg)]"),
+        (Deceiver().listen, "method[listen(self, msg)]"),
+        (Deceiver(), "Deceiver"),
+    ],
+)
+def test_how_a_thing_is_described(given, words):
+    assert asked_text("f", (given,), {"by": given}) == f"f({words}, by={words})"
+
+
+def test_the_innermost_call_counts():
+    with pytest.raises(KeyError) as caught, asking("outer"), asking("inner", 1):
+        raise KeyError
+    assert asked_by(caught.value) == "inner(int)"
+    assert asked_by(KeyError()) == ""
+
+
+def test_a_node_s_failing_calls_are_noted(ros):
+    class Wrong(Node):
+        def __init__(self):
+            super().__init__("wrong")
+            self.create_timer(1.0, self.tick)
+
+        def tick(self):
+            self.create_publisher(Float32, "temperature")
+
+    ros.add(Wrong)
+    ros.run(1)
+    (fault,) = ros.observation().faults
+    assert fault.asked == "create_publisher(message_type[Float32], str)"
+
+
+def test_an_error_of_the_learner_s_own_is_no_call(ros):
+    class Wrong(Node):
+        def __init__(self):
+            super().__init__("wrong")
+            self.create_timer(1.0, self.tick)
+
+        def tick(self):
+            raise ValueError("boom")
+
+    ros.add(Wrong)
+    ros.run(1)
+    assert ros.observation().faults[0].asked == ""
+
+
+#
+
+
+class Pretender:
+    def __dir__(self):
+        raise RuntimeError("boom")
+
+    def __getattr__(self, name):
+        raise AttributeError(f"no {name}", name=name, obj=self)
+
+
+class Sensor(Node):
+    def __init__(self):
+        super().__init__("sensor")
+        self.temperature, self.publisher_ = 22.0, None
+
+    def publish_temperature(self):
+        pass
+
+    def use(self):
+        publish_temperature()  # noqa: F821
+
+
+def error_of(call):
+    with pytest.raises((AttributeError, NameError)) as caught:
+        call()
+    return caught.value
+
+
+@pytest.mark.parametrize(
+    ("call", "meant"),
+    [
+        (lambda node: node.temprature, "temperature"),
+        (lambda node: node.publisher, "publisher_"),
+        (lambda node: node.publish_pressure, "publish_temperature"),
+        (lambda node: node.read_pressure, ""),
+        (lambda node: node.publsh_temperature, "publish_temperature"),
+        (lambda node: node.create_publisherr, "create_publisher"),
+        (lambda node: node.timerss, ""),
+        (lambda node: node.temp, ""),
+        (lambda node: node.use(), "self.publish_temperature"),
+        (lambda node: random.unifrom(0, 1), "uniform"),
+        (lambda node: nodee, "node"),  # noqa: F821
+        (lambda node: ____, ""),  # noqa: F821
+        (lambda node: Pretender().anything, ""),
+    ],
+)
+def test_what_was_meant(ros, call, meant):
+    node = ros.add(Sensor)
+    assert suggestion(error_of(lambda: call(node))) == meant
+
+
+def test_it_ends_the_text_of_a_fault_as_in_a_traceback(ros):
+    node = ros.add(Sensor)
+    fault = fault_of(error_of(lambda: node.temprature), 0, "/sensor", "tick")
+    assert fault.text == (
+        "'Sensor' object has no attribute 'temprature'. Did you mean: 'temperature'?"
+    )
+
+
+def test_other_errors_have_none():
+    assert suggestion(KeyError("temprature")) == ""
+    assert suggestion(NameError("never raised", name="x")) == ""
+
+
+def test_a_text_that_raises():
+    class OddError(Exception):
+        def __str__(self):
+            raise RuntimeError
+
+    assert fault_of(OddError(), 0, "/a", "tick").text == ""

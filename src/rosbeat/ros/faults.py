@@ -1,4 +1,4 @@
-"""Exceptions: the learner's own line, the call of rclpy that failed, and a suggestion."""
+"""Find in an exception the learner's own line, the call that failed, and a suggestion."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _LIKE = 0.75
 
 
 def suggestion(error: BaseException) -> str:
-    """The nearest name to one that does not exist, or an empty text.
+    """Return the nearest name to one that does not exist, or an empty text.
 
     Args:
         error: An exception; only an AttributeError or a NameError has a suggestion.
@@ -48,7 +48,7 @@ def suggestion(error: BaseException) -> str:
 
 
 def _nearest(name: str, groups: Iterable[Iterable[str]]) -> str:
-    """The name that is most alike; of two that are equally so, that of the earlier group."""
+    """Return the name that is most alike; of two equal ones, that of the earlier group."""
     best, likeness = "", _LIKE
     for group in groups:
         names = [one for one in group if isinstance(one, str) and not one.startswith("_")]
@@ -61,7 +61,7 @@ def _nearest(name: str, groups: Iterable[Iterable[str]]) -> str:
 
 
 def _same_verb(name: str, owner: object) -> str:
-    """The only method of the learner's that begins alike: `publish_humidity` for `publish_x`."""
+    """Return the learner's only method that begins alike: `publish_humidity` for `publish_x`."""
     if not isinstance(owner, Node):
         return ""
     verb, _, rest = name.partition("_")
@@ -76,7 +76,7 @@ def _same_verb(name: str, owner: object) -> str:
 
 
 def _attributes(owner: object) -> Iterator[Iterable[str]]:
-    """Names that an object has, its own before those of its classes."""
+    """Return the names that an object has, its own before those of its classes."""
     if not isinstance(owner, type):
         yield list(getattr(owner, "__dict__", ()))
     if isinstance(owner, ModuleType):
@@ -88,20 +88,16 @@ def _attributes(owner: object) -> Iterator[Iterable[str]]:
 
 
 def _names(error: NameError, name: str) -> Iterator[Iterable[str]]:
-    frame = _frame(error)
-    if frame is None:
+    frames = [frame for frame, _ in walk_tb(error.__traceback__)]
+    if not frames:
         return
+    frame = frames[-1]
     # `tick` where `self.tick` is meant is the same name, and so nearer than any other.
     node = frame.f_locals.get("self")
     own = [list(group) for group in _attributes(node)] if isinstance(node, Node) else []
     yield from ([name] for group in own if name in group)
     for known in (frame.f_locals, frame.f_globals, vars(builtins)):
         yield [one for one in known if one != name]
-
-
-def _frame(error: NameError) -> FrameType | None:
-    frames = [frame for frame, _ in walk_tb(error.__traceback__)]
-    return frames[-1] if frames else None
 
 
 # Which call of rclpy failed, and with arguments of which types, noted on the exception.
@@ -126,17 +122,12 @@ def asking(method: str, *given: Any, **named: Any) -> Iterator[None]:  # noqa: A
 
 
 def asked_by(error: BaseException) -> str:
-    """The call that was noted on an exception, or an empty text."""
+    """Return the call that was noted on an exception, or an empty text."""
     return str(getattr(error, _NOTE, ""))
 
 
-def value_text(value: object) -> str:
-    """The type of a value that a message's field refused, as `Fault.asked` has it."""
-    return f"field({_kind(value)})"
-
-
 def asked_text(method: str, given: tuple[Any, ...], named: dict[str, Any]) -> str:
-    """A call with the types of what it was given, as `Fault.asked` has it."""
+    """Return a call with the types of what it was given, as `Fault.asked` has it."""
     words = [_kind(one) for one in given]
     words += [f"{name}={_kind(one)}" for name, one in named.items()]
     return f"{method}({', '.join(words)})"
@@ -152,18 +143,12 @@ def _kind(one: Any) -> str:  # noqa: ANN401
         return f"function[{_signature(one)}]"
     if is_message_class(type(one)):
         return f"message[{_safe(type(one).__name__)}]"
-    return _plain(one)
-
-
-def _plain(one: Any) -> str:  # noqa: ANN401
-    for base in (QoSProfile, partial, BuiltinFunctionType, ModuleType, bool, int, float, str):
-        if isinstance(one, base):
-            return _safe(base.__name__)
-    return _safe(type(one).__name__)
+    known = (QoSProfile, partial, BuiltinFunctionType, ModuleType, bool, int, float, str)
+    return _safe(next((base for base in known if isinstance(one, base)), type(one)).__name__)
 
 
 def is_message_class(kind: type) -> bool:
-    """Whether a class is that of a ROS message."""
+    """Return whether a class is that of a ROS message."""
     return "_fields_and_field_types" in vars(kind)
 
 
@@ -177,7 +162,7 @@ def _signature(function: Any) -> str:  # noqa: ANN401 - what a method is bound t
 
 
 def _safe(name: object) -> str:
-    """A name that Python's parser can read; `<lambda>` is none."""
+    """Return a name that Python's parser can read; `<lambda>` is none."""
     text = str(name)
     return text if text.isidentifier() else "function"
 
@@ -193,7 +178,7 @@ _FOREIGN = tuple(
 
 
 def is_learners(frame: FrameType) -> bool:
-    """Whether a frame runs code that the learner wrote, and not a library or rosbeat."""
+    """Return whether a frame runs code that the learner wrote, not a library or rosbeat."""
     name = frame.f_code.co_filename
     if name == "<string>":  # code that a library has written, as for a dataclass, is of its module
         name = str(frame.f_globals.get("__file__", name))
@@ -211,37 +196,35 @@ def line_of(frame: FrameType | None) -> tuple[int, str]:
 
 
 def learners_line(error: BaseException) -> tuple[int, str]:
-    """Number and text of the innermost line that the learner wrote, or `(0, "")`."""
+    """Return number and text of the innermost line that the learner wrote, or `(0, "")`."""
     own = _own_lines(error)
     return own[-1][1:] if own else (0, "")
 
 
 def _own_lines(error: BaseException) -> list[tuple[str, int, str]]:
-    """Function, number and text of each line of the learner's at work, outermost first."""
-    return [
-        (
-            frame.f_code.co_name,
-            line,
-            linecache.getline(frame.f_code.co_filename, line, frame.f_globals).strip(),
-        )
-        for frame, line in walk_tb(error.__traceback__)
-        if is_learners(frame)
-    ]
+    """Return function, number and text of each line of the learner's, outermost first."""
+    found = []
+    for frame, line in walk_tb(error.__traceback__):
+        if is_learners(frame):
+            code = frame.f_code
+            text = linecache.getline(code.co_filename, line, frame.f_globals).strip()
+            found.append((code.co_name, line, text))
+    return found
 
 
 def _refused_by_field(error: BaseException) -> str:
-    """What a field of a message was given: the generated setter of the field raised."""
+    """Return what a field of a message was given, if the field's setter raised."""
     frames = [frame for frame, _ in walk_tb(error.__traceback__)]
     if not isinstance(error, AssertionError) or not frames:
         return ""
     setter = frames[-1]
     of_message = ".msg._" in str(setter.f_globals.get("__name__"))
     known = of_message and "value" in setter.f_locals
-    return value_text(setter.f_locals["value"]) if known else ""
+    return f"field({_kind(setter.f_locals['value'])})" if known else ""
 
 
 def error_text(error: BaseException) -> str:
-    """The exception's message, with the proposal that Python makes in a traceback."""
+    """Return the exception's message, with the proposal that Python makes in a traceback."""
     try:
         text = str(error)
     except Exception:  # a class of the learner's own
@@ -252,7 +235,7 @@ def error_text(error: BaseException) -> str:
 
 
 def fault_of(error: BaseException, time_ns: int, node: str, callback: str) -> Fault:
-    """The record of an exception that left a callback."""
+    """Return the record of an exception that left a callback."""
     line, code = learners_line(error)
     kind, asked = type(error).__name__, asked_by(error) or _refused_by_field(error)
     for (_, at, text), (called, *_) in pairwise(_own_lines(error)):

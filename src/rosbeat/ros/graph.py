@@ -33,7 +33,7 @@ from rosbeat.ros.context import show_briefly
 from rosbeat.ros.entities import NodeState, full_name
 from rosbeat.ros.errors import nobody_else_here, nodes_did_not_come
 from rosbeat.ros.qos_events import limit_ns
-from rosbeat.ros.recording import Channel, Memory, Raw, Recorder, Unwatched, type_name
+from rosbeat.ros.recording import Channel, Memory, Recorder, Unwatched, type_name
 
 if TYPE_CHECKING:
     from rosbeat.ros.world import World
@@ -540,8 +540,8 @@ class ExternalMessages:
                 return  # another node of the session got it first
             self._known.add(key)
             channel = self._channel(topic, memory)
-            copy = Raw(message) if isinstance(message, bytes) else memory.take(message)
-            self._recorder.sampler(channel)(self._now(), copy)
+            copy = message if isinstance(message, bytes) else memory.take(message)
+            self._recorder.add_sample(channel.number, self._now(), copy)
 
     def _channel(self, topic: str, memory: Memory) -> Channel:
         outside = list(filter(self._observer.is_outside, self._observer.publishers(topic)))

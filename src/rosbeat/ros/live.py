@@ -1,10 +1,12 @@
-"""Nodes against the wall clock, in one background thread."""
+"""Run nodes against the wall clock, in one background thread."""
 
 from __future__ import annotations
 
 import ctypes
 import time
+from collections.abc import Callable, Coroutine
 from contextlib import suppress
+from functools import partial
 from threading import Event, Thread, current_thread
 from typing import Any, Protocol
 
@@ -14,11 +16,12 @@ from rclpy.executors import (
     ExternalShutdownException,
     ShutdownException,
     SingleThreadedExecutor,
+    await_or_execute,
 )
 from rclpy.node import Node
 from rclpy.task import Future, Task
 
-from rosbeat.ros.entities import NodeState
+from rosbeat.ros.entities import Entry, NodeState, next_message, work_for
 
 #: Seconds that a callback may still take when live mode ends; then it is broken off.
 PATIENCE = 2.0
@@ -30,13 +33,13 @@ class LiveHost(Protocol):
     """What the live executor asks of its session."""
 
     def spinning_nodes(self) -> list[NodeState]:
-        """The nodes whose callbacks run, in order of creation."""
+        """Return the nodes whose callbacks run, in order of creation."""
 
     def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
-        """A callback of this entity is about to run."""
+        """Record a callback of this entity, which is about to run."""
 
     def entity_raised(self, node: Node | None, entity: Any, error: BaseException) -> None:  # noqa: ANN401
-        """An exception left a callback of this entity."""
+        """Record an exception that left a callback of this entity."""
 
 
 class BrokenOff(BaseException):
@@ -69,21 +72,38 @@ class LiveExecutor(SingleThreadedExecutor):
         self._thread = Thread(target=self.spin, name="rosbeat live", daemon=True)
 
     def get_nodes(self) -> list[Node]:
-        """The nodes in order of creation; rclpy's own answer comes from an unordered set."""
+        """Return the nodes in order of creation; rclpy's own answer comes from an unordered set."""
         mine = self._nodes
         return [state.node for state in self._host.spinning_nodes() if state.node in mine]
 
     def start(self) -> None:
         """Begin to run callbacks."""
+        for state in self._host.spinning_nodes():
+            for entry in state.entries:
+                self._hand_out_early(entry)
         self._thread.start()
+
+    def _hand_out_early(self, entry: Entry) -> None:
+        """Make tasks of messages that are in no queue any more; see `qos_events.TakenEarly`."""
+
+        def take(_: object) -> Callable[[], Coroutine[Any, Any, None]] | None:
+            taken = next_message(entry)
+            if taken is None:
+                return None
+            callback, arguments = work_for(entry, taken)
+            return partial(await_or_execute, callback, *arguments)
+
+        if entry.kind == "subscription" and entry.handle is not entry.entity.handle:
+            for _ in range(len(entry.handle)):
+                self._make_handler(entry.entity, entry.state.node, take)
 
     @property
     def at_work(self) -> object:
-        """What stands for the callback that is running now; None if none is."""
+        """Return the task of the callback that is running now; None if none is."""
         return self._handler
 
     def is_this_thread(self) -> bool:
-        """Whether the caller is a callback of this executor."""
+        """Return whether the caller is a callback of this executor."""
         return current_thread() is self._thread
 
     def wait_for(self, future: Future, seconds: float | None) -> None:
@@ -153,7 +173,7 @@ class LiveExecutor(SingleThreadedExecutor):
             self._host.entity_raised(node, entity, error)
 
     def _break_off(self) -> None:
-        # The documented way to stop Python code in another thread; it cannot stop a sleep in C,
-        # which then goes on by itself, in a daemon thread.
+        # Nothing else ends Python code in another thread: a signal is handled in the main thread
+        # only. It cannot end a sleep in C, which then goes on by itself, in a daemon thread.
         number = ctypes.c_ulong(self._thread.ident or 0)
         ctypes.pythonapi.PyThreadState_SetAsyncExc(number, ctypes.py_object(BrokenOff))

@@ -1,25 +1,22 @@
-"""How nodes are observed without being changed, and what is recorded of them.
+"""Observe nodes without changing them, and record what happens.
 
-Hooks around the methods of rclpy's `Node` tell a session of nodes and of what they make, taps
-listen at publishers and clients, the logger of a node at what it logs, and the recorder keeps
-all of it.
+Hooks around the methods of rclpy's `Node` tell a session of nodes and of what they make. Taps
+listen at publishers and clients, and a logger of the session's own at what nodes log. The recorder
+keeps all of it.
 """
 
 from __future__ import annotations
 
-import inspect
 import os
 import sys
 from array import array
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, partial, wraps
 from importlib import import_module
 from importlib.util import module_from_spec
-from math import isfinite
 from operator import attrgetter
-from struct import Struct
 from threading import Lock
 from types import CodeType, FrameType, ModuleType
 from typing import TYPE_CHECKING, Any, Protocol
@@ -47,93 +44,73 @@ from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.timer import Rate, Timer
 
 from rosbeat.errors import NoSessionError, SessionError
-from rosbeat.record_columns import records_of
 from rosbeat.records import CallbackRecord, Fault, LogRecord, Sample
 from rosbeat.ros.faults import asking, is_message_class
-from rosbeat.ros.qos_events import as_written, limit_ns, stretched
+from rosbeat.ros.qos_events import as_written, is_alive, limit_ns, stretched
 
 if TYPE_CHECKING:
     from rosbeat.ros.launch import Launch
 
-
-# Messages as plain data, and a cheap way to remember them.
+# Messages as plain data.
 #
-# A node may change a message object after publishing it, so what is recorded must be a copy. For a
-# message whose fields are all numbers, bools and strings the copy is the tuple of its values, which
-# are immutable; that costs a tenth of a microsecond. For any other message it is the serialized
-# bytes, which is what crosses the wire.
+# A node may change a message object after publishing it, so what is recorded must be a copy. Of a
+# message whose fields are all numbers, bools and strings the copy is their values; of any other one
+# it is the serialized bytes. Serializing all of them would cost a quarter more for each message
+# (12.6 us and not 10.0, published in bursts, taken and recorded), and reading them back sixteen
+# times as much (4.5 us and not 0.3).
 
 
-_FLOAT = Struct("<f")
+def _as_float32(value: float) -> float:
+    return array("f", (value,))[0]
 
 
-class _UnsureError(Exception):
-    """What the wire makes of a value is not known here."""
+def _as_c_string(value: str) -> str:
+    return value.partition("\0")[0]
 
 
-def _of(kind: type) -> Callable[[Any], Any]:
-    def same(value: Any) -> Any:  # noqa: ANN401
-        if type(value) is kind:
-            return value
-        raise _UnsureError
-
-    return same
-
-
-def _float32(value: Any) -> float:  # noqa: ANN401
-    if type(value) is not float:
-        raise _UnsureError
-    try:
-        rounded: float = _FLOAT.unpack(_FLOAT.pack(value))[0]
-    except OverflowError as error:
-        raise _UnsureError from error
-    return rounded
-
-
-def _string(value: Any) -> str:  # noqa: ANN401
-    # Of other characters, the wire ends at a zero and refuses half of a pair.
-    if type(value) is str and value.isascii() and "\0" not in value:
-        return value
-    raise _UnsureError
-
-
-def _integer(bits: int, signed: bool) -> Callable[[Any], int]:
-    low = -(1 << bits - 1) if signed else 0
-    high = low + (1 << bits)
-
-    def within(value: Any) -> int:  # noqa: ANN401
-        if type(value) is int and low <= value < high:
-            return value
-        raise _UnsureError
-
-    return within
-
-
-def _unsure(_: Any) -> Any:  # noqa: ANN401
-    raise _UnsureError
-
-
-#: What arrives of a value, by the type of its field, where that needs no wire to say it: a hundred
-#: times as fast as serializing a message and reading it back.
+#: How a field arrives, by its type; of all other types only the wire itself can tell.
 _ARRIVING: dict[str, Callable[[Any], Any]] = {
-    "boolean": _of(bool),
-    "octet": _unsure,
-    "float": _float32,
-    "double": _of(float),
-    "string": _string,
-    **{f"int{bits}": _integer(bits, signed=True) for bits in (8, 16, 32, 64)},
-    **{f"uint{bits}": _integer(bits, signed=False) for bits in (8, 16, 32, 64)},
+    "boolean": bool,
+    "float": _as_float32,
+    "double": float,
+    "string": _as_c_string,
+    **{f"{sign}int{bits}": int for sign in ("", "u") for bits in (8, 16, 32, 64)},
 }
 
 
 def type_name(message_type: type) -> str:
-    """The type's ROS name, such as `std_msgs/msg/Float32`, from its Python class."""
+    """Return the type's ROS name, such as `std_msgs/msg/Float32`, from its Python class."""
     package, kind = message_type.__module__.split(".")[:2]
     return f"{package}/{kind}/{message_type.__name__}"
 
 
+def message_class(type_name: str) -> type:
+    """Return the Python class of a message type.
+
+    Args:
+        type_name: The type's ROS name, such as `std_msgs/msg/Float32`.
+
+    Raises:
+        ModuleNotFoundError, AttributeError: If no installed package has it.
+    """
+    package, kind, name = type_name.split("/")
+    found: type = getattr(import_module(f"{package}.{kind}"), name)
+    return found
+
+
+def load_type_support(types: Iterable[str]) -> None:
+    """Load the C part of message types, which rclpy does when the first publisher is made.
+
+    Args:
+        types: Names such as `std_msgs/msg/Float32`.
+    """
+    for name in types:
+        meta: Any = type(message_class(name))
+        meta.__import_type_support__()
+
+
 def plain(value: Any) -> Any:  # noqa: ANN401 - a field may hold anything a message can
-    """A message or field value as dicts, lists, numbers and strings.
+    """Return a message or field value as dicts, lists, numbers and strings.
 
     Arrays of any kind and byte strings become lists of numbers.
     """
@@ -153,85 +130,33 @@ class Memory:
         message_type: The message class.
 
     Attributes:
-        take: Makes the copy of a message; the copy is opaque, small and immutable.
+        take: Makes the copy of a message; the copy is opaque, small and immutable. The bytes of a
+            serialized message are a copy, too.
     """
 
     def __init__(self, message_type: type) -> None:
         self._type = message_type
         fields = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]
-        self._names = list(fields)
-        self._flat = bool(fields) and _ARRIVING.keys() >= set(fields.values())
-        self._arriving = [_ARRIVING[kind] for kind in fields.values()] if self._flat else []
-        self._is_one_float = self._arriving == [_float32]
-        # The slots behind the properties (`_data` for `data`) are read ten times as fast.
-        slots = [f"_{name}" for name in fields]
-        self.take: Callable[[Any], Any] = attrgetter(*slots) if self._flat else serialize_message
+        flat = bool(fields) and _ARRIVING.keys() >= set(fields.values())
+        self._fields = [(name, _ARRIVING[kind]) for name, kind in fields.items() if flat]
+        self.take: Callable[[Any], Any] = attrgetter(*fields) if flat else serialize_message
 
     def plain(self, copy: Any) -> dict[str, Any]:  # noqa: ANN401
-        """The copied message as plain data, with the rounding that the wire does."""
-        if self._flat and not isinstance(copy, Raw):
-            try:
-                return self._arrived(copy)
-            except _UnsureError:
-                pass  # the wire itself tells
-        wire = copy if isinstance(copy, bytes) and not self._flat else self._serialized(copy)
-        data: dict[str, Any] = plain(deserialize_message(wire, self._type))
-        return data
-
-    def all_plain(self, copies: Sequence[Any]) -> list[dict[str, Any]]:
-        """Many copied messages as plain data."""
-        if self._is_one_float and set(map(type, copies)) == {float}:
-            name, values = self._names[0], array("f", copies).tolist()
-            if all(map(isfinite, values)):  # too large a number becomes none, without a word
-                return [{name: value} for value in values]
-        return list(map(self.plain, copies))
-
-    def _arrived(self, copy: Any) -> dict[str, Any]:  # noqa: ANN401
-        if len(self._names) == 1:  # nearly every message of the course
-            return {self._names[0]: self._arriving[0](copy)}
-        columns = zip(self._names, self._arriving, copy, strict=True)
-        return {name: arriving(value) for name, arriving, value in columns}
-
-    def _serialized(self, copy: Any) -> bytes:  # noqa: ANN401
-        if isinstance(copy, Raw):
-            return copy.data
-        values = copy if len(self._names) > 1 else (copy,)
-        message = self._type(**dict(zip(self._names, values, strict=True)))
-        wire: bytes = serialize_message(message)
-        return wire
-
-
-class Raw:
-    """The copy of a message that was published as serialized bytes."""
-
-    __slots__ = ("data",)
-
-    def __init__(self, data: bytes) -> None:
-        self.data = data
-
-
-def message_class(type_name: str) -> type:
-    """The Python class of a message type.
-
-    Args:
-        type_name: The type's ROS name, such as `std_msgs/msg/Float32`.
-
-    Raises:
-        ModuleNotFoundError, AttributeError: If no installed package has it.
-    """
-    package, kind, name = type_name.split("/")
-    found: type = getattr(import_module(f"{package}.{kind}"), name)
-    return found
+        """Return the copied message as plain data, with the rounding that the wire does."""
+        if isinstance(copy, bytes):
+            data: dict[str, Any] = plain(deserialize_message(copy, self._type))
+            return data
+        if len(self._fields) == 1:  # nearly every message of the course
+            ((name, arriving),) = self._fields
+            return {name: arriving(copy)}
+        fields = zip(self._fields, copy, strict=True)
+        return {name: arriving(value) for (name, arriving), value in fields}
 
 
 # What happened, kept in columns while it happens and read back as records.
 #
-# A message or a callback costs one number in each of three columns instead of an object of its own;
-# the objects of `rosbeat.records` are made when somebody asks.
-
-
-#: Records that are made at a time; whoever wants only the first ones does not pay for all.
-_BATCH = 1_000
+# A message or a callback costs one number in each of three columns instead of an object of its own:
+# 46 bytes for a message of one number (tests/benchmarks/memory.py).
 
 
 @dataclass(frozen=True)
@@ -266,7 +191,7 @@ class CallbackLabel:
 
 @dataclass
 class Recorder:
-    """The memory of one session.
+    """Record what happens in one session.
 
     Columns grow one after the other, so whoever appends from several threads holds `lock`: in live
     mode a node may publish from one thread while its callbacks run in another.
@@ -281,11 +206,10 @@ class Recorder:
     faults: list[Fault] = field(default_factory=list)
     lock: Lock = field(default_factory=Lock)
     _channels: list[Channel] = field(default_factory=list)
-    _labels: list[CallbackLabel] = field(default_factory=list)
-    _known: dict[tuple[str, ...], CallbackLabel] = field(default_factory=dict)
+    _labels: dict[tuple[str, ...], CallbackLabel] = field(default_factory=dict)
     _sample_times: array[int] = field(default_factory=lambda: array("q"))
     _sample_channels: array[int] = field(default_factory=lambda: array("I"))
-    _sample_copies: list[Any] = field(default_factory=list)
+    _sample_copies: list[Any] = field(default_factory=list)  # grows last
     _callback_times: array[int] = field(default_factory=lambda: array("q"))
     _callback_labels: array[int] = field(default_factory=lambda: array("I"))
 
@@ -296,83 +220,48 @@ class Recorder:
         return made
 
     def rename(self, channel: Channel, node: str) -> Channel:
-        """Put right who publishes there, for what has been recorded, too."""
+        """Correct the name of the publishing node, also for what has been recorded."""
         made = self._channels[channel.number] = replace(channel, node=node)
         return made
 
     def label(self, node: str, kind: str, name: str, source: str) -> CallbackLabel:
         """Register a callback; one of the same name in the same place is the same."""
         made = CallbackLabel(len(self._labels), node, kind, name, source)
-        known = self._known.setdefault((node, kind, name, source), made)
-        if known is made:
-            self._labels.append(made)
-        return known
+        return self._labels.setdefault((node, kind, name, source), made)
 
-    def sampler(self, channel: Channel) -> Callable[[int, Any], None]:
-        """A function that remembers a message of one channel: `(time_ns, copy)`.
-
-        What it needs is looked up once, here, and not a hundred thousand times a second.
-        """
-        add_time, add_copy = self._sample_times.append, self._sample_copies.append
-        add_channel, number = self._sample_channels.append, channel.number
-
-        def add(time_ns: int, copy: Any) -> None:  # noqa: ANN401
-            add_time(time_ns)
-            add_channel(number)
-            add_copy(copy)
-
-        return add
-
-    def callback_columns(self) -> tuple[Callable[[int], None], Callable[[int], None]]:
-        """What `add_callback` calls, for the executor, to whom each call counts."""
-        return self._callback_times.append, self._callback_labels.append
+    def add_sample(self, channel: int, time_ns: int, copy: Any) -> None:  # noqa: ANN401
+        """Record a message that was published on the channel of this number."""
+        self._sample_times.append(time_ns)
+        self._sample_channels.append(channel)
+        self._sample_copies.append(copy)
 
     def add_callback(self, time_ns: int, label: int) -> None:
-        """Remember that a callback ran."""
+        """Record that a callback ran."""
         self._callback_times.append(time_ns)
         self._callback_labels.append(label)
 
     def samples(self, topic: str | None = None) -> Iterator[Sample]:
-        """Messages in order of publishing, of one topic or of all."""
-        wanted = {c.number for c in self._channels if topic in (None, c.topic)}
-        for part in _parts(len(self._sample_copies)):  # the column that grows last
-            numbers = self._sample_channels[part]
-            rows = [part.start + k for k, number in enumerate(numbers) if number in wanted]
-            if rows:
-                yield from self._samples_at(rows)
+        """Return messages in order of publishing, of one topic or of all."""
+        for k in range(len(self._sample_copies)):
+            channel = self._channels[self._sample_channels[k]]
+            if topic is None or topic == channel.topic:
+                yield self._sample(k, channel)
 
-    def _samples_at(self, rows: list[int]) -> Iterable[Sample]:
-        channels = [self._channels[self._sample_channels[k]] for k in rows]
-        copies = [self._sample_copies[k] for k in rows]
-        return records_of(
-            Sample,
-            [self._sample_times[k] for k in rows],
-            [channel.topic for channel in channels],
-            [channel.type_name for channel in channels],
-            [channel.node for channel in channels],
-            _all_plain(channels, copies),
-        )
-
-    @staticmethod
-    def _sample(at: int, channel: Channel, copy: Any) -> Sample:  # noqa: ANN401
-        data = channel.memory.plain(copy)
+    def _sample(self, k: int, channel: Channel) -> Sample:
+        data = channel.memory.plain(self._sample_copies[k])
+        at = self._sample_times[k]
         return Sample(at, channel.topic, channel.type_name, channel.node, data)
 
     def callbacks(self) -> Iterator[CallbackRecord]:
-        """Runs of callbacks in order."""
-        for part in _parts(len(self._callback_labels)):
-            labels = [self._labels[number] for number in self._callback_labels[part]]
-            yield from records_of(
-                CallbackRecord,
-                self._callback_times[part],
-                [label.node for label in labels],
-                [label.kind for label in labels],
-                [label.name for label in labels],
-                [label.source for label in labels],
-            )
+        """Return runs of callbacks in order."""
+        labels = list(self._labels.values())
+        rows = zip(self._callback_times, self._callback_labels, strict=False)
+        for (at, number), _ in zip(rows, range(len(self._callback_labels)), strict=False):
+            label = labels[number]
+            yield CallbackRecord(at, label.node, label.kind, label.name, label.source)
 
     def since(self, mark: int) -> tuple[int, list[tuple[Channel, int, Sample]]]:
-        """What has come since a mark: for each channel how many messages, and the newest.
+        """Return what has come since a mark: for each channel how many messages, and the newest.
 
         It costs about as much for one message as for a thousand, and another thread may record
         meanwhile.
@@ -380,73 +269,52 @@ class Recorder:
         Returns:
             The mark for the next call; channel, count and newest message, in order of the newest.
         """
-        end = len(self._sample_copies)  # the column that grows last
+        end = len(self._sample_copies)
         numbers = self._sample_channels[mark:end]
         newest = {number: mark + k for k, number in enumerate(numbers)}
         counts = Counter(numbers)
-        found = [
-            (self._channels[number], counts[number], self._sample(*self._row(k)))
-            for number, k in sorted(newest.items(), key=lambda item: item[1])
-        ]
+        found = []
+        for number, k in sorted(newest.items(), key=lambda item: item[1]):
+            channel = self._channels[number]
+            found.append((channel, counts[number], self._sample(k, channel)))
         return end, found
 
-    def _row(self, k: int) -> tuple[int, Channel, Any]:
-        channel = self._channels[self._sample_channels[k]]
-        return self._sample_times[k], channel, self._sample_copies[k]
-
     def mark(self) -> int:
-        """How many messages have been recorded so far."""
+        """Return how many messages have been recorded so far."""
         return len(self._sample_times)
 
     def times(self, topic: str) -> list[tuple[int, str, int]]:
-        """The messages of a topic: number among all, who published, and when in nanoseconds."""
+        """Return a topic's messages: number among all, who published, and when in nanoseconds."""
         nodes = {one.number: one.node for one in self._channels if one.topic == topic}
         columns = zip(self._sample_channels, self._sample_times, strict=False)
         return [(k, nodes[n], at) for k, (n, at) in enumerate(columns) if n in nodes]
 
     def sent(self, channel: Channel) -> list[int]:
-        """When each message of one publisher was published, in nanoseconds, in order."""
+        """Return when each message of one publisher was published, in nanoseconds, in order."""
         columns = zip(self._sample_channels, self._sample_times, strict=False)
         return [at for number, at in columns if number == channel.number]
 
     def last_run(self, label: int) -> int:
-        """When a callback ran last, in nanoseconds; -1 if never."""
-        labels = self._callback_labels
-        found = (k for k in range(len(labels) - 1, -1, -1) if labels[k] == label)
-        return next((self._callback_times[k] for k in found), -1)
+        """Return when a callback ran last, in nanoseconds; -1 if never."""
+        rows = zip(reversed(self._callback_labels), reversed(self._callback_times), strict=False)
+        return next((at for number, at in rows if number == label), -1)
 
     def newest_callback(self) -> CallbackLabel | None:
-        """The callback that began last."""
-        return self._labels[self._callback_labels[-1]] if self._callback_labels else None
+        """Return the callback that began last."""
+        labels = list(self._labels.values())
+        return labels[self._callback_labels[-1]] if self._callback_labels else None
 
     def topics(self) -> set[str]:
-        """Every topic that ever had a publisher."""
+        """Return every topic that ever had a publisher."""
         return {channel.topic for channel in self._channels}
 
 
-def _parts(count: int) -> Iterator[slice]:
-    """So many rows in parts."""
-    return (slice(k, min(k + _BATCH, count)) for k in range(0, count, _BATCH))
-
-
-def _all_plain(channels: Sequence[Channel], copies: Sequence[Any]) -> list[dict[str, Any]]:
-    """Messages as plain data: those of each channel together, in the order in which they came."""
-    made: list[dict[str, Any]] = [{}] * len(copies)
-    for channel in {one.number: one for one in channels}.values():
-        places = [k for k, one in enumerate(channels) if one is channel]
-        for k, data in zip(
-            places, channel.memory.all_plain([copies[k] for k in places]), strict=True
-        ):
-            made[k] = data
-    return made
-
-
-# Message classes that a learner's code has written into, made whole again.
+# Message classes that a learner's code has written into.
 #
 # `msg = Float32` without brackets, and then `msg.data = 25.0`, replaces the field of the class
 # itself. From then on no message of that type can be made in the whole kernel: `Float32()` raises,
-# in every node. The class is mended as soon as an exception shows that something is wrong, so that
-# a cell that is put right runs at once.
+# in every node. The class is repaired as soon as an exception shows that something is wrong, so
+# that a cell that is put right runs at once.
 
 
 def mend_message_classes() -> list[str]:
@@ -455,76 +323,38 @@ def mend_message_classes() -> list[str]:
     Returns:
         The names of the classes that were broken, such as `Float32`.
     """
-    broken = _message_fields.changed()
-    for (kind, module), fields in broken.items():
-        whole = getattr(_loaded_anew(module), kind.__name__)
+    broken = list(_broken_classes())
+    for kind, fields in broken:
+        whole = getattr(_loaded_anew(sys.modules[kind.__module__]), kind.__name__)
         for name in fields:
             setattr(kind, name, vars(whole)[name])
-    if broken:
-        _message_fields.forget()  # the fields are other objects now
     return [kind.__name__ for kind, _ in broken]
 
 
-class _MessageFields:
-    """The fields of all message classes that are loaded, as they were when first looked at.
-
-    A session begins with a look at all of them, so they are listed once, and again when message
-    modules have come or gone.
-    """
-
-    def __init__(self) -> None:
-        self._modules = 0
-        self._fields: list[tuple[type, ModuleType, Mapping[str, Any], str, object]] = []
-
-    def changed(self) -> dict[tuple[type, ModuleType], list[str]]:
-        """Return the fields that were written into, by class and its module."""
-        # The generated modules are `std_msgs.msg._float32` and the like.
-        count = sum(".msg._" in name for name in list(sys.modules))
-        if count != self._modules:
-            self._modules, self._fields = count, list(_fields_of_messages())
-        found: dict[tuple[type, ModuleType], list[str]] = {}
-        for kind, module, space, name, known in self._fields:
-            if space.get(name) is not known:
-                found.setdefault((kind, module), []).append(name)
-        return found
-
-    def forget(self) -> None:
-        """List the fields anew at the next look."""
-        self._modules = 0
-
-
-_message_fields = _MessageFields()
-
-
-def _fields_of_messages() -> Iterator[tuple[type, ModuleType, Mapping[str, Any], str, object]]:
+def _broken_classes() -> Iterator[tuple[type, list[str]]]:
+    """Return the classes with fields that are no properties any more, and these fields."""
+    # The generated modules are `std_msgs.msg._float32` and the like.
     modules = [module for name, module in list(sys.modules.items()) if ".msg._" in name]
-    for module in modules:
-        for kind in _made_in(module):
-            space = vars(kind)
-            for name in space["_fields_and_field_types"]:
-                found = space.get(name)
-                # A field that is broken already is none that could be found there again.
-                yield kind, module, space, name, found if type(found) is property else object()
+    for kind in (kind for module in modules for kind in _classes_of(module)):
+        space = vars(kind)
+        fields = space["_fields_and_field_types"]
+        broken = [name for name in fields if type(space.get(name)) is not property]
+        if broken:
+            yield kind, broken
 
 
 @cache
-def _made_in(module: ModuleType) -> tuple[type, ...]:
-    """The message classes of a generated module, which get no more; looked for once."""
-    return tuple(kind for kind in vars(module).values() if _is_made_there(kind, module.__name__))
-
-
-def _is_made_there(kind: object, module: str) -> bool:
-    return (
-        isinstance(kind, type)
-        and "_fields_and_field_types" in vars(kind)
-        and (kind.__module__ == module)
+def _classes_of(module: ModuleType) -> tuple[type, ...]:
+    kinds = [kind for kind in vars(module).values() if isinstance(kind, type)]
+    return tuple(
+        kind for kind in kinds if is_message_class(kind) and kind.__module__ == module.__name__
     )
 
 
 def _loaded_anew(module: ModuleType) -> ModuleType:
     spec = module.__spec__
-    if spec is None or spec.loader is None:
-        return module
+    assert spec is not None
+    assert spec.loader is not None
     fresh = module_from_spec(spec)
     spec.loader.exec_module(fresh)
     return fresh
@@ -544,7 +374,7 @@ _AT_ONCE = Duration()._duration_handle
 
 
 class PublisherTap:
-    """Listens to one publisher.
+    """Listen to one publisher.
 
     Args:
         publisher: The publisher; its `publish` is replaced by one that also tells `heard`.
@@ -562,18 +392,16 @@ class PublisherTap:
         self.topic: str = publisher.topic_name
         self.count = 0
         self.channel: Channel | None = None
-        self._handle = handle = publisher.handle
+        self._handle = publisher.handle
         self._qos: QoSProfile = publisher.qos_profile
         self._type = publisher.msg_type
+        self._listeners = listeners = list[Callable[[], None]]()
         self.lifespan_ns = limit_ns(self._qos.lifespan)
         send, take, message_type = publisher.publish, memory.take, publisher.msg_type
-        # What rclpy's own `publish` does for a message; going through it costs a message's tenth.
-        send_message = handle.publish
 
         def publish(msg: Any) -> None:  # noqa: ANN401 - a message of any type, or its bytes
             if isinstance(msg, message_type):
-                with handle:
-                    send_message(msg)
+                send(msg)
                 copy = take(msg)
             else:
                 with asking("publish", msg):
@@ -581,53 +409,41 @@ class PublisherTap:
                         # Bytes that are no message would only fail where they arrive.
                         deserialize_message(msg, message_type)
                     send(msg)  # bytes; or anything else, which rclpy refuses in its own words
-                copy = Raw(msg)
+                copy = msg
             self.count += 1
             heard(copy)
+            for listener in listeners:
+                listener()
 
         publish.__qualname__ = send.__qualname__  # for the errors of a call with other arguments
         publisher.publish = publish
 
-        def listen(further: Callable[[], None]) -> None:
-            nonlocal heard
-            before = heard
-
-            def both(copy: Any) -> None:  # noqa: ANN401
-                before(copy)
-                further()
-
-            heard = both
-
-        self._listen = listen
-
-    def listen(self, further: Callable[[], None]) -> None:
-        """Call this, too, after each message; it costs nothing as long as nobody asks for it."""
-        self._listen(further)
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Call this, too, after each message."""
+        self._listeners.append(listener)
 
     def fits(self, subscription: Any) -> bool:  # noqa: ANN401 - rclpy is untyped
-        """Whether a subscription of this topic is connected to this publisher."""
+        """Return whether a subscription of this topic is connected to this publisher."""
         return self._type is subscription.msg_type and self._offers(subscription.qos_profile)
 
     @property
     def stored(self) -> int:
-        """How many messages are stored at most: some may have expired."""
+        """Return how many messages are stored at most: some may have expired."""
         depth: int = self._qos.depth
         limited = self._qos.history == HistoryPolicy.KEEP_LAST
         return min(self.count, max(1, depth)) if limited else self.count
 
     def stores_for(self, qos: QoSProfile) -> bool:
-        """Whether a new subscription of this QoS gets stored messages from this publisher."""
+        """Return whether a new subscription of this QoS gets stored messages from here."""
         own = self._qos
-        if not self.count or own.durability == DurabilityPolicy.VOLATILE:
+        stores = self.count and own.durability != DurabilityPolicy.VOLATILE
+        asks = qos.durability in _ASK_FOR_STORED and qos.reliability in _ASK_AGAIN
+        if not (stores and asks) or own.reliability == ReliabilityPolicy.BEST_EFFORT:
             return False
-        if qos.durability not in _ASK_FOR_STORED or qos.reliability not in _ASK_AGAIN:
-            return False
-        if own.reliability == ReliabilityPolicy.BEST_EFFORT:
-            return False
-        return self._is_alive() and self._offers(qos)
+        return is_alive(self._handle) and self._offers(qos)
 
     def has_delivered(self) -> bool:
-        """Whether each of its subscriptions has all that it is to get, as far as is known now."""
+        """Return whether all of its subscriptions have acknowledged all that they are to get."""
         try:
             with self._handle:
                 return bool(self._handle.wait_for_all_acked(_AT_ONCE))
@@ -637,13 +453,6 @@ class PublisherTap:
     def _offers(self, qos: QoSProfile) -> bool:
         compatible, _ = qos_check_compatible(self._qos, qos)
         return bool(compatible != QoSCompatibility.ERROR)
-
-    def _is_alive(self) -> bool:
-        try:
-            with self._handle:
-                return True
-        except InvalidHandle:  # destroyed, and what it had stored with it
-            return False
 
 
 def tap_timer(timer: Timer, moved: Callable[[], None]) -> None:
@@ -712,20 +521,13 @@ _OWN_FILES = (_THIS_FILE, os.path.realpath(rcutils_logger.__file__))
 rcutils_logger._internal_callers.append(_THIS_FILE)
 
 
-def _caller() -> FrameType:
-    frame = sys._getframe(2)
-    while frame.f_back and frame.f_code.co_filename in _OWN_FILES:
-        frame = frame.f_back
-    return frame
-
-
 class SessionLogger(RcutilsLogger):
-    """A logger that also tells its session.
+    """Log as rclpy does, and tell the session.
 
     The first call from each place goes through rclpy, which checks it and remembers the place.
-    Later calls from there with the same level and no filter are handed to rcl directly, with the
-    same arguments: rclpy would look its caller up in the source files each time, which takes
-    twenty times as long as all the rest (measured: 230 of 240 microseconds).
+    Later calls from there with the same level and no filter are handed to rcl directly: rclpy would
+    look its caller up in the source files each time, which takes twenty times as long as all the
+    rest (230 of 240 microseconds).
 
     Args:
         name: The logger's name.
@@ -740,7 +542,7 @@ class SessionLogger(RcutilsLogger):
         self._places: dict[tuple[CodeType, int], LoggingSeverity] = {}
 
     def get_child(self, name: str) -> SessionLogger:
-        """A logger below this one, heard by the same session."""
+        """Return a logger below this one, heard by the same session."""
         child = super().get_child(name)
         made = SessionLogger(child.name, self._listener, self._clock)
         # rclpy removes the child's /rosout publisher by this pair of names.
@@ -749,37 +551,37 @@ class SessionLogger(RcutilsLogger):
         return made
 
     def log(self, message: str, severity: LoggingSeverity, **options: Any) -> bool:  # noqa: ANN401
-        """Log a line; see `rclpy`. Returns whether it was logged."""
+        """Log a line; see `rclpy`.
+
+        Returns:
+            Whether it was logged.
+        """
         frame = _caller()
         place = (frame.f_code, frame.f_lasti)
-        known = not options and self._places.get(place) == severity
-        if not (self._repeat(message, severity, frame) if known else self._first(
-            message, severity, frame, options
-        )):  # fmt: skip
+        function, line = frame.f_code.co_name, frame.f_lineno
+        if options or self._places.get(place) != severity:
+            if "throttle_duration_sec" in options:
+                options.setdefault("throttle_time_source_type", self._clock)
+            if not super().log(message, severity, **options):
+                return False
+            self._places[place] = severity
+        elif self.is_enabled_for(severity):
+            file = frame.f_code.co_filename
+            rclpy_implementation.rclpy_logging_rcutils_log(
+                severity, self.name, message, function, file, line
+            )
+        else:
             return False
-        self._places[place] = severity
-        level, name = LoggingSeverity(severity).name, str(options.get("name", self.name))
-        self._listener(level, name, str(message), frame.f_code.co_name, frame.f_lineno)
+        name = str(options.get("name", self.name))
+        self._listener(LoggingSeverity(severity).name, name, str(message), function, line)
         return True
 
-    def _first(
-        self, message: str, severity: LoggingSeverity, frame: FrameType, options: dict[str, Any]
-    ) -> bool:
-        if "throttle_duration_sec" in options:
-            options.setdefault("throttle_time_source_type", self._clock)
-        # rclpy looks for its caller's module, and would ask each of a thousand: a cell has none.
-        module = str(frame.f_globals.get("__name__", ""))
-        inspect.modulesbyfile.setdefault(frame.f_code.co_filename, module)
-        return bool(super().log(message, severity, **options))
 
-    def _repeat(self, message: str, severity: LoggingSeverity, frame: FrameType) -> bool:
-        if not self.is_enabled_for(severity):
-            return False
-        code = frame.f_code
-        rclpy_implementation.rclpy_logging_rcutils_log(
-            severity, self.name, message, code.co_name, code.co_filename, frame.f_lineno
-        )
-        return True
+def _caller() -> FrameType:
+    frame = sys._getframe(2)
+    while frame.f_back and frame.f_code.co_filename in _OWN_FILES:
+        frame = frame.f_back
+    return frame
 
 
 # How a session learns of nodes, without the nodes being changed.
@@ -787,8 +589,7 @@ class SessionLogger(RcutilsLogger):
 # rclpy offers no place to be told that a node, a publisher or a timer was made. The methods of
 # `Node` that make them are therefore wrapped once, when this module is first imported. A wrapper
 # looks at the node's own context: if that belongs to a session, the session's watcher is told; if
-# not, the original runs and nothing else happens. Nothing is kept here, so there is nothing to
-# share.
+# not, the original runs and nothing else happens.
 
 
 ENTITY_METHODS = {
@@ -802,25 +603,25 @@ ENTITY_METHODS = {
 
 
 class Watcher(Protocol):
-    """What a session does when its nodes change."""
+    """What the hooks tell a session."""
 
     start: Launch
 
     @property
     def counts_limits(self) -> bool:
-        """Whether the session, and not the middleware, counts deadlines and lifespans."""
+        """Return whether the session counts deadlines and lifespans, not the middleware."""
 
     def node_begins(self, name: str, namespace: str) -> None:
-        """A node of this name is about to be made."""
+        """Make room: a node of this name is about to be made."""
 
     def node_made(self, node: Node) -> None:
-        """`Node.__init__` has returned."""
+        """Take over a node whose `Node.__init__` has returned."""
 
     def entity_begins(self, node: Node) -> None:
-        """The node is about to make an entity."""
+        """Prepare a node that is about to make an entity."""
 
     def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
-        """The node has made an entity of that kind."""
+        """Watch an entity that the node has made."""
 
     def action_made(
         self,
@@ -830,27 +631,27 @@ class Watcher(Protocol):
         name: str,
         options: dict[str, Any],
     ) -> None:
-        """The node has made an action server or client; see `actions`."""
+        """Watch an action server or client that the node has made; see `actions`."""
 
     def node_ends(self, node: Node) -> None:
-        """The node is about to be destroyed."""
+        """Forget a node that is about to be destroyed."""
 
     def logger_of(self, node: Node, original: Any) -> Any:  # noqa: ANN401
-        """The logger that the node's code gets."""
+        """Return the logger that the node's code gets."""
 
     def explain_init(self) -> None:
-        """The learner called `rclpy.init()`."""
+        """Answer a learner who called `rclpy.init()`."""
 
     def explain_shutdown(self) -> None:
-        """The learner called `rclpy.shutdown()`."""
+        """Answer a learner who called `rclpy.shutdown()`."""
 
 
 class Unwatched:
-    """Mixed into a node that is part of the session itself, so that its watcher is not told."""
+    """Mix this into a node of the session's own, so that its watcher is not told."""
 
 
 def watcher_of(node: Node) -> Watcher | None:
-    """The watcher of a node's session, or None if it is in no session or not yet a node."""
+    """Return the watcher of a node's session; None if it is in no session, or not yet a node."""
     if isinstance(node, Unwatched):
         return None
     # Not `node.context`: a class that forgot super().__init__() must fail with rclpy's own error.
@@ -896,7 +697,7 @@ def _make_alone(make: Callable[[], None]) -> None:
 
 
 def in_kernel() -> bool:
-    """Whether this process is a Jupyter kernel."""
+    """Return whether this process is a Jupyter kernel."""
     return "ipykernel.kernelapp" in sys.modules
 
 
@@ -927,7 +728,7 @@ def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]
 
 
 def _refuse_a_message(call: str, kind: object) -> None:
-    """A message in the place of its class: rclpy takes it, and fails at the first use."""
+    """Refuse a message in the place of its class: rclpy takes it, and fails at the first use."""
     if not isinstance(kind, type) and is_message_class(type(kind)):
         name = type(kind).__name__
         raise SessionError(
@@ -937,56 +738,31 @@ def _refuse_a_message(call: str, kind: object) -> None:
         )
 
 
-def _watch_end(original: Callable[[Node], None]) -> Callable[[Node], None]:
-    @wraps(original)
-    def destroy_node(node: Node) -> None:
+def _install() -> None:
+    destroy, get_logger, infos = Node.destroy_node, Node.get_logger, Node._get_info_by_topic
+
+    @wraps(destroy)
+    def watched_destroy(node: Node) -> None:
         watcher = watcher_of(node)
         if watcher is not None:
             watcher.node_ends(node)
-        original(node)
+        destroy(node)
 
-    return destroy_node
-
-
-def _watch_logger(original: Callable[[Node], Any]) -> Callable[[Node], Any]:
-    @wraps(original)
-    def get_logger(node: Node) -> Any:  # noqa: ANN401
+    @wraps(get_logger)
+    def watched_logger(node: Node) -> Any:  # noqa: ANN401
         watcher = watcher_of(node)
-        return original(node) if watcher is None else watcher.logger_of(node, original(node))
+        return get_logger(node) if watcher is None else watcher.logger_of(node, get_logger(node))
 
-    return get_logger
-
-
-def _watch_infos(original: Callable[..., list[Any]]) -> Callable[..., list[Any]]:
-    @wraps(original)
-    def infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401
-        told = original(node, *args, **kwargs)
+    @wraps(infos)
+    def watched_infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401
+        told = infos(node, *args, **kwargs)
         return told if watcher_of(node) is None else as_written(told)
 
-    return infos
-
-
-def _install() -> None:
     Node.__init__ = _watch_birth(Node.__init__)
-    Node.destroy_node = _watch_end(Node.destroy_node)
-    Node.get_logger = _watch_logger(Node.get_logger)
-    Node._get_info_by_topic = _watch_infos(Node._get_info_by_topic)
+    Node.destroy_node, Node.get_logger = watched_destroy, watched_logger
+    Node._get_info_by_topic = watched_infos
     for method, kind in ENTITY_METHODS.items():
         setattr(Node, method, _watch_entity(getattr(Node, method), kind))
 
 
 _install()  # at import, so exactly once in a process
-
-
-# The C part of message types, loaded ahead of the first node that needs it.
-
-
-def load_type_support(types: Iterable[str]) -> None:
-    """Load the C part of message types, which rclpy does when the first publisher is made.
-
-    Args:
-        types: Names such as `std_msgs/msg/Float32`.
-    """
-    for name in types:
-        meta: Any = type(message_class(name))
-        meta.__import_type_support__()

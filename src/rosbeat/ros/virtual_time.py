@@ -583,7 +583,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.nap: Callable[[int, str], None] | None = None
         # Not `_clock`: rclpy's executor has a steady clock of that name.
         self._session_clock, self._host = clock, host
-        self._note_time, self._note_label = recorder.callback_columns()
+        self._note_callback = recorder.add_callback
         self._label = recorder.label
         self._agenda = Agenda()
         self._chain = ChainGuard()
@@ -722,7 +722,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
             state.process.due = 0
             state.process.pending.clear()
         self._agenda.rebuild([e for s in states for e in s.entries if e.kind == "timer"], self.now)
-        self.deadlines.look_anew()
         for state in states:
             self.resume(state)
 
@@ -1220,8 +1219,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...] = ()
     ) -> None:
         entry.calls += 1
-        self._note_time(self.now)
-        self._note_label(entry.label_number)
+        self._note_callback(self.now, entry.label_number)
         state = entry.state
         self.current = call = Call(state.process, state, entry, entry.label)
         self.calling = entry.label

@@ -614,7 +614,7 @@ class World:
     def _subscription(self, entry: Entry) -> None:
         entry.born = self.recorder.mark()
         taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
-        wait_for_stored(taps, entry.entity)
+        wait_for_stored(taps, entry)
         if self.counts_limits:
             self.limits.subscription_made(entry)
         if self.external_messages is not None:
@@ -630,7 +630,7 @@ class World:
             return
         kind = type_name(publisher.msg_type)
         channel = self.recorder.channel(topic, kind, state.name, memory)
-        heard = self._published(happened, self.recorder.sampler(channel))
+        heard = self._published(happened, partial(self.recorder.add_sample, channel.number))
         tap = PublisherTap(publisher, memory, heard)
         tap.channel = channel
         state.taps.append(tap)

@@ -1,0 +1,504 @@
+"""What is recorded of nodes: messages, log lines; and message classes that stay whole."""
+
+import math
+import subprocess
+import sys
+from functools import partial
+from importlib.util import module_from_spec, spec_from_file_location
+from itertools import product
+from types import SimpleNamespace
+
+import numpy
+import pytest
+from geometry_msgs.msg import Point, Polygon, PoseStamped, TwistWithCovariance
+from hypothesis import given
+from hypothesis import strategies as st
+from rcl_interfaces.msg import Log
+from rclpy.exceptions import InvalidHandle
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message, serialize_message
+from sensor_msgs.msg import Imu, JointState
+from std_msgs.msg import (
+    Bool,
+    Byte,
+    ByteMultiArray,
+    ColorRGBA,
+    Empty,
+    Float32,
+    Float64,
+    Header,
+    Int8,
+    Int32,
+    Int64,
+    String,
+    UInt8,
+    UInt64,
+)
+
+from limited import Heart, by_the_wall
+from nodes import Doer, Speaker, Talker, Words
+from rosbeat import Session
+from rosbeat.errors import NodeConstructionError, RosbeatError
+from rosbeat.ros.recording import (
+    Memory,
+    PublisherTap,
+    load_type_support,
+    mend_message_classes,
+    plain,
+    type_name,
+)
+from rosbeat.ros.scenario import observe
+
+pytestmark = pytest.mark.ros
+
+# Messages as plain data, recorded as they were.
+
+
+def remembered(message):
+    memory = Memory(type(message))
+    return memory.plain(memory.take(message))
+
+
+@pytest.mark.parametrize(
+    ("message", "wanted"),
+    [
+        (Bool(data=True), {"data": True}),
+        (Byte(data=b"\x07"), {"data": [7]}),
+        (Int8(data=-5), {"data": -5}),
+        (UInt8(data=255), {"data": 255}),
+        (Int64(data=-(2**63)), {"data": -(2**63)}),
+        (UInt64(data=2**64 - 1), {"data": 2**64 - 1}),
+        (Float64(data=0.1), {"data": 0.1}),
+        (Float32(data=0.1), {"data": float(numpy.float32(0.1))}),
+        (String(data="grüß Gott ✓"), {"data": "grüß Gott ✓"}),
+        (Empty(), {}),
+        (ColorRGBA(r=1.0, a=0.5), {"r": 1.0, "g": 0.0, "b": 0.0, "a": 0.5}),
+        (Point(x=1.0), {"x": 1.0, "y": 0.0, "z": 0.0}),
+        (Header(frame_id="map"), {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "map"}),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_what_is_remembered(message, wanted):
+    assert remembered(message) == wanted
+
+
+def test_arrays_of_every_kind_become_lists():
+    joints = JointState(name=["a", "b"], position=[1.0, 2.0])
+    assert remembered(joints)["name"] == ["a", "b"]
+    assert remembered(joints)["position"] == [1.0, 2.0]
+    assert len(remembered(Imu())["orientation_covariance"]) == 9
+    assert remembered(ByteMultiArray(data=[b"\x01", b"\x02"]))["data"] in ([1, 2], [[1], [2]])
+    deep = remembered(TwistWithCovariance())
+    assert deep["twist"]["linear"] == {"x": 0.0, "y": 0.0, "z": 0.0}
+    assert isinstance(deep["covariance"], list)
+
+
+@given(st.floats(-(2.0**127), 2.0**127, width=32) | st.sampled_from([math.inf, math.nan]))
+def test_float32_is_what_a_subscriber_receives(value):
+    got = remembered(Float32(data=value))["data"]
+    assert got == value or (math.isnan(got) and math.isnan(value))
+
+
+@given(st.floats(allow_nan=False, min_value=-3e38, max_value=3e38))
+def test_float32_rounds(value):
+    assert remembered(Float32(data=value))["data"] == float(numpy.float32(value))
+
+
+def by_the_wire(message):
+    return plain(deserialize_message(serialize_message(message), type(message)))
+
+
+class Celsius(float):
+    """A number of a kind of its own."""
+
+
+TEXTS = st.text() | st.sampled_from(["", "a\0b", "grüß", "\ud800", "°C"])
+
+
+@given(st.sampled_from([String, Header]), TEXTS)
+def test_a_text_is_what_the_wire_makes_of_it(kind, text):
+    message = kind(**{"data" if kind is String else "frame_id": text})
+    try:
+        expected = by_the_wire(message)
+    except UnicodeEncodeError:
+        return  # nobody can publish half of a surrogate pair
+    assert remembered(message) == expected
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        Float32(data=Celsius(0.1)),
+        Float64(data=Celsius(0.1)),
+        Float32(data=-0.0),
+        Int8(data=-128),
+        UInt8(data=255),
+        Int8(data=True),
+        ColorRGBA(r=0.1, a=Celsius(1 / 3)),
+    ],
+    ids=repr,
+)
+def test_other_values_are_what_the_wire_makes_of_them(message):
+    expected = by_the_wire(message)
+    found = remembered(message)
+    assert repr(found) == repr(expected)
+    assert list(map(type, found.values())) == list(map(type, expected.values()))
+
+
+def test_names_of_types():
+    assert type_name(Float32) == "std_msgs/msg/Float32"
+    assert type_name(PoseStamped) == "geometry_msgs/msg/PoseStamped"
+
+
+def test_plain_of_plain_values():
+    assert [plain(value) for value in (1, 2.5, "x", True)] == [1, 2.5, "x", True]
+
+
+def test_a_node_may_change_a_message_after_publishing(ros):
+    class Reuser(Node):
+        def __init__(self):
+            super().__init__("reuser")
+            self.number, self.polygon = Int32(), Polygon()
+            self.numbers = self.create_publisher(Int32, "numbers", 10)
+            self.polygons = self.create_publisher(Polygon, "polygons", 10)
+            self.create_timer(1.0, self.again)
+
+        def again(self):
+            from geometry_msgs.msg import Point32
+
+            self.number.data += 1
+            self.polygon.points.append(Point32(x=float(self.number.data)))
+            self.numbers.publish(self.number)
+            self.polygons.publish(self.polygon)
+
+    ros.add(Reuser)
+    ros.run(3)
+    assert [sample.value for sample in ros.messages("numbers")] == [1, 2, 3]
+    assert [len(sample.value) for sample in ros.messages("polygons")] == [1, 2, 3]
+    assert [point["x"] for point in ros.messages("polygons")[2].value] == [1.0, 2.0, 3.0]
+
+
+def test_serialized_bytes_can_be_published_and_heard_raw(ros):
+    node = ros.add(lambda: Node("raw"))
+    heard, read = [], []
+    publisher = node.create_publisher(Int32, "bytes", 10)
+    node.create_subscription(Int32, "bytes", heard.append, 10, raw=True)
+    node.create_subscription(Int32, "bytes", read.append, 10)
+    publisher.publish(serialize_message(Int32(data=77)))
+    ros.run(0)
+    assert heard == [serialize_message(Int32(data=77))]
+    assert [message.data for message in read] == [77]
+    assert [sample.value for sample in ros.messages("bytes")] == [77]
+
+
+def test_a_callback_with_message_info(ros):
+    ros.add(Talker)
+    node = ros.add(lambda: Node("informed"))
+    seen = []
+
+    def hear(message: Int32, info: dict) -> None:
+        seen.append((message.data, sorted(info)))
+
+    node.create_subscription(Int32, "count", hear, 10)
+    ros.run(2)
+    assert [number for number, _ in seen] == [1, 2]
+    assert "source_timestamp" in seen[0][1]
+
+
+def test_a_refused_message_is_not_recorded(ros, capsys):
+    class Wrong(Words):
+        def say(self):
+            self.publisher.publish(25.0)
+
+    ros.add(Wrong)
+    ros.run(3)
+    (fault,) = ros.observation().faults
+    assert fault.kind == "TypeError"
+    assert ros.messages("text") == ()
+    capsys.readouterr()
+
+
+def test_field_checks_are_on(ros, capsys):
+    class Wrong(Words):
+        def say(self):
+            self.publisher.publish(String(data=25))
+
+    ros.add(partial(Wrong))
+    ros.run(1)
+    assert "must be of type 'str'" in ros.observation().faults[0].text
+    capsys.readouterr()
+
+
+# `msg = Float32` and `msg.data = 25.0` spoil the class for the whole kernel: not for long.
+
+
+@pytest.fixture(autouse=True)
+def _whole_again():
+    yield
+    mend_message_classes()
+
+
+def test_a_class_that_was_written_into_is_whole_again():
+    Float32.data, String.data = 25.0, "text"
+    with pytest.raises(AttributeError, match="read-only"):
+        Float32()
+    assert sorted(mend_message_classes()) == ["Float32", "String"]
+    assert Float32(data=1.0).data == 1.0
+    with pytest.raises(AssertionError, match="must be of type 'float'"):
+        Float32(data=1)
+    assert mend_message_classes() == []
+
+
+MADE = """
+class Made:
+    _fields_and_field_types = {"data": "float"}
+    data = property()
+"""
+
+
+def test_a_class_of_a_module_that_came_later_is_mended(tmp_path, monkeypatch):
+    mend_message_classes()
+    (tmp_path / "_made.py").write_text(MADE)
+    spec = spec_from_file_location("made.msg._made", tmp_path / "_made.py")
+    module = module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, spec.name, module)
+    spec.loader.exec_module(module)
+    module.Made.data = 25.0
+    assert mend_message_classes() == ["Made"]
+    assert type(module.Made.data) is property
+    assert mend_message_classes() == []
+
+
+class Spoiler(Node):
+    def __init__(self):
+        super().__init__("spoiler")
+        self.publisher_ = self.create_publisher(Float32, "temperature", 10)
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        msg = Float32
+        msg.data = 25.0
+        self.publisher_.publish(msg)
+
+
+class SpoilsAtOnce(Node):
+    def __init__(self):
+        super().__init__("spoiler")
+        Float32.data = 25.0
+        raise ValueError("boom")
+
+
+class SpoilsQuietly(Node):
+    def __init__(self):
+        super().__init__("spoiler")
+        Float32.data = 25.0
+
+
+def test_the_next_run_of_a_node_that_was_put_right_works(ros, capsys):
+    ros.add(Spoiler)
+    ros.run(1)
+    assert Float32(data=2.0).data == 2.0
+    with pytest.raises(NodeConstructionError):
+        ros.add(SpoilsAtOnce)
+    assert Float32(data=2.0).data == 2.0
+    capsys.readouterr()
+
+
+def test_one_check_does_not_spoil_the_next():
+    assert observe(Spoiler, 1).faults
+    assert not observe(SpoilsQuietly, 1).faults
+    observation = observe(Talker, 2)
+    assert observation.samples
+    assert not observation.faults
+    assert Float32(data=3.0).data == 3.0
+
+
+def test_a_new_session_begins_with_whole_classes():
+    Float32.data = 25.0
+    with Session():
+        assert Float32(data=4.0).data == 4.0
+
+
+# What a tap knows of stored messages, compared with what Fast DDS hands to a late joiner.
+
+
+DURABILITIES = [one for one in DurabilityPolicy if one.name != "UNKNOWN"]
+RELIABILITIES = [one for one in ReliabilityPolicy if one.name != "UNKNOWN"]
+
+
+def profiles():
+    return [
+        QoSProfile(depth=5, durability=one, reliability=other)
+        for one, other in product(DURABILITIES, RELIABILITIES)
+    ]
+
+
+def tapped(publisher):
+    return PublisherTap(publisher, SimpleNamespace(take=lambda message: message), lambda _: None)
+
+
+def arrived(subscription):
+    """All that can be taken at once."""
+    got = []
+    while (taken := subscription.handle.take_message(Int32, False)) is not None:
+        got.append(taken[0].data)
+    return got
+
+
+@pytest.mark.parametrize(
+    "offered", profiles(), ids=lambda one: f"{one.durability.name}-{one.reliability.name}"
+)
+def test_who_gets_stored_messages_has_them_when_all_is_delivered(offered, eventually):
+    with by_the_wall() as world:
+        node = Heart(QoSProfile(depth=1), context=world.context)
+        world.nodes.append(node)
+        for number, asked in enumerate(profiles()):
+            publisher = node.create_publisher(Int32, f"t{number}", offered)
+            tap = tapped(publisher)
+            assert not tap.stores_for(asked)
+            for data in (1, 2):
+                publisher.publish(Int32(data=data))
+            late = node.create_subscription(Int32, f"t{number}", print, asked)
+            eventually(tap.has_delivered)
+            assert arrived(late) == ([1, 2] if tap.stores_for(asked) else [])
+            publisher.publish(Int32(data=3))
+            assert arrived(late) == ([3] if tap.fits(late) else [])
+
+
+def test_a_destroyed_publisher_delivers_nothing_more():
+    with by_the_wall() as world:
+        heart = world.make(Heart, QoSProfile(depth=1))
+        tap = tapped(heart.publisher)
+        heart.beat(1)
+        heart.destroy_publisher(heart.publisher)
+        with pytest.raises(InvalidHandle), heart.publisher.handle:
+            pass
+        assert tap.has_delivered()
+
+
+# A node's log lines: as rclpy writes them, and heard by their own session only.
+
+
+def said(ros, node=None):
+    return [(line.level, line.text) for line in ros.logs(node)]
+
+
+def test_levels(ros):
+    logger = ros.add(lambda: Node("n")).get_logger()
+    logger.debug("not by default")
+    logger.info("i")
+    logger.warning("w")
+    logger.error("e")
+    logger.fatal("f")
+    assert said(ros) == [("INFO", "i"), ("WARN", "w"), ("ERROR", "e"), ("FATAL", "f")]
+
+
+def test_a_level_that_is_set_later(ros):
+    from rclpy.logging import LoggingSeverity
+
+    logger = ros.add(lambda: Node("levelled")).get_logger()
+    for level in (LoggingSeverity.DEBUG, LoggingSeverity.ERROR, LoggingSeverity.INFO):
+        logger.set_level(level)
+        logger.debug("d")
+        logger.info("i")
+    assert [text for _, text in said(ros)] == ["d", "i", "i"]
+
+
+def test_a_line_says_where_it_was_written(ros):
+    ros.add(Speaker)
+    ros.run(2, quiet=True)
+    first, second = ros.logs()
+    assert (first.function, first.line) == (second.function, second.line)
+    assert first.function == "speak"
+    assert first.line > 0
+
+
+def test_one_place_with_two_levels(ros):
+    logger = ros.add(lambda: Node("two")).get_logger()
+    for name in ("info", "error", "info"):
+        if name == "info":
+            logger.info("x")
+        else:
+            logger.error("x")
+    assert [level for level, _ in said(ros)] == ["INFO", "ERROR", "INFO"]
+
+
+def test_filters(ros):
+    def do(node):
+        node.get_logger().info("once", once=True)
+        node.get_logger().info("skip", skip_first=True)
+        node.get_logger().info("throttled", throttle_duration_sec=2.5)
+
+    ros.add(partial(Doer, do))
+    ros.run(6, quiet=True)
+    texts = [text for _, text in said(ros)]
+    assert texts.count("once") == 1
+    assert texts.count("skip") == 5
+    # rclpy counts the first span from time zero, as it does with any simulated clock.
+    assert [line.time for line in ros.logs() if line.text == "throttled"] == [3, 6]
+
+
+def test_a_child(ros):
+    child = ros.add(lambda: Node("parent")).get_logger().get_child("child")
+    child.info("hello")
+    assert ros.logs("parent.child")[0].text == "hello"
+    assert ros.logs("parent") == ()
+
+
+def test_namespaces(ros):
+    node = ros.add(lambda: Node("sensor", namespace="room"))
+    node.get_logger().info("hello")
+    assert [line.name for line in ros.logs(node)] == ["room.sensor"]
+    assert ros.logs("/room/sensor") == ros.logs(node)
+
+
+def test_what_is_not_a_text_is_rclpys_error(ros):
+    node = ros.add(lambda: Node("n"))
+    for _ in range(2):
+        with pytest.raises(TypeError):
+            node.get_logger().info(25)
+    assert ros.logs() == ()
+
+
+def test_a_node_can_listen_to_rosout_in_virtual_time(ros):
+    heard = []
+    ear = ros.add(lambda: Node("ear"))
+    ear.create_subscription(Log, "/rosout", lambda line: heard.append((ros.time, line.msg)), 10)
+    ros.add(Speaker)
+    ros.run(2, quiet=True)
+    assert heard == [(1, "here is speaker"), (2, "here is speaker")]
+
+
+def test_logs_of_a_removed_node_can_be_read(ros):
+    speaker = ros.add(Speaker)
+    ros.run(1, quiet=True)
+    ros.remove(speaker)
+    assert len(ros.logs(speaker)) == 1
+
+
+# The C part of message types, loaded ahead.
+
+
+def test_a_type_is_ready_after_it_and_not_before():
+    program = (
+        "from std_msgs.msg import Float32, String\n"
+        "from rosbeat.ros.recording import load_type_support\n"
+        "ready = lambda one: type(one)._TYPE_SUPPORT is not None\n"
+        "before = ready(Float32)\nload_type_support(['std_msgs/msg/Float32'])\n"
+        "print(before, ready(Float32), ready(String))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "False True False\n"
+
+
+def test_twice_is_as_good_as_once():
+    load_type_support(["std_msgs/msg/String", "std_msgs/msg/String"])
+    load_type_support([])
+
+
+def test_a_type_that_is_not_there_is_an_error():
+    with pytest.raises((RosbeatError, ImportError, AttributeError, ValueError)):
+        load_type_support(["std_msgs/msg/Nothing"])
