@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 import random
-import signal
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -27,7 +26,6 @@ class TemperatureSensor(Node):
 
 
 def main(args=None):
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureSensor()
     try:

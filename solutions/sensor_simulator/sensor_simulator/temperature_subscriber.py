@@ -1,6 +1,4 @@
 #!/usr/bin/env python3
-import signal
-
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -27,7 +25,6 @@ class TemperatureMonitor(Node):
 
 
 def main(args=None):
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureMonitor()
     try:
