@@ -329,9 +329,9 @@ def test_a_session_leaves_no_greenlet_thread_or_patched_function():
 def test_a_callback_that_will_not_end_is_left_behind_when_the_session_closes():
     def stubborn():
         while True:
-            try:
+            try:  # noqa: SIM105 - written as a learner would
                 time.sleep(10)
-            except BaseException:  # noqa: S110 - the worst that can be
+            except BaseException:
                 pass
 
     ros = Session()

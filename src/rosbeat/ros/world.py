@@ -28,6 +28,7 @@ from rosbeat.records import (
 )
 from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
 from rosbeat.ros.blocking import VirtualWaits
+from rosbeat.ros.clock import make_clock
 from rosbeat.ros.console import Console, note
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
@@ -60,12 +61,8 @@ from rosbeat.ros.recording import (
     tap_timer,
     type_name,
 )
-from rosbeat.ros.virtual_time import (
-    VirtualTimeExecutor,
-    make_clock,
-    waitable_kind,
-    waitable_name,
-)
+from rosbeat.ros.virtual_time import VirtualTimeExecutor
+from rosbeat.ros.wait_set import waitable_kind, waitable_name
 
 
 class Closable(Protocol):
