@@ -39,7 +39,6 @@ SomeNode = TypeVar("SomeNode", bound=Node)
 
 install_learner_calls()
 spinning.install()
-spinning.install()
 
 
 class Session:
