@@ -225,6 +225,9 @@ class VirtualTimeExecutor(WaitSetExecutor):
     ) -> None:
         self.now = 0
         self.running = False
+        # What is running: an entity's callback, and what is known of that call if somebody asked.
+        self._entry: Entry | None = None
+        self._call_of_entry: Call | None = None
         self.calling: CallbackLabel | None = None
         self.elsewhere: deque[Callable[[], None]] = deque()
         self.deadlines = Deadlines()
@@ -257,7 +260,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.thread = threading.get_ident()
         self._variables = contextvars.copy_context()
         self._end = 0
-        self._done: Callable[[], object] = _never
+        self._done: Callable[[], object] | None = None
         self._ends_idle = self._closing = False
         # Where tasks run that no code of a node has created.
         self._nowhere = Process()
@@ -390,7 +393,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             EndlessChainError: If callbacks cause one another for ever while no time passes.
         """
         self._enter_thread()
-        self._end, self._done, self._ends_idle = end, done or _never, ends_idle
+        self._end, self._done, self._ends_idle = end, done, ends_idle
         caller, self.current = self.current, None
         self._main, self._variables = getcurrent(), contextvars.copy_context()
         self.running = True
@@ -659,15 +662,13 @@ class VirtualTimeExecutor(WaitSetExecutor):
         while True:
             self.current = None
             self._drain()
-            if self._done():
+            if self._done is not None and self._done():
                 self._end_run()
                 continue
             self._interrupts.insist()
             if self.elsewhere:
                 self.elsewhere.popleft()()
-                continue
-            wait = self._over()
-            if wait is not None:
+            elif (self._woken or self._looking) and (wait := self._over()) is not None:
                 self._resume(wait)
             elif self._due:
                 self._fire_due()
@@ -695,21 +696,22 @@ class VirtualTimeExecutor(WaitSetExecutor):
         Returns:
             Whether anything comes before the end of the run.
         """
-        while self._sleeping and self._sleeping[0][2].over:
-            heappop(self._sleeping)
-        timer = self._agenda.next_deadline(self.now)
-        missed = self.deadlines.next_due() if self.deadlines else None
-        wakes = self._sleeping[0][0] if self._sleeping else None
-        found = [at for at in (timer, missed, wakes) if at is not None]
-        if not found:
+        at = timer = self._agenda.next_deadline(self.now)
+        missed = None
+        if self.deadlines or self._sleeping:  # few programs have one of these
+            while self._sleeping and self._sleeping[0][2].over:
+                heappop(self._sleeping)
+            missed = self.deadlines.next_due() if self.deadlines else None
+            wakes = self._sleeping[0][0] if self._sleeping else None
+            at = min((one for one in (timer, missed, wakes) if one is not None), default=None)
+        if at is None:
             return self._nothing_left()
-        at = min(found)
         if at > self._end:
             self._advance(max(self._end, self.now))
             return False
-        self._advance(max(at, self.now))
+        self._advance(at if at > self.now else self.now)
         if timer == at:
-            self._collect_due(at)
+            self._fire_timers(at)
         elif missed == at:
             self._ready.append((self.deadlines.pass_next(), 1))
         else:
@@ -725,11 +727,18 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._advance(max(self._end, self.now))
         return False
 
-    def _collect_due(self, deadline: int) -> None:
+    def _fire_timers(self, deadline: int) -> None:
+        """Fire the timer of an instant; if there are several, the first of them."""
+        entry = self._agenda.pop()
+        if self._agenda.next_deadline(self.now) != deadline:
+            self._fire(entry)
+            return
+        self._due.append(entry)
         while self._agenda.next_deadline(self.now) == deadline:
-            entry = self._agenda.pop()
-            entry.state.process.due += 1
-            self._due.append(entry)
+            self._due.append(self._agenda.pop())
+        for one in self._due:
+            one.state.process.due += 1
+        self._fire_due()
 
     def _fire_due(self) -> None:
         entry = self._due.popleft()
@@ -776,11 +785,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
                     chain.depth = depth - 1
                     self._hold(entry)
             chain.depth = 0
-            progress = self._step_coroutine()
-            if not progress and self._run_one_behind():
+            progress = bool(waiting) and self._step_coroutine()
+            if not progress and self._behind and self._run_one_behind():
                 continue
             # After each step of a coroutine, too: other processes take what it has sent.
-            if not (self.ask_rclpy() or progress or ready):
+            asked = (self._changed or self._wait_set_nodes) and self.ask_rclpy()
+            if not (asked or progress or ready):
                 return
             turns += 1
             if turns > MOST_TURNS:
@@ -817,9 +827,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def _fire(self, entry: Entry) -> None:
         state = entry.state
-        if state.spinning and not (
-            state.process.can_begin(entry) if self._coroutines.waiting or not state.open else True
-        ):
+        may_wait = not state.open or self._coroutines.waiting
+        if may_wait and state.spinning and not state.process.can_begin(entry):
             self._hold(entry)  # it is late, and fires when its process is free
             return
         handle = entry.handle
@@ -853,35 +862,72 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def _call(
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...] = ()
     ) -> None:
+        if not entry.state.open:
+            self._call_elsewhere(entry, callback, arguments)
+            return
         entry.calls += 1
         self._note_callback(self.now, entry.label_number)
-        state = entry.state
-        self.current = call = Call(state.process, state, entry, entry.label)
+        self._entry, self.calling = entry, entry.label
+        try:
+            result = callback(*arguments)
+        except (Exception, SystemExit) as error:
+            self._interrupts.insist()
+            self._raised(self._current(), entry.label.name, error)
+        else:
+            # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
+            if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
+                self._begin(result, entry)
+        finally:
+            self._entry = None
+            if self._call_of_entry is not None:
+                self._end_call(self._call_of_entry)
+
+    def _call_elsewhere(
+        self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...]
+    ) -> None:
+        """Do the same in a process that is not idle, or that a program plays."""
+        process = entry.state.process
+        entry.calls += 1
+        self._note_callback(self.now, entry.label_number)
         self.calling = entry.label
-        program = state.process.program
-        if program is not None:
-            program.enter()
+        self.current = call = Call(process, entry.state, entry, entry.label)
+        if process.program is not None:
+            process.program.enter()
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
             self._interrupts.insist()
             self._raised(call, entry.label.name, error)
         except KeyboardInterrupt as error:
-            if program is None or program.interrupt is not error:
+            if process.program is None or process.program.interrupt is not error:
                 raise
             self._raised(call, entry.label.name, error)
         else:
-            # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
             if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
                 self._begin(result, entry)
         finally:
-            if program is not None:
-                program.leave()
-            self.current = None
-            if call.began_ns >= 0:
-                self._end_suspended(call)
-            if not state.open:
-                state.process.count_down()
+            if process.program is not None:
+                process.program.leave()
+            self._end_call(call)
+
+    @property
+    def current(self) -> Call | None:
+        """The code of a node that is running, or None."""
+        if self._call_of_entry is None and self._entry is not None:
+            # Made only if somebody asks: most callbacks neither wait nor look at this.
+            entry = self._entry
+            self._call_of_entry = Call(entry.state.process, entry.state, entry, entry.label)
+        return self._call_of_entry
+
+    @current.setter
+    def current(self, call: Call | None) -> None:
+        self._entry = call.entry if call is not None else None
+        self._call_of_entry = call
+
+    def _current(self) -> Call:
+        call = self.current
+        assert call is not None
+        return call
 
     def _end_call(self, call: Call) -> None:
         self.current = None
@@ -974,10 +1020,6 @@ LONGEST_WAIT = 3600 * 1_000_000_000
 LONGEST_START = 600 * 1_000_000_000
 #: How often a callback is told to end that catches even that.
 _MOST_EXITS = 100
-
-
-def _never() -> bool:
-    return False
 
 
 def _throw(thread: greenlet, error: BaseException) -> None:

@@ -194,12 +194,12 @@ class WaitSetExecutor(SingleThreadedExecutor):
         current: The code of a node that is running, or None.
     """
 
+    current: Any
     _host: Host
     # rclpy's `__del__` asks for it, also if an interrupt has come before it was made.
     _sigint_gc: Any = None
 
     def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
-        self.current: Call | None = None
         self._changed = True
         self._wait_set_nodes: list[Node] = []
         super().__init__(**options)
