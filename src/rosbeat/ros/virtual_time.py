@@ -36,7 +36,6 @@ from rclpy.task import Task
 
 from rosbeat.errors import EndlessChainError, SessionError
 from rosbeat.records import WaitRecord
-from rosbeat.ros.clock import SessionClock
 from rosbeat.ros.context import Interrupts
 from rosbeat.ros.entities import Entry, NodeState
 from rosbeat.ros.errors import never_made
@@ -66,6 +65,7 @@ class Agenda:
         if entry.state.ended:
             return
         handle = entry.handle
+        entry.entity.clock.move()
         try:
             with handle:
                 if not entry.state.spinning or handle.is_timer_canceled():
@@ -205,12 +205,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     Args:
         context: The session's context.
-        clock: The session's clock.
         recorder: Told of every callback.
         host: The session.
 
     Attributes:
         now: Virtual time in nanoseconds.
+        is_live: Whether the session is live, so that the wall clock counts.
         running: Whether `run_until` is at work.
         calling: The callback that is running, or ran last; None before the first.
         elsewhere: What threads of the nodes' own have published since the last step.
@@ -220,10 +220,9 @@ class VirtualTimeExecutor(WaitSetExecutor):
         thread: The thread in which the nodes run.
     """
 
-    def __init__(
-        self, context: Context, clock: SessionClock, recorder: Recorder, host: Host
-    ) -> None:
+    def __init__(self, context: Context, recorder: Recorder, host: Host) -> None:
         self.now = 0
+        self.is_live = False
         self.running = False
         # What is running: an entity's callback, and what is known of that call if somebody asked.
         self._entry: Entry | None = None
@@ -234,8 +233,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._waits: list[WaitRecord] = []
         self._suspended: dict[Call, None] = {}
         self.nap: Callable[[int, str], None] | None = None
-        # Not `_clock`: rclpy's executor has a steady clock of that name.
-        self._session_clock, self._host = clock, host
+        self._host = host
         self._note_callback = recorder.add_callback
         self._label = recorder.label
         self._agenda = Agenda()
@@ -265,7 +263,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
         # Where tasks run that no code of a node has created.
         self._nowhere = Process()
         super().__init__(context=context)
-        clock.sleeper = self.sleep_until
 
     # What rclpy calls.
 
@@ -422,7 +419,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._idle.clear()
         self._looking.clear()
         self._sleeping.clear()
-        self._session_clock.sleeper = None
 
     # Waiting.
 
@@ -752,7 +748,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if time_ns != self.now:
             self._chain.instant_ends()
             self.now = time_ns
-            self._session_clock.advance(time_ns)
 
     # What is ready.
 
@@ -832,6 +827,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._hold(entry)  # it is late, and fires when its process is free
             return
         handle = entry.handle
+        entry.entity.clock.move()
         try:
             with handle:
                 due = state.spinning and handle.is_timer_ready()
@@ -912,7 +908,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     @property
     def current(self) -> Call | None:
-        """The code of a node that is running, or None."""
+        """Return the code of a node that is running, or None."""
         if self._call_of_entry is None and self._entry is not None:
             # Made only if somebody asks: most callbacks neither wait nor look at this.
             entry = self._entry
@@ -921,6 +917,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     @current.setter
     def current(self, call: Call | None) -> None:
+        """Note what is running from now on."""
         self._entry = call.entry if call is not None else None
         self._call_of_entry = call
 

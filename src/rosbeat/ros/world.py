@@ -28,7 +28,7 @@ from rosbeat.records import (
 )
 from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
 from rosbeat.ros.blocking import VirtualWaits
-from rosbeat.ros.clock import make_clock
+from rosbeat.ros.clock import SessionClock, make_clock
 from rosbeat.ros.console import Console, note
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
@@ -84,7 +84,6 @@ class World:
         domain_id: The ROS domain to join, or None for a private one.
 
     Attributes:
-        clock: The one clock of all nodes.
         recorder: What happened so far.
         console: Where log lines are printed.
         context: The ROS context.
@@ -110,11 +109,10 @@ class World:
         self._lease: DomainLease | None = lease_domain() if domain_id is None else None
         self.domain_id = self._lease.domain_id if self._lease else domain_id
         self.start = Launch()
-        self.clock = make_clock()
         self.recorder = Recorder()
         self.console = Console()
         self.context = SessionContext(self, self.domain_id or 0)
-        self.virtual = VirtualTimeExecutor(self.context, self.clock, self.recorder, self)
+        self.virtual = VirtualTimeExecutor(self.context, self.recorder, self)
         self.live: LiveExecutor | None = None
         self.limits = Limits(self)
         self.closed = False
@@ -257,9 +255,12 @@ class World:
         show_sim_time(node, self.live is None)
 
     def entity_begins(self, node: Node) -> None:
-        """Give a new node the session's clock, before anything of it reads the time."""
-        if "_clock" in node.__dict__ and node._clock is not self.clock:
-            node._clock = self.clock
+        """Give a new node a clock of the session, before anything of it reads the time."""
+        clock = node.__dict__.get("_clock")
+        if isinstance(clock, SessionClock):
+            clock.move()
+        elif clock is not None:
+            node._clock = make_clock(self.virtual)
         if node not in self._states:
             name = node.get_fully_qualified_name()
             call = self.virtual.current
@@ -310,7 +311,7 @@ class World:
         if state is None:
             return original
         if state.logger is None:
-            state.logger = SessionLogger(original.name, self._logged, self.clock)
+            state.logger = SessionLogger(original.name, self._logged, node._clock)
         return state.logger
 
     def explain_init(self) -> None:
@@ -510,7 +511,6 @@ class World:
         self.live = LiveExecutor(self.context, self)
         self.virtual.deadlines.forget()
         self._live_since = time.monotonic_ns()
-        self.clock.follow_wall()
         self._change_over(self.live, virtual=False)
         self.live.start()
 
@@ -520,7 +520,6 @@ class World:
             return
         self.live.finish()
         self.virtual.now, self.live = self.now(), None
-        self.clock.follow_session(self.virtual.now)
         self._change_over(self.virtual, virtual=True)
         self.virtual.look_anew()
 
@@ -561,8 +560,13 @@ class World:
                 yield getattr(entry.entity, "callback", None)
 
     def _change_over(self, executor: LiveExecutor | VirtualTimeExecutor, virtual: bool) -> None:
-        self.clock.sleeper = self.virtual.sleep_until if virtual else None
+        self.virtual.is_live = not virtual
         for state in self.states():
+            clock: SessionClock = state.node._clock  # type: ignore[union-attr]
+            if virtual:
+                clock.follow_session()
+            else:
+                clock.follow_wall()
             show_sim_time(state.node, virtual)
             if state.spinning:
                 state.node.executor = executor  # type: ignore[union-attr]
@@ -584,14 +588,14 @@ class World:
         self.virtual.watch(entry)
 
     def _timer(self, entry: Entry) -> None:
-        if entry.entity.clock is not self.clock:
+        if not isinstance(entry.entity.clock, SessionClock):
             entry.kind = "wall timer"
             note(
                 f"a timer of {entry.state.name} has a clock of its own, which counts real time: it "
                 "fires only while the session is live."
             )
             return
-        tap_timer(entry.entity, partial(self._timer_reset, entry))
+        tap_timer(entry.entity, entry.entity.clock.move, partial(self._timer_reset, entry))
 
     def _timer_reset(self, entry: Entry) -> None:
         if self.live is None:
