@@ -1023,8 +1023,8 @@ def _throw(thread: greenlet, error: BaseException) -> None:
     """End a greenlet by an exception; what its code makes of that is its own affair."""
     if thread.dead:
         return
-    thread.parent = getcurrent()
     try:
+        thread.parent = getcurrent()  # which raises if it belongs to another thread
         thread.throw(error)
     except BaseException as raised:  # also what a `finally` block of a learner's raises
         if isinstance(raised, KeyboardInterrupt):
