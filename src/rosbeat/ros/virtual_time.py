@@ -244,7 +244,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._ready: deque[tuple[Entry, int]] = deque()
         # Timers of this instant that have not had their turn; processes that have something
         # pending and may be able to run it.
-        self._due: deque[Entry] = deque()
+        self._due: list[Entry] = []
         self._behind: deque[Process] = deque()
         # Who waits: by the time at which they go on; for something that is looked at again and
         # again; and those whose wait has been ended by somebody.
@@ -730,14 +730,18 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._fire(entry)
             return
         self._due.append(entry)
-        while self._agenda.next_deadline(self.now) == deadline:
-            self._due.append(self._agenda.pop())
-        for one in self._due:
-            one.state.process.due += 1
+        entry.state.process.due += 1
         self._fire_due()
 
     def _fire_due(self) -> None:
-        entry = self._due.popleft()
+        """Fire the first of the timers of this instant, in order of creation."""
+        known = len(self._due)
+        while self._agenda.next_deadline(self.now) == self.now:
+            self._due.append(self._agenda.pop())
+            self._due[-1].state.process.due += 1
+        if len(self._due) > known:  # others may have been reset to this instant meanwhile
+            self._due.sort(key=lambda entry: entry.number)
+        entry = self._due.pop(0)
         process = entry.state.process
         process.due = max(0, process.due - 1)
         self._fire(entry)
