@@ -254,21 +254,6 @@ def within(
     return Deadline(seconds, noting, nudge)
 
 
-def apart(do: Callable[[], object]) -> None:
-    """Run code that a deadline may hit, and leave no exception of it behind.
-
-    An exception that hits the very beginning of an `except` or the end of a `with` leaves Python
-    believing that the one before is still being handled (CPython 3.11): each later traceback of the
-    thread would begin with it. A generator has that memory for itself, and it ends with it.
-    """
-
-    def alone() -> Iterator[None]:
-        do()
-        yield
-
-    next(alone())
-
-
 def _except_for(reserved: int, function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function of `signal` that leaves the deadline's signal or timer alone."""
     return lambda which, *rest: None if which == reserved else function(which, *rest)
