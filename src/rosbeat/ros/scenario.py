@@ -516,15 +516,19 @@ class _Run:
         """End the session, whatever the nodes do against it."""
         kinds = [type(node) for node in self._session.nodes]
         with within(_TO_TIDY, nudge=self._wake):
-            self._world.hurry()
-            for node in reversed(self._session.nodes):
-                with suppress(Exception):
-                    Node.destroy_node(node)  # and not what its class makes of that
+            self._destroy_nodes()
         self._session.close()
         del self._session, self._world, self._steps
         if any(hasattr(kind, "__del__") for kind in kinds):
             with within(_TO_TIDY):
                 gc.collect()  # here, where it has a deadline, and not at any later time
+
+    def _destroy_nodes(self) -> None:
+        # On its own, so that no variable of `close` keeps a node from being collected there.
+        self._world.hurry()
+        for node in reversed(self._session.nodes):
+            with suppress(Exception):
+                Node.destroy_node(node)  # and not what its class makes of that
 
 
 def observe(
