@@ -39,7 +39,7 @@ from rosbeat.records import (
 from rosbeat.ros.entities import NodeState
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.faults import fault_of, line_of
-from rosbeat.ros.isolation import DeadlinePassed, unharmed, within
+from rosbeat.ros.isolation import Deadline, DeadlinePassed, unharmed
 from rosbeat.ros.launch import Launch as Launch
 from rosbeat.ros.launch import Maker as Maker
 from rosbeat.ros.launch import checked
@@ -119,7 +119,7 @@ class Call(Step):
 class SendGoal(Step):
     """Send a goal from the node `/tester`; its acceptance, feedback and result are `Reply`s.
 
-    An accepted goal is canceled `cancel_after` so many seconds.
+    An accepted goal is canceled after `cancel_after` seconds, if that is given.
     """
 
     action: str
@@ -338,21 +338,14 @@ class _NeverMade(BaseException):
 
 
 class _Run:
-    """Runs the learner's nodes, and records what goes wrong.
-
-    Args:
-        seconds: Virtual seconds to run.
-        steps: What is done meanwhile.
-        seed: Seed of the random numbers that nodes draw.
-        deadline: Seconds of wall time after which the run is broken off.
-    """
+    """Runs the learner's nodes, and records what goes wrong; see `observe`."""
 
     def __init__(self, seconds: float, steps: Iterable[Step], seed: int, deadline: float) -> None:
         self._seed, self._end = seed, duration_ns(seconds)
         self._session = Session(seed=seed)
         self._world = self._session._world
         self._steps = Steps(self._session, steps)
-        self._deadline = within(deadline, self._note_expiry, self._wake)
+        self._deadline = Deadline(deadline, self._note_expiry, self._wake)
         self._faults: list[Fault] = []
         self._late: Fault | None = None  # of a callback or constructor that never came to an end
         self._slept = 0  # in the constructor
@@ -369,9 +362,6 @@ class _Run:
             add: `_Run.add_node` or `_Run.add_system`.
             answer: What the learner handed over.
             others: The other nodes; see `observe`.
-
-        Raises:
-            KeyboardInterrupt: If Interrupt was pressed.
         """
         # What has to be put back stands outside of the deadline, which hits what it finds.
         with self._world.running([answer.make]), self._deadline:
@@ -480,11 +470,7 @@ class _Run:
     # The result.
 
     def observation(self, printed: int) -> Observation:
-        """Return what happened.
-
-        Args:
-            printed: How many characters the learner's code printed.
-        """
+        """Return what happened; the learner's code printed so many characters."""
         recorder, deadline = self._world.recorder, self._deadline
         faults = [*recorder.faults, *self._faults, *filter(None, [self._late])]
         if deadline.passed:
@@ -496,7 +482,7 @@ class _Run:
         most = MOST_OF_BROKEN_OFF if deadline.passed or self._late else MOST_RECORDS
         callbacks = [*islice(recorder.callbacks(), most), *self._steps.records]
         graph = GraphSnapshot()
-        with within(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
+        with Deadline(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
             graph = self._world.graph()
         return Observation(
             self._world.now(),
@@ -515,12 +501,12 @@ class _Run:
     def close(self) -> None:
         """End the session, whatever the nodes do against it."""
         kinds = [type(node) for node in self._session.nodes]
-        with within(_TO_TIDY, nudge=self._wake):
+        with Deadline(_TO_TIDY, nudge=self._wake):
             self._destroy_nodes()
         self._session.close()
         del self._session, self._world, self._steps
         if any(hasattr(kind, "__del__") for kind in kinds):
-            with within(_TO_TIDY):
+            with Deadline(_TO_TIDY):
                 gc.collect()  # here, where it has a deadline, and not at any later time
 
     def _destroy_nodes(self) -> None:
@@ -578,21 +564,10 @@ def observe_system(
 ) -> Observation:
     """Run the nodes of an answer, as a launch file would start them; otherwise like `observe`.
 
-    A node that cannot be made, or raises, ends alone.
-
-    Args:
-        answer: What should be a list, or a function that returns one. Its members are node classes,
-            functions that return a node, or pairs of one of these and a dict with `name`,
-            `namespace`, `remappings` and `parameters`.
-        seconds: Virtual seconds to run.
-        others: Nodes to run beside them, added first.
-        parameters: Values with which each of the answer's nodes is started, besides its own.
-        steps: What is done meanwhile.
-        seed: Seed of the random numbers that nodes draw.
-        deadline: Seconds of wall time after which it is broken off.
-
-    Returns:
-        What happened. An answer that is no list of nodes is a fault of the kind `NoSystemError`.
+    `answer` should be a list, or a function that returns one. Its members are node classes,
+    functions that return a node, or pairs of one of these and a dict of `name`, `namespace`,
+    `remappings` and `parameters`. Each is started with `parameters`, too. A node that cannot be
+    made, or raises, ends alone. What is no list of nodes is a fault of the kind `NoSystemError`.
     """
     run = _Run(seconds, steps, seed, deadline)
     return _observe(
