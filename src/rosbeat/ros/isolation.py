@@ -231,6 +231,22 @@ class Deadline:
 _NEVER = {Deadline.__enter__.__code__, Deadline.__exit__.__code__}
 
 
+def run_in_generator(do: Callable[[], object]) -> None:
+    """Run code that a deadline may hit, and leave no exception of it behind.
+
+    An exception that hits the very beginning of an `except` or the end of a `with` leaves Python
+    believing that the one before is still being handled (CPython 3.11). Later tracebacks of the
+    thread would begin with it, and it would keep nodes from being collected. A generator handles
+    exceptions of its own, and they end with it.
+    """
+
+    def generator() -> Iterator[None]:
+        do()
+        yield
+
+    next(generator())
+
+
 def _except_for(reserved: int, function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function of `signal` that leaves the deadline's signal or timer alone."""
     return lambda which, *rest: None if which == reserved else function(which, *rest)

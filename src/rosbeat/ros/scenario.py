@@ -39,7 +39,7 @@ from rosbeat.records import (
 from rosbeat.ros.entities import NodeState
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.faults import fault_of, line_of
-from rosbeat.ros.isolation import Deadline, DeadlinePassed, unharmed
+from rosbeat.ros.isolation import Deadline, DeadlinePassed, run_in_generator, unharmed
 from rosbeat.ros.launch import Launch as Launch
 from rosbeat.ros.launch import Maker as Maker
 from rosbeat.ros.launch import checked
@@ -365,21 +365,24 @@ class _Run:
         """
         # What has to be put back stands outside of the deadline, which hits what it finds.
         with self._world.running([answer.make]), self._deadline:
-            try:
-                self._steps.prepare()
-                for other in others:
-                    self._add(other if isinstance(other, Maker) else Maker(other))
-                with self._starting():
-                    add(self, answer)
-                self._world.console.begin(quiet=True)
-                self._steps.run_until(self._end)
-                self._note_waiting()
-            except DeadlinePassed:
-                raise
-            except _NeverMade:
-                pass
-            except BaseException as error:  # a learner may raise anything
-                self._faults.append(self._fault_of(error))
+            run_in_generator(lambda: self._play(partial(add, self, answer), others))
+
+    def _play(self, add: Callable[[], None], others: Iterable[Other]) -> None:
+        try:
+            self._steps.prepare()
+            for other in others:
+                self._add(other if isinstance(other, Maker) else Maker(other))
+            with self._starting():
+                add()
+            self._world.console.begin(quiet=True)
+            self._steps.run_until(self._end)
+            self._note_waiting()
+        except DeadlinePassed:
+            raise
+        except _NeverMade:
+            pass
+        except BaseException as error:  # a learner may raise anything
+            self._faults.append(self._fault_of(error))
 
     @contextmanager
     def _starting(self) -> Iterator[None]:
@@ -502,15 +505,17 @@ class _Run:
         """End the session, whatever the nodes do against it."""
         kinds = [type(node) for node in self._session.nodes]
         with Deadline(_TO_TIDY, nudge=self._wake):
-            self._destroy_nodes()
+            run_in_generator(self._destroy_nodes)
         self._session.close()
         del self._session, self._world, self._steps
         if any(hasattr(kind, "__del__") for kind in kinds):
             with Deadline(_TO_TIDY):
-                gc.collect()  # here, where it has a deadline, and not at any later time
+                run_in_generator(
+                    gc.collect
+                )  # here, where it has a deadline, and not at any later time
 
     def _destroy_nodes(self) -> None:
-        # On its own, so that no variable of `close` keeps a node from being collected there.
+        # Not in `close`, whose variables would keep a node from being collected.
         self._world.hurry()
         for node in reversed(self._session.nodes):
             with suppress(Exception):
