@@ -12,7 +12,7 @@ from std_srvs.srv import Trigger
 
 from nodes import Doer, Listener, Server, Speaker, Talker, Ticker
 from rosbeat.errors import SessionError
-from rosbeat.ros.faults import asked_by, asked_text, asking, fault_of, learners_line, suggestion
+from rosbeat.ros.faults import asked_by, asked_text, asking, fault_of, suggestion
 
 pytestmark = pytest.mark.ros
 
@@ -180,13 +180,14 @@ def test_the_innermost_own_line():
 
     with pytest.raises(ValueError, match="no number") as caught:
         outer()
-    line, code = learners_line(caught.value)
-    assert code == 'return int("no number")'
-    assert line > 0
+    fault = fault_of(caught.value, 0, "", "")
+    assert fault.code == 'return int("no number")'
+    assert fault.line > 0
 
 
 def test_no_line_is_better_than_a_wrong_one():
-    assert learners_line(ValueError("never raised")) == (0, "")
+    fault = fault_of(ValueError("never raised"), 0, "", "")
+    assert (fault.line, fault.code) == (0, "")
 
 
 def test_an_error_that_misleads_is_translated(ros, capsys):

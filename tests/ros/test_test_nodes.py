@@ -16,8 +16,8 @@ from rosbeat.ros.test_nodes import (
     feeder,
     hearer,
     observe_greenhouse,
-    station,
 )
+from rosbeat.scenarios.running import station
 
 pytestmark = pytest.mark.ros
 STRING = "std_msgs/msg/String"

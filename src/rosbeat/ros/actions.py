@@ -1,26 +1,24 @@
-"""Actions in a session: what they are called, who hears them, and how they wait.
+"""Run the actions of a session's nodes in virtual time, and record them.
 
-rclpy makes an action of three services and two topics, all of them inside of one waitable, so that
-none is seen by the hooks of `recording`. The constructors of `ActionServer` and `ActionClient` are
-wrapped once, and only an action of a session's node is touched: its calls that would wait run
-virtual time, its goals get the same ids in every run, and an exception in its work is shown as any
-other.
+rclpy makes an action of three services and two topics inside of one waitable, where the hooks of
+`recording` do not see them. So the constructors of `ActionServer` and `ActionClient` are wrapped.
+An action of a session's node runs virtual time in calls that would wait, gives its goals the same
+ids in every run, and shows an exception in its work as any other.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial, wraps
 from hashlib import sha256
 from inspect import signature
 from math import inf
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rclpy.action import ActionClient, ActionServer
 from rclpy.action.server import ServerGoalHandle
 from rclpy.executors import await_or_execute
-from rclpy.node import Node
 from unique_identifier_msgs.msg import UUID
 
 from rosbeat.errors import SessionError
@@ -30,93 +28,21 @@ from rosbeat.ros.faults import asking
 from rosbeat.ros.graph import qos_of
 from rosbeat.ros.recording import type_name, watcher_of
 
-# What an action is made of: three services and two topics, with hidden names.
-
-
-#: The last parts of their names, behind `/_action/`; and which option holds their QoS.
-SERVICES = ("send_goal", "cancel_goal", "get_result")
-FEEDBACK, STATUS = "feedback", "status"
-_QOS_OF = {"send_goal": "goal", "cancel_goal": "cancel", "get_result": "result"}
-
-
-def parts_of(
-    node: str,
-    kind: str,
-    name: str,
-    action: Any,  # noqa: ANN401
-    options: Mapping[str, Any],
-) -> list[Endpoint]:
-    """One end of an action as endpoints: the action itself, then its five parts.
-
-    Args:
-        node: Full name of the node.
-        kind: `action server` or `action client`.
-        name: Full name of the action.
-        action: Its class.
-        options: The arguments of the server's or the client's constructor.
-    """
-    is_server = kind.endswith("server")
-    types, end = _types(action), "pub" if is_server else "sub"
-    goal = qos_of(options["goal_service_qos_profile"])
-    found = [Endpoint(node, name, type_name(action), kind, goal)]
-    for part in SERVICES:
-        qos = qos_of(options[f"{_QOS_OF[part]}_service_qos_profile"])
-        service = "server" if is_server else "client"
-        found.append(Endpoint(node, f"{name}/_action/{part}", types[part], service, qos))
-    for part in (FEEDBACK, STATUS):
-        qos = qos_of(options[f"{part}_{end}_qos_profile"])
-        topic = "publisher" if is_server else "subscription"
-        found.append(Endpoint(node, f"{name}/_action/{part}", types[part], topic, qos))
-    return found
-
-
-def _types(action: Any) -> dict[str, str]:  # noqa: ANN401
-    own = type_name(action)
-    return {
-        "send_goal": f"{own}_SendGoal",
-        "cancel_goal": "action_msgs/srv/CancelGoal",
-        "get_result": f"{own}_GetResult",
-        FEEDBACK: f"{own}_FeedbackMessage",
-        STATUS: "action_msgs/msg/GoalStatusArray",
-    }
-
+if TYPE_CHECKING:
+    from rosbeat.ros.world import World
 
 SERVER, CLIENT = "action server", "action client"
-#: What a client sends requests with, in the order of `SERVICES`.
+#: The services of an action, behind `/_action/`: their types, and the first word of QoS options.
+SERVICES = {
+    "send_goal": ("{}_SendGoal", "goal"),
+    "cancel_goal": ("action_msgs/srv/CancelGoal", "cancel"),
+    "get_result": ("{}_GetResult", "result"),
+}
+#: Its topics, and their types.
+TOPICS = {"feedback": "{}_FeedbackMessage", "status": "action_msgs/msg/GoalStatusArray"}
+#: The methods of a client that send requests, in the order of `SERVICES`.
 _SENDING = ("send_goal_async", "_cancel_goal_async", "_get_result_async")
-_PART = f"/_action/{SERVICES[0]}"
-
-
-class Place(Protocol):
-    """What an action asks of its session."""
-
-    def states(self) -> list[NodeState]:
-        """All nodes, in order of creation."""
-
-    def state_of(self, node: Node | None) -> NodeState | None:
-        """What is known of a node."""
-
-    def sent(self, kind: str, name: str, origin: NodeState) -> None:
-        """Note that a node sent something to the `kind` entities called `name`."""
-
-    def wait(
-        self,
-        call: str,
-        reason: str,
-        done: Callable[[], bool],
-        seconds: float | None,
-        needs: Any,  # noqa: ANN401 - any entity of rclpy
-    ) -> bool:
-        """Wait until something is done, in a callback as in a cell."""
-
-    def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
-        """An exception left the work on a goal; the node goes on."""
-
-    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
-        """A callback of an action is about to run."""
-
-    def next_goal(self) -> int:
-        """How many goals were sent in this session; 0 in a domain with other processes in it."""
+_SEND_GOAL = "/_action/send_goal"
 
 
 def wait_by_the_wall(done: Callable[[], bool], seconds: float | None) -> bool:
@@ -131,7 +57,7 @@ class ActionEnd:
     """One action server or client of a node.
 
     Args:
-        place: The session.
+        world: The session's.
         state: The node.
         kind: `action server` or `action client`.
         entity: rclpy's object.
@@ -141,7 +67,7 @@ class ActionEnd:
 
     def __init__(
         self,
-        place: Place,
+        world: World,
         state: NodeState,
         kind: str,
         entity: Any,  # noqa: ANN401 - one of the two
@@ -149,19 +75,33 @@ class ActionEnd:
         options: dict[str, Any],
     ) -> None:
         self.kind, self.entity, self.name = kind, entity, name
-        self._place, self._state, self._options = place, state, options
+        self._world, self._state, self._options = world, state, options
         self._prepare_server() if kind == SERVER else self._prepare_client()
 
     @property
     def exists(self) -> bool:
-        """Whether it has not been destroyed by itself."""
+        """Return whether it has not been destroyed by itself."""
         node = self._state.node
         return node is not None and any(one is self.entity for one in node.waitables)
 
     def endpoints(self) -> list[Endpoint]:
-        """The action itself, and the services and topics that it is made of."""
-        kind = self._options["action_type"]
-        return parts_of(self._state.name, self.kind, self.name, kind, self._options)
+        """Return the action itself, and the services and topics that it is made of."""
+        own, node = type_name(self._options["action_type"]), self._state.name
+        is_server = self.kind == SERVER
+        service, topic = ("server", "publisher") if is_server else ("client", "subscription")
+        short = "pub" if is_server else "sub"
+
+        def end(part: str, type_: str, kind: str, option: str) -> Endpoint:
+            qos = qos_of(self._options[f"{option}_qos_profile"])
+            return Endpoint(node, self.name + part, type_.format(own), kind, qos)
+
+        return [
+            end("", own, self.kind, "goal_service"),
+            *(end(f"/_action/{part}", type_, service, f"{option}_service")
+              for part, (type_, option) in SERVICES.items()),
+            *(end(f"/_action/{part}", type_, topic, f"{part}_{short}")
+              for part, type_ in TOPICS.items()),
+        ]  # fmt: skip
 
     # A server.
 
@@ -178,36 +118,36 @@ class ActionEnd:
         _tell(server, "_send_result_response", self._answered)
 
     async def _serve(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
-        self._place.heard(self._state, self.kind, "serve", self.name)
+        self._world.heard(self._state, self.kind, "serve", self.name)
         await execute(taken)
         self._answered()
 
     def _noting(self, callback: Callable[..., Any]) -> Callable[..., Any]:
-        """An exception that rclpy would swallow, with a traceback of its own files, is recorded."""
+        """Return a callback that records an exception, which rclpy would only log."""
 
         async def noted(goal: ServerGoalHandle) -> Any:  # noqa: ANN401
             try:
                 return await await_or_execute(callback, goal)
             except Exception as error:
-                self._place.work_raised(self._state, callback_name(callback), error)
+                self._world.work_raised(self._state, callback_name(callback), error)
                 self.entity._logger.error(f"Error raised in execute callback: {error}")
                 return self.entity.action_type.Result()
 
         return noted
 
     def _answered(self) -> None:
-        self.published(STATUS)  # of goals that were accepted
+        self.published("status")  # of goals that were accepted
         for part in SERVICES:
-            self._place.sent("client", f"{self.name}/_action/{part}", self._state)
+            self._world.sent("client", f"{self.name}/_action/{part}", self._state)
 
     def published(self, topic: str) -> None:
-        """The server has published one of the action's topics."""
-        self._place.sent("subscription", f"{self.name}/_action/{topic}", self._state)
+        """Note that the server has published on one of the action's topics."""
+        self._world.sent("subscription", f"{self.name}/_action/{topic}", self._state)
 
     # A client.
 
     def _prepare_client(self) -> None:
-        client, place = self.entity, self._place
+        client = self.entity
         self._chance = client._generate_random_uuid
         client._generate_random_uuid = self._next_id
         client.send_goal = self._send_goal
@@ -215,19 +155,19 @@ class ActionEnd:
         client._cancel_goal = lambda g: self._result("cancel_goal", client._cancel_goal_async(g))
         for method, part in zip(_SENDING, SERVICES, strict=True):
             service = f"{self.name}/_action/{part}"
-            _tell(client, method, partial(place.sent, "service", service, self._state))
+            _tell(client, method, partial(self._world.sent, "service", service, self._state))
         client.wait_for_server = self._wait_for_server
         client.execute = partial(self._hear, client.execute)
 
     async def _hear(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
-        # A status comes at no certain time: it is kept for those who come late, and sent to them
-        # by a thread. Nobody is called for it.
-        if set(taken) - {STATUS}:
-            self._place.heard(self._state, self.kind, "hear", self.name)
+        # A status is stored for late-joining clients, to whom a thread sends it at no certain time.
+        # No callback is called for it.
+        if set(taken) - {"status"}:
+            self._world.heard(self._state, self.kind, "hear", self.name)
         await execute(taken)
 
     def _next_id(self) -> UUID:
-        number = self._place.next_goal()
+        number = self._world.next_goal()
         if not number:
             return self._chance()
         return UUID(uuid=list(sha256(f"{self.name} {number}".encode()).digest()[:16]))
@@ -238,7 +178,7 @@ class ActionEnd:
 
     def _result(self, method: str, future: Any) -> Any:  # noqa: ANN401
         reason = f"an answer from the action {self.name}"
-        if not self._place.wait(f"client.{method}", reason, future.done, None, self.entity):
+        if not self._world.wait(f"client.{method}", reason, future.done, None, self.entity):
             raise _unanswered(self.name, method)
         return future.result()
 
@@ -246,12 +186,12 @@ class ActionEnd:
         client = self.entity
         if not client.server_is_ready():
             reason, done = f"a server of the action {self.name}", client.server_is_ready
-            self._place.wait("client.wait_for_server", reason, done, timeout_sec, None)
+            self._world.wait("client.wait_for_server", reason, done, timeout_sec, None)
         return bool(client.server_is_ready())
 
 
 def action_of(entity: Any, state: NodeState) -> ActionEnd | None:  # noqa: ANN401
-    """The action's end that an entity of rclpy's is; None if it is none."""
+    """Return the action server or client that an entity of rclpy's is, or None."""
     return next((end for end in state.actions if end.entity is entity), None)
 
 
@@ -292,8 +232,10 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
         node = options.arguments["node"]
         watcher = watcher_of(node)
         if watcher is not None:
-            name = node.resolve_service_name(options.arguments["action_name"] + _PART)
-            watcher.action_made(node, kind, entity, name.removesuffix(_PART), options.arguments)
+            name = node.resolve_service_name(options.arguments["action_name"] + _SEND_GOAL)
+            watcher.action_made(
+                node, kind, entity, name.removesuffix(_SEND_GOAL), options.arguments
+            )
 
     return init
 
@@ -313,8 +255,8 @@ def _install() -> None:
     ActionServer.__init__ = _watch(ActionServer.__init__, SERVER)
     ActionClient.__init__ = _watch(ActionClient.__init__, CLIENT)
     goal = ServerGoalHandle
-    goal.publish_feedback = _publishing(goal.publish_feedback, FEEDBACK)
-    goal._update_state = _publishing(goal._update_state, STATUS)
+    goal.publish_feedback = _publishing(goal.publish_feedback, "feedback")
+    goal._update_state = _publishing(goal._update_state, "status")
 
 
 _install()  # at import, so exactly once in a process

@@ -21,22 +21,15 @@ from rclpy.qos import QoSProfile
 from rosbeat.diagnosis.callbacks import CALLED, is_argument
 from rosbeat.records import Fault
 
-# What Python itself would propose for a name that it does not know.
-#
-# A traceback in a terminal ends with `Did you mean: 'publisher_'?`. The exception's text has no
-# such end: Python adds it while it prints, and differently in each version.
+# What to propose for an unknown name. A traceback in a terminal ends with `Did you mean:
+# 'publisher_'?`, which Python adds while it prints, and differently in each version.
 
-
-#: `logger` and `get_logger` are alike, `temperature` and `publish_temperature` are not.
+#: Least likeness: `logger` and `get_logger` are alike, `temperature` and `publish_temperature` not.
 _LIKE = 0.75
 
 
 def suggestion(error: BaseException) -> str:
-    """Return the nearest name to one that does not exist, or an empty text.
-
-    Args:
-        error: An exception; only an AttributeError or a NameError has a suggestion.
-    """
+    """Return the name nearest to that of an AttributeError or a NameError, or an empty text."""
     name = getattr(error, "name", None)
     if not isinstance(name, str) or not name.strip("_"):
         return ""  # nothing, or a blank that was not filled in
@@ -100,12 +93,9 @@ def _names(error: NameError, name: str) -> Iterator[Iterable[str]]:
         yield [one for one in known if one != name]
 
 
-# Which call of rclpy failed, and with arguments of which types, noted on the exception.
-#
-# rclpy's own texts often do not tell: `missing 1 required positional argument: 'qos_profile'` is
-# the same for a callback that was left out and for a queue depth. `diagnosis.calls` reads what is
-# written here. Nothing of a learner's is called in order to describe it.
-
+# Which call of rclpy failed, and with arguments of which types, for `diagnosis.calls`: rclpy's own
+# text is the same for a missing callback and a missing queue depth. The learner's code is not
+# called to describe an argument.
 
 _NOTE = "_rosbeat_asked"
 
@@ -167,9 +157,6 @@ def _safe(name: object) -> str:
     return text if text.isidentifier() else "function"
 
 
-# From an exception to the learner's own line.
-
-
 # A frame in the standard library, in an installed package or in rosbeat is not the learner's.
 _FOREIGN = tuple(
     {sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")}
@@ -189,27 +176,17 @@ def line_of(frame: FrameType | None) -> tuple[int, str]:
     """Return number and text of the learner's line at which a frame is, or `(0, "")`."""
     while frame is not None and not is_learners(frame):
         frame = frame.f_back
-    if frame is None:
-        return 0, ""
-    line = frame.f_lineno or 0
-    return line, linecache.getline(frame.f_code.co_filename, line, frame.f_globals).strip()
+    return (0, "") if frame is None else _line(frame, frame.f_lineno or 0)
 
 
-def learners_line(error: BaseException) -> tuple[int, str]:
-    """Return number and text of the innermost line that the learner wrote, or `(0, "")`."""
-    own = _own_lines(error)
-    return own[-1][1:] if own else (0, "")
+def _line(frame: FrameType, number: int) -> tuple[int, str]:
+    return number, linecache.getline(frame.f_code.co_filename, number, frame.f_globals).strip()
 
 
 def _own_lines(error: BaseException) -> list[tuple[str, int, str]]:
     """Return function, number and text of each line of the learner's, outermost first."""
-    found = []
-    for frame, line in walk_tb(error.__traceback__):
-        if is_learners(frame):
-            code = frame.f_code
-            text = linecache.getline(code.co_filename, line, frame.f_globals).strip()
-            found.append((code.co_name, line, text))
-    return found
+    frames = walk_tb(error.__traceback__)
+    return [(one.f_code.co_name, *_line(one, line)) for one, line in frames if is_learners(one)]
 
 
 def _refused_by_field(error: BaseException) -> str:
@@ -236,9 +213,10 @@ def error_text(error: BaseException) -> str:
 
 def fault_of(error: BaseException, time_ns: int, node: str, callback: str) -> Fault:
     """Return the record of an exception that left a callback."""
-    line, code = learners_line(error)
+    own = _own_lines(error)
+    line, code = own[-1][1:] if own else (0, "")
     kind, asked = type(error).__name__, asked_by(error) or _refused_by_field(error)
-    for (_, at, text), (called, *_) in pairwise(_own_lines(error)):
+    for (_, at, text), (called, *_) in pairwise(own):
         # `create_timer(1.0, self.tick())`: what failed in `tick` is not where the mistake is.
         if is_argument(text, called):
             line, code, asked = at, text, f"create({CALLED}[{called}])"

@@ -26,19 +26,6 @@ from rclpy.publisher import Publisher
 
 from rosbeat.ros.faults import is_learners
 
-# A deadline for code that may do anything.
-#
-# `within(seconds)` ends whatever runs in its block when the time is up. The operating system's
-# timer sends `SIGALRM`, and its handler raises `DeadlinePassed` in the middle of an endless loop, a
-# wait or a sleep. Code that catches everything (`while True: try: ... except: pass`) gets the next
-# exception while it handles the last one, or between two rounds of its loop: from the second one on
-# the timer is set to a few microseconds, another number each time.
-#
-# Python handles signals in the main thread only, so in any other thread nothing ends. Nor does a
-# single long call of C that never looks up, such as `sum(range(10**12))`; Interrupt does not end
-# that either.
-
-
 # Kept here: a learner's code may put something else in its place.
 _now = time.monotonic
 _signal, _setitimer, _mask = signal.signal, signal.setitimer, signal.pthread_sigmask
@@ -68,7 +55,22 @@ class DeadlinePassed(BaseException):
 
 
 class Deadline:
-    """A block of code that ends in time; see `within`.
+    """Ends a block of code in time: `with Deadline(1.0) as deadline: ...`.
+
+    When the time is up, the handler of `SIGALRM` raises `DeadlinePassed` in the middle of an
+    endless loop, a wait or a sleep. Code that catches everything (`while True: try: ... except:
+    pass`) gets the next exception while it handles the last one, or between two rounds of its loop:
+    from the second one on, the timer is set to a few microseconds, another number each time. Code
+    that catches an Interrupt ends soon after it.
+
+    Python handles signals in the main thread only, so in another thread nothing ends. Neither a
+    deadline nor Interrupt ends a long call of C, such as `sum(range(10**12))`.
+
+    Args:
+        seconds: How long the block may take, in seconds of wall time.
+        noting: Called once, at the moment when the time is up.
+        nudge: Called ten times a second in another thread: it may wake what waits in C, which
+            neither the deadline nor Interrupt reach there.
 
     Attributes:
         seconds: How long the block may take.
@@ -77,7 +79,10 @@ class Deadline:
     """
 
     def __init__(
-        self, seconds: float, noting: Callable[[], object], nudge: Callable[[], object] | None
+        self,
+        seconds: float,
+        noting: Callable[[], object] = bool,
+        nudge: Callable[[], object] | None = None,
     ) -> None:
         self.seconds = seconds
         self.passed = self.interrupted = False
@@ -130,15 +135,6 @@ class Deadline:
             return 0, ""
         file, line, names = self._where
         return line, linecache.getline(file, line, names).strip()
-
-    def expire(self) -> None:
-        """End the block now, as if its time were up.
-
-        Raises:
-            DeadlinePassed: Always.
-        """
-        self._note(list(self._inside(sys._getframe(1))))
-        raise DeadlinePassed
 
     # Signals.
 
@@ -235,38 +231,20 @@ class Deadline:
 _NEVER = {Deadline.__enter__.__code__, Deadline.__exit__.__code__}
 
 
-def within(
-    seconds: float,
-    noting: Callable[[], object] = bool,
-    nudge: Callable[[], object] | None = None,
-) -> Deadline:
-    """Let a block of code end in time, in the main thread.
-
-    When the time is up, `DeadlinePassed` is raised in the block, which ends it; after the block
-    `deadline.passed` tells. Interrupt means what it always means, also for code that catches it.
-
-    Args:
-        seconds: How long the block may take, in seconds of wall time.
-        noting: Called once, at the moment when the time is up.
-        nudge: Called ten times a second in another thread: it may wake what waits in C, which
-            neither the deadline nor Interrupt reach there.
-    """
-    return Deadline(seconds, noting, nudge)
-
-
-def apart(do: Callable[[], object]) -> None:
+def run_in_generator(do: Callable[[], object]) -> None:
     """Run code that a deadline may hit, and leave no exception of it behind.
 
     An exception that hits the very beginning of an `except` or the end of a `with` leaves Python
-    believing that the one before is still being handled (CPython 3.11): each later traceback of the
-    thread would begin with it. A generator has that memory for itself, and it ends with it.
+    believing that the one before is still being handled (CPython 3.11). Later tracebacks of the
+    thread would begin with it, and it would keep nodes from being collected. A generator handles
+    exceptions of its own, and they end with it.
     """
 
-    def alone() -> Iterator[None]:
+    def generator() -> Iterator[None]:
         do()
         yield
 
-    next(alone())
+    next(generator())
 
 
 def _except_for(reserved: int, function: Callable[..., Any]) -> Callable[..., Any]:

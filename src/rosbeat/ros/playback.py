@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from rclpy.node import Node
 
@@ -16,24 +17,16 @@ from rosbeat.ros.test_nodes import profile
 NodeFactory = Callable[[], Node]
 
 
-@dataclass(frozen=True)
-class PlayedTopic:
-    """One topic that a player publishes on.
-
-    Attributes:
-        topic: Full topic name.
-        type_name: The message type, such as `std_msgs/msg/Float32`.
-        qos: Quality of service to offer.
-    """
+class PlayedTopic(NamedTuple):
+    """A topic to publish on: its full name, its type and the QoS to offer."""
 
     topic: str
     type_name: str
     qos: QoS
 
 
-@dataclass(frozen=True)
-class PlayedStep:
-    """What is published in one callback.
+class PlayedStep(NamedTuple):
+    """What to publish in one callback.
 
     Attributes:
         time_ns: When, in nanoseconds after the node was made.
@@ -45,7 +38,7 @@ class PlayedStep:
 
 
 def player(name: str, topics: Sequence[PlayedTopic], steps: Sequence[PlayedStep]) -> NodeFactory:
-    """Return a node that publishes prepared messages at prepared times.
+    """Return a class of node that publishes prepared messages at prepared times.
 
     All that one step causes is over before the next one begins, also at the same instant.
 
@@ -68,24 +61,22 @@ def player(name: str, topics: Sequence[PlayedTopic], steps: Sequence[PlayedStep]
                 self.create_publisher(kind, one.topic, profile(one.qos))
                 for kind, one in zip(classes, topics, strict=True)
             ]
-            self._begun = self.get_clock().now()
-            self._next = 0
+            self._begun, self._left = self.get_clock().now(), deque(steps)
             if steps:
                 self._step_timer = self.create_timer(steps[0].time_ns / 1e9, self._play)
                 self._schedule()
 
         def _play(self) -> None:
-            for number, message in steps[self._next].messages:
-                self._topic_publishers[number].publish(message)
-            self._next += 1
+            for topic, message in self._left.popleft().messages:
+                self._topic_publishers[topic].publish(message)
             self._schedule()
 
         def _schedule(self) -> None:
-            if self._next == len(steps):
+            if not self._left:
                 self._step_timer.cancel()
                 return
             elapsed = (self.get_clock().now() - self._begun).nanoseconds
-            self._step_timer.timer_period_ns = max(0, steps[self._next].time_ns - elapsed)
+            self._step_timer.timer_period_ns = max(0, self._left[0].time_ns - elapsed)
             self._step_timer.reset()
 
     return Player

@@ -11,7 +11,6 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 
 from rclpy.node import Node
 from std_msgs.msg import Float32
@@ -22,11 +21,10 @@ from rosbeat.records import Endpoint, ProgramRun
 from rosbeat.ros.graph import poll
 from rosbeat.ros.session import Session
 
-#: Characters of output that are kept; the rest is read and dropped, so that no program is held up.
+#: Characters of output that are kept; the rest is read and dropped, so that no program blocks.
 MOST_OUTPUT = 200_000
 #: Seconds that a program may take to end after Ctrl+C.
 GRACE = 5.0
-_LOOK_EVERY = 0.02
 # What a kernel and its tests set for themselves, and what would change what programs print.
 _DROPPED = (
     *("PYTEST_CURRENT_TEST", "JPY_PARENT_PID", "JPY_SESSION_NAME", "MPLBACKEND", "COLCON_HOME"),
@@ -35,12 +33,7 @@ _DROPPED = (
 
 
 def program_environment(home: Path, domain_id: int) -> dict[str, str]:
-    """Return the environment of a program: the course's, with its own home and ROS domain.
-
-    Args:
-        home: An empty folder.
-        domain_id: The ROS domain.
-    """
+    """Return the course's environment for a program with its own home folder and ROS domain."""
     found = {name: value for name, value in os.environ.items() if name not in _DROPPED}
     environment.apply(found)
     own = str(Path(sys.prefix) / "bin")
@@ -72,13 +65,13 @@ def private_domain() -> Iterator[int]:
 
 
 class Program:
-    """Runs a program; use it in a `with` block, which kills what is left of it.
+    """Runs a program in a `with` block, and kills its process group at the end.
 
     Args:
         command: The program and its arguments.
         env: Its environment.
-        cwd: Where it runs.
-        name: What it is called in the record; by default the last word of the command.
+        cwd: The folder to run it in.
+        name: Its name in the record; by default the last word of the command.
 
     Raises:
         OSError: If it cannot be started.
@@ -90,8 +83,8 @@ class Program:
         self._name = name or Path(command[-1]).name
         self._kept: list[str] = []
         self._length = 0
-        # A process session of its own: Ctrl+C in our terminal is not meant for it, and its whole
-        # process group can be reached.
+        # In a session of its own, so that Ctrl+C in our terminal does not reach it, and its whole
+        # process group can be killed.
         self._process = subprocess.Popen(
             list(command), env=dict(env), cwd=cwd, stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
@@ -116,31 +109,18 @@ class Program:
         return self._process.poll() is None
 
     def wait(self, until: Callable[[str], object], seconds: float) -> bool:
-        """Wait until its output is as wanted.
-
-        Args:
-            until: Asked with the output again and again.
-            seconds: How long to wait at most, in seconds of wall time.
+        """Wait at most so many seconds until `until(output)` is true, or the program has ended.
 
         Returns:
-            Whether it came; False also if the program ended without it.
+            Whether it is true.
         """
-        deadline = time.monotonic() + seconds
-        while not until(self.output):
-            if not self.running:
-                self._reader.join(GRACE)
-                return bool(until(self.output))
-            if time.monotonic() > deadline:
-                return False
-            time.sleep(_LOOK_EVERY)
-        return True
+        poll(lambda: until(self.output) or not self.running, time.monotonic() + seconds)
+        if not until(self.output) and not self.running:
+            self._reader.join(GRACE)
+        return bool(until(self.output))
 
     def finish(self, grace: float = GRACE) -> ProgramRun:
-        """Press Ctrl+C, wait for its end, and return what it did.
-
-        Args:
-            grace: Seconds of wall time after which it is killed.
-        """
+        """Press Ctrl+C, kill the program after `grace` seconds, and return what it did."""
         early = not self.running
         if not early:
             self._send(signal.SIGINT)
@@ -151,7 +131,7 @@ class Program:
         return ProgramRun(self._name, self.output, code, early)
 
     def _kill(self) -> None:
-        # The group may outlive the process that began it: children that it has left behind.
+        # The program's children may outlive it.
         self._send(signal.SIGKILL)
         self._process.wait()
         self._reader.join(GRACE)
@@ -170,38 +150,25 @@ class Program:
                     self._length += len(data)
 
 
+@contextmanager
+def domain_probe(domain_id: int, topic: str) -> Iterator[DomainProbe]:
+    """Join a ROS domain with a node that publishes and receives numbers on a topic."""
+    with Session(domain_id=domain_id) as session:
+        yield DomainProbe(session, topic)
+
+
 class DomainProbe:
-    """Publishes and receives numbers as a node in the domain of some programs.
+    """Publishes and receives `Float32` messages; see `domain_probe`."""
 
-    Use it in a `with` block, in which its session is live.
-
-    Args:
-        domain_id: The domain.
-        topic: A topic of numbers, `std_msgs/msg/Float32`.
-    """
-
-    _NAME = "domain_probe"
-
-    def __init__(self, domain_id: int, topic: str) -> None:
+    def __init__(self, session: Session, topic: str) -> None:
+        self._session = session
         self._received: list[tuple[float, float]] = []
-        self._topic = topic
-        self._session = Session(domain_id=domain_id)
+        self._node = session.add(lambda: Node("domain_probe"))
+        self._publisher = self._node.create_publisher(Float32, topic, 10)
+        self._node.create_subscription(Float32, topic, self._receive, 10)
+        session.start()
 
-    def __enter__(self) -> DomainProbe:
-        try:
-            node: Any = self._session.add(lambda: Node(self._NAME))
-            self._publisher = node.create_publisher(Float32, self._topic, 10)
-            node.create_subscription(Float32, self._topic, self._receive, 10)
-            self._session.start()
-        except BaseException:
-            self._session.close()
-            raise
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._session.close()
-
-    def _receive(self, message: Any) -> None:  # noqa: ANN401 - rclpy carries no types
+    def _receive(self, message: Float32) -> None:
         self._received.append((time.monotonic(), message.data))
 
     def clear(self) -> None:
@@ -226,7 +193,7 @@ class DomainProbe:
         """Return what the programs publish, without the topics that every node has."""
         graph = self._session.graph()
         ends = (end for topic in graph.topics() for end in graph.on(topic, "publisher"))
-        return tuple(end for end in ends if end.node != f"/{self._NAME}")
+        return tuple(end for end in ends if end.node != self._node.get_fully_qualified_name())
 
     def wait(self, until: Callable[[], object], seconds: float) -> bool:
         """Wait until something is true, at most so many seconds; return whether it came true."""

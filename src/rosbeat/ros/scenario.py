@@ -1,25 +1,27 @@
-"""Running a learner's node and writing down what it did.
+"""Run a learner's node, or a system of them, and record what happens.
 
-A scenario says nothing about right or wrong. Whatever goes wrong in the learner's code becomes a
-fault in the observation; nothing is printed and nothing is raised, and it takes no longer than its
-deadline. Afterwards the kernel is as it was.
+A scenario does not judge. Whatever goes wrong in the learner's code becomes a fault in the
+observation: nothing is printed or raised, a deadline limits the time, and afterwards the process is
+as it was.
 """
 
 from __future__ import annotations
 
 import gc
 import sys
-from collections import Counter, deque
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cache, partial
 from inspect import isclass
 from itertools import islice
+from operator import attrgetter
 from types import FrameType
 from typing import Any
 
 from action_msgs.msg import GoalStatus
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.action import ActionClient
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -37,7 +39,7 @@ from rosbeat.records import (
 from rosbeat.ros.entities import NodeState
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.faults import fault_of, line_of
-from rosbeat.ros.isolation import Deadline, DeadlinePassed, apart, unharmed, within
+from rosbeat.ros.isolation import Deadline, DeadlinePassed, run_in_generator, unharmed
 from rosbeat.ros.launch import Launch as Launch
 from rosbeat.ros.launch import Maker as Maker
 from rosbeat.ros.launch import checked
@@ -46,18 +48,15 @@ from rosbeat.ros.recording import plain
 from rosbeat.ros.session import Session
 from rosbeat.ros.test_nodes import BARE, message, profile
 from rosbeat.ros.test_nodes import feeder as feeder
-from rosbeat.ros.world import World
 
-# What a scenario does to its nodes at a certain time, as plain data.
+# What is done to the nodes while they run, as plain data.
 
 
 @dataclass(frozen=True)
 class Step:
-    """Something that is done at a time.
+    """Do something `at` a time, in virtual seconds, after everything else that is due then.
 
-    Attributes:
-        at: When, in virtual seconds. What is due at the same instant happens before.
-        node: The node that it is done to, by name; empty for the learner's.
+    `node` is the name of the node that it is done to; by default the learner's.
     """
 
     at: float
@@ -65,22 +64,18 @@ class Step:
 
     @property
     def at_ns(self) -> int:
-        """When, in nanoseconds of virtual time."""
+        """Return when it is done, in nanoseconds."""
         return round(self.at * NANOSECONDS)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Publish(Step):
-    """Publish messages, all at one instant, from a node `/tester`.
+    """Publish messages at one instant; see `test_nodes.message` for the values.
 
-    Attributes:
-        topic: Where.
-        type_name: Their type, such as `std_msgs/msg/Float32`.
-        values: Each is what the field `data` holds, or a dict from field name to value.
-        qos: The quality of service of the publisher, which is there from the beginning.
+    The publisher belongs to the node `/tester` and exists from the beginning.
     """
 
-    topic: str = ""
+    topic: str
     type_name: str = "std_msgs/msg/Float32"
     values: tuple[Any, ...] = ()
     qos: QoS = field(default_factory=QoS)
@@ -96,71 +91,48 @@ class Resume(Step):
     """Run a node's callbacks again."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SetParameter(Step):
-    """Set a parameter, as `ros2 param set` does.
+    """Set a parameter, as `ros2 param set` does."""
 
-    Attributes:
-        name: The parameter.
-        value: Its new value.
-    """
-
-    name: str = ""
-    value: Any = None
+    name: str
+    value: Any
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SetParameters(Step):
-    """Set parameters, all at once or none.
+    """Set all parameters or, if one is refused, none; the result is a `Reply`."""
 
-    Attributes:
-        values: Their new values by their names.
-    """
-
-    values: dict[str, Any] = field(default_factory=dict)
+    values: Mapping[str, Any]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Call(Step):
-    """Call a service from a node `/tester`; the answer is a `Reply`.
+    """Call a service from the node `/tester`; the response is a `Reply`."""
 
-    Attributes:
-        service: Which.
-        type_name: Its type, such as `std_srvs/srv/Trigger`.
-        values: The fields of the request.
-    """
-
-    service: str = ""
+    service: str
     type_name: str = "std_srvs/srv/Trigger"
-    values: dict[str, Any] = field(default_factory=dict)
+    values: Mapping[str, Any] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SendGoal(Step):
-    """Send a goal from a node `/tester`; what comes back are `Reply`s.
+    """Send a goal from the node `/tester`; its acceptance, feedback and result are `Reply`s.
 
-    Attributes:
-        action: To which action.
-        type_name: Its type, such as `test_msgs/action/Fibonacci`.
-        goal: The fields of the goal.
-        cancel_after: After how many seconds it is canceled, if it was accepted; None for never.
+    An accepted goal is canceled after `cancel_after` seconds, if that is given.
     """
 
-    action: str = ""
+    action: str
     type_name: str = "test_msgs/action/Fibonacci"
-    goal: dict[str, Any] = field(default_factory=dict)
+    goal: Mapping[str, Any]
     cancel_after: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Cancel(Step):
-    """Cancel a goal; a `SendGoal` with `cancel_after` brings it along.
+    """Cancel a goal; `SendGoal` with `cancel_after` includes this step."""
 
-    Attributes:
-        sent: The step that sent it.
-    """
-
-    sent: SendGoal = field(default_factory=lambda: SendGoal(0))
+    sent: SendGoal
 
 
 @dataclass(frozen=True)
@@ -168,23 +140,16 @@ class Remove(Step):
     """Destroy a node."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Add(Step):
-    """Add another node.
+    """Add a node from a node class, or a function that returns a node."""
 
-    Attributes:
-        make: A node class, or a function that returns a node.
-        start: How it is started.
-    """
-
-    make: Any = None
+    make: Callable[[], Node]
     start: Launch = field(default_factory=Launch)
 
 
-# The node `/tester` of a scenario: it publishes, calls services and sends goals.
-
-
-#: The node that publishes and asks.
+#: Steps that the node `/tester` carries out.
+Sent = Publish | Call | SendGoal | Cancel
 TESTER = "tester"
 
 _STATUS = {
@@ -195,222 +160,151 @@ _STATUS = {
 }
 
 
-class Tester:
-    """What steps send goes out here, and what comes back is written down.
+class Steps:
+    """Carries out steps at their times.
 
     Args:
-        world: The session's world.
+        session: The session that they are done in.
+        steps: The steps, in any order.
 
     Attributes:
-        replies: What came back, in order.
-    """
-
-    def __init__(self, world: World) -> None:
-        self.replies: list[Reply] = []
-        self._world = world
-        self._ends: dict[int, Any] = {}
-        self._goals: dict[int, Any] = {}
-        self._counts: Counter[str] = Counter()
-
-    def prepare(self, node: Node, steps: Iterable[Publish | Call | SendGoal]) -> None:
-        """Make what the steps need: publishers, and clients of services and actions."""
-        made: dict[tuple[str, ...], Any] = {}
-        for step in steps:
-            if isinstance(step, Publish):
-                kind = message_class(step.type_name)
-                end = node.create_publisher(kind, step.topic, profile(step.qos))
-            else:
-                end = made.get(_address(step)) or _client(node, step)
-                made[_address(step)] = end
-            self._ends[id(step)] = end
-
-    def publish(self, step: Publish) -> None:
-        """Publish what a step says."""
-        for value in step.values:
-            self._ends[id(step)].publish(message(step.type_name, value))
-
-    def call(self, step: Call) -> None:
-        """Call a service."""
-        client = self._ends[id(step)]
-        request = client.srv_type.Request(**step.values)
-        note = self._noting(client.service_name)
-        client.call_async(request).add_done_callback(
-            lambda future: note("response", plain(future.result()))
-        )
-
-    def send(self, step: SendGoal) -> None:
-        """Send a goal, and ask for its result."""
-        client = self._ends[id(step)]
-        goal = client._action_type.Goal(**step.goal)
-        note = self._noting(f"/{step.action.lstrip('/')}")
-        sent = client.send_goal_async(goal, lambda heard: note("feedback", plain(heard.feedback)))
-        sent.add_done_callback(lambda future: self._decided(step, note, future.result()))
-
-    def _decided(self, step: SendGoal, note: Any, goal: Any) -> None:  # noqa: ANN401
-        note("goal", {"accepted": goal.accepted})
-        if goal.accepted:
-            self._goals[id(step)] = (goal, note)
-            goal.get_result_async().add_done_callback(
-                lambda future: note("result", _result(future.result()))
-            )
-
-    def cancel(self, step: SendGoal) -> None:
-        """Cancel the goal of a step, if it was accepted."""
-        goal, note = self._goals.get(id(step), (None, None))
-        if goal is not None:
-            goal.cancel_goal_async().add_done_callback(
-                lambda future: note("cancel", {"count": len(future.result().goals_canceling)})
-            )
-
-    def set_parameters(self, step: SetParameters, name: str, node: Node) -> str:
-        """Set parameters of a node, all at once; `accepted`, or why they were refused."""
-        note = self._noting(name)
-        missing = [one for one in step.values if not node.has_parameter(one)]
-        if missing:
-            note("parameters", {"successful": False, "reason": "not declared", "values": {}})
-            return "refused, not declared"
-        wanted = [Parameter(one, value=value) for one, value in step.values.items()]
-        result = node.set_parameters_atomically(wanted)
-        values = {one: node.get_parameter(one).value for one in step.values}
-        note("parameters", {**plain(result), "values": values})
-        return "accepted" if result.successful else f"refused, {result.reason}".rstrip(", ")
-
-    def _noting(self, name: str) -> partial[None]:
-        self._counts[name] += 1
-        return partial(self._note, name, self._counts[name])
-
-    def _note(self, name: str, number: int, word: str, data: dict[str, Any]) -> None:
-        self.replies.append(Reply(self._world.now(), name, number, word, data))
-
-
-def _address(step: Call | SendGoal) -> tuple[str, ...]:
-    name = step.service if isinstance(step, Call) else step.action
-    return type(step).__name__, name, step.type_name
-
-
-def _client(node: Node, step: Call | SendGoal) -> Any:  # noqa: ANN401 - of a service or action
-    kind = message_class(step.type_name)
-    if isinstance(step, Call):
-        return node.create_client(kind, step.service)
-    return ActionClient(node, kind, step.action)
-
-
-def _result(response: Any) -> dict[str, Any]:  # noqa: ANN401 - of any action
-    return {"status": _STATUS.get(response.status, "OTHER"), **plain(response.result)}
-
-
-# Carrying out the steps of a scenario.
-
-
-class Stage:
-    """Runs virtual time from step to step.
-
-    Args:
-        session: The session.
-        steps: What is to be done, in any order.
-
-    Attributes:
-        subject: Full name of the learner's node, to which steps without a name are done.
-        records: What was done: callbacks of the kind `step`.
+        subject: Full name of the learner's node.
+        records: A callback record of the kind `step` for each step that was done.
+        replies: What services, actions and parameters answered.
     """
 
     def __init__(self, session: Session, steps: Iterable[Step]) -> None:
         self.subject = ""
         self.records: list[CallbackRecord] = []
+        self.replies: list[Reply] = []
         self._session, self._world = session, session._world
-        self._todo = deque(sorted(_with_cancels(steps), key=lambda step: step.at_ns))
-        self._tester = Tester(self._world)
+        self._steps = sorted(_with_cancels(steps), key=attrgetter("at_ns"))
+        # By the id of a step: its publisher or client, and the goal that it sent.
+        self._entities: dict[int, Any] = {}
+        self._goals: dict[int, tuple[Any, partial[None]]] = {}
+        self._requests: Counter[str] = Counter()
 
     def prepare(self) -> None:
-        """Make the node that the steps publish, call and send goals from, if any do."""
-        wanted = [step for step in self._todo if isinstance(step, Publish | Call | SendGoal)]
-        if wanted:
-            self._tester.prepare(self._session.add(lambda: Node(TESTER, **BARE)), wanted)
-
-    @property
-    def replies(self) -> tuple[Reply, ...]:
-        """What came back to those who asked."""
-        return tuple(self._tester.replies)
-
-    def advance(self, end: int, run: Callable[[int], None]) -> None:
-        """Let virtual time pass, and do on the way what is to be done.
-
-        Args:
-            end: Until when, in nanoseconds.
-            run: Runs the nodes until a time.
-        """
-        while self._todo and self._todo[0].at_ns <= end:
-            step = self._todo.popleft()
-            run(max(step.at_ns, self._world.now()))
-            self._do(step)
-        run(end)
-
-    # The steps.
-
-    def _do(self, step: Step) -> None:
-        name = step.node or self.subject
-        if isinstance(step, Publish | Call | SendGoal | Cancel):
-            self._note(step, f"/{TESTER}", self._sent(step))
+        """Make the node that publishes, calls services and sends goals, if a step does."""
+        sending = [one for one in self._steps if isinstance(one, Publish | Call | SendGoal)]
+        if not sending:
             return
-        if isinstance(step, Add):
-            self._join(step)
-            return
+        node = self._session.add(lambda: Node(TESTER, **BARE))
+        service, action = cache(node.create_client), cache(partial(ActionClient, node))
+        for step in sending:
+            kind = message_class(step.type_name)
+            if isinstance(step, Publish):
+                entity = node.create_publisher(kind, step.topic, profile(step.qos))
+            elif isinstance(step, Call):
+                entity = service(kind, step.service)
+            else:
+                entity = action(kind, step.action)
+            self._entities[id(step)] = entity
+
+    def run_until(self, end_ns: int) -> None:
+        """Run virtual time until `end_ns`, and carry out the steps on the way."""
+        run_until = self._world.virtual.run_until
+        for step in self._steps:
+            if step.at_ns > end_ns:
+                break
+            run_until(max(step.at_ns, self._world.now()))
+            if isinstance(step, Add):
+                self._session.add(step.make, **step.start.options())
+                continue
+            node, source = self._send(step) if isinstance(step, Sent) else self._change(step)
+            kind, now = type(step).__name__, self._world.now()
+            self.records.append(CallbackRecord(now, node, "step", kind, source))
+        run_until(end_ns)
+
+    # Both ways of carrying out a step return what is recorded: a node's name and a text.
+
+    def _send(self, step: Sent) -> tuple[str, str]:
+        entity: Any = self._entities.get(id(step))
+        if isinstance(step, Publish):
+            name = step.topic
+            for value in step.values:
+                entity.publish(message(step.type_name, value))
+        elif isinstance(step, Call):
+            name = step.service
+            self._call(step, entity)
+        elif isinstance(step, SendGoal):
+            name = step.action
+            self._send_goal(step, entity)
+        else:
+            name = step.sent.action
+            self._cancel(step.sent)
+        return f"/{TESTER}", name
+
+    def _call(self, step: Call, client: Any) -> None:  # noqa: ANN401 - of any service
+        reply = self._replier(client.service_name)
+        future = client.call_async(client.srv_type.Request(**step.values))
+        future.add_done_callback(lambda future: reply("response", plain(future.result())))
+
+    def _send_goal(self, step: SendGoal, client: Any) -> None:  # noqa: ANN401 - of any action
+        reply = self._replier(f"/{step.action.lstrip('/')}")
+
+        def accepted_or_rejected(future: Any) -> None:  # noqa: ANN401
+            goal = future.result()
+            reply("goal", {"accepted": goal.accepted})
+            if goal.accepted:
+                self._goals[id(step)] = goal, reply
+                goal.get_result_async().add_done_callback(
+                    lambda future: reply("result", _result(future.result()))
+                )
+
+        goal = client._action_type.Goal(**step.goal)
+        sent = client.send_goal_async(goal, lambda heard: reply("feedback", plain(heard.feedback)))
+        sent.add_done_callback(accepted_or_rejected)
+
+    def _cancel(self, sent: SendGoal) -> None:
+        if id(sent) in self._goals:
+            goal, reply = self._goals[id(sent)]
+            goal.cancel_goal_async().add_done_callback(
+                lambda future: reply("cancel", {"count": len(future.result().goals_canceling)})
+            )
+
+    def _replier(self, name: str) -> partial[None]:
+        """Return a function that records a reply to the next request to `name`."""
+        self._requests[name] += 1
+        return partial(self._reply, name, self._requests[name])
+
+    def _reply(self, name: str, number: int, word: str, data: dict[str, Any]) -> None:
+        self.replies.append(Reply(self._world.now(), name, number, word, data))
+
+    def _change(self, step: Step) -> tuple[str, str]:
+        name, text = step.node or self.subject, ""
         state = self._world.named("/" + name.lstrip("/"))
         if state is None or state.node is None:
-            self._note(step, name, "no such node")
-        elif isinstance(step, SetParameter | SetParameters):
-            self._set(step, state)
-        else:
-            self._move(step, state)
-
-    def _join(self, step: Add) -> None:
-        """Add a node."""
-        self._session.add(step.make, **step.start.options())
-
-    def _sent(self, step: Publish | Call | SendGoal | Cancel) -> str:
-        """Let the tester send something; where to."""
-        if isinstance(step, Publish):
-            self._tester.publish(step)
-            return step.topic
-        if isinstance(step, Call):
-            self._tester.call(step)
-            return step.service
-        if isinstance(step, SendGoal):
-            self._tester.send(step)
-            return step.action
-        self._tester.cancel(step.sent)
-        return step.sent.action
-
-    def _move(self, step: Step, state: NodeState) -> None:
+            return name, "no such node"
         if isinstance(step, Remove):
             self._world.destroy(state)
         elif isinstance(step, Pause):
             self._world.rest_node(state)
         elif isinstance(step, Resume) and not state.ended:
             self._world.spin_node(state)
-        self._note(step, state.name, "")
+        elif isinstance(step, SetParameter | SetParameters):
+            text = self._set(step, state, state.node)
+        return state.name, text
 
-    def _set(self, step: SetParameter | SetParameters, state: NodeState) -> None:
+    def _set(self, step: SetParameter | SetParameters, state: NodeState, node: Node) -> str:
+        reply = self._replier(state.name) if isinstance(step, SetParameters) else None
+        values = {step.name: step.value} if isinstance(step, SetParameter) else step.values
+        result = SetParametersResult(reason="not declared")
         try:
-            answer = self._answer(step, state)
+            declared = all(map(node.has_parameter, values))
+            if declared:
+                parameters = [Parameter(name, value=value) for name, value in values.items()]
+                result = node.set_parameters_atomically(parameters)
+            if reply:
+                now = {name: node.get_parameter(name).value for name in values if declared}
+                reply("parameters", {**plain(result), "values": now})
+            text = "accepted" if result.successful else f"refused, {result.reason}".rstrip(", ")
         except RosbeatError:
             raise
         except Exception as error:  # a callback of the learner's own
             self._world.callback_raised(state, "set_parameters", error)
-            answer = f"raised {type(error).__name__}"
-        names = step.name if isinstance(step, SetParameter) else ", ".join(step.values)
-        self._note(step, state.name, f"{names}: {answer}")
-
-    def _answer(self, step: SetParameter | SetParameters, state: NodeState) -> str:
-        if isinstance(step, SetParameter):
-            return _set_parameter(state, step)
-        if state.node is None:
-            return "refused, not declared"
-        return self._tester.set_parameters(step, state.name, state.node)
-
-    def _note(self, step: Step, node: str, source: str) -> None:
-        kind = type(step).__name__
-        self.records.append(CallbackRecord(self._world.now(), node, "step", kind, source))
+            text = f"raised {type(error).__name__}"
+        return f"{', '.join(values)}: {text}"
 
 
 def _with_cancels(steps: Iterable[Step]) -> Iterator[Step]:
@@ -420,111 +314,112 @@ def _with_cancels(steps: Iterable[Step]) -> Iterator[Step]:
             yield Cancel(step.at + step.cancel_after, sent=step)
 
 
-def _set_parameter(state: NodeState, step: SetParameter) -> str:
-    """Set a parameter of a node; `accepted`, or why it was refused."""
-    node = state.node
-    if node is None or not node.has_parameter(step.name):
-        return "refused, not declared"
-    (result,) = node.set_parameters([Parameter(step.name, value=step.value)])
-    return "accepted" if result.successful else f"refused, {result.reason}".rstrip(", ")
+def _result(response: Any) -> dict[str, Any]:  # noqa: ANN401 - of any action
+    return {"status": _STATUS.get(response.status, "OTHER"), **plain(response.result)}
 
 
-# One run of a learner's node among others, in a session of its own.
+# One run of a learner's nodes among others, in a session of its own.
 
-
-#: Records of one kind that an observation holds at most; and one that was broken off: a callback
-#: that publishes or logs without end fills no memory with them, and takes no time.
-MOST_RECORDS, MOST_OF_BROKEN_OFF = 100_000, 2_000
-#: What may run beside an answer.
-Others = Iterable[Callable[[], Node] | Maker]
+#: A node that runs beside the learner's, and how it is started.
+Other = Callable[[], Node] | Maker
+#: Seconds of wall time that an observation may take.
+DEADLINE = 5.0
 #: Seconds of wall time in which a graph is read and nodes are destroyed, at most.
 _TO_TIDY = 1.0
+#: Records of one kind in an observation, and in one that was broken off: a callback may publish or
+#: log without end.
+MOST_RECORDS, MOST_OF_BROKEN_OFF = 100_000, 2_000
+#: Nodes in a system; a longer list is taken for a mistake.
+MOST_NODES = 30
 
 
 class _NeverMade(BaseException):
     """Raised in a constructor that waits for longer than the run lasts."""
 
 
-class Scene:
-    """Runs an answer, and remembers what went wrong.
+class _Run:
+    """Runs the learner's nodes, and records what goes wrong; see `observe`."""
 
-    Args:
-        seed: Seed of the random numbers that nodes draw.
-        seconds: Virtual seconds to run.
-        steps: What is done meanwhile.
-    """
-
-    def __init__(self, seed: int, seconds: float, steps: Iterable[Step]) -> None:
-        self.subject = ""
+    def __init__(self, seconds: float, steps: Iterable[Step], seed: int, deadline: float) -> None:
         self._seed, self._end = seed, duration_ns(seconds)
-        self._session = session = Session(seed=seed)
-        self._world = session._world
-        self._stage = Stage(session, steps)
+        self._session = Session(seed=seed)
+        self._world = self._session._world
+        self._steps = Steps(self._session, steps)
+        self._deadline = Deadline(deadline, self._note_expiry, self._wake)
         self._faults: list[Fault] = []
-        self._making = False
-        # How long the constructor has slept; and who never came back from a wait.
-        self._slept = 0
-        self._never_back: Fault | None = None
-        self._limit: Deadline | None = None
-        # What was running when the time was up, and how many faults there had been by then.
-        self._stuck: tuple[str, str] = ("", "run")
-        self._known = 0
+        self._late: Fault | None = None  # of a callback or constructor that never came to an end
+        self._slept = 0  # in the constructor
+        self._constructing = False
+        # What was running at the deadline, and how many faults there had been.
+        self._expired: tuple[tuple[str, str], int] = ("", "run"), 0
 
-    # Running.
+    def play(
+        self, add: Callable[[_Run, Maker], None], answer: Maker, others: Iterable[Other]
+    ) -> None:
+        """Run everything; whatever is raised becomes a fault.
 
-    def play(self, answer: Maker, others: Others, deadline: float) -> None:
-        """Run everything, at most `deadline` seconds of wall time; whatever is raised is a fault.
-
-        Raises:
-            KeyboardInterrupt: If Interrupt was pressed.
+        Args:
+            add: `_Run.add_node` or `_Run.add_system`.
+            answer: What the learner handed over.
+            others: The other nodes; see `observe`.
         """
         # What has to be put back stands outside of the deadline, which hits what it finds.
-        limit = within(deadline, self._note_stuck, self._wake)
-        with self._world.running([answer.make]), limit as self._limit:
-            apart(lambda: self._try_to_play(answer, others))
+        with self._world.running([answer.make]), self._deadline:
+            run_in_generator(lambda: self._play(partial(add, self, answer), others))
 
-    def _try_to_play(self, answer: Maker, others: Others) -> None:
+    def _play(self, add: Callable[[], None], others: Iterable[Other]) -> None:
         try:
-            self._perform(answer, others)
+            self._steps.prepare()
+            for other in others:
+                self._add(other if isinstance(other, Maker) else Maker(other))
+            with self._starting():
+                add()
+            self._world.console.begin(quiet=True)
+            self._steps.run_until(self._end)
+            self._note_waiting()
         except DeadlinePassed:
             raise
         except _NeverMade:
-            return
+            pass
         except BaseException as error:  # a learner may raise anything
-            self._faults.append(self._refused(error))
-
-    def _perform(self, answer: Maker, others: Others) -> None:
-        self._stage.prepare()
-        for other in others:
-            made = other if isinstance(other, Maker) else Maker(other)
-            self._session.add(made.make, **made.start.options())
-        self._add(answer)
-        self._world.console.begin(quiet=True)
-        self._stage.advance(self._end, self._world.virtual.run_until)
-        self._note_who_waits()
-
-    def _add(self, answer: Maker) -> None:
-        make = type(answer.make) if isinstance(answer.make, Node) else answer.make
-        with self._starting():
-            made = self._session.add(make, **answer.start.options())
-            self.subject = self._stage.subject = self._world.name_of(made) or ""
+            self._faults.append(self._fault_of(error))
 
     @contextmanager
     def _starting(self) -> Iterator[None]:
-        """Make the answer's nodes in this block.
+        """Make the learner's nodes in this block.
 
-        A node of the same name would make room: here it is another process, and stays. And a
-        constructor that sleeps takes no time: the run begins when the node is there.
+        A node of the same name is another process here, and stays. A constructor that sleeps takes
+        no time: the run begins when the nodes are there.
         """
-        self._making = True
-        self._world.node_begins = _let_be  # type: ignore[method-assign]
+        self._constructing = True
+        self._world.node_begins = lambda *_: None  # type: ignore[method-assign]
         self._world.virtual.nap = self._nap
         try:
             yield
         finally:
             self._world.virtual.nap = None
             del self._world.node_begins
-        self._making = False
+        self._constructing = False
+
+    def _add(self, maker: Maker) -> Node:
+        return self._session.add(maker.make, **maker.start.options())
+
+    def add_node(self, answer: Maker) -> None:
+        """Add the learner's node; of an instance, its class is used."""
+        make = type(answer.make) if isinstance(answer.make, Node) else answer.make
+        self._steps.subject = self._world.name_of(self._add(replace(answer, make=make))) or ""
+
+    def add_system(self, answer: Maker) -> None:
+        """Add the nodes of a learner's system; one that cannot be made is left out."""
+        for maker in _makers(answer.make):
+            start = maker.start
+            start = replace(start, parameters={**start.parameters, **answer.start.parameters})
+            try:
+                self._add(Maker(maker.make, Launch() if isinstance(maker.make, Node) else start))
+            except RosbeatError as error:
+                self._faults.append(self._fault_of(error))
+
+    # What goes wrong.
 
     def _wake(self) -> None:
         """Wake executors that wait in C, where no exception reaches them."""
@@ -533,132 +428,105 @@ class Scene:
             if executor is not None and executor is not self._world.virtual:
                 executor.wake()
 
-    # Waiting.
-
     def _nap(self, span_ns: int, reason: str) -> None:
         self._slept += span_ns
         if self._slept > self._end:
-            self._never_back = self._late_fault("", "__init__", reason, sys._getframe(1))
+            self._late = self._late_fault("", "__init__", reason, sys._getframe(1))
             raise _NeverMade
 
-    def _note_who_waits(self) -> None:
-        """Note a callback that waits on when the run is over, if it has waited for long."""
+    def _note_waiting(self) -> None:
+        """Note a callback that still waits when the run is over, if it has waited for long."""
         for call in self._world.virtual.suspended:
             wait = call.wait
             if wait is None or call.spinning:
                 continue
-            if call.began_ns > self._end / 2 and (wait.until_ns or 0) < 2 * self._end:
-                continue
-            frame = wait.thread.gr_frame
-            self._never_back = self._late_fault(call.node, call.name, wait.reason, frame)
-            return
+            if call.began_ns <= self._end / 2 or (wait.until_ns or 0) >= 2 * self._end:
+                frame = wait.thread.gr_frame
+                self._late = self._late_fault(call.node, call.name, wait.reason, frame)
+                return
 
     def _late_fault(self, node: str, callback: str, reason: str, frame: FrameType | None) -> Fault:
-        known = {"sleep": "asleep", "spin": "spinning"}
-        doing = known.get(reason, f"waiting for {reason}")
+        doing = {"sleep": "asleep", "spin": "spinning"}.get(reason, f"waiting for {reason}")
         text = f"still {doing} after {self._end / NANOSECONDS:g} s"
-        place = line_of(frame)
-        return Fault(self._world.now(), node, callback, "DeadlinePassed", text, *place)
+        return Fault(self._world.now(), node, callback, "DeadlinePassed", text, *line_of(frame))
 
-    # What went wrong.
-
-    def _note_stuck(self) -> None:
+    def _callback(self) -> tuple[str, str]:
+        """Return the node and the callback that is running."""
         calling = self._world.virtual.calling
-        if self._making:
-            self._stuck = ("", "__init__")
-        elif calling is not None:
-            self._stuck = (calling.node, calling.name)
-        # Not `len`: this is called in the midst of code that may have put something in its place.
-        self._known = self._world.recorder.faults.__len__()
+        if self._constructing:
+            return "", "__init__"
+        return ("", "run") if calling is None else (calling.node, calling.name)
 
-    def _refused(self, error: BaseException) -> Fault:
+    def _note_expiry(self) -> None:
+        # Not `len`: the code that is running may have put something in its place.
+        self._expired = self._callback(), self._world.recorder.faults.__len__()
+
+    def _fault_of(self, error: BaseException) -> Fault:
         now, cause = self._world.now(), error.__cause__
         if isinstance(error, NodeConstructionError) and cause is not None:
             return fault_of(cause, now, "", "__init__")
         if isinstance(error, RosbeatError):
             call = "add" if isinstance(error, NodeClassError) else "run"
             return Fault(now, "", call, type(error).__name__, error.what, 0, "")
-        self._note_stuck()
-        return fault_of(error, now, *self._stuck)
-
-    def _all_faults(self) -> tuple[Fault, ...]:
-        found = [*self._world.recorder.faults, *self._faults]
-        if self._limit is None or not self._limit.passed:
-            return (*found, self._never_back) if self._never_back else tuple(found)
-        node, callback = self._stuck
-        text = f"still running after {self._limit.seconds:g} s"
-        stuck = Fault(self._world.now(), node, callback, "DeadlinePassed", text, *self._limit.place)
-        # What was raised afterwards was raised by the shot.
-        return (*found[: self._known], stuck)
+        return fault_of(error, now, *self._callback())
 
     # The result.
 
     def observation(self, printed: int) -> Observation:
-        """What was seen.
-
-        Args:
-            printed: How many characters the learner's code printed.
-        """
-        recorder = self._world.recorder
-        broken_off = (self._limit and self._limit.passed) or self._never_back
-        most = MOST_OF_BROKEN_OFF if broken_off else MOST_RECORDS
-        callbacks = [*islice(recorder.callbacks(), most), *self._stage.records]
-        graph = self._graph()
+        """Return what happened; the learner's code printed so many characters."""
+        recorder, deadline = self._world.recorder, self._deadline
+        faults = [*recorder.faults, *self._faults, *filter(None, [self._late])]
+        if deadline.passed:
+            callback, known = self._expired
+            text = f"still running after {deadline.seconds:g} s"
+            now = self._world.now()
+            # What was raised after the deadline was raised because of it.
+            faults[known:] = [Fault(now, *callback, "DeadlinePassed", text, *deadline.place)]
+        most = MOST_OF_BROKEN_OFF if deadline.passed or self._late else MOST_RECORDS
+        callbacks = [*islice(recorder.callbacks(), most), *self._steps.records]
+        graph = GraphSnapshot()
+        with Deadline(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
+            graph = self._world.graph()
         return Observation(
             self._world.now(),
             self._seed,
             tuple(islice(recorder.samples(), most)),
             tuple(recorder.logs[:most]),
-            tuple(sorted(callbacks, key=_time_of)),
-            self._all_faults(),
+            tuple(sorted(callbacks, key=attrgetter("time_ns"))),
+            tuple(faults),
             graph,
-            self.subject,
+            self._steps.subject,
             printed,
-            self._stage.replies,
+            tuple(self._steps.replies),
             self._world.virtual.all_waits()[:most],
         )
-
-    def _graph(self) -> GraphSnapshot:
-        graph = GraphSnapshot()
-        with within(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
-            graph = self._world.graph()
-        return graph
 
     def close(self) -> None:
         """End the session, whatever the nodes do against it."""
         kinds = [type(node) for node in self._session.nodes]
-        with within(_TO_TIDY, nudge=self._wake):
-            apart(self._destroy_nodes)
+        with Deadline(_TO_TIDY, nudge=self._wake):
+            run_in_generator(self._destroy_nodes)
         self._session.close()
-        del self._session, self._world, self._stage
+        del self._session, self._world, self._steps
         if any(hasattr(kind, "__del__") for kind in kinds):
-            with within(_TO_TIDY):
-                apart(gc.collect)  # here, where it has a deadline, and not at any later time
+            with Deadline(_TO_TIDY):
+                run_in_generator(
+                    gc.collect
+                )  # here, where it has a deadline, and not at any later time
 
     def _destroy_nodes(self) -> None:
+        # Not in `close`, whose variables would keep a node from being collected.
         self._world.hurry()
         for node in reversed(self._session.nodes):
             with suppress(Exception):
                 Node.destroy_node(node)  # and not what its class makes of that
 
 
-def _let_be(name: str, namespace: str) -> None:
-    """Make no room for a new node."""
-
-
-def _time_of(record: CallbackRecord) -> int:
-    return record.time_ns
-
-
-#: Seconds of wall time that an observation may take.
-DEADLINE = 5.0
-
-
 def observe(
     answer: Any,  # noqa: ANN401 - whatever a learner hands over
     seconds: float,
     *,
-    others: Iterable[Callable[[], Node] | Maker] = (),
+    others: Iterable[Other] = (),
     start: Launch | None = None,
     seed: int = 0,
     steps: Iterable[Step] = (),
@@ -685,140 +553,91 @@ def observe(
         KeyboardInterrupt: If Interrupt was pressed.
         DomainsExhaustedError: If no private domain id is left on this machine.
     """
-    scene = Scene(seed, seconds, steps)
-    try:
-        with unharmed() as count:
-            scene.play(Maker(answer, start or Launch()), others, deadline)
-        # What the learner's code has changed is put back before anything else is done.
-        with unharmed():
-            return scene.observation(count.characters)
-    finally:
-        with unharmed():
-            scene.close()
-
-
-# Running a whole system of a learner's: several nodes, as a launch file would start them.
-#
-# What `observe` does for one node: nothing is printed or raised, there is a deadline, and
-# whatever goes wrong is a fault in the observation. A node that cannot be made, or raises, ends
-# alone; the others go on, as processes do.
-
-
-#: A system of more nodes is taken for a slip.
-MOST_NODES = 30
-_OPTIONS = ("name", "namespace", "remappings", "parameters")
+    run = _Run(seconds, steps, seed, deadline)
+    return _observe(run, _Run.add_node, Maker(answer, start or Launch()), others)
 
 
 def observe_system(
     answer: Any,  # noqa: ANN401 - whatever a learner hands over
     seconds: float,
     *,
-    others: Iterable[Callable[[], Node]] = (),
+    others: Iterable[Other] = (),
     parameters: Mapping[str, Any] | None = None,
     steps: Iterable[Step] = (),
     seed: int = 0,
     deadline: float = DEADLINE,
 ) -> Observation:
-    """Run the nodes of an answer among others in virtual time.
+    """Run the nodes of an answer, as a launch file would start them; otherwise like `observe`.
 
-    Args:
-        answer: What should be a function that returns a list, or the list. Its members are node
-            classes, functions that return a node, or pairs of one of these and a dict with
-            `name`, `namespace`, `remappings` and `parameters`.
-        seconds: Virtual seconds to run.
-        others: Nodes to run beside them, added first.
-        parameters: Values with which each of the answer's nodes is started, besides its own.
-        steps: What is done meanwhile.
-        seed: Seed of the random numbers that nodes draw.
-        deadline: Seconds of wall time after which it is broken off.
-
-    Returns:
-        What happened. An answer that is no list of nodes is a fault of the kind `NoSystemError`.
-
-    Raises:
-        KeyboardInterrupt: If Interrupt was pressed.
-        DomainsExhaustedError: If no private domain id is left on this machine.
+    `answer` should be a list, or a function that returns one. Its members are node classes,
+    functions that return a node, or pairs of one of these and a dict of `name`, `namespace`,
+    `remappings` and `parameters`. Each is started with `parameters`, too. A node that cannot be
+    made, or raises, ends alone. What is no list of nodes is a fault of the kind `NoSystemError`.
     """
-    scene = _SystemScene(seed, seconds, steps)
+    run = _Run(seconds, steps, seed, deadline)
+    return _observe(
+        run, _Run.add_system, Maker(answer, Launch(parameters=parameters or {})), others
+    )
+
+
+def _observe(
+    run: _Run, add: Callable[[_Run, Maker], None], answer: Maker, others: Iterable[Other]
+) -> Observation:
     try:
-        with unharmed() as count:
-            scene.play(Maker(answer, Launch(parameters=parameters or {})), others, deadline)
+        with unharmed() as printed:
+            run.play(add, answer, others)
+        # What the learner's code has changed is put back before anything else is done.
         with unharmed():
-            return scene.observation(count.characters)
+            return run.observation(printed.characters)
     finally:
         with unharmed():
-            scene.close()
+            run.close()
 
 
-class _SystemScene(Scene):
-    """Runs the nodes of a system."""
-
-    def _add(self, answer: Maker) -> None:
-        with self._starting():
-            for member in members(answer.make):
-                self._add_one(member, answer.start)
-
-    def _add_one(self, member: Maker, given: Launch) -> None:
-        try:
-            if isinstance(member.make, Node):
-                self._session.add(member.make)
-                return
-            both = {**member.start.parameters, **given.parameters}
-            self._session.add(member.make, **replace(member.start, parameters=both).options())
-        except RosbeatError as error:
-            self._faults.append(self._refused(error))
-
-
-def members(answer: Any) -> list[Maker]:  # noqa: ANN401
-    """The nodes of a system, and how each is started.
-
-    Args:
-        answer: A list, or a function that returns one.
+def _makers(answer: Any) -> list[Maker]:  # noqa: ANN401 - whatever a learner hands over
+    """Return the nodes of a system, and how each is started.
 
     Raises:
-        NoSystemError: If it is neither.
+        NoSystemError: If the answer is neither a list nor a function that returns one.
         SessionError: If a node cannot be started as the list says.
     """
-    found = answer() if callable(answer) and not _is_node(answer) else answer
+    is_node = isinstance(answer, Node) or (isclass(answer) and issubclass(answer, Node))
+    found = answer() if callable(answer) and not is_node else answer
     if found is None:
-        raise _no_system(
-            "The function gave nothing back.", "It needs a `return`, and behind it the list."
-        )
-    if isinstance(found, str | Mapping | Node) or _is_node(found):
-        raise _no_system(f"What came is {_kind(found)}.", "A system is a list of nodes.")
+        raise _no_system("The function gave nothing back.")
     try:
-        listed = list(found)
+        listed = None if isinstance(found, str | Mapping) else list(found)
     except TypeError:
-        raise _no_system(f"What came is {_kind(found)}.", "A system is a list.") from None
+        listed = None
+    if listed is None:
+        kind = f"of type {type(found).__name__}"
+        kind = "one node, and no list" if isinstance(found, Node) else kind
+        kind = "one class, and no list" if isclass(found) else kind
+        raise _no_system(f"What came is {kind}.")
     if not 0 < len(listed) <= MOST_NODES:
-        raise _no_system(f"The list holds {len(listed)} nodes.", "Each node of yours stands once.")
-    return [_member(one) for one in listed]
+        raise _no_system(f"The list holds {len(listed)} nodes.")
+    return [_maker(one) for one in listed]
 
 
-def _member(one: Any) -> Maker:  # noqa: ANN401
+def _maker(one: Any) -> Maker:  # noqa: ANN401
     if isinstance(one, Maker):
         return one
     if not isinstance(one, tuple | list):
         return Maker(one)
-    may = f"The dict may hold {', '.join(_OPTIONS)}, as `ros.add` takes them."
     if len(one) != 2 or not isinstance(one[1], Mapping):
-        raise _no_system("A pair in the list is not of a class and a dict.", may)
-    strange = [option for option in one[1] if option not in _OPTIONS]
-    if strange:
-        known = f"known are {', '.join(_OPTIONS)}"
-        raise _no_system(f"A node cannot be started with {strange[0]!r}; {known}.", may)
-    return Maker(one[0], checked(*(one[1].get(option) for option in _OPTIONS)))
+        raise _no_system("A pair in the list is not of a class and a dict.")
+    options: dict[str, Any] = dict.fromkeys(("name", "namespace", "remappings", "parameters"))
+    for option, value in one[1].items():
+        if option not in options:
+            known = ", ".join(options)
+            raise _no_system(f"A node cannot be started with {option!r}; known are {known}.")
+        options[option] = value
+    return Maker(one[0], checked(**options))
 
 
-def _is_node(found: object) -> bool:
-    return isinstance(found, Node) or (isclass(found) and issubclass(found, Node))
-
-
-def _kind(found: object) -> str:
-    if isclass(found):
-        return "one class, and no list"
-    return "one node, and no list" if _is_node(found) else f"of type {type(found).__name__}"
-
-
-def _no_system(what: str, means: str) -> NoSystemError:
-    return NoSystemError(what, means, "Return a list of classes: `return [SomeNode, OtherNode]`.")
+def _no_system(what: str) -> NoSystemError:
+    return NoSystemError(
+        what,
+        "A system is a list of nodes, each with a dict of options if it needs some.",
+        "Return a list of classes: `return [SomeNode, OtherNode]`.",
+    )

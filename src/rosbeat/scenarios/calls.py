@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from rosbeat.ros.isolation import within
+from rosbeat.ros.isolation import Deadline
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ def call(answer: Any) -> Calls:  # noqa: ANN401 - whatever a learner hands over
     done: list[tuple[tuple[str, ...], str]] = []
     kinds: list[str] = []
     problem = ""
-    with within(_SECONDS) as deadline:
+    with Deadline(_SECONDS) as deadline:
         try:
             for arguments in ARGUMENTS:
                 result = answer(*arguments)

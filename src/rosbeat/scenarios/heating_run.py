@@ -48,7 +48,7 @@ def heat(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands
         answer: What should be a node class.
     """
     from rosbeat.ros.scenario import SendGoal
-    from rosbeat.ros.test_nodes import room
+    from rosbeat.ros.test_nodes import Room
 
     steps = [
         SendGoal(
@@ -57,4 +57,4 @@ def heat(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands
         )
         for one in GOALS
     ]  # fmt: skip
-    return observe(answer, _SECONDS, others=[room(START)], steps=steps)
+    return observe(answer, _SECONDS, others=[lambda: Room(START)], steps=steps)

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 from typing import Any
 
-from rosbeat.ros.isolation import within
+from rosbeat.ros.isolation import Deadline
 
 #: Seconds of wall time that the function may take.
 SECONDS = 2.0
@@ -43,7 +43,7 @@ def report(answer: Any, *arguments: Any) -> Report:  # noqa: ANN401 - whatever a
         arguments: What it is called with.
     """
     seen = Report("", f"Deadline: it was still running after {SECONDS:g} s")
-    with within(SECONDS) as deadline:
+    with Deadline(SECONDS) as deadline:
         try:
             seen = _written(answer(*arguments))
         except (Exception, SystemExit) as error:  # whatever a learner's function does is evidence

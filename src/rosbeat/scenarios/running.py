@@ -52,9 +52,9 @@ def started(make: Any, **start: Any) -> Any:  # noqa: ANN401
 
 def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
     """A node that tilts random numbers; see `rosbeat.ros.test_nodes.drift`."""
-    from rosbeat.ros import test_nodes as module
+    from rosbeat.ros import test_nodes
 
-    return module.drift(phases)
+    return test_nodes.drift(phases)
 
 
 def observe_system(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
@@ -65,10 +65,9 @@ def observe_system(answer: Any, seconds: float, **options: Any) -> Observation: 
 
 
 def station(name: str, topic: str, readings: Iterable[float | None]) -> Callable[[], Node]:
-    """A sensor that may be silent for a while; see `rosbeat.ros.test_nodes.station`."""
-    from rosbeat.ros import test_nodes
-
-    return test_nodes.station(name, topic, readings)
+    """A sensor that publishes a `Float32` each second; None is a second without a message."""
+    values = [None if reading is None else float(reading) for reading in readings]
+    return feeder(name, topic, "std_msgs/msg/Float32", values)
 
 
 def adding(at: float, make: Callable[[], Node]) -> Any:  # noqa: ANN401

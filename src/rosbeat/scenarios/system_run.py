@@ -15,7 +15,13 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from rosbeat.records import Endpoint, ProgramRun
-from rosbeat.ros.programs import DomainProbe, Program, private_domain, program_environment
+from rosbeat.ros.programs import (
+    DomainProbe,
+    Program,
+    domain_probe,
+    private_domain,
+    program_environment,
+)
 from rosbeat.scenarios.looking import CommandMeaning, look_at_workspace, meaning_of
 from rosbeat.scenarios.sources import Source, read_source
 from rosbeat.workspace.packages import Package
@@ -126,7 +132,7 @@ class _Play:
         """Run them and add what they did."""
         with ExitStack() as stack:
             monitor = stack.enter_context(self._start(MONITOR))
-            probe = stack.enter_context(DomainProbe(self._domain_id, TOPIC))
+            probe = stack.enter_context(domain_probe(self._domain_id, TOPIC))
             met = probe.wait(lambda: probe.has_subscriber() or not monitor.running, _TO_MEET)
             met = met and probe.has_subscriber()
             if met:
