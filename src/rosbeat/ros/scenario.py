@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import gc
 import sys
+import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -19,6 +20,7 @@ from itertools import islice
 from operator import attrgetter
 from types import FrameType
 from typing import Any
+from weakref import ref
 
 from action_msgs.msg import GoalStatus
 from rcl_interfaces.msg import SetParametersResult
@@ -503,16 +505,17 @@ class _Run:
 
     def close(self) -> None:
         """End the session, whatever the nodes do against it."""
-        kinds = [type(node) for node in self._session.nodes]
+        last_words = [ref(one) for one in self._session.nodes if hasattr(type(one), "__del__")]
         with Deadline(_TO_TIDY, nudge=self._wake):
             run_in_generator(self._destroy_nodes)
         self._session.close()
         del self._session, self._world, self._steps
-        if any(hasattr(kind, "__del__") for kind in kinds):
+        # What a class does in `__del__` happens here, where it has a deadline, and not later. On
+        # a busy machine another thread may still hold such a node for a moment.
+        end = time.monotonic() + _TO_TIDY
+        while any(one() is not None for one in last_words) and time.monotonic() < end:
             with Deadline(_TO_TIDY):
-                run_in_generator(
-                    gc.collect
-                )  # here, where it has a deadline, and not at any later time
+                run_in_generator(gc.collect)
 
     def _destroy_nodes(self) -> None:
         # Not in `close`, whose variables would keep a node from being collected.
