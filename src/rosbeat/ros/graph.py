@@ -21,6 +21,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 from rclpy.subscription import Subscription
 
+from rosbeat.errors import SessionError
 from rosbeat.records import (
     INFRASTRUCTURE_TOPICS,
     Endpoint,
@@ -31,7 +32,7 @@ from rosbeat.records import (
 )
 from rosbeat.ros.context import show_briefly
 from rosbeat.ros.entities import NodeState, full_name
-from rosbeat.ros.errors import nobody_else_here, nodes_did_not_come
+from rosbeat.ros.errors import nearest
 from rosbeat.ros.qos_events import limit_ns
 from rosbeat.ros.recording import Channel, Memory, Recorder, Unwatched, type_name
 
@@ -54,20 +55,17 @@ def qos_of(profile: QoSProfile) -> QoS:
     )
 
 
-def snapshot(
-    states: Iterable[NodeState], processes: tuple[tuple[str, ...], ...] = ()
-) -> GraphSnapshot:
-    """Return the graph of these nodes as it is now, without destroyed entities.
-
-    Args:
-        states: The nodes.
-        processes: The names of those that share a process.
-    """
+def snapshot(states: Iterable[NodeState]) -> GraphSnapshot:
+    """Return the graph of these nodes as it is now, without destroyed entities."""
     alive = [state for state in states if state.node is not None]
-    endpoints = (end for state in alive for end in _endpoints(state))
-    timers = (timer for state in alive for timer in _timers(state))
+    # Live, one executor runs all nodes; each is taken for a process of its own there, too.
+    processes = {id(state.process): state.process for state in alive}
+    groups = (tuple(state.name for state in one.states) for one in processes.values())
     return GraphSnapshot(
-        tuple(state.name for state in alive), tuple(endpoints), tuple(timers), processes
+        tuple(state.name for state in alive),
+        tuple(end for state in alive for end in _endpoints(state)),
+        tuple(timer for state in alive for timer in _timers(state)),
+        tuple(group for group in groups if len(group) > 1),
     )
 
 
@@ -409,7 +407,7 @@ def wait_live(world: World, done: Callable[[], object], seconds: float | None) -
         return poll(is_done, deadline)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, "you stopped waiting; the session is still live.")
-        world.hurry()
+        world.interrupt()
         raise
     finally:
         world.show_news()
@@ -424,7 +422,11 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     """
     observer = world.graph_observer
     if observer is None:
-        raise nobody_else_here()
+        raise SessionError(
+            "This session does not see nodes of other processes.",
+            "It has a domain to itself, and the nodes of a terminal are in another one.",
+            'Join theirs: `Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))`.',
+        )
     wanted, looks = set(names), observer.looks()
 
     def are_there() -> bool:
@@ -440,7 +442,18 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     seen = world.graph().nodes
     missing = [name for name in names if name not in seen]
     if missing:
-        raise nodes_did_not_come(missing, seen, seconds, world.domain_id or 0)
+        others = [name for name in seen if name not in missing]
+        raise SessionError(
+            f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there after "
+            f"{seconds:g} s.",
+            f"In domain {world.domain_id} the session sees: {', '.join(seen) or 'no node at all'}.",
+            nearest(
+                missing[0],
+                others,
+                "Start it in a terminal, and look whether it goes on running. Both sides need the "
+                "same ROS_DOMAIN_ID.",
+            ),
+        )
 
 
 # Messages that other processes publish, recorded when a node of the session gets them.

@@ -18,7 +18,7 @@ from rosbeat.diagnosis.faults import first_sentence, meaning_of
 from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError, SessionError
 from rosbeat.records import Fault
 from rosbeat.ros.faults import fault_of
-from rosbeat.ros.recording import mend_message_classes
+from rosbeat.ros.recording import repair_message_classes
 
 if TYPE_CHECKING:
     from rosbeat.ros.processes import Process
@@ -223,7 +223,7 @@ def _call(target: Callable[[], Any]) -> Any:  # noqa: ANN401
 
 
 def _refusal(name: str, error: BaseException) -> NodeConstructionError:
-    mend_message_classes()
+    repair_message_classes()
     fault = fault_of(error, 0, "", "__init__")
     where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
     text, means, to_try = _told(error, fault)

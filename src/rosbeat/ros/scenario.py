@@ -636,7 +636,7 @@ class Scene:
                 apart(gc.collect)  # here, where it has a deadline, and not at any later time
 
     def _destroy_nodes(self) -> None:
-        self._world.hurry()
+        self._world.interrupt()
         for node in reversed(self._session.nodes):
             with suppress(Exception):
                 Node.destroy_node(node)  # and not what its class makes of that

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
 from weakref import finalize
 
 from rclpy.node import Node
 
+from rosbeat.errors import SessionError
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros import spinning
 from rosbeat.ros.context import install_learner_calls, show_briefly
@@ -17,19 +18,19 @@ from rosbeat.ros.errors import (
     check_name,
     check_whole,
     duration_ns,
-    is_made_already,
+    foreign_node,
     node_has_ended,
-    nothing_to_add,
-    one_name_for_several,
+    node_name,
     session_has_ended,
     session_is_live,
     session_is_not_live,
+    unknown_topic,
 )
 from rosbeat.ros.graph import wait_for_nodes, wait_live
-from rosbeat.ros.launch import Maker, Start, build_in, checked
+from rosbeat.ros.launch import Launch, Maker, Start, build_in, checked
 from rosbeat.ros.processes import Process
 from rosbeat.ros.simulated_program import SimulatedProgram
-from rosbeat.ros.world import World, find, log_lines, observation, samples, state_of
+from rosbeat.ros.world import World, find, state_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self, Unpack
@@ -39,26 +40,13 @@ SomeNode = TypeVar("SomeNode", bound=Node)
 
 install_learner_calls()
 spinning.install()
-spinning.install()
 
 
 class Session:
     """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
 
-    ::
-
-        with Session(seed=7) as ros:
-            sensor = ros.add(TemperatureSensor)
-            ros.run(seconds=60)
-            ros.messages("temperature")
-
-    The nodes are real `rclpy` nodes on the real middleware, in a ROS context and domain of their
-    own. In virtual time (`run`) the clock jumps from one timer to the next, so a minute takes
-    milliseconds and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes
-    run against the wall clock, and other processes in the same domain can talk to them.
-
-    It ends with its `with` block, with `close()`, when nothing refers to it or with the kernel, and
-    leaves nothing behind. While it is open, a node without a context belongs to the last session.
+    The page's own `Session` is a subclass; see `rosbeat.page_session`, which also tells how the
+    time passes.
 
     Args:
         seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
@@ -98,22 +86,22 @@ class Session:
 
     @property
     def time(self) -> float:
-        """Seconds of virtual time since the session began; live time counts as it passes."""
+        """Return the seconds since the session began; live time counts as it passes."""
         return self._world.now() / 1e9
 
     @property
     def domain_id(self) -> int:
-        """The ROS domain id, for `ROS_DOMAIN_ID` of a process that shall hear these nodes."""
+        """Return the ROS domain, the `ROS_DOMAIN_ID` of processes that shall hear these nodes."""
         return int(self._world.domain_id or 0)
 
     @property
     def is_live(self) -> bool:
-        """Whether the nodes run against the wall clock now."""
+        """Return whether the nodes run against the wall clock now."""
         return self._world.live is not None
 
     @property
     def nodes(self) -> tuple[Node, ...]:
-        """The nodes of this session, in order of creation."""
+        """Return the nodes of this session, in order of creation."""
         return tuple(state.node for state in self._world.states())
 
     # Nodes.
@@ -163,25 +151,43 @@ class Session:
         start = checked(name, namespace, remappings, parameters)
         check_whole("threads", threads, 1, 1000, "ros.add(TemperatureSensor, threads=4)")
         if not nodes:
-            raise nothing_to_add()
+            raise SessionError(
+                "`ros.add()` was given no node.",
+                "It starts a process, and a process without a node does nothing.",
+                "Hand over a class, without brackets: `ros.add(TemperatureSensor)`.",
+            )
         if name is not None and len(nodes) > 1:
-            raise one_name_for_several(name)
-        code = [node for node in nodes if not isinstance(node, Node)]
-        with self._running("add", code):
-            for node in nodes:
-                if start and isinstance(node, Node):
-                    raise is_made_already(node)
-            process = Process(threads)
-            made = build_in(self._world, nodes, start, process)
-            states = [state_of(self._world, node) for node in made]
-            for state in states:
-                process.adopt(state)
-            for state in states:
-                self._world.spin_node(state)
-            for given, node in zip(nodes, made, strict=True):
-                if node is not given:
-                    self._world.makers[node] = Maker(given, start)
+            raise SessionError(
+                f"Several nodes cannot all be called {name!r}.",
+                "`name` renames every node that is started, as `__node` does on a command line.",
+                "Add them without `name`, or each by itself.",
+            )
+        with self._running("add", [node for node in nodes if not isinstance(node, Node)]):
+            made = self._start_process(nodes, start, threads)
         return made if len(made) > 1 else made[0]
+
+    def _start_process(
+        self, given: tuple[Any, ...], start: Launch, threads: int
+    ) -> tuple[Node, ...]:
+        ready = [node for node in given if isinstance(node, Node)]
+        if start and ready:
+            raise SessionError(
+                f"The node {node_name(ready[0])} is made already and cannot be started in another "
+                "way.",
+                "Its name, topics and parameters are settled while it is made.",
+                "Hand over its class, without brackets: the session then makes the node.",
+            )
+        process = Process(threads)
+        made = build_in(self._world, given, start, process)
+        states = [state_of(self._world, node) for node in made]
+        for state in states:
+            process.adopt(state)
+        for state in states:
+            self._world.spin_node(state)
+        for maker, node in zip(given, made, strict=True):
+            if node is not maker:
+                self._world.makers[node] = Maker(maker, start)
+        return made
 
     def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401
         """Start a program: a Python file with a function `main`, run unchanged in virtual time.
@@ -359,7 +365,7 @@ class Session:
     # What happened.
 
     def messages(self, topic: str) -> tuple[Sample, ...]:
-        """What was published on a topic, in order.
+        """Return what was published on a topic, in order.
 
         In a domain that was joined with `domain_id`, what other processes publish is included from
         the moment at which a node of this session subscribes.
@@ -372,10 +378,15 @@ class Session:
             SessionError: If `topic` is not a name.
         """
         self._world.show_faults()
-        return samples(self._world, topic)
+        name = "/" + check_name("messages", topic).lstrip("/")
+        outside = self._world.external_messages
+        known = self._world.recorder.topics().union(outside.topics() if outside else ())
+        if name not in known:
+            raise unknown_topic(name, known, self._world.graph())
+        return tuple(self._world.recorder.samples(name))
 
     def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
-        """What the nodes said, in order.
+        """Return what the nodes said, in order.
 
         Args:
             node: Only the lines of this node, given itself or by name.
@@ -384,10 +395,17 @@ class Session:
             SessionError: If `node` is neither a name nor a node that is or was in this session.
         """
         self._world.show_faults()
-        return log_lines(self._world, node)
+        records = tuple(self._world.recorder.logs)
+        if node is None:
+            return records
+        name = self._world.name_of(node) if isinstance(node, Node) else check_name("logs", node)
+        if name is None:
+            raise foreign_node(cast(Node, node))
+        wanted = name.strip("/").replace("/", ".")
+        return tuple(record for record in records if record.name == wanted)
 
     def graph(self) -> GraphSnapshot:
-        """The nodes, topics, services and timers as they are now, or were when the session ended.
+        """Return the nodes, topics, services and timers as they are now, or were at the end.
 
         In a domain that was joined with `domain_id`, the nodes of other processes are included as
         far as they are known yet; see `wait_for_nodes`.
@@ -396,12 +414,22 @@ class Session:
         return self._world.graph()
 
     def observation(self) -> Observation:
-        """Everything that was recorded so far, as plain data.
+        """Return everything that was recorded so far, as plain data.
 
         Of a session that has ended it holds the graph as it was just before the end.
         """
         self._world.show_faults()
-        return observation(self._world, self._seed)
+        recorder = self._world.recorder
+        return Observation(
+            self._world.now(),
+            self._seed,
+            tuple(recorder.samples()),
+            tuple(recorder.logs),
+            tuple(recorder.callbacks()),
+            tuple(recorder.faults),
+            self._world.graph(),
+            waits=self._world.virtual.all_waits(),
+        )
 
     # How it works.
 

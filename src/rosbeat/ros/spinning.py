@@ -274,7 +274,7 @@ def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401
             pulse.wait(PULSE / 2)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, f"{state.name} has stopped spinning; the session goes on.")
-        world.hurry()
+        world.interrupt()
         raise
     finally:
         if not was_live:
