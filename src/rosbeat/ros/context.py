@@ -1,4 +1,4 @@
-"""The ROS context of a session; `rclpy.init`, `rclpy.spin` and their kin, called in a page."""
+"""The ROS contexts of sessions and of programs, interrupts, and `rclpy.init` in a page."""
 
 from __future__ import annotations
 
@@ -19,9 +19,6 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rosbeat.ros.console import note
 from rosbeat.ros.recording import Watcher, in_kernel
 
-# The ROS context of a session.
-
-
 #: No node says anything on file descriptor 2: log lines are printed in the cell that ran the node,
 #: the same in JupyterLab and in a test. Nor are log files written into the home directory.
 SESSION_ARGUMENTS = ["--ros-args", "--disable-stdout-logs", "--disable-external-lib-logs"]
@@ -39,13 +36,11 @@ class SessionContext(Context):
 
     Attributes:
         watcher: As above; None when the session has ended, so that the context keeps nothing alive.
-        ended: Whether `end` was called.
     """
 
     def __init__(self, watcher: Watcher, domain_id: int) -> None:
         super().__init__()
         self.watcher: Watcher | None = watcher
-        self.ended = False
         # Always an older one, so that these references never form a circle.
         self._previous: Context | None = rclpy.utilities.g_default_context
         super().init(SESSION_ARGUMENTS, domain_id=domain_id)
@@ -69,19 +64,15 @@ class SessionContext(Context):
 
     def end(self) -> None:
         """Shut the context down for real and hand the default back."""
-        self.ended = True
-        self._previous = _living(self._previous)
+        self.watcher = None
+        self._previous = _open_context(self._previous)
         if rclpy.utilities.g_default_context is self:
             self.uninstall(self._previous)
         super().try_shutdown()
-        self.watcher = None
         _configure_logging(self._previous, self._previous)
 
     def _call_on_shutdown_callbacks(self) -> None:
-        """Call all that asked to be told, also if one of them raises: the end must be one.
-
-        rclpy's own one for its global executor does, if the node that spun was broken off.
-        """
+        """Call all of them, also if one raises, as that of rclpy's global executor may."""
         told: list[Callable[[], Any]] = self._callbacks
         self._callbacks: list[Callable[[], Any]] = []
         for reference in told:
@@ -99,7 +90,7 @@ class SessionContext(Context):
     def uninstall(self, before: Context | None) -> None:
         """Make `before` the default again, or what came before it if its session has ended."""
         with rclpy.utilities.g_context_lock:
-            rclpy.utilities.g_default_context = _living(before)
+            rclpy.utilities.g_default_context = _open_context(before)
 
     def _be_default(self) -> None:
         with rclpy.utilities.g_context_lock:
@@ -127,7 +118,7 @@ class ProgramContext(Context):
 
     @property
     def ros_arguments(self) -> list[str]:
-        """What stands behind `--ros-args` on the command line, with that word."""
+        """Return what stands behind `--ros-args` on the command line, with that word."""
         words: list[str] = self._program.argv
         return words[words.index("--ros-args") :] if "--ros-args" in words else []
 
@@ -142,8 +133,8 @@ class ProgramContext(Context):
         self._program.shut_down()
 
 
-def _living(context: Context | None) -> Context | None:
-    while isinstance(context, SessionContext) and context.ended:
+def _open_context(context: Context | None) -> Context | None:
+    while isinstance(context, SessionContext) and context.watcher is None:
         context = context._previous
     return context
 
@@ -161,16 +152,8 @@ def _configure_logging(settings: Context | None, other: Context | None) -> None:
     rclpy_implementation.rclpy_logging_configure(settings.handle)
 
 
-# Interrupts that must not get lost.
-
-
 def show_briefly(interrupt: KeyboardInterrupt, text: str) -> None:
-    """Let IPython show one line for an interrupt, and not the stack it happened to hit.
-
-    Args:
-        interrupt: The exception that is on its way.
-        text: What to say.
-    """
+    """Let IPython show one line for an interrupt, and not the stack it happened to hit."""
     lines = [f"KeyboardInterrupt: {text}"]
     interrupt._render_traceback_ = lambda: lines  # type: ignore[attr-defined] # IPython's protocol
 
@@ -206,11 +189,7 @@ class Interrupts:
             signal.signal(signal.SIGINT, self._original)
 
     def insist(self) -> None:
-        """Raise the interrupt if there was one.
-
-        Raises:
-            KeyboardInterrupt: If Interrupt was pressed.
-        """
+        """Raise the KeyboardInterrupt if there was one."""
         if self.pressed:
             raise KeyboardInterrupt from None
 
@@ -219,16 +198,12 @@ class Interrupts:
         self._original(number, frame)
 
 
-# What `rclpy.init`, `rclpy.spin` and their kin do when a learner calls them in a page.
-#
-# They are written for a process that does nothing else. In a kernel the originals would take over
-# Interrupt (`init` installs signal handlers that shut down *every* context) or never give it back
-# (`spin` waits in C, where Interrupt does not reach). Here they do what their name says and leave
-# the kernel alive; nodes of a session stay with their session.
-
-
 def install_learner_calls() -> None:
-    """Put `init` in the place of rclpy's; a second call does nothing."""
+    """Put an `init` for pages in the place of rclpy's; a second call does nothing.
+
+    The original is written for a process that does nothing else: in a kernel it would install
+    signal handlers with which Interrupt shuts down *every* context.
+    """
     if hasattr(rclpy.init, "__wrapped__"):
         return
     rclpy.init = _init(rclpy.init)
@@ -246,10 +221,7 @@ def _init(original: Callable[..., None]) -> Callable[..., None]:
         **options: Any,  # noqa: ANN401 - rclpy's own
     ) -> None:
         target = context or rclpy.get_default_context()
-        if isinstance(target, SessionContext):
-            target.init(args)
-            return
-        if isinstance(target, ProgramContext):
+        if isinstance(target, SessionContext | ProgramContext):
             target.init(args, domain_id=options.get("domain_id"))
             return
         if in_kernel():

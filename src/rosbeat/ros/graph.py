@@ -101,8 +101,7 @@ def _timers(state: NodeState) -> Iterator[TimerRecord]:
                 yield TimerRecord(state.name, entry.label.name, period, entry.calls)
 
 
-# A hidden node, through which a session sees the other processes of its domain.
-
+# The other processes of a domain, seen through a hidden node.
 
 #: The name of a node that has not announced it yet: the middleware announces the names of nodes
 #: about 0.1 s after those of their topics.
@@ -129,9 +128,6 @@ class HiddenNode(Unwatched, Node):
     """Takes part in a domain without services, parameters and log topic.
 
     Its name begins with `_`, so `ros2 node list` leaves it out as it does its own nodes.
-
-    Args:
-        context: The context that it belongs to.
     """
 
     def __init__(self, context: Context) -> None:
@@ -148,9 +144,6 @@ class GraphObserver(HiddenNode):
     """Asks the middleware for the graph of a domain, the nodes of other processes included.
 
     Discovery begins when it is made, so a session keeps one from its beginning on.
-
-    Args:
-        context: The session's context.
     """
 
     def __init__(self, context: Context) -> None:
@@ -189,11 +182,8 @@ class GraphObserver(HiddenNode):
 
     def knows_all_names(self) -> bool:
         """Return whether every endpoint that is known has a node whose name is known."""
-        return not any(
-            one.node_name == _UNKNOWN_NODE
-            for topic in self.topics()
-            for one in self.publishers(topic) + self.subscriptions(topic)
-        )
+        return all(one.node_name != _UNKNOWN_NODE for topic in self.topics()
+                   for one in self.publishers(topic) + self.subscriptions(topic))  # fmt: skip
 
     def wait_until_stable(self) -> None:
         """Wait until every process of this machine is seen, with its names, and nothing changes.
@@ -235,9 +225,6 @@ def owner(endpoint: Any) -> str:  # noqa: ANN401 - rclpy's TopicEndpointInfo
 def _participant(endpoint: Any) -> bytes:  # noqa: ANN401 - rclpy's TopicEndpointInfo
     """Return the part of an endpoint's address that all endpoints of a context share."""
     return bytes(endpoint.endpoint_gid[:_PARTICIPANT_BYTES])
-
-
-# The graph of the other processes in a domain, as records.
 
 
 def with_other_processes(own: GraphSnapshot, observer: GraphObserver) -> GraphSnapshot:
@@ -299,13 +286,6 @@ def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoin
 # (RTPS specification, section 9.6.1). So they can be counted before any of them has answered.
 
 
-_SOCKET_TABLES = ("/proc/net/udp", "/proc/net/udp6")
-#: Domains whose ports Linux does not hand out by itself.
-_DOMAINS = range(102)
-#: Columns of the system's table: the local address with its port, and the socket's inode.
-_ADDRESS, _INODE = 1, 9
-
-
 def count_participants(domain_id: int, ports: Collection[int] | None = None) -> int:
     """Return how many participants of this machine are in a domain; 0 if that is unknown.
 
@@ -322,27 +302,21 @@ def count_participants(domain_id: int, ports: Collection[int] | None = None) -> 
 def domains_in_use() -> list[int]:
     """Return the domains in which another process of this machine takes part, ascending."""
     ports = udp_ports(_socket_table(), _own_sockets())
-    return [number for number in _DOMAINS if count_participants(number, ports)]
+    # From 102 on Linux hands out the ports by itself.
+    return [number for number in range(102) if count_participants(number, ports)]
 
 
 def udp_ports(table: str, ignored: Collection[str] = ()) -> set[int]:
-    """Return the ports in Linux's table of UDP sockets.
-
-    Args:
-        table: The table's text.
-        ignored: Inodes of sockets that do not count.
-    """
-    rows = (line.split() for line in table.splitlines())
-    return {
-        int(row[_ADDRESS].rpartition(":")[2], 16)
-        for row in rows
-        if len(row) > _INODE and row[0][0].isdigit() and row[_INODE] not in ignored
-    }
+    """Return the ports in Linux's table of UDP sockets, but for sockets of these inodes."""
+    rows = [line.split() for line in table.splitlines()]
+    # Column 1 is the local address with its port, column 9 the inode.
+    sockets = [row for row in rows if len(row) > 9 and row[0][0].isdigit()]
+    return {int(row[1].rpartition(":")[2], 16) for row in sockets if row[9] not in ignored}
 
 
 def _socket_table() -> str:
     text = ""
-    for name in _SOCKET_TABLES:
+    for name in ("/proc/net/udp", "/proc/net/udp6"):
         with suppress(OSError):
             text += Path(name).read_text(encoding="ascii")
     return text
@@ -360,21 +334,17 @@ def _own_sockets() -> set[str]:
 
 # Waiting in a cell, with a deadline, for something that happens elsewhere.
 
-
 _POLL_EVERY = 0.05
 #: So many polls without a change: 0.2 s, on a machine that is not busy.
 _SAME_POLLS = 4
 
 
 def poll(done: Callable[[], object], deadline: float | None) -> bool:
-    """Wait until something is true.
+    """Wait until `done` is true; return whether it became so before the deadline.
 
     Args:
         done: Asked again and again.
         deadline: When to give up, on `time.monotonic`'s clock; None for never.
-
-    Returns:
-        Whether it came true.
     """
     pulse = Event()  # nobody sets it: it is a sleep that an Interrupt ends at once
     while not done():
@@ -386,15 +356,12 @@ def poll(done: Callable[[], object], deadline: float | None) -> bool:
 
 
 def wait_live(world: World, done: Callable[[], object], seconds: float | None) -> bool:
-    """Wait while a session is live, and print what its nodes log.
+    """Wait until `done` is true while a session is live, and print what its nodes log.
 
     Args:
         world: The session.
         done: Asked again and again.
         seconds: How long at most, in seconds of wall time; None for ever.
-
-    Returns:
-        Whether it came true.
     """
 
     def is_done() -> object:
@@ -463,7 +430,6 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
 # when they published what; what is not among these came from another process. Its node is known if
 # only one node outside publishes there.
 
-
 #: The publishing node, as long as it cannot be told.
 _UNKNOWN_PUBLISHER = "?"
 #: Fast DDS keeps times in fractions of a second that are no whole nanoseconds.
@@ -506,7 +472,7 @@ class ExternalMessages:
 
     Args:
         observer: Knows who publishes.
-        recorder: Where messages are remembered.
+        recorder: Where messages are recorded.
         now: Returns the nanoseconds since the session began.
     """
 
@@ -561,7 +527,9 @@ class ExternalMessages:
         if not outside and topic in self._last:
             return self._last[topic]  # the publisher has left
         key = topic, frozenset(bytes(one.endpoint_gid) for one in outside)
-        name = _only_owner(outside)
+        names = {owner(one) for one in outside}
+        is_known = len(names) == 1 and outside[0].node_name != _UNKNOWN_NODE
+        name = names.pop() if is_known else _UNKNOWN_PUBLISHER
         channel = self._channels.get(key)
         if channel is None:
             channel = self._recorder.channel(topic, type_name(self._types[topic]), name, memory)
@@ -569,13 +537,6 @@ class ExternalMessages:
             channel = self._recorder.rename(channel, name)
         self._channels[key] = self._last[topic] = channel
         return channel
-
-
-def _only_owner(publishers: list[Any]) -> str:
-    names = {owner(one) for one in publishers}
-    if len(names) != 1 or publishers[0].node_name == _UNKNOWN_NODE:
-        return _UNKNOWN_PUBLISHER
-    return names.pop()
 
 
 def _with_message_info(
