@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import Any
+from collections import Counter
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
 
 from rcl_interfaces.srv import GetParameters
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
-from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from rosbeat.diagnosis.situation import (
@@ -41,6 +39,21 @@ from rosbeat.ros.world import World
 _BLOCKING_SECONDS = 1.0
 #: A rate is that of so many messages, the newest.
 _NEWEST = 100
+#: So many messages tell their rate, if they are not all in one burst; ten of each, if several nodes
+#: publish, since it cannot be told which is whose.
+_ENOUGH, _ENOUGH_OF_EACH, _AT_LEAST_SECONDS = 3, 10, 0.5
+#: Others have so many seconds to react, and no less than so many turns of the executor: on a busy
+#: machine time passes in which they could not.
+_REACTION_SECONDS, _REACTION_TURNS = 2.0, 40
+_TURN = 0.02
+#: Seconds after which a request is sent again: an answer can be lost while the graph changes, as it
+#: does just after another process was killed.
+_RESEND = 0.4
+#: Other domains that are looked into; each takes a part of a second.
+_MOST_DOMAINS = 10
+
+#: A message: its number among all of the session, who published it, and when in nanoseconds.
+_Message = tuple[int, str, int]
 
 
 def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
@@ -60,19 +73,21 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
         observer.wait_until_stable()
     graph = world.graph()
     external = _External() if observer is None else _listen(world, observer, topic, graph, seconds)
-    messages = _Messages(world, topic)
+    with world.recorder.lock:
+        messages = world.recorder.times(topic)
+    own = (*_publishers(world, topic, messages), *_subscriptions(world, topic, messages))
     states = world.states()
     return Scene(
         graph,
         world.now(),
-        (*_publishers(world, messages), *_subscriptions(world, messages), *external.beats),
+        (*own, *external.beats),
         (*blocked, *(_condition(world, state) for state in states), *external.conditions),
         external.rate_hz,
         frozenset(state.name for state in states),
         virtual=world.live is None,
         waiting=world.virtual.has_work,
         domain_id=-1 if observer is None else world.domain_id or 0,
-        former=_former(graph, messages),
+        former=() if graph.on(topic, "publisher") else _former(messages),
         other_domains=_other_domains(world, topic, graph),
     )
 
@@ -103,54 +118,24 @@ def _condition(world: World, state: NodeState) -> Condition:
     return Condition(state.name, PAUSED if state.paused else NOT_ADDED)
 
 
-class _Messages:
-    """Keeps the messages of a topic so far.
-
-    Args:
-        world: The session.
-        topic: The topic's full name.
-
-    Attributes:
-        topic: As above.
-        nodes: Who has published, in order of their last messages.
-    """
-
-    def __init__(self, world: World, topic: str) -> None:
-        self.topic = topic
-        with world.recorder.lock:
-            self._all = world.recorder.times(topic)
-        last = {node: number for number, node, _ in self._all}
-        self.nodes = sorted(last, key=lambda node: last[node])
-
-    def __len__(self) -> int:
-        return len(self._all)
-
-    def times_of(self, node: str) -> list[int]:
-        """Return when one node published, in nanoseconds since the session began."""
-        return [at for _, name, at in self._all if name == node]
-
-    def before(self, number: int) -> int:
-        """Return how many came before the message of this number among all of the session."""
-        return sum(one[0] < number for one in self._all)
-
-
-def _publishers(world: World, messages: _Messages) -> Iterator[Beat]:
+def _publishers(world: World, topic: str, messages: list[_Message]) -> Iterator[Beat]:
     for state in world.states():
-        counts = [tap.count for tap in state.taps if tap.topic == messages.topic]
+        counts = [tap.count for tap in state.taps if tap.topic == topic]
         if counts:
             number = sum(counts)
             # Of a node of this name that was replaced there may be more.
-            times = messages.times_of(state.name)[-min(number, _NEWEST) :] if number else []
+            times = [at for _, node, at in messages if node == state.name]
+            times = times[-min(number, _NEWEST) :] if number else []
             last, watched = times[-1] if times else -1, world.now() - state.born_ns
             yield Beat(state.name, "publisher", number, last, rate_of(times), watched)
 
 
-def _subscriptions(world: World, messages: _Messages) -> Iterator[Beat]:
-    wanted = "subscription", messages.topic
+def _subscriptions(world: World, topic: str, messages: list[_Message]) -> Iterator[Beat]:
     for state in world.states():
-        entries = [one for one in state.entries if (one.kind, one.name) == wanted]
+        entries = [one for one in state.entries if (one.kind, one.name) == ("subscription", topic)]
         if entries:
-            missed = messages.before(min(one.born for one in entries))
+            born = min(one.born for one in entries)
+            missed = sum(number < born for number, _, _ in messages)
             yield Beat(
                 state.name,
                 "subscription",
@@ -162,12 +147,13 @@ def _subscriptions(world: World, messages: _Messages) -> Iterator[Beat]:
             )
 
 
-def _former(graph: GraphSnapshot, messages: _Messages) -> tuple[Former, ...]:
-    """Return who published before, if nobody does now."""
-    if graph.on(messages.topic, "publisher"):
-        return ()
-    times = {node: messages.times_of(node) for node in messages.nodes}
-    return tuple(Former(node, len(found), found[-1]) for node, found in times.items())
+def _former(messages: list[_Message]) -> tuple[Former, ...]:
+    """Return who has published, in order of their last messages."""
+    last = {node: (number, at) for number, node, at in messages}
+    count = Counter(node for _, node, _ in messages)
+    return tuple(
+        Former(node, count[node], last[node][1]) for node in sorted(last, key=last.__getitem__)
+    )
 
 
 # The nodes of other processes: what arrives from them, and whether they answer.
@@ -176,24 +162,7 @@ def _former(graph: GraphSnapshot, messages: _Messages) -> tuple[Former, ...]:
 # answer runs no callbacks: it is not spun, or a callback does not return.
 
 
-#: So many messages tell their rate, if they are not all in one burst; ten of each, if several nodes
-#: publish, since it cannot be told which is whose.
-_ENOUGH, _ENOUGH_OF_EACH, _AT_LEAST_SECONDS = 3, 10, 0.5
-#: Others have so many seconds to react, and no less than so many turns of the executor: on a busy
-#: machine time passes in which they could not.
-_REACTION_SECONDS, _REACTION_TURNS = 2.0, 40
-_TURN = 0.02
-#: Seconds after which a request is sent again: an answer can be lost while the graph changes, as it
-#: does just after another process was killed.
-_RESEND = 0.4
-_QUEUE = 1000
-
-#: Runs the callbacks of a node for a turn.
-_Spin = Callable[[], None]
-
-
-@dataclass(frozen=True)
-class _External:
+class _External(NamedTuple):
     """What is known of other processes.
 
     Attributes:
@@ -218,121 +187,116 @@ def _listen(
     names = [owner(one) for one in publishers]
     both = dict.fromkeys([*names, *map(owner, outside(observer.subscriptions(topic)))])
     asked = [one for one in both if graph.on(f"{one}/get_parameters", "server")]
-    stamps: tuple[int, ...] = ()
+    stamps: list[int] = []
     span: float | None = None
-    with _temporary_node(world.context) as (node, spin):
-        services = {
-            one: node.create_client(GetParameters, f"{one}/get_parameters") for one in asked
-        }
+    listener = _Listener(world.context)
+    try:
+        listener.connect_to(asked)
         # Listen first: a callback that does not return may only begin meanwhile.
         if publishers and seconds:
-            stamps, span = _receive(world, node, topic, publishers, seconds, spin)
-        silent = _silent(services, spin)
+            stamps, span = listener.receive(world, topic, publishers, seconds)
+        silent = listener.silent_nodes()
+    finally:
+        listener.close()
     rate = rate_of(sorted(stamps))
     conditions = tuple(Condition(one, SILENT if one in silent else RUNNING) for one in asked)
     if span is None or (stamps and len(names) > 1):
         return _External((), conditions, rate)
     watched = round(span * NANOSECONDS)
-    return _External(
-        tuple(
-            Beat(one, "publisher", len(stamps), rate_hz=rate, watched_ns=watched) for one in names
-        ),
-        conditions,
-    )
+    beats = (Beat(one, "publisher", len(stamps), -1, rate, watched) for one in names)
+    return _External(tuple(beats), conditions)
 
 
-@contextmanager
-def _temporary_node(context: Context) -> Iterator[tuple[Node, _Spin]]:
-    """Make a hidden node for a while, and what spins it."""
-    node = HiddenNode(context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    try:
-        yield node, lambda: executor.spin_once(timeout_sec=_TURN)
-    finally:
-        executor.shutdown()
-        node.destroy_node()
+class _Listener(HiddenNode):
+    """Listens to other processes for a while, and asks their nodes for parameters."""
 
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._clients_by_node: dict[str, Any] = {}
+        self._spinner = SingleThreadedExecutor(context=context)
+        self._spinner.add_node(self)
 
-def _spin_until(spin: _Spin, done: Callable[[], object]) -> None:
-    """Spin until something is true, or others have had time enough to react."""
-    begin, turns = time.monotonic(), 0
-    while not done():
-        if turns >= _REACTION_TURNS and time.monotonic() - begin >= _REACTION_SECONDS:
-            return
-        spin()
-        turns += 1
+    def close(self) -> None:
+        """Leave the graph."""
+        self._spinner.shutdown()
+        self.destroy_node()
 
+    def connect_to(self, nodes: list[str]) -> None:
+        """Make a client of each node's parameter service."""
+        for name in nodes:
+            client = self.create_client(GetParameters, f"{name}/get_parameters")
+            self._clients_by_node[name] = client
 
-def _receive(
-    world: World, node: Node, topic: str, publishers: list[Any], seconds: float, spin: _Spin
-) -> tuple[tuple[int, ...], float | None]:
-    """Listen to other processes for a while.
+    def _spin_until(self, done: Callable[[], object]) -> None:
+        """Spin until something is true, or others have had time enough to react."""
+        begin, turns = time.monotonic(), 0
+        while not done():
+            if turns >= _REACTION_TURNS and time.monotonic() - begin >= _REACTION_SECONDS:
+                return
+            self._spinner.spin_once(timeout_sec=_TURN)
+            turns += 1
 
-    Returns:
-        When each message was sent, by its sender's clock; and for how many seconds it listened, or
-        None if it could not be connected.
-    """
-    external = world.external_messages
-    stamps: list[int] = []
+    def receive(
+        self, world: World, topic: str, publishers: list[Any], seconds: float
+    ) -> tuple[list[int], float | None]:
+        """Receive what other processes publish for a while.
 
-    def arrived(_: bytes, info: dict[str, int]) -> None:
-        if external is None or not external.is_own(topic, info):
-            stamps.append(info["source_timestamp"])
+        Returns:
+            When each message was sent, by its sender's clock; and for how many seconds it listened,
+            or None if it could not be connected.
+        """
+        external = world.external_messages
+        stamps: list[int] = []
 
-    # Best effort and volatile fits whatever a publisher offers.
-    qos = QoSProfile(depth=_QUEUE, reliability=ReliabilityPolicy.BEST_EFFORT)
-    try:
-        kind = message_class(publishers[0].topic_type)
-        subscription = node.create_subscription(kind, topic, arrived, qos, raw=True)
-    except (ImportError, AttributeError, ValueError, rclpy_implementation.RCLError):
-        return (), None  # the type is unknown here, or this process knows another under the name
-    _spin_until(spin, subscription.get_publisher_count)
-    if not subscription.get_publisher_count():
-        return (), None
-    enough = _ENOUGH if len(publishers) < 2 else _ENOUGH_OF_EACH * len(publishers)
-    begin, span = time.monotonic(), 0.0
-    while span < seconds and not (span >= _AT_LEAST_SECONDS and len(stamps) >= enough):
-        spin()
-        span = time.monotonic() - begin
-    return tuple(stamps), min(span, seconds)
+        def arrived(_: bytes, info: dict[str, int]) -> None:
+            if external is None or not external.is_own(topic, info):
+                stamps.append(info["source_timestamp"])
 
+        # Best effort and volatile fits whatever a publisher offers.
+        qos = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
+        try:
+            kind = message_class(publishers[0].topic_type)
+            subscription = self.create_subscription(kind, topic, arrived, qos, raw=True)
+        except (ImportError, AttributeError, ValueError, rclpy_implementation.RCLError):
+            return [], None  # the type is unknown, or this process knows another under the name
+        self._spin_until(subscription.get_publisher_count)
+        if not subscription.get_publisher_count():
+            return [], None
+        enough = _ENOUGH if len(publishers) < 2 else _ENOUGH_OF_EACH * len(publishers)
+        begin, span = time.monotonic(), 0.0
+        while span < seconds and not (span >= _AT_LEAST_SECONDS and len(stamps) >= enough):
+            self._spinner.spin_once(timeout_sec=_TURN)
+            span = time.monotonic() - begin
+        return stamps, min(span, seconds)
 
-def _silent(services: Mapping[str, Any], spin: _Spin) -> set[str]:
-    """Ask nodes for none of their parameters, and return those that do not answer.
+    def silent_nodes(self) -> set[str]:
+        """Ask nodes for none of their parameters, and return those that do not answer.
 
-    A node that cannot be asked is believed to run.
+        A node that cannot be asked is believed to run.
+        """
+        services = self._clients_by_node
+        self._spin_until(lambda: all(one.service_is_ready() for one in services.values()))
+        answers: dict[str, list[Any]] = {
+            name: [] for name, one in services.items() if one.service_is_ready()
+        }
+        sent = -_RESEND
 
-    Args:
-        services: A client of each node's parameter service, by the node's name.
-        spin: Spins the clients' node.
-    """
-    _spin_until(spin, lambda: all(one.service_is_ready() for one in services.values()))
-    answers: dict[str, list[Any]] = {
-        name: [] for name, one in services.items() if one.service_is_ready()
-    }
-    sent = -_RESEND
+        def waiting() -> list[str]:
+            return [name for name, found in answers.items() if not any(one.done() for one in found)]
 
-    def waiting() -> list[str]:
-        return [name for name, found in answers.items() if not any(one.done() for one in found)]
+        def all_have_answered() -> bool:
+            nonlocal sent
+            if time.monotonic() - sent >= _RESEND:
+                sent = time.monotonic()
+                for name in waiting():
+                    answers[name].append(services[name].call_async(GetParameters.Request()))
+            return not waiting()
 
-    def all_have_answered() -> bool:
-        nonlocal sent
-        if time.monotonic() - sent >= _RESEND:
-            sent = time.monotonic()
-            for name in waiting():
-                answers[name].append(services[name].call_async(GetParameters.Request()))
-        return not waiting()
-
-    _spin_until(spin, all_have_answered)
-    return set(waiting())
+        self._spin_until(all_have_answered)
+        return set(waiting())
 
 
 # Who uses the topic in another ROS domain of this machine.
-
-
-#: Each takes a part of a second.
-_MOST_DOMAINS = 10
 
 
 def _other_domains(world: World, topic: str, graph: GraphSnapshot) -> tuple[OtherDomain, ...]:
