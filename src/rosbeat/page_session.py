@@ -68,8 +68,7 @@ class Session(session.Session):
                 callback.
             ClosedSessionError: If the session has ended.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.explain")
+        self._check_call("explain")
         name = full_topic("explain", topic)
         span = duration_ns(seconds, "explain(seconds=...)") / 1e9
         try:
@@ -88,8 +87,7 @@ class Session(session.Session):
             SessionError: If `panel` is called from a callback.
             ClosedSessionError: If the session has ended.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.panel")
+        self._check_call("panel")
         # The widgets take a while to load, and few pages need them.
         from rosbeat.panel.instruments import SessionInstruments
         from rosbeat.panel.panel import Panel

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import wraps
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 import rclpy.signals
@@ -18,6 +18,10 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from rosbeat.ros.console import note
 from rosbeat.ros.recording import Watcher, in_kernel
+
+if TYPE_CHECKING:
+    from rosbeat.ros.simulated_program import SimulatedProgram
+    from rosbeat.ros.world import World
 
 #: No node says anything on file descriptor 2: log lines are printed in the cell that ran the node,
 #: the same in JupyterLab and in a test. Nor are log files written into the home directory.
@@ -54,7 +58,7 @@ class SessionContext(Context):
     def shutdown(self) -> None:
         """Answer a learner's `rclpy.shutdown()`: the session goes on."""
         if self.watcher is not None:
-            self._be_default()  # rclpy.shutdown() has just forgotten the default context
+            self.install()  # rclpy.shutdown() has just forgotten the default context
             self.watcher.explain_shutdown()
 
     def try_shutdown(self) -> None:
@@ -83,18 +87,15 @@ class SessionContext(Context):
 
     def install(self) -> Context | None:
         """Become rclpy's default context; return the one that was, for `uninstall`."""
-        before: Context | None = rclpy.utilities.g_default_context
-        self._be_default()
+        with rclpy.utilities.g_context_lock:
+            before: Context | None = rclpy.utilities.g_default_context
+            rclpy.utilities.g_default_context = self
         return before
 
     def uninstall(self, before: Context | None) -> None:
         """Make `before` the default again, or what came before it if its session has ended."""
         with rclpy.utilities.g_context_lock:
             rclpy.utilities.g_default_context = _open_context(before)
-
-    def _be_default(self) -> None:
-        with rclpy.utilities.g_context_lock:
-            rclpy.utilities.g_default_context = self
 
 
 class ProgramContext(Context):
@@ -104,22 +105,23 @@ class ProgramContext(Context):
     its own. The program's nodes are made in the session's context.
 
     Args:
-        watcher: The session.
+        world: The session.
         program: The program; told of a shutdown.
 
     Attributes:
+        watcher: The session.
         home: The context in which nodes are made.
     """
 
-    def __init__(self, watcher: Any, program: Any) -> None:  # noqa: ANN401
+    def __init__(self, world: World, program: SimulatedProgram) -> None:
         super().__init__()
-        self.watcher, self._program = watcher, program
-        self.home: Context = watcher.context
+        self.watcher, self._program = world, program
+        self.home: Context = world.context
 
     @property
     def ros_arguments(self) -> list[str]:
         """Return what stands behind `--ros-args` on the command line, with that word."""
-        words: list[str] = self._program.argv
+        words = self._program.argv
         return words[words.index("--ros-args") :] if "--ros-args" in words else []
 
     def shutdown(self) -> None:
@@ -204,15 +206,13 @@ def install_learner_calls() -> None:
     The original is written for a process that does nothing else: in a kernel it would install
     signal handlers with which Interrupt shuts down *every* context.
     """
-    if hasattr(rclpy.init, "__wrapped__"):
+    original: Callable[..., None] = rclpy.init
+    if hasattr(original, "__wrapped__"):
         return
-    rclpy.init = _init(rclpy.init)
     if in_kernel() and threading.current_thread() is threading.main_thread():
         # rclpy.init() may have been called before rosbeat was imported.
         rclpy.signals.uninstall_signal_handlers()
 
-
-def _init(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def init(
         *,
@@ -232,4 +232,4 @@ def _init(original: Callable[..., None]) -> Callable[..., None]:
             args = [] if args is None else args  # sys.argv is the kernel's, not the node's
         original(args=args, context=context, **options)
 
-    return init
+    rclpy.init = init

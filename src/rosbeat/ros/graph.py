@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Coroutine, Iterable, Iterator
 from contextlib import suppress
 from inspect import iscoroutinefunction
-from itertools import count
+from itertools import count, product
 from pathlib import Path
 from threading import Event
 from typing import TYPE_CHECKING, Any
@@ -246,12 +246,13 @@ def _topic_endpoints(observer: GraphObserver) -> Iterator[Endpoint]:
         if topic == _LOG_TOPIC or is_hidden(topic):
             continue
         publishers, subscriptions = observer.publishers(topic), observer.subscriptions(topic)
-        for one in filter(observer.is_outside, publishers):
-            matched = sum(_match(one, other) for other in subscriptions)
-            yield _endpoint(one, topic, "publisher", matched)
-        for one in filter(observer.is_outside, subscriptions):
-            matched = sum(_match(other, one) for other in publishers)
-            yield _endpoint(one, topic, "subscription", matched)
+        matches = Counter[int]()
+        for one, other in product(publishers, subscriptions):
+            matches.update({id(one): 1, id(other): 1} if _match(one, other) else {})
+        for kind, ends in (("publisher", publishers), ("subscription", subscriptions)):
+            for one in filter(observer.is_outside, ends):
+                qos, matched = qos_of(one.qos_profile), matches[id(one)]
+                yield Endpoint(owner(one), topic, one.topic_type, kind, qos, matched)
 
 
 def _match(publisher: Any, subscription: Any) -> bool:  # noqa: ANN401 - rclpy's TopicEndpointInfo
@@ -259,10 +260,6 @@ def _match(publisher: Any, subscription: Any) -> bool:  # noqa: ANN401 - rclpy's
     compatible, _ = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
     same_type = publisher.topic_type == subscription.topic_type
     return bool(same_type and compatible != QoSCompatibility.ERROR)
-
-
-def _endpoint(one: Any, topic: str, kind: str, matched: int) -> Endpoint:  # noqa: ANN401
-    return Endpoint(owner(one), topic, one.topic_type, kind, qos_of(one.qos_profile), matched)
 
 
 def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoint]:

@@ -11,6 +11,7 @@ from threading import Event, Thread, current_thread
 from typing import TYPE_CHECKING, Any
 
 from rclpy.context import Context
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import (
     ConditionReachedException,
     ExternalShutdownException,
@@ -144,7 +145,11 @@ class LiveExecutor(SingleThreadedExecutor):
         return super()._make_handler(entity, node, take)
 
     def _run_one(self) -> None:
-        handler, entity, node = self.wait_for_ready_callbacks(condition=self._stopping.is_set)
+        try:
+            handler, entity, node = self.wait_for_ready_callbacks(condition=self._stopping.is_set)
+        except InvalidHandle:  # another thread destroyed an entity while rclpy gathered them
+            self._cb_iter = None
+            return
         error: BaseException | None = None
         self.current, self.task = node, handler
         try:

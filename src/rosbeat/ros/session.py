@@ -45,19 +45,8 @@ spinning.install()
 class Session:
     """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
 
-    The page's own `Session` is a subclass; see `rosbeat.page_session`, which also tells how the
-    time passes.
-
-    Args:
-        seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
-            global generator. The same seed gives the same run.
-        domain_id: The ROS domain to join, 0 to 101; the session then sees the nodes of other
-            processes there, too. By default it has a domain to itself, and neither another session
-            nor a terminal hears it.
-
-    Raises:
-        SessionError: If the seed or the domain id is not a whole number in its range.
-        DomainsExhaustedError: If no private domain id is left on this machine.
+    The page's own `Session` is a subclass; see `rosbeat.page_session`, also for the
+    arguments and for what it raises.
     """
 
     def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
@@ -226,12 +215,9 @@ class Session:
         self._world.destroy(find(self._world, node))
 
     def pause(self, node: Node | str) -> None:
-        """Run none of this node's callbacks for a while, as if it were busy.
+        """Run no callbacks of a node, given itself or by name, as if it were busy.
 
         Messages go on arriving and wait in its queues, as many as each queue holds.
-
-        Args:
-            node: The node, or its name.
 
         Raises:
             SessionError: If the session has no such node.
@@ -242,10 +228,7 @@ class Session:
         state.paused = True
 
     def resume(self, node: Node | str) -> None:
-        """Run a paused node's callbacks again; it first gets what waits in its queues.
-
-        Args:
-            node: The node, or its name.
+        """Run a paused node's callbacks again, beginning with what waits in its queues.
 
         Raises:
             SessionError: If the session has no such node, or it ended with an exception.
@@ -296,8 +279,7 @@ class Session:
         Raises:
             SessionError: If `start` is called from a callback.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.start")
+        self._check_call("start")
         if not self.is_live:
             self._world.go_live()
 
@@ -317,8 +299,7 @@ class Session:
             DurationError: If `seconds` is not a number from 0 up.
             SessionError: If the session is not live, or `wait` is called from a callback.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.wait")
+        self._check_call("wait")
         if not self.is_live:
             raise session_is_not_live()
         span = None if seconds is None else duration_ns(seconds, "wait(seconds=...)") / 1e9
@@ -338,8 +319,7 @@ class Session:
             SessionError: If they do not come, the session has no `domain_id`, a name is not a text,
                 or `wait_for_nodes` is called from a callback.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.wait_for_nodes")
+        self._check_call("wait_for_nodes")
         wanted = ["/" + check_name("wait_for_nodes", name).lstrip("/") for name in names]
         seconds = duration_ns(timeout, "wait_for_nodes(timeout=...)") / 1e9
         wait_for_nodes(self._world, wanted, seconds)
@@ -353,8 +333,7 @@ class Session:
         Raises:
             SessionError: If `stop` is called from a callback.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.stop")
+        self._check_call("stop")
         self._world.go_virtual()
         self._world.show_news()
 
@@ -436,10 +415,14 @@ class Session:
     @contextmanager
     def _running(self, what: str, code: Iterable[object] = ()) -> Iterator[None]:
         """Let nodes of this session run in this thread, and classes that make some."""
-        self._check_open()
-        self._world.refuse_in_callback(f"ros.{what}")
+        self._check_call(what)
         with self._world.running(code):
             yield
+
+    def _check_call(self, what: str) -> None:
+        """Refuse a call that runs nodes, in a callback and after the end of the session."""
+        self._check_open()
+        self._world.refuse_in_callback(f"ros.{what}")
 
     def _check_open(self) -> None:
         if self._world.closed:

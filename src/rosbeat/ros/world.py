@@ -345,16 +345,12 @@ class World:
             frame = thread.gr_frame if thread is not getcurrent() else sys._getframe(1)
             now, kind = self.now(), type(error).__name__
             fault = Fault(now, call.node, call.name, kind, str(error), *line_of(frame))
-            self._add_shown_fault(fault, deadlock_text(fault, error))
-
-    def program_failed(self, fault: Fault) -> None:
-        """Record that a program ended with an exception, whose traceback is printed by itself."""
-        self._add_shown_fault(fault)
+            self.add_fault(fault, deadlock_text(fault, error))
 
     def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
         """Record an exception that left the work on a goal; rclpy aborts the goal and logs it."""
         fault = fault_of(error, self.now(), state.name, name)
-        self._add_shown_fault(fault, work_text(fault))
+        self.add_fault(fault, work_text(fault))
 
     def sent(self, kind: str, name: str, origin: NodeState | None = None) -> None:
         """Note that a node sent something to the `kind` entities called `name`."""
@@ -399,7 +395,8 @@ class World:
             self._shown_faults += 1
             print(fault_text(faults[self._shown_faults - 1]), file=sys.stderr)
 
-    def _add_shown_fault(self, fault: Fault, text: str = "") -> None:
+    def add_fault(self, fault: Fault, text: str = "") -> None:
+        """Record a fault and print `text` now, instead of what is usually printed later."""
         self.recorder.faults.append(fault)
         self._shown_faults += 1
         if text:
