@@ -71,15 +71,7 @@ def check_end(time_ns: int) -> int:
 
 
 def duration_ns(seconds: Any, what: str = "run(seconds=...)") -> int:  # noqa: ANN401
-    """Convert seconds to whole nanoseconds.
-
-    Args:
-        seconds: A number from 0 to 1e9, in seconds.
-        what: The call it was given to, for the error.
-
-    Raises:
-        DurationError: If it is not a number, negative, not finite or above 1e9.
-    """
+    """Convert seconds to whole nanoseconds; raise a DurationError unless they are 0 to 1e9."""
     if not isinstance(seconds, Real) or isinstance(seconds, bool):
         problem = f"{seconds!r}, which is of type {type(seconds).__name__}."
     else:
@@ -142,11 +134,7 @@ def node_has_ended(name: str) -> SessionError:
 
 
 def deadlock(waits: Sequence[Wait]) -> DeadlockError:
-    """Return the error for callbacks that can never go on.
-
-    Args:
-        waits: What they wait for; the first is that of the callback that is told.
-    """
+    """Return the error for callbacks that can never go on, by what they wait for."""
     told = [f"{w.call.node} waits in `{w.call.name}` for {w.reason}" for w in waits if w.call]
     why = "Nothing else is left to do, so nobody will end that"
     if waits[0].needs is not None and len(waits) == 1:

@@ -286,9 +286,7 @@ def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoin
 def count_participants(domain_id: int, ports: Collection[int] | None = None) -> int:
     """Return how many participants of this machine are in a domain; 0 if that is unknown.
 
-    Args:
-        domain_id: The domain.
-        ports: The UDP ports that are bound, those of the system by default.
+    They are counted by the UDP ports that are bound, those of the system by default.
     """
     bound = udp_ports(_socket_table()) if ports is None else ports
     first = 7400 + 250 * domain_id + 10
@@ -337,12 +335,7 @@ _SAME_POLLS = 4
 
 
 def poll(done: Callable[[], object], deadline: float | None) -> bool:
-    """Wait until `done` is true; return whether it became so before the deadline.
-
-    Args:
-        done: Asked again and again.
-        deadline: When to give up, on `time.monotonic`'s clock; None for never.
-    """
+    """Wait until `done` is true, or until a time on `time.monotonic`'s clock; return whether."""
     pulse = Event()  # nobody sets it: it is a sleep that an Interrupt ends at once
     while not done():
         left = _POLL_EVERY if deadline is None else deadline - time.monotonic()
@@ -350,32 +343,6 @@ def poll(done: Callable[[], object], deadline: float | None) -> bool:
             return False
         pulse.wait(min(_POLL_EVERY, left))
     return True
-
-
-def wait_live(world: World, done: Callable[[], object], seconds: float | None) -> bool:
-    """Wait until `done` is true while a session is live, and print what its nodes log.
-
-    Args:
-        world: The session.
-        done: Asked again and again.
-        seconds: How long at most, in seconds of wall time; None for ever.
-    """
-
-    def is_done() -> object:
-        world.show_news()
-        return done()
-
-    deadline = None if seconds is None else time.monotonic() + seconds
-    world.console.begin()
-    try:
-        return poll(is_done, deadline)
-    except KeyboardInterrupt as interrupt:
-        show_briefly(interrupt, "you stopped waiting; the session is still live.")
-        world.interrupt()
-        raise
-    finally:
-        world.show_news()
-        world.console.end()
 
 
 def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:

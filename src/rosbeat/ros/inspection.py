@@ -276,24 +276,20 @@ class _Listener(HiddenNode):
         """
         services = self._clients_by_node
         self._spin_until(lambda: all(one.service_is_ready() for one in services.values()))
-        answers: dict[str, list[Any]] = {
-            name: [] for name, one in services.items() if one.service_is_ready()
-        }
+        waiting = {name for name, one in services.items() if one.service_is_ready()}
         sent = -_RESEND
-
-        def waiting() -> list[str]:
-            return [name for name, found in answers.items() if not any(one.done() for one in found)]
 
         def all_have_answered() -> bool:
             nonlocal sent
             if time.monotonic() - sent >= _RESEND:
                 sent = time.monotonic()
-                for name in waiting():
-                    answers[name].append(services[name].call_async(GetParameters.Request()))
-            return not waiting()
+                for name in waiting:
+                    future = services[name].call_async(GetParameters.Request())
+                    future.add_done_callback(lambda _, name=name: waiting.discard(name))
+            return not waiting
 
         self._spin_until(all_have_answered)
-        return set(waiting())
+        return waiting
 
 
 # Who uses the topic in another ROS domain of this machine.

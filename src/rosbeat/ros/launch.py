@@ -141,14 +141,8 @@ def build_in(
 ) -> tuple[Node, ...]:
     """Make the nodes of a process in a session; if that fails, nothing of them is left there.
 
-    Args:
-        world: The session's.
-        targets: Classes, functions that return a node, or nodes.
-        start: How they are started.
-        process: Where they run; by default a new one.
-
     Raises:
-        NodeClassError: If a target is none of these, or a function returns something else.
+        NodeClassError: If a target is no class of nodes, function that returns one, or node.
         NodeConstructionError: If a constructor or function raises.
     """
     before = world.states()

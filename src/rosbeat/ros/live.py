@@ -46,10 +46,6 @@ class LiveExecutor(SingleThreadedExecutor):
     rclpy re-raises what a callback raises, which would end the thread and silence every node. Here
     the session is told, the node that raised is taken out, and the others go on.
 
-    Args:
-        context: The session's context.
-        world: The session.
-
     Attributes:
         current: The node whose callback is running, or None.
         task: The task of that callback, or None.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
@@ -26,7 +27,7 @@ from rosbeat.ros.errors import (
     session_is_not_live,
     unknown_topic,
 )
-from rosbeat.ros.graph import wait_for_nodes, wait_live
+from rosbeat.ros.graph import poll, wait_for_nodes
 from rosbeat.ros.launch import Launch, Maker, Start, build_in, checked
 from rosbeat.ros.processes import Process
 from rosbeat.ros.simulated_program import SimulatedProgram
@@ -302,8 +303,24 @@ class Session:
         self._check_call("wait")
         if not self.is_live:
             raise session_is_not_live()
-        span = None if seconds is None else duration_ns(seconds, "wait(seconds=...)") / 1e9
-        return wait_live(self._world, until or bool, span)
+        deadline = None
+        if seconds is not None:
+            deadline = time.monotonic() + duration_ns(seconds, "wait(seconds=...)") / 1e9
+
+        def is_done() -> object:
+            self._world.show_news()
+            return until is not None and until()
+
+        self._world.console.begin()
+        try:
+            return poll(is_done, deadline)
+        except KeyboardInterrupt as interrupt:
+            show_briefly(interrupt, "you stopped waiting; the session is still live.")
+            self._world.interrupt()
+            raise
+        finally:
+            self._world.show_news()
+            self._world.console.end()
 
     def wait_for_nodes(self, *names: str, timeout: float = 10.0) -> None:
         """Wait until nodes are in the graph, those of other processes too, as a terminal's.

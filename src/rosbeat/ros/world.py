@@ -276,11 +276,7 @@ class World:
         note(f"{state.name} called rclpy.shutdown() and stops; the other nodes go on.")
 
     def refuse_in_callback(self, call: str) -> None:
-        """Refuse what would run the simulation, when a node calls it.
-
-        Raises:
-            SessionError: If code of one of this session's nodes is running, in this thread.
-        """
+        """Raise a SessionError for what would run the simulation, if a node calls it."""
         running = self.virtual.running and get_ident() == self.virtual.thread
         if running or (self.live is not None and self.live.is_this_thread()):
             raise SessionError(
@@ -292,7 +288,7 @@ class World:
 
     @property
     def counts_limits(self) -> bool:
-        """Whether deadlines and lifespans of what is made now are counted here; see `Limits`."""
+        """Return whether `limits` counts deadlines and lifespans of what is made now."""
         return self.live is None and self.external_messages is None
 
     # What the executors and actions tell.
@@ -443,11 +439,7 @@ class World:
         return bool(done())
 
     def go_live(self) -> None:
-        """Run the nodes against the wall clock, in a background thread.
-
-        Raises:
-            SessionError: If a callback waits: it can go on in virtual time only.
-        """
+        """Run the nodes against the wall clock; raise a SessionError if a callback waits."""
         waiting = [call for call in self.virtual.suspended if call.wait is not None]
         if waiting:
             raise SessionError(
@@ -678,15 +670,7 @@ def find(world: World, node: Node | str) -> NodeState:
 
 
 def full_topic(call: str, topic: Any) -> str:  # noqa: ANN401 - unchecked input
-    """Return the full name of a topic, such as `/temperature`; nobody need use it.
-
-    Args:
-        call: Who asks, for the error.
-        topic: What was typed.
-
-    Raises:
-        SessionError: If it is no text, or ROS does not allow it as a name.
-    """
+    """Return the full name of a topic; raise a SessionError if ROS does not allow it."""
     name = "/" + check_name(call, topic).lstrip("/")
     try:
         validate_full_topic_name(name)
