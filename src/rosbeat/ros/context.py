@@ -190,7 +190,7 @@ class Interrupts:
         if self._original is not None:
             signal.signal(signal.SIGINT, self._original)
 
-    def insist(self) -> None:
+    def raise_if_pressed(self) -> None:
         """Raise the KeyboardInterrupt if there was one."""
         if self.pressed:
             raise KeyboardInterrupt from None

@@ -119,7 +119,7 @@ class TopicFault:
         return type(msg)(data=value + self.amount) if self.kind == "offset" else msg
 
 
-def make_again(world: World, name: str, maker: Maker) -> None:
+def restart_node(world: World, name: str, maker: Maker) -> None:
     """Make a node of this name as it was made before, and run its callbacks.
 
     Raises:

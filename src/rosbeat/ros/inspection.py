@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
 
 from rcl_interfaces.srv import GetParameters
 from rclpy.context import Context
@@ -72,7 +72,9 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
     if observer is not None:
         observer.wait_until_stable()
     graph = world.graph()
-    external = _External() if observer is None else _listen(world, observer, topic, graph, seconds)
+    beats, conditions, rate = (
+        ([], [], 0.0) if observer is None else _listen(world, observer, topic, graph, seconds)
+    )
     with world.recorder.lock:
         messages = world.recorder.times(topic)
     own = (*_publishers(world, topic, messages), *_subscriptions(world, topic, messages))
@@ -80,9 +82,9 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
     return Scene(
         graph,
         world.now(),
-        (*own, *external.beats),
-        (*blocked, *(_condition(world, state) for state in states), *external.conditions),
-        external.rate_hz,
+        (*own, *beats),
+        (*blocked, *(_condition(world, state) for state in states), *conditions),
+        rate,
         frozenset(state.name for state in states),
         virtual=world.live is None,
         waiting=world.virtual.has_work,
@@ -162,23 +164,16 @@ def _former(messages: list[_Message]) -> tuple[Former, ...]:
 # answer runs no callbacks: it is not spun, or a callback does not return.
 
 
-class _External(NamedTuple):
-    """What is known of other processes.
-
-    Attributes:
-        beats: The publishers there, as far as it is known which published what.
-        conditions: Their nodes.
-        rate_hz: Messages a second that cannot be told apart; 0 if there are none.
-    """
-
-    beats: tuple[Beat, ...] = ()
-    conditions: tuple[Condition, ...] = ()
-    rate_hz: float = 0.0
-
-
 def _listen(
     world: World, observer: GraphObserver, topic: str, graph: GraphSnapshot, seconds: float
-) -> _External:
+) -> tuple[Iterable[Beat], Iterable[Condition], float]:
+    """Return what is known of other processes.
+
+    Returns:
+        The publishers, as far as it is known which published what; their nodes; and how many
+        messages a second there are that cannot be told apart.
+    """
+
     def outside(endpoints: list[Any]) -> list[Any]:
         found = filter(observer.is_outside, endpoints)
         return [one for one in found if not is_hidden(owner(one))]
@@ -199,12 +194,12 @@ def _listen(
     finally:
         listener.close()
     rate = rate_of(sorted(stamps))
-    conditions = tuple(Condition(one, SILENT if one in silent else RUNNING) for one in asked)
+    conditions = [Condition(one, SILENT if one in silent else RUNNING) for one in asked]
     if span is None or (stamps and len(names) > 1):
-        return _External((), conditions, rate)
+        return [], conditions, rate
     watched = round(span * NANOSECONDS)
-    beats = (Beat(one, "publisher", len(stamps), -1, rate, watched) for one in names)
-    return _External(tuple(beats), conditions)
+    beats = [Beat(one, "publisher", len(stamps), -1, rate, watched) for one in names]
+    return beats, conditions, 0.0
 
 
 class _Listener(HiddenNode):

@@ -68,10 +68,10 @@ class LiveExecutor(SingleThreadedExecutor):
         """Begin to run callbacks."""
         for state in self._world.states():
             for entry in state.entries if state.spinning else ():
-                self._hand_out_early(entry)
+                self._run_taken_messages(entry)
         self._thread.start()
 
-    def _hand_out_early(self, entry: Entry) -> None:
+    def _run_taken_messages(self, entry: Entry) -> None:
         """Make tasks of messages that are in no queue any more; see `qos_events.TakenEarly`."""
 
         def take(_: object) -> Callable[[], Coroutine[Any, Any, None]] | None:

@@ -385,7 +385,7 @@ class Stage:
         if isinstance(step, Remove):
             self._world.destroy(state)
         elif isinstance(step, Pause):
-            self._world.rest_node(state)
+            self._world.pause_node(state)
         elif isinstance(step, Resume) and not state.ended:
             self._world.spin_node(state)
         self._note(step, state.name, "")

@@ -225,7 +225,7 @@ class Session:
         """
         self._check_open()
         state = find(self._world, node)
-        self._world.rest_node(state)
+        self._world.pause_node(state)
         state.paused = True
 
     def resume(self, node: Node | str) -> None:

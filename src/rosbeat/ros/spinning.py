@@ -228,7 +228,7 @@ def _global_executor(world: Any, node: Node) -> Iterator[list[NodeState]]:  # no
     taken_away = has_own and state.spinning
     yield [state, *others]
     if taken_away:
-        world.rest_node(state)
+        world.pause_node(state)
         note(
             f"a spin function of rclpy has taken {state.name} from the executor of its process, "
             "and given it to nobody: its callbacks run no more."

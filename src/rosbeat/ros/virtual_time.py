@@ -347,7 +347,7 @@ class Host(Protocol):
     def spin_node(self, state: NodeState) -> None:
         """Run this node's callbacks from now on."""
 
-    def rest_node(self, state: NodeState) -> None:
+    def pause_node(self, state: NodeState) -> None:
         """Run none of this node's callbacks until `spin_node`."""
 
     def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
@@ -754,7 +754,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._chain.depth = 0
             self.forget_passes()
             self.look_anew()
-            self._interrupts.insist()
+            self._interrupts.raise_if_pressed()
             raise
         finally:
             self.running = False
@@ -873,7 +873,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             call.process.spins.remove(spin)
             for state in begun:
                 if not state.ended:
-                    self._host.rest_node(state)
+                    self._host.pause_node(state)
             call.process.refresh()
 
     def end_wait(self, call: Call, error: BaseException | None = None) -> None:
@@ -1013,7 +1013,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             if self._done():
                 self._end_run()
                 continue
-            self._interrupts.insist()
+            self._interrupts.raise_if_pressed()
             if self.elsewhere:
                 self._take_from_elsewhere()
                 continue
@@ -1229,7 +1229,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
-            self._interrupts.insist()
+            self._interrupts.raise_if_pressed()
             self._raised(call, entry.label.name, error)
         except KeyboardInterrupt as error:
             if program is None or program.interrupt is not error:

@@ -144,7 +144,7 @@ class World:
         executor.wake()
         self.virtual.resume(state)
 
-    def rest_node(self, state: NodeState) -> None:
+    def pause_node(self, state: NodeState) -> None:
         """Run none of this node's callbacks until `spin_node`; its messages wait in queues."""
         state.spinning = False
         state.process.refresh()
@@ -154,7 +154,7 @@ class World:
     def end_process(self, process: Process) -> None:
         """Run no callbacks of a process any more; its nodes stay in the graph until destroyed."""
         for state in list(process.states):
-            self.rest_node(state)
+            self.pause_node(state)
             state.ended = True
         for call in [one for one in process.calls if one.wait is not None]:
             self.virtual.break_off(call)
