@@ -46,8 +46,7 @@ spinning.install()
 class Session:
     """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
 
-    The page's own `Session` is a subclass; see `rosbeat.page_session`, also for the
-    arguments and for what it raises.
+    The page's own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
     """
 
     def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
@@ -229,7 +228,9 @@ class Session:
         state.paused = True
 
     def resume(self, node: Node | str) -> None:
-        """Run a paused node's callbacks again, beginning with what waits in its queues.
+        """Run the callbacks of a paused node, given itself or by name, again.
+
+        It first gets what waits in its queues.
 
         Raises:
             SessionError: If the session has no such node, or it ended with an exception.
