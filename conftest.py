@@ -22,6 +22,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 #: nobody waits for one of them at the end. (With `--no-loadscope-reorder`; else xdist begins with
 #: the files that have most tests.)
 _LONGEST = (
+    "tests/conformance/",
     "tests/bank/test_mutants_of_walks.py",
     *(f"{tree}/{page}" for page in ("07", "06", "09") for tree in ("solutions", "notebooks")),
     "tests/ros2_command/verbs/test_topic.py",
@@ -36,7 +37,7 @@ _LONGEST = (
 #: Where tests wait for other programs most of the time.
 _WAITING = (
     *("solutions/", "notebooks/", "tests/torture/", "tests/ros2_command/", "tests/environment/"),
-    "tests/rosbeat/workspace/",
+    *("tests/rosbeat/workspace/", "tests/conformance/"),
 )
 
 

@@ -1,4 +1,4 @@
-"""Cost of an event against the number of nodes."""
+"""Cost of an event against the number of nodes, and of timers."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ from statistics import linear_regression, median
 
 from actors import Neighbour
 from measuring import Row
+from rclpy.node import Node
 
 from rosbeat import Session
 
 NODES = (1, 2, 5, 10, 20, 50, 100, 200)
+TIMERS, _EACH = (100, 1_000, 10_000), 50
 #: A square in the total would be 1 here; a logarithm looks like about 0.1.
 TARGET = 0.3
 
@@ -24,11 +26,52 @@ def measure(quick: bool) -> list[Row]:
     points = zip(counts, costs, strict=True)
     rows = [Row(f"us per callback, {count:3} nodes", f"{cost:.1f}") for count, cost in points]
     slope = linear_regression([log(n) for n in counts], [log(c) for c in costs]).slope
-    verdict = slope <= TARGET
-    rows.append(
-        Row("exponent of the cost per callback", f"{slope:.2f}", "", f"<= {TARGET}", verdict)
-    )
-    return rows
+    rows.append(_judged("exponent of the cost per callback", slope))
+    return [*rows, *_timers(quick)]
+
+
+def _timers(quick: bool) -> list[Row]:
+    """The same against the number of timers: 50 in each node, each node a process."""
+    counts = TIMERS[:2] if quick else TIMERS
+    costs = [_timer_cost(count, 3 if quick else 5) for count in counts]
+    rows = [
+        Row(f"us per callback, {count:6,} timers", f"{cost:.1f}")
+        for count, cost in zip(counts, costs, strict=True)
+    ]
+    slope = linear_regression([log(n) for n in counts], [log(c) for c in costs]).slope
+    return [*rows, _judged("exponent of the cost per timer", slope)]
+
+
+def _judged(title: str, slope: float) -> Row:
+    return Row(title, f"{slope:.2f}", "", f"<= {TARGET}", slope <= TARGET)
+
+
+class _Clockwork(Node):
+    """Has 50 timers, of periods between 1 and 2 s."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(f"clockwork_{number}", start_parameter_services=False)
+        self.ticks = 0
+        for k in range(_EACH):
+            self.create_timer(1 + k / _EACH + number / 1e5, self._tick)
+
+    def _tick(self) -> None:
+        self.ticks += 1
+
+
+def _timer_cost(count: int, repeats: int) -> float:
+    with Session() as ros:
+        nodes = [ros.add(partial(_Clockwork, number)) for number in range(count // _EACH)]
+        ros.run(0.2)
+
+        def turn() -> float:
+            before = sum(node.ticks for node in nodes)
+            begin = time.perf_counter()
+            ros.run(20_000 / count, quiet=True)
+            span = time.perf_counter() - begin
+            return span / (sum(node.ticks for node in nodes) - before) * 1e6
+
+        return median(turn() for _ in range(repeats))
 
 
 def _cost(count: int, repeats: int) -> float:

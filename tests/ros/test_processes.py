@@ -329,9 +329,9 @@ def test_a_session_leaves_no_greenlet_thread_or_patched_function():
 def test_a_callback_that_will_not_end_is_left_behind_when_the_session_closes():
     def stubborn():
         while True:
-            try:
+            try:  # noqa: SIM105 - written as a learner would
                 time.sleep(10)
-            except BaseException:  # noqa: S110 - the worst that can be
+            except BaseException:
                 pass
 
     ros = Session()
@@ -369,3 +369,47 @@ def test_if_one_of_several_cannot_be_made_none_is(ros):
     ros.add(Beat)
     ros.run(1)
     assert times(ros, "beat") == [0.5, 1]
+
+
+# Threads of the kernel.
+
+
+def in_thread(do):
+    """Do something in another thread and return what it raised."""
+    raised = []
+
+    def run():
+        try:
+            do()
+        except Exception as error:
+            raised.append(error)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join(20)
+    assert not thread.is_alive()
+    return raised
+
+
+def test_a_session_runs_in_whichever_thread_calls_it(ros):
+    ros.add(Beat)
+    ros.run(1)
+    assert not in_thread(lambda: ros.run(1))
+    ros.run(1)
+    assert times(ros, "beat") == [0.5, 1, 1.5, 2, 2.5, 3]
+
+
+def test_a_callback_that_waits_goes_on_in_its_own_thread(ros, says):
+    ros.add(Sleeper)
+    ros.run(1.5)
+    (error,) = in_thread(lambda: ros.run(1))
+    says(error, "sleep of /sleeper waits")
+    ros.run(1)
+    assert lines(ros) == [(2.2, "awake")]
+
+
+def test_a_session_can_be_closed_in_another_thread_while_a_callback_waits():
+    ros = Session()
+    ros.add(Sleeper)
+    ros.run(1.5)
+    assert not in_thread(ros.close)

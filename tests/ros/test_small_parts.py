@@ -44,7 +44,10 @@ def entry(number, wait, **options):
     state = SimpleNamespace(spinning=True, ended=False, name=f"/n{number}")
     label = SimpleNamespace(name="callback", source=f"/t{number}")
     handle = Handle(wait, **options)
-    return SimpleNamespace(number=number, handle=handle, state=state, deadline=None, label=label)
+    timer = SimpleNamespace(clock=SimpleNamespace(move=bool))
+    return SimpleNamespace(
+        number=number, handle=handle, state=state, deadline=None, label=label, entity=timer
+    )
 
 
 def drain(agenda):

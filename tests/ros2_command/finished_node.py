@@ -3,8 +3,6 @@
 Publishes on `temperature` each tenth of a second, and says so.
 """
 
-import signal
-
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -23,7 +21,6 @@ class TemperatureSensor(Node):
 
 
 def main(args=None):
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureSensor()
     try:  # noqa: SIM105 - as a learner writes it

@@ -202,24 +202,28 @@ def _listen(
     return beats, conditions, 0.0
 
 
-class _Listener(HiddenNode):
-    """Listens to other processes for a while, and asks their nodes for parameters."""
+class _Listener:
+    """Listens to other processes for a while, and asks their nodes for parameters.
+
+    It has a node and is none: a node that refers to its executor would keep it, when interrupted,
+    until its context is gone.
+    """
 
     def __init__(self, context: Context) -> None:
-        super().__init__(context)
+        self._node = HiddenNode(context)
         self._clients_by_node: dict[str, Any] = {}
         self._spinner = SingleThreadedExecutor(context=context)
-        self._spinner.add_node(self)
+        self._spinner.add_node(self._node)
 
     def close(self) -> None:
         """Leave the graph."""
         self._spinner.shutdown()
-        self.destroy_node()
+        self._node.destroy_node()
 
     def connect_to(self, nodes: list[str]) -> None:
         """Make a client of each node's parameter service."""
         for name in nodes:
-            client = self.create_client(GetParameters, f"{name}/get_parameters")
+            client = self._node.create_client(GetParameters, f"{name}/get_parameters")
             self._clients_by_node[name] = client
 
     def _spin_until(self, done: Callable[[], object]) -> None:
@@ -251,7 +255,7 @@ class _Listener(HiddenNode):
         qos = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
         try:
             kind = message_class(publishers[0].topic_type)
-            subscription = self.create_subscription(kind, topic, arrived, qos, raw=True)
+            subscription = self._node.create_subscription(kind, topic, arrived, qos, raw=True)
         except (ImportError, AttributeError, ValueError, rclpy_implementation.RCLError):
             return [], None  # the type is unknown, or this process knows another under the name
         self._spin_until(subscription.get_publisher_count)

@@ -455,11 +455,12 @@ class PublisherTap:
         return bool(compatible != QoSCompatibility.ERROR)
 
 
-def tap_timer(timer: Timer, moved: Callable[[], None]) -> None:
-    """Listen to one timer: `moved` is called after each `reset`, which changes its deadline."""
+def tap_timer(timer: Timer, before: Callable[[], None], moved: Callable[[], None]) -> None:
+    """Call `before` and `moved` around each `reset` of a timer, which changes its deadline."""
     original = timer.reset
 
     def reset() -> None:
+        before()
         original()
         moved()
 

@@ -23,38 +23,26 @@ import contextvars
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Collection, Coroutine, Iterable
-from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Coroutine
 from heapq import heappop, heappush
 from inspect import iscoroutine, iscoroutinefunction
 from itertools import count
-from typing import Any, Protocol
+from typing import Any
 
 from greenlet import GreenletExit, getcurrent, greenlet
-from rclpy.client import Client
-from rclpy.clock import ClockType, ROSClock
 from rclpy.context import Context
-from rclpy.event_handler import EventHandler
 from rclpy.exceptions import InvalidHandle
-from rclpy.executors import Executor, SingleThreadedExecutor, TimeoutException
-from rclpy.guard_condition import GuardCondition
-from rclpy.impl.implementation_singleton import rclpy_implementation
-from rclpy.node import Node
-from rclpy.service import Service
-from rclpy.subscription import Subscription
 from rclpy.task import Task
-from rclpy.time import Time
-from rclpy.timer import Timer
 
 from rosbeat.errors import EndlessChainError, SessionError
 from rosbeat.records import WaitRecord
 from rosbeat.ros.context import Interrupts
-from rosbeat.ros.entities import Entry, NodeState, callback_name
+from rosbeat.ros.entities import Entry, NodeState
 from rosbeat.ros.errors import never_made
 from rosbeat.ros.processes import Call, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
 from rosbeat.ros.recording import CallbackLabel, Recorder
+from rosbeat.ros.wait_set import Coroutines, Host, Waiting, WaitSetExecutor
 
 
 class Agenda:
@@ -77,6 +65,7 @@ class Agenda:
         if entry.state.ended:
             return
         handle = entry.handle
+        entry.entity.clock.move()
         try:
             with handle:
                 if not entry.state.spinning or handle.is_timer_canceled():
@@ -205,346 +194,6 @@ class ChainGuard:
         )
 
 
-# Callbacks that wait by themselves: `async def` callbacks and tasks.
-
-
-@dataclass(frozen=True, eq=False)
-class Waiting:
-    """A coroutine or task that has not ended.
-
-    Attributes:
-        task: rclpy's task.
-        process: Where it runs; None for one that was created outside of all nodes.
-        state: The node that began it, if one did.
-        name: What it is called in an error.
-        entry: The entity whose callback it is; its callback group is occupied until it ends.
-    """
-
-    task: Task
-    process: Process | None
-    state: NodeState | None
-    name: str
-    entry: Entry | None = None
-
-    @property
-    def ended(self) -> bool:
-        """Whether it has returned, raised or been canceled."""
-        return bool(self.task.done() or self.task.cancelled())
-
-    @property
-    def abandoned(self) -> bool:
-        """Whether the node that began it has ended."""
-        return self.state is not None and self.state.ended and not self.task.executing()
-
-    @property
-    def rests(self) -> bool:
-        """Whether it cannot go on now: its node is paused, or its process is busy.
-
-        rclpy looks at its tasks again when it has handled all that its last look found ready.
-        """
-        if self.task.executing() or (self.state is not None and not self.state.spinning):
-            return True
-        process = self.process
-        return process is not None and (not process.has_thread() or process.is_in_round())
-
-    def place(self) -> object:
-        """Return what it awaits, innermost: another object each time it has got further."""
-        inner = self.task._handler
-        while (deeper := _awaited_by(inner)) is not None:
-            inner = deeper
-        return inner
-
-
-def _awaited_by(waiting: Any) -> Any:  # noqa: ANN401 - a coroutine, a generator, or neither
-    awaited = getattr(waiting, "cr_await", None)
-    return getattr(waiting, "gi_yieldfrom", None) if awaited is None else awaited
-
-
-class Coroutines:
-    """All coroutines of one executor, in the order in which they began.
-
-    Of each process the newest goes on first, as in rclpy (`_wait_for_ready_callbacks`).
-
-    Args:
-        executor: The executor that future results are scheduled on.
-
-    Attributes:
-        waiting: Those that have not ended.
-    """
-
-    def __init__(self, executor: Executor) -> None:
-        self._executor = executor
-        self.waiting: list[Waiting] = []
-        self._round: deque[Waiting] = deque()
-
-    def add_task(self, task: Task, callback: object, call: Call | None) -> None:
-        """Begin a task at the next turn, in the process of the call that has created it."""
-        process, state = (call.process, call.state) if call else (None, None)
-        self.waiting.append(Waiting(task, process, state, callback_name(callback)))
-
-    def adopt(self, coroutine: Coroutine[Any, Any, Any], entry: Entry) -> Waiting:
-        """Keep the coroutine that a callback returned; its group is occupied until it ends."""
-        entry.entity.callback_group.beginning_execution(entry.entity)
-        task = Task(coroutine, executor=self._executor)
-        state = entry.state
-        waiting = Waiting(task, state.process, state, entry.label.name, entry)
-        self.waiting.append(waiting)
-        return waiting
-
-    def step(self, run: Callable[[Waiting], None]) -> bool:
-        """Let one of them go on until it waits again; return whether any has got further.
-
-        Each gets its turn before one of them gets another.
-        """
-        for _ in range(2):
-            while self._round:
-                if self._one(self._round.popleft(), run):
-                    return True
-            of_process: dict[int, list[Waiting]] = {}
-            for waiting in self.waiting:
-                of_process.setdefault(id(waiting.process), []).append(waiting)
-            self._round.extend(one for group in of_process.values() for one in reversed(group))
-        return False
-
-    def end(self, waiting: Waiting) -> None:
-        """Forget one that has ended, and free its callback group."""
-        if waiting not in self.waiting:
-            return
-        self.waiting.remove(waiting)  # the executor holds on to the list
-        if waiting.entry is not None:
-            waiting.entry.entity.callback_group.ending_execution(waiting.entry.entity)
-
-    def drop_abandoned(self) -> None:
-        """Close the coroutines of nodes that have ended."""
-        for waiting in [waiting for waiting in self.waiting if waiting.abandoned]:
-            waiting.task.cancel()
-            self.end(waiting)
-
-    @staticmethod
-    def _one(waiting: Waiting, run: Callable[[Waiting], None]) -> bool:
-        if waiting.ended or waiting.rests:
-            return False
-        before = waiting.place()
-        run(waiting)
-        return waiting.ended or waiting.place() is not before
-
-
-# What cannot be taken directly: guard conditions and waitables, through rclpy's own wait set.
-
-
-_TAKEN_DIRECTLY = (Subscription, Timer, Client, Service)
-
-
-class Host(Protocol):
-    """What the executor asks of its session."""
-
-    def states(self) -> list[NodeState]:
-        """Return all nodes, in order of creation."""
-
-    def state_of(self, node: Node) -> NodeState | None:
-        """Return what is known of a node."""
-
-    def spin_node(self, state: NodeState) -> None:
-        """Run this node's callbacks from now on."""
-
-    def pause_node(self, state: NodeState) -> None:
-        """Run none of this node's callbacks until `spin_node`."""
-
-    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
-        """Record that a callback of this entity is about to run."""
-
-    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
-        """Record an exception that left a callback, and end its process."""
-
-    def deadlocked(self, waits: list[Wait]) -> None:
-        """Record that callbacks wait for ever."""
-
-    def running(self) -> AbstractContextManager[None]:
-        """Make nodes feel at home while they run in this thread."""
-
-
-class WaitSetExecutor(SingleThreadedExecutor):
-    """rclpy's executor, asked only for what cannot be taken directly.
-
-    One pass costs about a millisecond. It is made for nodes that have guard conditions or waitables
-    (actions, say), and once for all nodes after entities were made or destroyed: publishers and
-    subscriptions tell of a QoS that does not fit by waitables too, but only then.
-
-    Attributes:
-        current: The code of a node that is running, or None.
-    """
-
-    _host: Host
-    # rclpy's `__del__` asks for it, also if an interrupt has come before it was made.
-    _sigint_gc: Any = None
-
-    def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
-        self.current: Call | None = None
-        self._changed = True
-        self._wait_set_nodes: list[Node] = []
-        super().__init__(**options)
-
-    def get_nodes(self) -> list[Node]:
-        """Return the nodes whose processes have a thread for them, in order of creation.
-
-        rclpy's own answer comes from an unordered set.
-        """
-        return [
-            state.node
-            for state in self._host.states()
-            if state.spinning and state.process.has_thread()
-        ]
-
-    def wake(self) -> None:
-        """Note that entities were made or destroyed."""
-        self._changed = True
-        super().wake()
-
-    def can_execute(self, entity: Any) -> bool:  # noqa: ANN401 - rclpy's own signature
-        """Keep from rclpy's wait set what is taken directly."""
-        return not isinstance(entity, _TAKEN_DIRECTLY) and bool(super().can_execute(entity))
-
-    def ask_rclpy(self) -> bool:
-        """Make one pass of rclpy's own wait set; return whether anything came of it."""
-        nodes = self._nodes_for_wait_set()
-        progress = False
-        self._cb_iter = None  # a pass that was left when a callback waited is over
-        while nodes:
-            try:
-                handler, entity, node = self.wait_for_ready_callbacks(timeout_sec=0, nodes=nodes)
-            except TimeoutException:
-                break
-            self._handle(handler, entity, node)
-            progress = progress or handler.done()
-            nodes = [node for node in nodes if node in self.get_nodes()]
-        return progress
-
-    def forget_passes(self) -> None:
-        """Let go of a pass that was interrupted."""
-        self._cb_iter = None
-        # rclpy would take what was interrupted for running, for ever.
-        self._tasks[:] = [parts for parts in self._tasks if not parts[0].executing()]
-
-    def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
-        self._host.callback_ran(entity, node)
-        return super()._make_handler(entity, node, take)
-
-    def _handle(self, handler: Task, entity: Any, node: Node) -> None:  # noqa: ANN401
-        state = self._host.state_of(node)
-        if state is None:
-            return
-        call = self.current = Call(state.process, state)
-        error: BaseException | None = None
-        try:
-            handler()
-        except SystemExit as stop:
-            error = stop
-            handler.cancel()
-        finally:
-            self._end_call(call)
-        error = error or handler.exception()
-        if error is not None:
-            self._raised(call, waitable_name(entity), error)
-
-    def _end_call(self, call: Call) -> None:
-        raise NotImplementedError
-
-    def _raised(self, call: Call, name: str, error: BaseException) -> None:
-        raise NotImplementedError
-
-    def _nodes_for_wait_set(self) -> list[Node]:
-        if not self._changed:
-            return self._wait_set_nodes and self._those_that_spin()
-        self._changed = False
-        nodes = self.get_nodes()
-        self._wait_set_nodes = list(_with_waitables(self._host.states()))
-        return nodes
-
-    def _those_that_spin(self) -> list[Node]:
-        spinning = self.get_nodes()
-        return [node for node in self._wait_set_nodes if node in spinning]
-
-
-def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
-    """Return what a guard condition's or waitable's callback is called."""
-    callback = getattr(entity, "callback", None) or entity
-    return getattr(callback, "__name__", type(callback).__name__)
-
-
-def waitable_kind(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
-    """Return what kind of callback it has, as `CallbackRecord` names it."""
-    if isinstance(entity, EventHandler):
-        return "event"
-    return "guard condition" if isinstance(entity, GuardCondition) else "waitable"
-
-
-def _with_waitables(states: Iterable[NodeState]) -> Iterable[Node]:
-    for node in (state.node for state in states if state.spinning and state.node):
-        ours = any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
-        if ours or any(True for _ in node.guards):
-            yield node
-
-
-# The clock.
-
-
-_POINT = rclpy_implementation.rcl_time_point_t
-
-
-class SessionClock(ROSClock):
-    """A ROS clock that only its session moves.
-
-    Every node of a session uses this one object, so no node can read a time that another has
-    already left. rclpy's time source would set a node's clock from the parameter `use_sim_time`
-    and from `/clock` messages; both calls are accepted and change nothing.
-
-    Attributes:
-        sleeper: Waits in virtual time until an instant, in nanoseconds; None while the session is
-            live.
-    """
-
-    sleeper: Callable[[int], None] | None = None
-
-    def set_ros_time_override(self, time: Time) -> None:
-        """Accept rclpy's call and keep the session's own time."""
-
-    def _set_ros_time_is_active(self, enabled: bool) -> None:
-        """Accept rclpy's call; `follow_session` and `follow_wall` decide."""
-
-    def follow_session(self, time_ns: int) -> None:
-        """Show virtual time from now on, beginning at `time_ns`."""
-        self.advance(time_ns)
-        super()._set_ros_time_is_active(True)
-
-    def follow_wall(self) -> None:
-        """Show wall time from now on, as a clock does without `use_sim_time`."""
-        super()._set_ros_time_is_active(False)
-
-    def advance(self, time_ns: int) -> None:
-        """Move virtual time to `time_ns` nanoseconds."""
-        # Once an instant, so without the detour through `Time` and the method of rclpy's clock.
-        handle = self.handle
-        with handle:
-            handle.set_ros_time_override(_POINT(time_ns, ClockType.ROS_TIME))
-
-    def sleep_until(self, until: Time, context: Context | None = None) -> bool:
-        """Sleep until a time of this clock; see rclpy. `sleep_for` calls this, too."""
-        if self.sleeper is None:
-            return bool(super().sleep_until(until, context))
-        self.sleeper(until.nanoseconds)
-        return True
-
-
-def make_clock() -> SessionClock:
-    """Return a clock at virtual time zero."""
-    # ROSClock's constructor always returns a plain ROSClock, whatever class it is asked for.
-    clock = ROSClock()
-    clock.__class__ = SessionClock
-    clock.follow_session(0)
-    made: SessionClock = clock
-    return made
-
-
 # The simulation.
 
 
@@ -556,12 +205,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     Args:
         context: The session's context.
-        clock: The session's clock.
         recorder: Told of every callback.
         host: The session.
 
     Attributes:
         now: Virtual time in nanoseconds.
+        is_live: Whether the session is live, so that the wall clock counts.
         running: Whether `run_until` is at work.
         calling: The callback that is running, or ran last; None before the first.
         elsewhere: What threads of the nodes' own have published since the last step.
@@ -571,18 +220,20 @@ class VirtualTimeExecutor(WaitSetExecutor):
         thread: The thread in which the nodes run.
     """
 
-    def __init__(
-        self, context: Context, clock: SessionClock, recorder: Recorder, host: Host
-    ) -> None:
+    def __init__(self, context: Context, recorder: Recorder, host: Host) -> None:
         self.now = 0
+        self.is_live = False
         self.running = False
+        # What is running: an entity's callback, and what is known of that call if somebody asked.
+        self._entry: Entry | None = None
+        self._call_of_entry: Call | None = None
         self.calling: CallbackLabel | None = None
         self.elsewhere: deque[Callable[[], None]] = deque()
         self.deadlines = Deadlines()
         self._waits: list[WaitRecord] = []
+        self._suspended: dict[Call, None] = {}
         self.nap: Callable[[int, str], None] | None = None
-        # Not `_clock`: rclpy's executor has a steady clock of that name.
-        self._session_clock, self._host = clock, host
+        self._host = host
         self._note_callback = recorder.add_callback
         self._label = recorder.label
         self._agenda = Agenda()
@@ -593,7 +244,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._ready: deque[tuple[Entry, int]] = deque()
         # Timers of this instant that have not had their turn; processes that have something
         # pending and may be able to run it.
-        self._due: deque[Entry] = deque()
+        self._due: list[Entry] = []
         self._behind: deque[Process] = deque()
         # Who waits: by the time at which they go on; for something that is looked at again and
         # again; and those whose wait has been ended by somebody.
@@ -607,12 +258,11 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.thread = threading.get_ident()
         self._variables = contextvars.copy_context()
         self._end = 0
-        self._done: Callable[[], object] = _never
+        self._done: Callable[[], object] | None = None
         self._ends_idle = self._closing = False
         # Where tasks run that no code of a node has created.
         self._nowhere = Process()
         super().__init__(context=context)
-        clock.sleeper = self.sleep_until
 
     # What rclpy calls.
 
@@ -636,16 +286,15 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     @property
     def suspended(self) -> list[Call]:
-        """The callbacks, constructors and programs that wait now, in order of creation."""
-        found = {id(state.process): state.process for state in self._host.states()}
-        return [call for process in found.values() for call in process.calls]
+        """The callbacks and programs that have begun and wait now, in the order of the begin."""
+        return [call for call in self._suspended if call.wait is not None]
 
     def all_waits(self) -> tuple[WaitRecord, ...]:
         """Return what callbacks have waited for, and what they wait for now, in order of time."""
         now = [
             WaitRecord(call.wait.began_ns, self.now, call.node, call.name, call.wait.reason)
             for call in self.suspended
-            if call.wait is not None and not call.spinning and call.wait.began_ns < self.now
+            if call.wait and not call.spinning and call.wait.began_ns < self.now
         ]
         return tuple(sorted([*self._waits, *now], key=lambda one: one.time_ns))
 
@@ -655,14 +304,15 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._agenda.add(entry, self.now)
         elif entry.take is not None:
             self._listeners.setdefault((entry.kind, entry.name), []).append(entry)
-            self._look_at(entry)
+            self._hold(entry)
 
     def unwatch(self, entry: Entry) -> None:
         """Take nothing from this entity any more."""
         listeners = self._listeners.get((entry.kind, entry.name), [])
         if entry in listeners:
             listeners.remove(entry)
-        self._settle(entry)
+        if entry.state.process.pending.pop(entry, None) is not None:
+            entry.state.process.refresh()
 
     def forget(self, state: NodeState) -> None:
         """Drop what a node had that is destroyed, with its callbacks that wait."""
@@ -679,8 +329,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         state.process.refresh()
         for entry in state.entries:
             if entry.take is not None:
-                self._look_at(entry)
-        self._catch_up(state.process)
+                self._hold(entry)  # nobody counted what has come
 
     def sender(self, kind: str, name: str, origin: NodeState | None = None) -> Callable[[], None]:
         """Return a function to call whenever something is sent to the `kind` entities of a name.
@@ -741,7 +390,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             EndlessChainError: If callbacks cause one another for ever while no time passes.
         """
         self._enter_thread()
-        self._end, self._done, self._ends_idle = end, done or _never, ends_idle
+        self._end, self._done, self._ends_idle = end, done, ends_idle
         caller, self.current = self.current, None
         self._main, self._variables = getcurrent(), contextvars.copy_context()
         self.running = True
@@ -770,7 +419,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._idle.clear()
         self._looking.clear()
         self._sleeping.clear()
-        self._session_clock.sleeper = None
 
     # Waiting.
 
@@ -896,18 +544,17 @@ class VirtualTimeExecutor(WaitSetExecutor):
             with self._host.running():  # its `finally` blocks may sleep, too
                 _throw(wait.thread, GreenletExit())
             self.current, self.calling = before
-        if call in call.process.calls:
-            call.process.calls.remove(call)
-            call.process.refresh()
+        self._forget_call(call)
 
     def start_thread(self, main: Callable[[], None], process: Process) -> None:
         """Begin another greenlet, for the `main` of a program, as soon as virtual time goes on."""
 
         def run() -> None:
-            self.current = Call(process)
+            self.current = call = Call(process)
             try:
                 main()
             finally:
+                self._forget_call(call)
                 if not self._closing:
                     getcurrent().parent = self._next_driver()
 
@@ -948,6 +595,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if call.began_ns < 0:
             call.began_ns = self.now
             call.process.calls.append(call)
+            self._suspended[call] = None
             if call.entry is not None and is_free(call.entry):
                 call.holds_group = True
                 entity = call.entry.entity
@@ -1010,15 +658,13 @@ class VirtualTimeExecutor(WaitSetExecutor):
         while True:
             self.current = None
             self._drain()
-            if self._done():
+            if self._done is not None and self._done():
                 self._end_run()
                 continue
             self._interrupts.raise_if_pressed()
             if self.elsewhere:
-                self._take_from_elsewhere()
-                continue
-            wait = self._over()
-            if wait is not None:
+                self.elsewhere.popleft()()
+            elif (self._woken or self._looking) and (wait := self._over()) is not None:
                 self._resume(wait)
             elif self._due:
                 self._fire_due()
@@ -1046,21 +692,22 @@ class VirtualTimeExecutor(WaitSetExecutor):
         Returns:
             Whether anything comes before the end of the run.
         """
-        while self._sleeping and self._sleeping[0][2].over:
-            heappop(self._sleeping)
-        timer = self._agenda.next_deadline(self.now)
-        missed = self.deadlines.next_due() if self.deadlines else None
-        wakes = self._sleeping[0][0] if self._sleeping else None
-        found = [at for at in (timer, missed, wakes) if at is not None]
-        if not found:
+        at = timer = self._agenda.next_deadline(self.now)
+        missed = None
+        if self.deadlines or self._sleeping:  # few programs have one of these
+            while self._sleeping and self._sleeping[0][2].over:
+                heappop(self._sleeping)
+            missed = self.deadlines.next_due() if self.deadlines else None
+            wakes = self._sleeping[0][0] if self._sleeping else None
+            at = min((one for one in (timer, missed, wakes) if one is not None), default=None)
+        if at is None:
             return self._nothing_left()
-        at = min(found)
         if at > self._end:
             self._advance(max(self._end, self.now))
             return False
-        self._advance(max(at, self.now))
+        self._advance(at if at > self.now else self.now)
         if timer == at:
-            self._collect_due(at)
+            self._fire_timers(at)
         elif missed == at:
             self._ready.append((self.deadlines.pass_next(), 1))
         else:
@@ -1076,35 +723,37 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._advance(max(self._end, self.now))
         return False
 
-    def _collect_due(self, deadline: int) -> None:
-        while self._agenda.next_deadline(self.now) == deadline:
-            entry = self._agenda.pop()
-            entry.state.process.due += 1
-            self._due.append(entry)
+    def _fire_timers(self, deadline: int) -> None:
+        """Fire the timer of an instant; if there are several, the first of them."""
+        entry = self._agenda.pop()
+        if self._agenda.next_deadline(self.now) != deadline:
+            self._fire(entry)
+            return
+        self._due.append(entry)
+        entry.state.process.due += 1
+        self._fire_due()
 
     def _fire_due(self) -> None:
-        entry = self._due.popleft()
+        """Fire the first of the timers of this instant, in order of creation."""
+        known = len(self._due)
+        while self._agenda.next_deadline(self.now) == self.now:
+            self._due.append(self._agenda.pop())
+            self._due[-1].state.process.due += 1
+        if len(self._due) > known:  # others may have been reset to this instant meanwhile
+            self._due.sort(key=lambda entry: entry.number)
+        entry = self._due.pop(0)
         process = entry.state.process
         process.due = max(0, process.due - 1)
         self._fire(entry)
         if process.pending and not process.due:
             self._catch_up(process)
 
-    def _take_from_elsewhere(self) -> None:
-        while self.elsewhere:
-            self.elsewhere.popleft()()
-
     def _advance(self, time_ns: int) -> None:
         if time_ns != self.now:
             self._chain.instant_ends()
             self.now = time_ns
-            self._session_clock.advance(time_ns)
 
     # What is ready.
-
-    def _look_at(self, entry: Entry) -> None:
-        """Take from an entity as long as there is something: nobody counted what has come."""
-        self._hold(entry)
 
     def _hold(self, entry: Entry) -> None:
         """Keep for later what cannot run at once."""
@@ -1113,12 +762,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
             process.pending[entry] = self._chain.depth + 1
             process.refresh()
         self._catch_up(process)
-
-    def _settle(self, entry: Entry) -> None:
-        """Note that there is nothing more to take from an entity."""
-        process = entry.state.process
-        if process.pending.pop(entry, None) is not None:
-            process.refresh()
 
     def _catch_up(self, process: Process) -> None:
         if process.pending and process not in self._behind:
@@ -1141,11 +784,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
                     chain.depth = depth - 1
                     self._hold(entry)
             chain.depth = 0
-            progress = self._step_coroutine()
-            if not progress and self._run_one_behind():
+            progress = bool(waiting) and self._step_coroutine()
+            if not progress and self._behind and self._run_one_behind():
                 continue
             # After each step of a coroutine, too: other processes take what it has sent.
-            if not (self.ask_rclpy() or progress or ready):
+            asked = (self._changed or self._wait_set_nodes) and self.ask_rclpy()
+            if not (asked or progress or ready):
                 return
             turns += 1
             if turns > MOST_TURNS:
@@ -1182,12 +826,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def _fire(self, entry: Entry) -> None:
         state = entry.state
-        if state.spinning and not (
-            state.process.can_begin(entry) if self._coroutines.waiting or not state.open else True
-        ):
+        may_wait = not state.open or self._coroutines.waiting
+        if may_wait and state.spinning and not state.process.can_begin(entry):
             self._hold(entry)  # it is late, and fires when its process is free
             return
         handle = entry.handle
+        entry.entity.clock.move()
         try:
             with handle:
                 due = state.spinning and handle.is_timer_ready()
@@ -1218,35 +862,73 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def _call(
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...] = ()
     ) -> None:
+        if not entry.state.open:
+            self._call_elsewhere(entry, callback, arguments)
+            return
         entry.calls += 1
         self._note_callback(self.now, entry.label_number)
-        state = entry.state
-        self.current = call = Call(state.process, state, entry, entry.label)
+        self._entry, self.calling = entry, entry.label
+        try:
+            result = callback(*arguments)
+        except (Exception, SystemExit) as error:
+            self._interrupts.raise_if_pressed()
+            self._raised(self._current(), entry.label.name, error)
+        else:
+            # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
+            if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
+                self._begin(result, entry)
+        finally:
+            self._entry = None
+            if self._call_of_entry is not None:
+                self._end_call(self._call_of_entry)
+
+    def _call_elsewhere(
+        self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...]
+    ) -> None:
+        """Do the same in a process that is not idle, or that a program plays."""
+        process = entry.state.process
+        entry.calls += 1
+        self._note_callback(self.now, entry.label_number)
         self.calling = entry.label
-        program = state.process.program
-        if program is not None:
-            program.enter()
+        self.current = call = Call(process, entry.state, entry, entry.label)
+        if process.program is not None:
+            process.program.enter()
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
             self._interrupts.raise_if_pressed()
             self._raised(call, entry.label.name, error)
         except KeyboardInterrupt as error:
-            if program is None or program.interrupt is not error:
+            if process.program is None or process.program.interrupt is not error:
                 raise
             self._raised(call, entry.label.name, error)
         else:
-            # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
             if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
                 self._begin(result, entry)
         finally:
-            if program is not None:
-                program.leave()
-            self.current = None
-            if call.began_ns >= 0:
-                self._end_suspended(call)
-            if not state.open:
-                state.process.count_down()
+            if process.program is not None:
+                process.program.leave()
+            self._end_call(call)
+
+    @property
+    def current(self) -> Call | None:
+        """Return the code of a node that is running, or None."""
+        if self._call_of_entry is None and self._entry is not None:
+            # Made only if somebody asks: most callbacks neither wait nor look at this.
+            entry = self._entry
+            self._call_of_entry = Call(entry.state.process, entry.state, entry, entry.label)
+        return self._call_of_entry
+
+    @current.setter
+    def current(self, call: Call | None) -> None:
+        """Note what is running from now on."""
+        self._entry = call.entry if call is not None else None
+        self._call_of_entry = call
+
+    def _current(self) -> Call:
+        call = self.current
+        assert call is not None
+        return call
 
     def _end_call(self, call: Call) -> None:
         self.current = None
@@ -1257,8 +939,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def _end_suspended(self, call: Call) -> None:
         """Free the thread and the group of a callback that has waited and has returned."""
         process = call.process
-        if call in process.calls:
-            process.calls.remove(call)
+        self._forget_call(call)
         if call.holds_group and call.entry is not None:
             call.entry.entity.callback_group.ending_execution(call.entry.entity)
         self._changed = True
@@ -1266,6 +947,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._catch_up(process)
         if process.program is not None:
             process.program.callback_ended()
+
+    def _forget_call(self, call: Call) -> None:
+        self._suspended.pop(call, None)
+        if call in call.process.calls:
+            call.process.calls.remove(call)
+            call.process.refresh()
 
     def _raised(self, call: Call, name: str, error: BaseException) -> None:
         """Hand what a callback raised to the `spin` in which it ran, or to the session."""
@@ -1332,22 +1019,16 @@ class VirtualTimeExecutor(WaitSetExecutor):
 LONGEST_WAIT = 3600 * 1_000_000_000
 #: Virtual nanoseconds that a constructor may wait while it is called by a cell.
 LONGEST_START = 600 * 1_000_000_000
-
-
 #: How often a callback is told to end that catches even that.
 _MOST_EXITS = 100
-
-
-def _never() -> bool:
-    return False
 
 
 def _throw(thread: greenlet, error: BaseException) -> None:
     """End a greenlet by an exception; what its code makes of that is its own affair."""
     if thread.dead:
         return
-    thread.parent = getcurrent()
     try:
+        thread.parent = getcurrent()  # which raises if it belongs to another thread
         thread.throw(error)
     except BaseException as raised:  # also what a `finally` block of a learner's raises
         if isinstance(raised, KeyboardInterrupt):

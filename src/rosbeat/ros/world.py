@@ -22,6 +22,7 @@ from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Fault, GraphSnapshot, LogRecord
 from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
 from rosbeat.ros.blocking import VirtualWaits
+from rosbeat.ros.clock import SessionClock, make_clock
 from rosbeat.ros.console import Console, deadlock_text, fault_text, note, work_text
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
@@ -44,7 +45,8 @@ from rosbeat.ros.recording import (
     tap_timer,
     type_name,
 )
-from rosbeat.ros.virtual_time import VirtualTimeExecutor, make_clock, waitable_kind, waitable_name
+from rosbeat.ros.virtual_time import VirtualTimeExecutor
+from rosbeat.ros.wait_set import waitable_kind, waitable_name
 
 
 class World:
@@ -82,11 +84,10 @@ class World:
         self._lease: DomainLease | None = lease_domain() if domain_id is None else None
         self.domain_id = self._lease.domain_id if self._lease else domain_id
         self.start = Launch()
-        self.clock = make_clock()
         self.recorder = Recorder()
         self.console = Console()
         self.context = SessionContext(self, self.domain_id or 0)
-        self.virtual = VirtualTimeExecutor(self.context, self.clock, self.recorder, self)
+        self.virtual = VirtualTimeExecutor(self.context, self.recorder, self)
         self.live: LiveExecutor | None = None
         self.limits = Limits(self)
         self.closed = False
@@ -201,9 +202,12 @@ class World:
         show_sim_time(node, self.live is None)
 
     def entity_begins(self, node: Node) -> None:
-        """Give a new node the session's clock, before anything of it reads the time."""
-        if "_clock" in node.__dict__ and node._clock is not self.clock:
-            node._clock = self.clock
+        """Give a new node a clock of the session, before anything of it reads the time."""
+        clock = node.__dict__.get("_clock")
+        if isinstance(clock, SessionClock):
+            clock.move()
+        elif clock is not None:
+            node._clock = make_clock(self.virtual)
         if node not in self._states:
             name = node.get_fully_qualified_name()
             call = self.virtual.current
@@ -254,7 +258,7 @@ class World:
         if state is None:
             return original
         if state.logger is None:
-            state.logger = SessionLogger(original.name, self._logged, self.clock)
+            state.logger = SessionLogger(original.name, self._logged, node._clock)
         return state.logger
 
     def explain_init(self) -> None:
@@ -451,7 +455,6 @@ class World:
         self.live = LiveExecutor(self.context, self)
         self.virtual.deadlines.forget()
         self._live_since = time.monotonic_ns()
-        self.clock.follow_wall()
         self._change_executor(self.live)
         self.live.start()
 
@@ -461,14 +464,18 @@ class World:
             return
         self.live.finish()
         self.virtual.now, self.live = self.now(), None
-        self.clock.follow_session(self.virtual.now)
         self._change_executor(self.virtual)
         self.virtual.look_anew()
 
     def _change_executor(self, executor: LiveExecutor | VirtualTimeExecutor) -> None:
         is_virtual = executor is self.virtual
-        self.clock.sleeper = self.virtual.sleep_until if is_virtual else None
+        self.virtual.is_live = not is_virtual
         for state in self.states():
+            clock: SessionClock = state.node._clock  # type: ignore[union-attr]
+            if is_virtual:
+                clock.follow_session()
+            else:
+                clock.follow_wall()
             show_sim_time(state.node, is_virtual)
             if state.spinning:
                 state.node.executor = executor  # type: ignore[union-attr]
@@ -528,8 +535,9 @@ class World:
         self.virtual.watch(entry)
 
     def _watch_timer(self, entry: Entry) -> None:
-        if entry.entity.clock is self.clock:
-            tap_timer(entry.entity, partial(self._timer_reset, entry))
+        clock = entry.entity.clock
+        if isinstance(clock, SessionClock):
+            tap_timer(entry.entity, clock.move, partial(self._timer_reset, entry))
             return
         entry.kind = "wall timer"
         note(

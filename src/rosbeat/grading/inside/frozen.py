@@ -28,7 +28,7 @@ _PACKAGES = frozenset(("rosbeat", "rclpy", "json", "contextlib", "dataclasses", 
 _CHANGING = frozenset(
     (
         *("rclpy.clock", "rclpy.qos"),
-        *("rosbeat.ros.virtual_time.SessionClock", "rosbeat.ros.qos_events._Stretched"),
+        *("rosbeat.ros.clock.SessionClock", "rosbeat.ros.qos_events._Stretched"),
     )
 )
 #: Modules in which the course puts back what it borrows; see `ros.isolation`.

@@ -1,0 +1,305 @@
+"""What virtual time leaves to rclpy: tasks and coroutines, guard conditions and waitables.
+
+Tasks are rclpy's own; here they are given their turns. Guard conditions and waitables (actions,
+events of the middleware) cannot be taken directly, so they go through rclpy's own wait set.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Coroutine, Iterable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from rclpy.client import Client
+from rclpy.event_handler import EventHandler
+from rclpy.executors import Executor, SingleThreadedExecutor, TimeoutException
+from rclpy.guard_condition import GuardCondition
+from rclpy.node import Node
+from rclpy.service import Service
+from rclpy.subscription import Subscription
+from rclpy.task import Task
+from rclpy.timer import Timer
+
+from rosbeat.ros.entities import Entry, NodeState, callback_name
+from rosbeat.ros.processes import Call, Process, Wait
+
+# Callbacks that wait by themselves: `async def` callbacks and tasks.
+
+
+@dataclass(frozen=True, eq=False)
+class Waiting:
+    """A coroutine or task that has not ended.
+
+    Attributes:
+        task: rclpy's task.
+        process: Where it runs; None for one that was created outside of all nodes.
+        state: The node that began it, if one did.
+        name: What it is called in an error.
+        entry: The entity whose callback it is; its callback group is occupied until it ends.
+    """
+
+    task: Task
+    process: Process | None
+    state: NodeState | None
+    name: str
+    entry: Entry | None = None
+
+    @property
+    def ended(self) -> bool:
+        """Whether it has returned, raised or been canceled."""
+        return bool(self.task.done() or self.task.cancelled())
+
+    @property
+    def abandoned(self) -> bool:
+        """Whether the node that began it has ended."""
+        return self.state is not None and self.state.ended and not self.task.executing()
+
+    @property
+    def rests(self) -> bool:
+        """Whether it cannot go on now: its node is paused, or its process is busy.
+
+        rclpy looks at its tasks again when it has handled all that its last look found ready.
+        """
+        if self.task.executing() or (self.state is not None and not self.state.spinning):
+            return True
+        process = self.process
+        return process is not None and (not process.has_thread() or process.is_in_round())
+
+    def place(self) -> object:
+        """Return what it awaits, innermost: another object each time it has got further."""
+        inner = self.task._handler
+        while (deeper := _awaited_by(inner)) is not None:
+            inner = deeper
+        return inner
+
+
+def _awaited_by(waiting: Any) -> Any:  # noqa: ANN401 - a coroutine, a generator, or neither
+    awaited = getattr(waiting, "cr_await", None)
+    return getattr(waiting, "gi_yieldfrom", None) if awaited is None else awaited
+
+
+class Coroutines:
+    """All coroutines of one executor, in the order in which they began.
+
+    Of each process the newest goes on first, as in rclpy (`_wait_for_ready_callbacks`).
+
+    Args:
+        executor: The executor that future results are scheduled on.
+
+    Attributes:
+        waiting: Those that have not ended.
+    """
+
+    def __init__(self, executor: Executor) -> None:
+        self._executor = executor
+        self.waiting: list[Waiting] = []
+        self._round: deque[Waiting] = deque()
+
+    def add_task(self, task: Task, callback: object, call: Call | None) -> None:
+        """Begin a task at the next turn, in the process of the call that has created it."""
+        process, state = (call.process, call.state) if call else (None, None)
+        self.waiting.append(Waiting(task, process, state, callback_name(callback)))
+
+    def adopt(self, coroutine: Coroutine[Any, Any, Any], entry: Entry) -> Waiting:
+        """Keep the coroutine that a callback returned; its group is occupied until it ends."""
+        entry.entity.callback_group.beginning_execution(entry.entity)
+        task = Task(coroutine, executor=self._executor)
+        state = entry.state
+        waiting = Waiting(task, state.process, state, entry.label.name, entry)
+        self.waiting.append(waiting)
+        return waiting
+
+    def step(self, run: Callable[[Waiting], None]) -> bool:
+        """Let one of them go on until it waits again; return whether any has got further.
+
+        Each gets its turn before one of them gets another.
+        """
+        for _ in range(2):
+            while self._round:
+                if self._one(self._round.popleft(), run):
+                    return True
+            of_process: dict[int, list[Waiting]] = {}
+            for waiting in self.waiting:
+                of_process.setdefault(id(waiting.process), []).append(waiting)
+            self._round.extend(one for group in of_process.values() for one in reversed(group))
+        return False
+
+    def end(self, waiting: Waiting) -> None:
+        """Forget one that has ended, and free its callback group."""
+        if waiting not in self.waiting:
+            return
+        self.waiting.remove(waiting)  # the executor holds on to the list
+        if waiting.entry is not None:
+            waiting.entry.entity.callback_group.ending_execution(waiting.entry.entity)
+
+    def drop_abandoned(self) -> None:
+        """Close the coroutines of nodes that have ended."""
+        for waiting in [waiting for waiting in self.waiting if waiting.abandoned]:
+            waiting.task.cancel()
+            self.end(waiting)
+
+    @staticmethod
+    def _one(waiting: Waiting, run: Callable[[Waiting], None]) -> bool:
+        if waiting.ended or waiting.rests:
+            return False
+        before = waiting.place()
+        run(waiting)
+        return waiting.ended or waiting.place() is not before
+
+
+# What cannot be taken directly: guard conditions and waitables, through rclpy's own wait set.
+
+
+_TAKEN_DIRECTLY = (Subscription, Timer, Client, Service)
+
+
+class Host(Protocol):
+    """What the executor asks of its session."""
+
+    def states(self) -> list[NodeState]:
+        """Return all nodes, in order of creation."""
+
+    def state_of(self, node: Node) -> NodeState | None:
+        """Return what is known of a node."""
+
+    def spin_node(self, state: NodeState) -> None:
+        """Run this node's callbacks from now on."""
+
+    def pause_node(self, state: NodeState) -> None:
+        """Run none of this node's callbacks until `spin_node`."""
+
+    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
+        """Record that a callback of this entity is about to run."""
+
+    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
+        """Record an exception that left a callback, and end its process."""
+
+    def deadlocked(self, waits: list[Wait]) -> None:
+        """Record that callbacks wait for ever."""
+
+    def running(self) -> AbstractContextManager[None]:
+        """Make nodes feel at home while they run in this thread."""
+
+
+class WaitSetExecutor(SingleThreadedExecutor):
+    """rclpy's executor, asked only for what cannot be taken directly.
+
+    One pass costs about a millisecond. It is made for nodes that have guard conditions or waitables
+    (actions, say), and once for all nodes after entities were made or destroyed: publishers and
+    subscriptions tell of a QoS that does not fit by waitables too, but only then.
+
+    Attributes:
+        current: The code of a node that is running, or None.
+    """
+
+    current: Any
+    _host: Host
+    # rclpy's `__del__` asks for it, also if an interrupt has come before it was made.
+    _sigint_gc: Any = None
+
+    def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
+        self._changed = True
+        self._wait_set_nodes: list[Node] = []
+        super().__init__(**options)
+
+    def get_nodes(self) -> list[Node]:
+        """Return the nodes whose processes have a thread for them, in order of creation.
+
+        rclpy's own answer comes from an unordered set.
+        """
+        return [
+            state.node
+            for state in self._host.states()
+            if state.spinning and state.process.has_thread()
+        ]
+
+    def wake(self) -> None:
+        """Note that entities were made or destroyed."""
+        self._changed = True
+        super().wake()
+
+    def can_execute(self, entity: Any) -> bool:  # noqa: ANN401 - rclpy's own signature
+        """Keep from rclpy's wait set what is taken directly."""
+        return not isinstance(entity, _TAKEN_DIRECTLY) and bool(super().can_execute(entity))
+
+    def ask_rclpy(self) -> bool:
+        """Make one pass of rclpy's own wait set; return whether anything came of it."""
+        nodes = self._nodes_for_wait_set()
+        progress = False
+        self._cb_iter = None  # a pass that was left when a callback waited is over
+        while nodes:
+            try:
+                handler, entity, node = self.wait_for_ready_callbacks(timeout_sec=0, nodes=nodes)
+            except TimeoutException:
+                break
+            self._handle(handler, entity, node)
+            progress = progress or handler.done()
+            nodes = [node for node in nodes if node in self.get_nodes()]
+        return progress
+
+    def forget_passes(self) -> None:
+        """Let go of a pass that was interrupted."""
+        self._cb_iter = None
+        # rclpy would take what was interrupted for running, for ever.
+        self._tasks[:] = [parts for parts in self._tasks if not parts[0].executing()]
+
+    def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
+        self._host.callback_ran(entity, node)
+        return super()._make_handler(entity, node, take)
+
+    def _handle(self, handler: Task, entity: Any, node: Node) -> None:  # noqa: ANN401
+        state = self._host.state_of(node)
+        if state is None:
+            return
+        call = self.current = Call(state.process, state)
+        error: BaseException | None = None
+        try:
+            handler()
+        except SystemExit as stop:
+            error = stop
+            handler.cancel()
+        finally:
+            self._end_call(call)
+        error = error or handler.exception()
+        if error is not None:
+            self._raised(call, waitable_name(entity), error)
+
+    def _end_call(self, call: Call) -> None:
+        raise NotImplementedError
+
+    def _raised(self, call: Call, name: str, error: BaseException) -> None:
+        raise NotImplementedError
+
+    def _nodes_for_wait_set(self) -> list[Node]:
+        if not self._changed:
+            return self._wait_set_nodes and self._those_that_spin()
+        self._changed = False
+        nodes = self.get_nodes()
+        self._wait_set_nodes = list(_with_waitables(self._host.states()))
+        return nodes
+
+    def _those_that_spin(self) -> list[Node]:
+        spinning = self.get_nodes()
+        return [node for node in self._wait_set_nodes if node in spinning]
+
+
+def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
+    """Return what a guard condition's or waitable's callback is called."""
+    callback = getattr(entity, "callback", None) or entity
+    return getattr(callback, "__name__", type(callback).__name__)
+
+
+def waitable_kind(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
+    """Return what kind of callback it has, as `CallbackRecord` names it."""
+    if isinstance(entity, EventHandler):
+        return "event"
+    return "guard condition" if isinstance(entity, GuardCondition) else "waitable"
+
+
+def _with_waitables(states: Iterable[NodeState]) -> Iterable[Node]:
+    for node in (state.node for state in states if state.spinning and state.node):
+        ours = any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
+        if ours or any(True for _ in node.guards):
+            yield node

@@ -1,0 +1,339 @@
+"""Programs with a `main`, run as `ros2 run` runs them, and ended by a signal.
+
+Here they are real processes, each with a Python of its own; `virtual.run_program` runs the same
+files in virtual time. What is compared: the exit code, the last line of the traceback and those of
+its frames that belong to the program, what it printed, and each node's log lines and their times.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from queue import Queue
+
+from conformance.machine import Watch
+
+FOLDER = Path(__file__).parent
+
+#: What the script of an entry point does: import the module, call main, exit with what it returns.
+_ENTRY_POINT = """
+import sys
+from importlib import import_module
+sys.path.insert(0, {folder!r})
+sys.argv[0] = {name!r}
+sys.exit(import_module({name!r}).main())
+"""
+_LOG = re.compile(r"\[(?P<level>\w+)\] \[(?P<stamp>[\d.]+)\] \[(?P<node>[^\]]+)\]: (?P<text>.*)")
+#: The line of rcl's C code that noticed an error, and a hint that only the interpreter itself gives
+#: (before Python 3.12).
+_BESIDE_THE_POINT = re.compile(r", at /\S+:\d+$|\. Did you mean: .*\?$")
+_FRAME = re.compile(r'\s*File "(?P<file>[^"]*)", line (?P<line>\d+), in (?P<function>\S+)')
+#: How far the log lines of a program may lie apart, in seconds. Its first line is time zero on both
+#: sides, and its timers are made some hundredths of a second before or after that.
+LINES_APART = 0.2
+#: Programs that run at once; a start keeps a core busy for half a second.
+AT_ONCE = 4
+
+
+@dataclass(frozen=True)
+class Run:
+    """A program and its end.
+
+    Attributes:
+        name: The name of the test.
+        file: Its file, in the folder of this one.
+        arguments: Its arguments.
+        signal: What ends it; None if it ends by itself.
+        at: When the signal is sent, in seconds after its first log line.
+        first_line: When that comes, in seconds of virtual time after its start.
+        differs: Why virtual time does something else, on purpose.
+        beside: Files of programs that run beside it. When they start differs from run to run, so
+            times are not compared, and equal lines that follow each other count once.
+    """
+
+    name: str
+    file: str
+    arguments: tuple[str, ...] = ()
+    signal: signal.Signals | None = None
+    at: float = 1.5
+    beside: tuple[str, ...] = ()
+    first_line: float = 0.0
+    differs: str = ""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A log line.
+
+    Attributes:
+        time: Seconds since the first line.
+        level: Such as INFO.
+        text: The first line of what it says; measured temperatures are left out.
+    """
+
+    time: float
+    level: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a program ended, and what it did.
+
+    Attributes:
+        returncode: The exit code, negative for a signal; None if the program runs on.
+        error: The last line of its traceback, or nothing.
+        frames: The lines of its own code in the traceback: number and function.
+        printed: The lines that it printed itself.
+        logs: Its log lines, of each node.
+    """
+
+    returncode: int | None
+    error: str
+    frames: tuple[tuple[int, str], ...]
+    printed: list[str]
+    logs: dict[str, list[Line]]
+
+
+def _both(
+    name: str, file: str, *arguments: str, at: float = 1.5, first_line: float = 0.0
+) -> list[Run]:
+    return [
+        Run(f"{name}-{number.name}", file, arguments, number, at, first_line=first_line)
+        for number in (signal.SIGINT, signal.SIGTERM)
+    ]
+
+
+_REMAPPED = ("-r", "__node:=x", "-r", "temperature:=humidity", "-p", "limit:=3.5", "-p", "unit:=F")
+
+RUNS = {
+    run.name: run
+    for run in [
+        *_both("tutorial_publisher", "tutorial/temperature_publisher.py"),
+        *_both("tutorial_subscriber", "tutorial/temperature_subscriber.py"),
+        Run(
+            "tutorial_pair", "tutorial/temperature_subscriber.py", signal=signal.SIGINT, at=2.5,
+            beside=("tutorial/temperature_publisher.py",),
+        ),
+        Run("misspelled", "mains/misspelled.py"),
+        *_both("minimal_publisher", "mains/minimal_publisher.py", at=1.3),
+        Run("publisher_for_newer_rclpy", "mains/publisher_for_newer_rclpy.py"),
+        *_both("spin_once_loop", "mains/spin_once_loop.py", at=1.45),
+        *_both("sleep_loop", "mains/sleep_loop.py", at=1.25),
+        Run("raising", "mains/raising.py"),
+        Run("exiting", "mains/exiting.py"),
+        *_both("exiting_with_threads", "mains/exiting_with_threads.py", at=1.4),
+        *_both("two_nodes", "mains/two_nodes.py", at=1.75),
+        *_both("trying_shutdown", "mains/trying_shutdown.py", at=1.4),
+        *_both("external_shutdown", "mains/external_shutdown.py", at=1.4),
+        *_both("no_handling", "mains/no_handling.py", at=1.4),
+        *_both("sleeping_callback", "mains/sleeping_callback.py", at=1.5),
+        Run("shutting_down", "mains/shutting_down.py"),
+        *_both("add_service", "mains/add_service.py", at=0.8),
+        Run(
+            "add_client_without_server-SIGINT", "mains/add_client.py", ("2", "3"), signal.SIGINT,
+            at=1.6, first_line=1.0,
+        ),
+        Run(
+            "add_client_without_server-SIGTERM", "mains/add_client.py", ("2", "3"), signal.SIGTERM,
+            at=1.6, first_line=1.0,
+            differs="Clients of a context that was shut down still work in a session.",
+        ),
+        Run("add_client", "mains/add_client.py", ("2", "3"), beside=("mains/add_service.py",)),
+        *_both("arguments", "mains/arguments.py", "one", "--ros-args", *_REMAPPED, "--", "two",
+               at=1.4),
+        Run("wrong_argument", "mains/arguments.py", ("--ros-args", "-p", "limit:=3")),
+    ]
+}  # fmt: skip
+
+
+def outcome_of(
+    returncode: int | None,
+    printed: str,
+    stderr: str,
+    logs: Iterable[tuple[float, str, str, str]],
+) -> Outcome:
+    """Return an outcome of what a process left.
+
+    Args:
+        returncode: The exit code.
+        printed: What came on standard output; a session shows log lines there, too.
+        stderr: The traceback, with or without log lines around it.
+        logs: Time, level, node and text of each log line.
+    """
+    lines: dict[str, list[Line]] = {}
+    began: float | None = None
+    further: set[str] = set()  # the lines of a text after its first
+    for seconds, level, node, text in logs:
+        further.update(text.splitlines()[1:])
+        began = seconds if began is None else began
+        shown = re.sub(r"\d+\.\d\dC", "#C", text.partition("\n")[0])
+        lines.setdefault(node, []).append(Line(seconds - began, level, shown))
+    _, traceback, trace = stderr.partition("Traceback (most recent call last):")
+    rest = [line for line in trace.splitlines() if line.strip() and not _LOG.match(line)]
+    own = [
+        (int(found["line"]), found["function"])
+        for line in rest
+        if (found := _FRAME.match(line)) and Path(found["file"]).is_relative_to(FOLDER)
+    ]
+    error = next((line for line in reversed(rest) if not line.startswith(" ")), "")
+    error = _BESIDE_THE_POINT.sub("", error) if traceback else ""
+    shown = [one for one in printed.splitlines() if not _LOG.match(one) and one not in further]
+    return Outcome(returncode, error, tuple(own), shown, lines)
+
+
+class _Process:
+    """A real process, and what it writes to standard error, read as it comes."""
+
+    def __init__(self, file: str, arguments: Sequence[str], domain: int) -> None:
+        path = FOLDER / file
+        code = _ENTRY_POINT.format(folder=str(path.parent), name=path.stem)
+        # Processes that are killed leave shared memory behind, so they talk by UDP.
+        private = {"ROS_DOMAIN_ID": str(domain), "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", code, *arguments],
+            env=os.environ | private, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )  # fmt: skip
+        self.stderr: list[str] = []
+        self.has_logged = threading.Event()
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self) -> None:
+        assert self.process.stderr is not None
+        for line in self.process.stderr:
+            self.stderr.append(line)
+            if _LOG.match(line):
+                self.has_logged.set()
+        self.has_logged.set()  # it has ended
+
+    def wait_for_start(self) -> None:
+        if not self.has_logged.wait(30):
+            raise TimeoutError("it neither logged anything nor ended")
+
+    def __enter__(self) -> _Process:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.process.kill()
+        self._reader.join()
+        self.process.__exit__(None, None, None)  # closes the pipes
+
+    def end(self) -> str:
+        """Wait until it has ended, and return what it printed."""
+        assert self.process.stdout is not None
+        printed = self.process.stdout.read()
+        self.process.wait()
+        self._reader.join()
+        return printed
+
+    def logs(self) -> list[tuple[float, str, str, str]]:
+        found = [_LOG.match(line.rstrip("\n")) for line in self.stderr]
+        return [
+            (float(one["stamp"]), one["level"], one["node"], one["text"]) for one in found if one
+        ]
+
+
+def run_program(run: Run, domain: int) -> Outcome:
+    """Run a program as a real process and return how it ended."""
+    with ExitStack() as stack:
+        others = []
+        for file in run.beside:
+            others.append(stack.enter_context(_Process(file, (), domain)))
+            others[-1].wait_for_start()
+        one = stack.enter_context(_Process(run.file, run.arguments, domain))
+        one.wait_for_start()
+        if run.signal is not None:
+            time.sleep(run.at)
+            one.process.send_signal(run.signal)
+            _wait_for_end(one.process, run.signal)
+        elif not _ends(one.process, 20):
+            raise TimeoutError(f"{run.name} does not end")
+        printed = one.end()
+        logs = sorted(line for each in (*others, one) for line in each.logs())
+        return outcome_of(one.process.returncode, printed, "".join(one.stderr), logs)
+
+
+def _ends(process: subprocess.Popen[str], seconds: float) -> bool:
+    try:
+        process.wait(seconds)
+    except subprocess.TimeoutExpired:
+        return False
+    return True
+
+
+def _wait_for_end(process: subprocess.Popen[str], number: signal.Signals) -> None:
+    """Wait until a signal has ended a process.
+
+    rclpy can lose a SIGTERM (3 of 39 times): a thread wakes the executor first and shuts the
+    context down afterwards, and an executor that was quick waits again meanwhile. The next signal
+    wakes it.
+    """
+    for _ in range(5):
+        if _ends(process, 3):
+            return
+        process.send_signal(number)
+    raise TimeoutError(f"{number.name} does not end it")
+
+
+def _race(outcome: Outcome) -> str:
+    """Return which race within rclpy ended a program, if one did, and not the program's own code.
+
+    On a signal a thread of rclpy's wakes the executors, then shuts the contexts down.
+    """
+    if "failed to initialize wait set" in outcome.error:  # 1 of 78 ends by SIGTERM
+        return "the executor made its next wait set while its context was shut down"
+    if outcome.returncode == -signal.SIGSEGV:  # 10 of 260 ends of `two_nodes` by SIGINT
+        # By faulthandler, `main` is in `destroy_node`, and a thread crashes that is not Python's.
+        return "nodes were destroyed while rclpy's thread was shutting their context down"
+    return ""
+
+
+def measure_programs(
+    runs: Sequence[Run], domains: Sequence[int], file: Path, deadline: float = 60.0
+) -> dict[str, Outcome | str]:
+    """Run programs as real processes, several at once.
+
+    Args:
+        runs: The programs.
+        domains: Private domain ids.
+        file: A file to write to.
+        deadline: After how many seconds nothing is measured anew.
+
+    Returns:
+        The outcome of each, or why there is none that says anything about rclpy.
+    """
+    free: Queue[int] = Queue()
+    for domain in domains[:AT_ONCE]:
+        free.put(domain)
+    give_up = time.monotonic() + deadline
+
+    def measured(run: Run) -> Outcome | str:
+        while True:
+            domain = free.get()
+            began = time.monotonic()
+            try:
+                outcome = run_program(run, domain)
+            finally:
+                free.put(domain)
+            lag = watch.lag(began, time.monotonic())
+            invalid = _race(outcome)
+            if lag > LINES_APART / 3:
+                invalid = f"the machine stood still for {lag:.3f} s"
+            if not invalid:
+                return outcome
+            if time.monotonic() > give_up:
+                return invalid
+
+    with Watch(file) as watch, ThreadPoolExecutor(AT_ONCE) as pool:
+        return dict(zip((run.name for run in runs), pool.map(measured, runs), strict=True))

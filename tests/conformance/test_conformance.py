@@ -1,0 +1,151 @@
+"""Virtual time does what rclpy's own executors do against the wall clock.
+
+Each case and each program runs twice: as real processes (`real`, `entry_points`) and in a session
+(`virtual`). The real side of all of them is measured once, in about a minute.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import groupby, zip_longest
+
+import pytest
+
+from conformance.cases import CASES
+from conformance.entry_points import LINES_APART, RUNS, Line, Outcome, Run, measure_programs
+from conformance.programs import Case, Entry
+from conformance.real import Measurement, measure
+from conformance.virtual import run_case, run_program
+from rosbeat.domains import lease_domain
+
+pytestmark = [
+    pytest.mark.ros,
+    pytest.mark.timeout(400),
+    pytest.mark.skipif(sys.platform != "linux", reason="forks, and asks Linux to end children"),
+]
+
+#: How long before and after its end nothing happens in a case, in seconds.
+MARGIN = 0.09
+
+
+@pytest.fixture(scope="module")
+def domains() -> Iterator[list[int]]:
+    leases = [lease_domain() for _ in range(12)]
+    yield [lease.domain_id for lease in leases]
+    for lease in leases:
+        lease.release()
+
+
+def chosen(request: pytest.FixtureRequest, function: str) -> list[str]:
+    """Return the parameters of a test function that this run has selected."""
+    items = (item for item in request.session.items if item.path == request.path)
+    return [item.callspec.params["name"] for item in items if item.originalname == function]
+
+
+@pytest.fixture(scope="module")
+def real_cases(request: pytest.FixtureRequest, domains: list[int]) -> dict[str, Measurement]:
+    names = chosen(request, "test_case")
+    return measure([CASES[name] for name in names], domains)
+
+
+@pytest.fixture(scope="module")
+def real_programs(
+    request: pytest.FixtureRequest,
+    domains: list[int],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> dict[str, Outcome | str]:
+    names = chosen(request, "test_program")
+    lag = tmp_path_factory.mktemp("programs") / "lag"
+    return measure_programs([RUNS[name] for name in names], domains, lag)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_case(name: str, real_cases: dict[str, Measurement]) -> None:
+    real = real_cases[name]
+    if real.invalid:
+        pytest.skip(f"no valid measurement before the deadline: {real.invalid}")
+    differences = list(compare(CASES[name], real.entries, run_case(CASES[name])))
+    if CASES[name].differs:
+        assert differences, f"There is no difference any more: {CASES[name].differs}"
+    else:
+        assert not differences, "\n".join([CASES[name].about, *differences, *real.stderr])
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_nothing_happens_at_the_end_of_a_case(name: str) -> None:
+    """What comes just before or after it would be there in one of two real runs."""
+    case = replace(CASES[name], seconds=CASES[name].seconds + MARGIN)
+    end = [one for one in run_case(case) if one.time > CASES[name].seconds - MARGIN]
+    assert not end
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_program(name: str, real_programs: dict[str, Outcome | str]) -> None:
+    real = real_programs[name]
+    if isinstance(real, str):
+        pytest.skip(f"no valid measurement before the deadline: {real}")
+    virtual = run_program(RUNS[name])
+    if RUNS[name].differs:
+        same = (virtual.returncode, virtual.error) == (real.returncode, real.error)
+        assert not same, f"There is no difference any more: {RUNS[name].differs}"
+        return
+    assert (virtual.returncode, virtual.error) == (real.returncode, real.error)
+    assert virtual.frames == real.frames
+    assert virtual.printed == real.printed
+    assert texts(RUNS[name], virtual) == texts(RUNS[name], real)
+    if not RUNS[name].beside:
+        assert_close_in_time(real, virtual)
+
+
+def compare(case: Case, real: Sequence[Entry], virtual: Sequence[Entry]) -> Iterator[str]:
+    """Yield in what two runs of a case differ."""
+    if case.from_first:
+        real, virtual = _from_first(real), _from_first(virtual)
+    for node in sorted({entry.node for entry in (*real, *virtual)}):
+        yield from _differences(
+            node,
+            case.tolerance,
+            [entry for entry in real if entry.node == node],
+            [entry for entry in virtual if entry.node == node],
+        )
+    if case.global_order:
+        orders = [[f"{entry.node}: {entry.text}" for entry in side] for side in (real, virtual)]
+        if orders[0] != orders[1]:
+            yield f"order of all events\n  real:    {orders[0]}\n  virtual: {orders[1]}"
+
+
+def _from_first(entries: Sequence[Entry]) -> list[Entry]:
+    return [replace(entry, time=entry.time - entries[0].time) for entry in entries]
+
+
+def _differences(
+    node: str, tolerance: float, real: Sequence[Entry], virtual: Sequence[Entry]
+) -> Iterator[str]:
+    same_texts = [entry.text for entry in real] == [entry.text for entry in virtual]
+    apart = max((abs(a.time - b.time) for a, b in zip(real, virtual, strict=False)), default=0.0)
+    if same_texts and apart <= tolerance:
+        return
+    yield f"{node}: " + ("times differ" if same_texts else "events differ")
+    yield f"  {'real':>40} | virtual"
+    for one, other in zip_longest(real, virtual):
+        left, right = (f"{e.text} {e.time:7.3f}" if e else "-" for e in (one, other))
+        yield f"  {left:>40} | {right}"
+
+
+def texts(run: Run, outcome: Outcome) -> dict[str, list[tuple[str, str]]]:
+    """Return level and text of each node's lines."""
+    found = {
+        node: [(line.level, line.text) for line in lines] for node, lines in outcome.logs.items()
+    }
+    if run.beside:
+        return {node: [line for line, _ in groupby(lines)] for node, lines in found.items()}
+    return found
+
+
+def assert_close_in_time(real: Outcome, virtual: Outcome) -> None:
+    for node, lines in real.logs.items():
+        pairs: list[tuple[Line, Line]] = list(zip(lines, virtual.logs[node], strict=True))
+        apart = [(a.text, a.time, b.time) for a, b in pairs if abs(a.time - b.time) > LINES_APART]
+        assert not apart

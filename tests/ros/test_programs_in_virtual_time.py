@@ -1,0 +1,228 @@
+"""Programs with a `main`, run unchanged as simulated processes."""
+
+import signal
+import sys
+from textwrap import dedent
+
+import pytest
+import rclpy
+
+from rosbeat import Session
+from rosbeat.errors import SessionError
+
+pytestmark = pytest.mark.ros
+
+SENSOR = """
+import sys
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+class Sensor(Node):
+    def __init__(self):
+        super().__init__("sensor")
+        self.pub = self.create_publisher(Float32, "temperature", 10)
+        self.create_timer(1.0, lambda: self.pub.publish(Float32(data=22.5)))
+        self.get_logger().info("Started")
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = Sensor()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    node.destroy_node()
+    rclpy.{ending}()
+"""
+
+
+@pytest.fixture
+def program(tmp_path):
+    """Write a program and return its path."""
+
+    def write(text, name="program.py"):
+        file = tmp_path / name
+        file.write_text(dedent(text), encoding="utf-8")
+        return file
+
+    return write
+
+
+def test_it_runs_with_the_session_and_ctrl_c_ends_it(ros, program):
+    sensor = ros.spawn(program(SENSOR.replace("{ending}", "try_shutdown")))
+    assert [node.get_name() for node in sensor.nodes] == ["sensor"]
+    ros.run(3)
+    assert [one.time for one in ros.messages("temperature")] == [1, 2, 3]
+    assert (sensor.returncode, sensor.poll()) == (None, None)
+    sensor.send_signal(signal.SIGINT)
+    assert (sensor.returncode, sensor.stderr) == (0, "")
+    assert ros.nodes == ()
+    ros.run(2)
+    assert len(ros.messages("temperature")) == 3
+
+
+def test_a_second_shutdown_is_seen(ros, program, capsys):
+    sensor = ros.spawn(program(SENSOR.replace("{ending}", "shutdown")))
+    ros.run(1)
+    sensor.send_signal(signal.SIGINT)
+    assert sensor.returncode == 1
+    assert "rcl_shutdown already called on the given context" in sensor.stderr
+    assert "    rclpy.shutdown()" in sensor.stderr
+    assert "rosbeat" not in sensor.stderr
+    assert sensor.stderr in capsys.readouterr().err
+    (fault,) = ros.observation().faults
+    assert (fault.kind, fault.code) == ("RCLError", "rclpy.shutdown()")
+
+
+def test_sigterm_and_sigkill(ros, program):
+    file = program(SENSOR.replace("{ending}", "try_shutdown"))
+    first = ros.spawn(file)
+    first.terminate()
+    assert first.returncode == 1
+    assert "ExternalShutdownException" in first.stderr
+    second = ros.spawn(file)
+    second.kill()
+    assert (second.returncode, second.stderr, ros.nodes) == (-9, "", ())
+
+
+def test_two_programs_of_one_file_and_their_arguments(ros, program):
+    file = program(SENSOR.replace("{ending}", "try_shutdown"))
+    ros.spawn(file, "--ros-args", "-r", "__node:=attic", "-r", "temperature:=/attic/temperature")
+    ros.spawn(file, "--ros-args", "-r", "__ns:=/cellar")
+    ros.run(2)
+    assert ros.graph().nodes == ("/attic", "/cellar/sensor")
+    assert len(ros.messages("/attic/temperature")) == len(ros.messages("/cellar/temperature")) == 2
+
+
+def test_a_module_is_imported_afresh_and_leaves_nothing_behind(ros, program):
+    program("number = 1", "own_constants.py")
+    file = program("""
+        import sys
+        import own_constants
+        def main():
+            print(own_constants.number, sys.argv)
+    """)
+    before = set(sys.modules), list(sys.path), sys.argv, signal.signal
+    assert ros.spawn(file, "one", "two").returncode == 0
+    program("number = 2", "own_constants.py")
+    assert ros.spawn(file).returncode == 0
+    assert (set(sys.modules), sys.path, sys.argv, signal.signal) == before
+
+
+def test_what_a_program_prints_and_returns(ros, program, capsys):
+    assert ros.spawn(program("def main():\n    return 3")).returncode == 3
+    assert ros.spawn(program("import sys\ndef main():\n    sys.exit('gone')")).returncode == 1
+    assert capsys.readouterr().err == "gone\n"
+    wrong = ros.spawn(program("def main():\n    return nobody"))
+    assert wrong.returncode == 1
+    assert wrong.stderr.endswith("NameError: name 'nobody' is not defined\n")
+    broken = ros.spawn(program("def main(:"))
+    assert "SyntaxError" in broken.stderr
+    without = ros.spawn(program("x = 1"))
+    assert "has no attribute 'main'" in without.stderr
+
+
+def test_a_function_of_the_page_is_a_program_too(ros, capsys):
+    def main():
+        rclpy.init()
+        print(rclpy.ok())
+        rclpy.shutdown()
+        print(rclpy.ok())
+
+    assert ros.spawn(main).returncode == 0
+    assert capsys.readouterr().out == "True\nFalse\n"
+    assert rclpy.ok()  # that of the session
+
+
+def test_a_client_waits_for_a_server_that_starts_later(ros, program):
+    client = ros.spawn(
+        program("""
+        import rclpy
+        from rclpy.node import Node
+        from std_srvs.srv import Trigger
+
+        def main():
+            rclpy.init()
+            node = Node("asker")
+            client = node.create_client(Trigger, "ask")
+            while not client.wait_for_service(timeout_sec=1.0):
+                node.get_logger().info("waiting again")
+            future = client.call_async(Trigger.Request())
+            rclpy.spin_until_future_complete(node, future)
+            node.get_logger().info(future.result().message)
+            node.destroy_node()
+            rclpy.shutdown()
+        """)
+    )
+    ros.run(2.5)
+    assert client.returncode is None
+    server = ros.add(lambda: rclpy.create_node("server"))
+    server.create_service(rclpy_trigger(), "ask", lambda _, answer: fill(answer))
+    ros.run(1)
+    assert client.returncode == 0
+    texts = [line.text for line in ros.logs("asker")]
+    assert texts == ["waiting again", "waiting again", "well asked"]
+
+
+def rclpy_trigger():
+    from std_srvs.srv import Trigger
+
+    return Trigger
+
+
+def fill(answer):
+    answer.message = "well asked"
+    return answer
+
+
+def test_a_handler_of_its_own(ros, program, capsys):
+    handler = signal.getsignal(signal.SIGTERM)
+    sensor = ros.spawn(
+        program("""
+        import signal, time
+        def main():
+            signal.signal(signal.SIGTERM, lambda number, frame: print("told", number))
+            time.sleep(100)
+        """)
+    )
+    ros.run(1)
+    sensor.terminate()
+    assert "told 15" in capsys.readouterr().out
+    assert sensor.returncode is None
+    assert signal.getsignal(signal.SIGTERM) == handler
+    sensor.send_signal(signal.SIGINT)
+    assert sensor.returncode == -2
+    assert sensor.stderr.endswith("KeyboardInterrupt\n")
+
+
+def test_closing_the_session_ends_a_program_that_sleeps(program, capsys):
+    file = program("""
+        import time
+        def main():
+            try:
+                time.sleep(100)
+            finally:
+                print("tidied")
+    """)
+    with Session() as ros:
+        ros.spawn(file)
+        ros.run(1)
+    assert capsys.readouterr().out == "tidied\n"
+
+
+@pytest.mark.parametrize("target", ["no_such_file.py", 3, None, Session, ""])
+def test_what_is_no_program(ros, says, target):
+    with pytest.raises(SessionError) as caught:
+        ros.spawn(target)
+    says(caught.value)
+
+
+def test_arguments_are_texts_and_signals_are_known(ros, says, program):
+    file = program("def main():\n    import time; time.sleep(9)")
+    with pytest.raises(SessionError):
+        ros.spawn(file, 3)
+    running = ros.spawn(file)
+    with pytest.raises(SessionError) as caught:
+        running.send_signal(signal.SIGHUP)
+    says(caught.value, "SIGINT")
