@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import time
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any
 
 from rcl_interfaces.srv import GetParameters
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from rosbeat.diagnosis.situation import (
@@ -39,21 +41,6 @@ from rosbeat.ros.world import World
 _BLOCKING_SECONDS = 1.0
 #: A rate is that of so many messages, the newest.
 _NEWEST = 100
-#: So many messages tell their rate, if they are not all in one burst; ten of each, if several nodes
-#: publish, since it cannot be told which is whose.
-_ENOUGH, _ENOUGH_OF_EACH, _AT_LEAST_SECONDS = 3, 10, 0.5
-#: Others have so many seconds to react, and no less than so many turns of the executor: on a busy
-#: machine time passes in which they could not.
-_REACTION_SECONDS, _REACTION_TURNS = 2.0, 40
-_TURN = 0.02
-#: Seconds after which a request is sent again: an answer can be lost while the graph changes, as it
-#: does just after another process was killed.
-_RESEND = 0.4
-#: Other domains that are looked into; each takes a part of a second.
-_MOST_DOMAINS = 10
-
-#: A message: its number among all of the session, who published it, and when in nanoseconds.
-_Message = tuple[int, str, int]
 
 
 def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
@@ -72,24 +59,20 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
     if observer is not None:
         observer.wait_until_stable()
     graph = world.graph()
-    beats, conditions, rate = (
-        ([], [], 0.0) if observer is None else _listen(world, observer, topic, graph, seconds)
-    )
-    with world.recorder.lock:
-        messages = world.recorder.times(topic)
-    own = (*_publishers(world, topic, messages), *_subscriptions(world, topic, messages))
+    external = _External() if observer is None else _listen(world, observer, topic, graph, seconds)
+    messages = _Messages(world, topic)
     states = world.states()
     return Scene(
         graph,
         world.now(),
-        (*own, *beats),
-        (*blocked, *(_condition(world, state) for state in states), *conditions),
-        rate,
+        (*_publishers(world, messages), *_subscriptions(world, messages), *external.beats),
+        (*blocked, *(_condition(world, state) for state in states), *external.conditions),
+        external.rate_hz,
         frozenset(state.name for state in states),
         virtual=world.live is None,
         waiting=world.virtual.has_work,
         domain_id=-1 if observer is None else world.domain_id or 0,
-        former=() if graph.on(topic, "publisher") else _former(messages),
+        former=_former(graph, messages),
         other_domains=_other_domains(world, topic, graph),
     )
 
@@ -102,9 +85,9 @@ def _blocked(world: World) -> list[Condition]:
     live = world.live
     if live is None or live.task is None:
         return []
-    task, state = live.task, world.state_of(live.current)
+    work, state = live.task, world.state_of(live.current)
     callback = world.recorder.newest_callback()
-    if poll(lambda: live.task is not task, time.monotonic() + _BLOCKING_SECONDS):
+    if poll(lambda: live.task is not work, time.monotonic() + _BLOCKING_SECONDS):
         return []
     if state is None or callback is None:
         return []
@@ -120,24 +103,54 @@ def _condition(world: World, state: NodeState) -> Condition:
     return Condition(state.name, PAUSED if state.paused else NOT_ADDED)
 
 
-def _publishers(world: World, topic: str, messages: list[_Message]) -> Iterator[Beat]:
+class _Messages:
+    """Keeps the messages of a topic so far.
+
+    Args:
+        world: The session.
+        topic: The topic's full name.
+
+    Attributes:
+        topic: As above.
+        nodes: Who has published, in order of their last messages.
+    """
+
+    def __init__(self, world: World, topic: str) -> None:
+        self.topic = topic
+        with world.recorder.lock:
+            self._all = world.recorder.times(topic)
+        last = {node: number for number, node, _ in self._all}
+        self.nodes = sorted(last, key=lambda node: last[node])
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def times_of(self, node: str) -> list[int]:
+        """Return when one node published, in nanoseconds since the session began."""
+        return [at for _, name, at in self._all if name == node]
+
+    def before(self, number: int) -> int:
+        """Return how many came before the message of this number among all of the session."""
+        return sum(one[0] < number for one in self._all)
+
+
+def _publishers(world: World, messages: _Messages) -> Iterator[Beat]:
     for state in world.states():
-        counts = [tap.count for tap in state.taps if tap.topic == topic]
+        counts = [tap.count for tap in state.taps if tap.topic == messages.topic]
         if counts:
             number = sum(counts)
             # Of a node of this name that was replaced there may be more.
-            times = [at for _, node, at in messages if node == state.name]
-            times = times[-min(number, _NEWEST) :] if number else []
+            times = messages.times_of(state.name)[-min(number, _NEWEST) :] if number else []
             last, watched = times[-1] if times else -1, world.now() - state.born_ns
             yield Beat(state.name, "publisher", number, last, rate_of(times), watched)
 
 
-def _subscriptions(world: World, topic: str, messages: list[_Message]) -> Iterator[Beat]:
+def _subscriptions(world: World, messages: _Messages) -> Iterator[Beat]:
+    wanted = "subscription", messages.topic
     for state in world.states():
-        entries = [one for one in state.entries if (one.kind, one.name) == ("subscription", topic)]
+        entries = [one for one in state.entries if (one.kind, one.name) == wanted]
         if entries:
-            born = min(one.born for one in entries)
-            missed = sum(number < born for number, _, _ in messages)
+            missed = messages.before(min(one.born for one in entries))
             yield Beat(
                 state.name,
                 "subscription",
@@ -149,13 +162,12 @@ def _subscriptions(world: World, topic: str, messages: list[_Message]) -> Iterat
             )
 
 
-def _former(messages: list[_Message]) -> tuple[Former, ...]:
-    """Return who has published, in order of their last messages."""
-    last = {node: (number, at) for number, node, at in messages}
-    count = Counter(node for _, node, _ in messages)
-    return tuple(
-        Former(node, count[node], last[node][1]) for node in sorted(last, key=last.__getitem__)
-    )
+def _former(graph: GraphSnapshot, messages: _Messages) -> tuple[Former, ...]:
+    """Return who published before, if nobody does now."""
+    if graph.on(messages.topic, "publisher"):
+        return ()
+    times = {node: messages.times_of(node) for node in messages.nodes}
+    return tuple(Former(node, len(found), found[-1]) for node, found in times.items())
 
 
 # The nodes of other processes: what arrives from them, and whether they answer.
@@ -164,16 +176,40 @@ def _former(messages: list[_Message]) -> tuple[Former, ...]:
 # answer runs no callbacks: it is not spun, or a callback does not return.
 
 
-def _listen(
-    world: World, observer: GraphObserver, topic: str, graph: GraphSnapshot, seconds: float
-) -> tuple[Iterable[Beat], Iterable[Condition], float]:
-    """Return what is known of other processes.
+#: So many messages tell their rate, if they are not all in one burst; ten of each, if several nodes
+#: publish, since it cannot be told which is whose.
+_ENOUGH, _ENOUGH_OF_EACH, _AT_LEAST_SECONDS = 3, 10, 0.5
+#: Others have so many seconds to react, and no less than so many turns of the executor: on a busy
+#: machine time passes in which they could not.
+_REACTION_SECONDS, _REACTION_TURNS = 2.0, 40
+_TURN = 0.02
+#: Seconds after which a request is sent again: an answer can be lost while the graph changes, as it
+#: does just after another process was killed.
+_RESEND = 0.4
+_QUEUE = 1000
 
-    Returns:
-        The publishers, as far as it is known which published what; their nodes; and how many
-        messages a second there are that cannot be told apart.
+#: Runs the callbacks of a node for a turn.
+_Spin = Callable[[], None]
+
+
+@dataclass(frozen=True)
+class _External:
+    """What is known of other processes.
+
+    Attributes:
+        beats: The publishers there, as far as it is known which published what.
+        conditions: Their nodes.
+        rate_hz: Messages a second that cannot be told apart; 0 if there are none.
     """
 
+    beats: tuple[Beat, ...] = ()
+    conditions: tuple[Condition, ...] = ()
+    rate_hz: float = 0.0
+
+
+def _listen(
+    world: World, observer: GraphObserver, topic: str, graph: GraphSnapshot, seconds: float
+) -> _External:
     def outside(endpoints: list[Any]) -> list[Any]:
         found = filter(observer.is_outside, endpoints)
         return [one for one in found if not is_hidden(owner(one))]
@@ -182,116 +218,121 @@ def _listen(
     names = [owner(one) for one in publishers]
     both = dict.fromkeys([*names, *map(owner, outside(observer.subscriptions(topic)))])
     asked = [one for one in both if graph.on(f"{one}/get_parameters", "server")]
-    stamps: list[int] = []
+    stamps: tuple[int, ...] = ()
     span: float | None = None
-    listener = _Listener(world.context)
-    try:
-        listener.connect_to(asked)
+    with _temporary_node(world.context) as (node, spin):
+        services = {
+            one: node.create_client(GetParameters, f"{one}/get_parameters") for one in asked
+        }
         # Listen first: a callback that does not return may only begin meanwhile.
         if publishers and seconds:
-            stamps, span = listener.receive(world, topic, publishers, seconds)
-        silent = listener.silent_nodes()
-    finally:
-        listener.close()
+            stamps, span = _receive(world, node, topic, publishers, seconds, spin)
+        silent = _silent(services, spin)
     rate = rate_of(sorted(stamps))
-    conditions = [Condition(one, SILENT if one in silent else RUNNING) for one in asked]
+    conditions = tuple(Condition(one, SILENT if one in silent else RUNNING) for one in asked)
     if span is None or (stamps and len(names) > 1):
-        return [], conditions, rate
+        return _External((), conditions, rate)
     watched = round(span * NANOSECONDS)
-    beats = [Beat(one, "publisher", len(stamps), -1, rate, watched) for one in names]
-    return beats, conditions, 0.0
+    return _External(
+        tuple(
+            Beat(one, "publisher", len(stamps), rate_hz=rate, watched_ns=watched) for one in names
+        ),
+        conditions,
+    )
 
 
-class _Listener:
-    """Listens to other processes for a while, and asks their nodes for parameters.
+@contextmanager
+def _temporary_node(context: Context) -> Iterator[tuple[Node, _Spin]]:
+    """Make a hidden node for a while, and what spins it."""
+    node = HiddenNode(context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    try:
+        yield node, lambda: executor.spin_once(timeout_sec=_TURN)
+    finally:
+        executor.shutdown()
+        node.destroy_node()
 
-    It has a node and is none: a node that refers to its executor would keep it, when interrupted,
-    until its context is gone.
+
+def _spin_until(spin: _Spin, done: Callable[[], object]) -> None:
+    """Spin until something is true, or others have had time enough to react."""
+    begin, turns = time.monotonic(), 0
+    while not done():
+        if turns >= _REACTION_TURNS and time.monotonic() - begin >= _REACTION_SECONDS:
+            return
+        spin()
+        turns += 1
+
+
+def _receive(
+    world: World, node: Node, topic: str, publishers: list[Any], seconds: float, spin: _Spin
+) -> tuple[tuple[int, ...], float | None]:
+    """Listen to other processes for a while.
+
+    Returns:
+        When each message was sent, by its sender's clock; and for how many seconds it listened, or
+        None if it could not be connected.
     """
+    external = world.external_messages
+    stamps: list[int] = []
 
-    def __init__(self, context: Context) -> None:
-        self._node = HiddenNode(context)
-        self._clients_by_node: dict[str, Any] = {}
-        self._spinner = SingleThreadedExecutor(context=context)
-        self._spinner.add_node(self._node)
+    def arrived(_: bytes, info: dict[str, int]) -> None:
+        if external is None or not external.is_own(topic, info):
+            stamps.append(info["source_timestamp"])
 
-    def close(self) -> None:
-        """Leave the graph."""
-        self._spinner.shutdown()
-        self._node.destroy_node()
+    # Best effort and volatile fits whatever a publisher offers.
+    qos = QoSProfile(depth=_QUEUE, reliability=ReliabilityPolicy.BEST_EFFORT)
+    try:
+        kind = message_class(publishers[0].topic_type)
+        subscription = node.create_subscription(kind, topic, arrived, qos, raw=True)
+    except (ImportError, AttributeError, ValueError, rclpy_implementation.RCLError):
+        return (), None  # the type is unknown here, or this process knows another under the name
+    _spin_until(spin, subscription.get_publisher_count)
+    if not subscription.get_publisher_count():
+        return (), None
+    enough = _ENOUGH if len(publishers) < 2 else _ENOUGH_OF_EACH * len(publishers)
+    begin, span = time.monotonic(), 0.0
+    while span < seconds and not (span >= _AT_LEAST_SECONDS and len(stamps) >= enough):
+        spin()
+        span = time.monotonic() - begin
+    return tuple(stamps), min(span, seconds)
 
-    def connect_to(self, nodes: list[str]) -> None:
-        """Make a client of each node's parameter service."""
-        for name in nodes:
-            client = self._node.create_client(GetParameters, f"{name}/get_parameters")
-            self._clients_by_node[name] = client
 
-    def _spin_until(self, done: Callable[[], object]) -> None:
-        """Spin until something is true, or others have had time enough to react."""
-        begin, turns = time.monotonic(), 0
-        while not done():
-            if turns >= _REACTION_TURNS and time.monotonic() - begin >= _REACTION_SECONDS:
-                return
-            self._spinner.spin_once(timeout_sec=_TURN)
-            turns += 1
+def _silent(services: Mapping[str, Any], spin: _Spin) -> set[str]:
+    """Ask nodes for none of their parameters, and return those that do not answer.
 
-    def receive(
-        self, world: World, topic: str, publishers: list[Any], seconds: float
-    ) -> tuple[list[int], float | None]:
-        """Receive what other processes publish for a while.
+    A node that cannot be asked is believed to run.
 
-        Returns:
-            When each message was sent, by its sender's clock; and for how many seconds it listened,
-            or None if it could not be connected.
-        """
-        external = world.external_messages
-        stamps: list[int] = []
+    Args:
+        services: A client of each node's parameter service, by the node's name.
+        spin: Spins the clients' node.
+    """
+    _spin_until(spin, lambda: all(one.service_is_ready() for one in services.values()))
+    answers: dict[str, list[Any]] = {
+        name: [] for name, one in services.items() if one.service_is_ready()
+    }
+    sent = -_RESEND
 
-        def arrived(_: bytes, info: dict[str, int]) -> None:
-            if external is None or not external.is_own(topic, info):
-                stamps.append(info["source_timestamp"])
+    def waiting() -> list[str]:
+        return [name for name, found in answers.items() if not any(one.done() for one in found)]
 
-        # Best effort and volatile fits whatever a publisher offers.
-        qos = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
-        try:
-            kind = message_class(publishers[0].topic_type)
-            subscription = self._node.create_subscription(kind, topic, arrived, qos, raw=True)
-        except (ImportError, AttributeError, ValueError, rclpy_implementation.RCLError):
-            return [], None  # the type is unknown, or this process knows another under the name
-        self._spin_until(subscription.get_publisher_count)
-        if not subscription.get_publisher_count():
-            return [], None
-        enough = _ENOUGH if len(publishers) < 2 else _ENOUGH_OF_EACH * len(publishers)
-        begin, span = time.monotonic(), 0.0
-        while span < seconds and not (span >= _AT_LEAST_SECONDS and len(stamps) >= enough):
-            self._spinner.spin_once(timeout_sec=_TURN)
-            span = time.monotonic() - begin
-        return stamps, min(span, seconds)
+    def all_have_answered() -> bool:
+        nonlocal sent
+        if time.monotonic() - sent >= _RESEND:
+            sent = time.monotonic()
+            for name in waiting():
+                answers[name].append(services[name].call_async(GetParameters.Request()))
+        return not waiting()
 
-    def silent_nodes(self) -> set[str]:
-        """Ask nodes for none of their parameters, and return those that do not answer.
-
-        A node that cannot be asked is believed to run.
-        """
-        services = self._clients_by_node
-        self._spin_until(lambda: all(one.service_is_ready() for one in services.values()))
-        waiting = {name for name, one in services.items() if one.service_is_ready()}
-        sent = -_RESEND
-
-        def all_have_answered() -> bool:
-            nonlocal sent
-            if time.monotonic() - sent >= _RESEND:
-                sent = time.monotonic()
-                for name in waiting:
-                    future = services[name].call_async(GetParameters.Request())
-                    future.add_done_callback(lambda _, name=name: waiting.discard(name))
-            return not waiting
-
-        self._spin_until(all_have_answered)
-        return waiting
+    _spin_until(spin, all_have_answered)
+    return set(waiting())
 
 
 # Who uses the topic in another ROS domain of this machine.
+
+
+#: Each takes a part of a second.
+_MOST_DOMAINS = 10
 
 
 def _other_domains(world: World, topic: str, graph: GraphSnapshot) -> tuple[OtherDomain, ...]:
