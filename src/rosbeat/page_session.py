@@ -27,13 +27,24 @@ class Session(session.Session):
             ros.messages("temperature")
             ros.explain("temperature")
 
+    The nodes are real `rclpy` nodes on the real middleware, in a ROS context and domain of their
+    own. In virtual time (`run`) the clock jumps from one timer to the next, so a minute takes
+    milliseconds and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes
+    run against the wall clock, and other processes in the same domain can talk to them.
+
     It ends with its `with` block, with `close()`, when nothing refers to it or with the kernel, and
-    leaves nothing behind.
+    leaves nothing behind. While it is open, a node without a context belongs to the last session.
 
     Args:
-        seed: Seed of the random numbers that the nodes draw. The same seed gives the same run.
-        domain_id: The ROS domain to join, 0 to 101, to meet the nodes of other processes. By
-            default the session has a domain to itself.
+        seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
+            global generator. The same seed gives the same run.
+        domain_id: The ROS domain to join, 0 to 101; the session then sees the nodes of other
+            processes there, too. By default it has a domain to itself, and neither another session
+            nor a terminal hears it.
+
+    Raises:
+        SessionError: If the seed or the domain id is not a whole number in its range.
+        DomainsExhaustedError: If no private domain id is left on this machine.
     """
 
     def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:
@@ -57,8 +68,7 @@ class Session(session.Session):
                 callback.
             ClosedSessionError: If the session has ended.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.explain")
+        self._check_call("explain")
         name = full_topic("explain", topic)
         span = duration_ns(seconds, "explain(seconds=...)") / 1e9
         try:
@@ -77,8 +87,7 @@ class Session(session.Session):
             SessionError: If `panel` is called from a callback.
             ClosedSessionError: If the session has ended.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.panel")
+        self._check_call("panel")
         # The widgets take a while to load, and few pages need them.
         from rosbeat.panel.instruments import SessionInstruments
         from rosbeat.panel.panel import Panel

@@ -9,6 +9,7 @@ import time
 from functools import partial
 
 import pytest
+from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.task import Future
 from std_srvs.srv import Trigger
@@ -131,6 +132,24 @@ def test_nodes_see_the_sessions_time_in_constructors_and_callbacks(ros):
     watch = ros.add(Watch)
     ros.run(1)
     assert watch.seen == [(3.0, True), (3.5, True), (4.0, True)]
+
+
+def test_what_is_destroyed_while_rclpy_gathers_entities_stops_nobody(ros, eventually):
+    talker = ros.add(Talker)
+    (event, *_) = next(iter(talker.publishers)).event_handlers
+    original, raised = event.add_to_wait_set, []
+
+    def destroyed_meanwhile(wait_set):
+        if not raised:
+            raised.append(True)
+            raise InvalidHandle
+        original(wait_set)
+
+    event.add_to_wait_set = destroyed_meanwhile
+    ros.start()
+    eventually(lambda: raised)
+    assert ros.wait(10, until=lambda: ros.messages("count"))
+    assert len(live_threads()) == 1
 
 
 def test_a_fault_is_shown_in_the_next_call_and_the_others_go_on(ros, capsys, eventually):

@@ -2,7 +2,7 @@ import pytest
 
 from nodes import Talker
 from rosbeat.errors import NodeClassError, SessionError, UnknownTopicError
-from rosbeat.ros.world import find, full_topic, log_lines, samples, state_of
+from rosbeat.ros.world import find, full_topic, state_of
 
 pytestmark = pytest.mark.ros
 
@@ -22,10 +22,10 @@ def test_nodes_by_name_and_by_themselves(ros):
 def test_messages_and_log_lines(ros):
     ros.add(Talker)
     ros.run(2)
-    assert len(samples(ros._world, "count")) == 2
+    assert len(ros.messages("count")) == 2
     with pytest.raises(UnknownTopicError):
-        samples(ros._world, "cuont")
-    assert log_lines(ros._world, "talker") == ()
+        ros.messages("cuont")
+    assert ros.logs("talker") == ()
 
 
 def test_topic_names():

@@ -44,8 +44,8 @@ from rosbeat.ros.recording import (
     Memory,
     PublisherTap,
     load_type_support,
-    mend_message_classes,
     plain,
+    repair_message_classes,
     type_name,
 )
 from rosbeat.ros.scenario import observe
@@ -236,18 +236,18 @@ def test_field_checks_are_on(ros, capsys):
 @pytest.fixture(autouse=True)
 def _whole_again():
     yield
-    mend_message_classes()
+    repair_message_classes()
 
 
 def test_a_class_that_was_written_into_is_whole_again():
     Float32.data, String.data = 25.0, "text"
     with pytest.raises(AttributeError, match="read-only"):
         Float32()
-    assert sorted(mend_message_classes()) == ["Float32", "String"]
+    assert sorted(repair_message_classes()) == ["Float32", "String"]
     assert Float32(data=1.0).data == 1.0
     with pytest.raises(AssertionError, match="must be of type 'float'"):
         Float32(data=1)
-    assert mend_message_classes() == []
+    assert repair_message_classes() == []
 
 
 MADE = """
@@ -258,16 +258,16 @@ class Made:
 
 
 def test_a_class_of_a_module_that_came_later_is_mended(tmp_path, monkeypatch):
-    mend_message_classes()
+    repair_message_classes()
     (tmp_path / "_made.py").write_text(MADE)
     spec = spec_from_file_location("made.msg._made", tmp_path / "_made.py")
     module = module_from_spec(spec)
     monkeypatch.setitem(sys.modules, spec.name, module)
     spec.loader.exec_module(module)
     module.Made.data = 25.0
-    assert mend_message_classes() == ["Made"]
+    assert repair_message_classes() == ["Made"]
     assert type(module.Made.data) is property
-    assert mend_message_classes() == []
+    assert repair_message_classes() == []
 
 
 class Spoiler(Node):

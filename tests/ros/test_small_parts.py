@@ -126,7 +126,7 @@ def test_an_interrupt_that_became_another_error_is_not_lost():
         except KeyboardInterrupt:
             assert interrupts.pressed
     with pytest.raises(KeyboardInterrupt):
-        interrupts.insist()
+        interrupts.raise_if_pressed()
     assert signal.getsignal(signal.SIGINT) is before
 
 

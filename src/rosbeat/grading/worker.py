@@ -36,7 +36,7 @@ from rosbeat.grading.sandbox.sandboxes import Sandboxes
 from rosbeat.grading.sandbox.unsafe import Bare
 from rosbeat.grading.workspaces import read_workspace
 from rosbeat.records import Observation
-from rosbeat.ros.recording import load_type_support, mend_message_classes
+from rosbeat.ros.recording import load_type_support, repair_message_classes
 from rosbeat.scenarios import registry
 from rosbeat.scenarios.evidence import from_json
 
@@ -138,7 +138,7 @@ def prepare() -> Census:
     for name in (*_PREPARED, *(f"rosbeat.scenarios.{one}" for one in registry.MODULES)):
         importlib.import_module(name)
     load_type_support(_TYPES)
-    mend_message_classes()  # it looks for them once
+    repair_message_classes()  # it looks for them once
     # The first log line of a process looks for the file of each module; it finds them here.
     inspect.getmodule(sys._getframe())
     found = census()

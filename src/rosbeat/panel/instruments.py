@@ -14,7 +14,7 @@ from rosbeat.panel.layout import NUMERIC_TYPES
 from rosbeat.panel.sampling import News
 from rosbeat.records import GraphSnapshot
 from rosbeat.ros.errors import no_such_node, node_has_ended, session_has_ended, session_is_not_live
-from rosbeat.ros.injection import Injector, TopicFault, make_again
+from rosbeat.ros.injection import Injector, TopicFault, restart_node
 from rosbeat.ros.launch import Maker
 from rosbeat.ros.world import World, find, state_of
 
@@ -97,7 +97,7 @@ class SessionInstruments:
         """Run none of a node's callbacks."""
         with self._acting():
             state = find(self._world, node)
-            self._world.rest_node(state)
+            self._world.pause_node(state)
             state.paused = True
 
     def resume(self, node: str) -> None:
@@ -122,7 +122,7 @@ class SessionInstruments:
             maker = self._maker(state) if state else self._stopped.get(node)
             if maker is None:
                 raise no_such_node(node, list(self._stopped))
-            make_again(self._world, node, maker)
+            restart_node(self._world, node, maker)
             self._stopped.pop(node, None)
 
     def publish(self, topic: str, value: float) -> None:

@@ -6,8 +6,6 @@ page prints the same text on every run.
 
 from __future__ import annotations
 
-import sys
-
 from rosbeat.diagnosis.faults import first_sentence, meaning_of
 from rosbeat.errors import RosbeatError
 from rosbeat.records import Fault, LogRecord
@@ -15,69 +13,66 @@ from rosbeat.records import Fault, LogRecord
 #: Log lines printed for one call of `run`; the rest is counted and stays in `logs()`.
 MOST_LINES = 100
 
+_NODE_ENDS = (
+    "n exception that leaves a callback ends its node, as it would end the node's process. The "
+    "other nodes go on."
+)
+_GOAL_ENDS = (
+    "n exception in the work on a goal aborts that goal: the client gets an empty result. The node "
+    "goes on."
+)
+_MEANS = "\n  What it means: "
+
 
 def seconds_text(time_ns: int) -> str:
-    """Nanoseconds as seconds, cut to three decimals."""
+    """Format nanoseconds as seconds, cut to three decimals."""
     whole, rest = divmod(time_ns, 1_000_000_000)
     return f"{whole}.{rest // 1_000_000:03d}"
 
 
 def log_text(record: LogRecord) -> str:
-    """One log line: level, time in seconds, logger, message."""
+    """Format a log line: level, time in seconds, logger, message."""
     return f"[{record.level}] [{seconds_text(record.time_ns)}] [{record.name}]: {record.text}"
 
 
-_ENDS = (
-    "n exception that leaves a callback ends its node, as it would end the node's process. The "
-    "other nodes go on."
-)
-_GIVES_UP = (
-    "n exception in the work on a goal aborts that goal: the client gets an empty result. The node "
-    "goes on."
-)
-_MEANS = "\n  What it means: "
-_AGAIN = "run the cell that adds the node again."
-
-
-def fault_text(fault: Fault) -> str:
-    """An exception in a callback, in three parts."""
-    where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
+def fault_text(fault: Fault, event: str = "stopped", outcome: str = _NODE_ENDS) -> str:
+    """Format an exception in a callback, in three parts."""
     # An error of our own says what it means itself.
     known = None if _MEANS in fault.text else meaning_of(fault)
-    return (
-        f"{fault.node} stopped at {seconds_text(fault.time_ns)} s, in {fault.callback}: "
-        f"{fault.kind}: {first_sentence(fault.text) if known else fault.text}{where}\n"
-        f"  What it means: {f'{known.beside_error} A' if known else 'a'}{_ENDS}\n"
-        f"  What to try:   {f'{known.to_try} Then ' if known else 'mend that line, then '}{_AGAIN}"
+    text = first_sentence(fault.text) if known else fault.text
+    time = seconds_text(fault.time_ns)
+    return _three_parts(
+        f"{fault.node} {event} at {time} s, in {fault.callback}: {fault.kind}: {text}",
+        fault,
+        f"{known.beside_error} A{outcome}" if known else f"a{outcome}",
+        f"{known.to_try if known else 'mend that line,'} {'Then' if known else 'then'} "
+        "run the cell that adds the node again.",
     )
 
 
 def work_text(fault: Fault) -> str:
-    """An exception in the work on a goal, in three parts."""
+    """Format an exception in the work on a goal, in three parts."""
+    return fault_text(fault, "gave a goal up", _GOAL_ENDS)
+
+
+def deadlock_text(fault: Fault, error: RosbeatError) -> str:
+    """Format that a callback waits for ever, in three parts."""
+    return _three_parts(error.what, fault, error.means, error.to_try)
+
+
+def _three_parts(what: str, fault: Fault, means: str, to_try: str) -> str:
     where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
-    known = None if _MEANS in fault.text else meaning_of(fault)
-    return (
-        f"{fault.node} gave a goal up at {seconds_text(fault.time_ns)} s, in {fault.callback}: "
-        f"{fault.kind}: {first_sentence(fault.text) if known else fault.text}{where}\n"
-        f"  What it means: {f'{known.beside_error} A' if known else 'a'}{_GIVES_UP}\n"
-        f"  What to try:   {f'{known.to_try} Then ' if known else 'mend that line, then '}{_AGAIN}"
-    )
+    return f"{what}{where}{_MEANS}{means}\n  What to try:   {to_try}"
 
 
 class Console:
-    """Prints log lines as they come, up to a limit for each call of `run`.
+    """Prints log lines as they come, up to a limit for each call of `run`."""
 
-    Args:
-        quiet: Print no log lines at all.
-    """
-
-    def __init__(self, quiet: bool = False) -> None:
-        self._quiet = quiet
-        self._printed = 0
-        self._held_back = 0
+    def __init__(self) -> None:
+        self.begin()
 
     def begin(self, quiet: bool = False) -> None:
-        """Count anew, for the next call of `run`."""
+        """Count anew, for the next call of `run`; print no log lines if it is `quiet`."""
         self._quiet, self._printed, self._held_back = quiet, 0, 0
 
     def log(self, record: LogRecord) -> None:
@@ -89,22 +84,6 @@ class Console:
             return
         self._printed += 1
         print(log_text(record))
-
-    def fault(self, fault: Fault) -> None:
-        """Print an exception that left a callback."""
-        print(fault_text(fault), file=sys.stderr)
-
-    def work(self, fault: Fault) -> None:
-        """Print an exception that left the work on a goal."""
-        print(work_text(fault), file=sys.stderr)
-
-    def deadlock(self, fault: Fault, error: RosbeatError) -> None:
-        """Print that a callback waits for ever."""
-        where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
-        print(
-            f"{error.what}{where}\n  What it means: {error.means}\n  What to try:   {error.to_try}",
-            file=sys.stderr,
-        )
 
     def end(self) -> None:
         """Say how many lines were not printed."""

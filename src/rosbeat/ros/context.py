@@ -1,4 +1,4 @@
-"""The ROS context of a session; `rclpy.init`, `rclpy.spin` and their kin, called in a page."""
+"""The ROS contexts of sessions and of programs, interrupts, and `rclpy.init` in a page."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import wraps
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 import rclpy.signals
@@ -19,8 +19,9 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rosbeat.ros.console import note
 from rosbeat.ros.recording import Watcher, in_kernel
 
-# The ROS context of a session.
-
+if TYPE_CHECKING:
+    from rosbeat.ros.simulated_program import SimulatedProgram
+    from rosbeat.ros.world import World
 
 #: No node says anything on file descriptor 2: log lines are printed in the cell that ran the node,
 #: the same in JupyterLab and in a test. Nor are log files written into the home directory.
@@ -39,13 +40,11 @@ class SessionContext(Context):
 
     Attributes:
         watcher: As above; None when the session has ended, so that the context keeps nothing alive.
-        ended: Whether `end` was called.
     """
 
     def __init__(self, watcher: Watcher, domain_id: int) -> None:
         super().__init__()
         self.watcher: Watcher | None = watcher
-        self.ended = False
         # Always an older one, so that these references never form a circle.
         self._previous: Context | None = rclpy.utilities.g_default_context
         super().init(SESSION_ARGUMENTS, domain_id=domain_id)
@@ -59,7 +58,7 @@ class SessionContext(Context):
     def shutdown(self) -> None:
         """Answer a learner's `rclpy.shutdown()`: the session goes on."""
         if self.watcher is not None:
-            self._be_default()  # rclpy.shutdown() has just forgotten the default context
+            self.install()  # rclpy.shutdown() has just forgotten the default context
             self.watcher.explain_shutdown()
 
     def try_shutdown(self) -> None:
@@ -69,19 +68,15 @@ class SessionContext(Context):
 
     def end(self) -> None:
         """Shut the context down for real and hand the default back."""
-        self.ended = True
-        self._previous = _living(self._previous)
+        self.watcher = None
+        self._previous = _open_context(self._previous)
         if rclpy.utilities.g_default_context is self:
             self.uninstall(self._previous)
         super().try_shutdown()
-        self.watcher = None
         _configure_logging(self._previous, self._previous)
 
     def _call_on_shutdown_callbacks(self) -> None:
-        """Call all that asked to be told, also if one of them raises: the end must be one.
-
-        rclpy's own one for its global executor does, if the node that spun was broken off.
-        """
+        """Call all of them, also if one raises, as that of rclpy's global executor may."""
         told: list[Callable[[], Any]] = self._callbacks
         self._callbacks: list[Callable[[], Any]] = []
         for reference in told:
@@ -92,18 +87,15 @@ class SessionContext(Context):
 
     def install(self) -> Context | None:
         """Become rclpy's default context; return the one that was, for `uninstall`."""
-        before: Context | None = rclpy.utilities.g_default_context
-        self._be_default()
+        with rclpy.utilities.g_context_lock:
+            before: Context | None = rclpy.utilities.g_default_context
+            rclpy.utilities.g_default_context = self
         return before
 
     def uninstall(self, before: Context | None) -> None:
         """Make `before` the default again, or what came before it if its session has ended."""
         with rclpy.utilities.g_context_lock:
-            rclpy.utilities.g_default_context = _living(before)
-
-    def _be_default(self) -> None:
-        with rclpy.utilities.g_context_lock:
-            rclpy.utilities.g_default_context = self
+            rclpy.utilities.g_default_context = _open_context(before)
 
 
 class ProgramContext(Context):
@@ -113,22 +105,23 @@ class ProgramContext(Context):
     its own. The program's nodes are made in the session's context.
 
     Args:
-        watcher: The session.
+        world: The session.
         program: The program; told of a shutdown.
 
     Attributes:
+        watcher: The session.
         home: The context in which nodes are made.
     """
 
-    def __init__(self, watcher: Any, program: Any) -> None:  # noqa: ANN401
+    def __init__(self, world: World, program: SimulatedProgram) -> None:
         super().__init__()
-        self.watcher, self._program = watcher, program
-        self.home: Context = watcher.context
+        self.watcher, self._program = world, program
+        self.home: Context = world.context
 
     @property
     def ros_arguments(self) -> list[str]:
-        """What stands behind `--ros-args` on the command line, with that word."""
-        words: list[str] = self._program.argv
+        """Return what stands behind `--ros-args` on the command line, with that word."""
+        words = self._program.argv
         return words[words.index("--ros-args") :] if "--ros-args" in words else []
 
     def shutdown(self) -> None:
@@ -142,8 +135,8 @@ class ProgramContext(Context):
         self._program.shut_down()
 
 
-def _living(context: Context | None) -> Context | None:
-    while isinstance(context, SessionContext) and context.ended:
+def _open_context(context: Context | None) -> Context | None:
+    while isinstance(context, SessionContext) and context.watcher is None:
         context = context._previous
     return context
 
@@ -161,16 +154,8 @@ def _configure_logging(settings: Context | None, other: Context | None) -> None:
     rclpy_implementation.rclpy_logging_configure(settings.handle)
 
 
-# Interrupts that must not get lost.
-
-
 def show_briefly(interrupt: KeyboardInterrupt, text: str) -> None:
-    """Let IPython show one line for an interrupt, and not the stack it happened to hit.
-
-    Args:
-        interrupt: The exception that is on its way.
-        text: What to say.
-    """
+    """Let IPython show one line for an interrupt, and not the stack it happened to hit."""
     lines = [f"KeyboardInterrupt: {text}"]
     interrupt._render_traceback_ = lambda: lines  # type: ignore[attr-defined] # IPython's protocol
 
@@ -205,12 +190,8 @@ class Interrupts:
         if self._original is not None:
             signal.signal(signal.SIGINT, self._original)
 
-    def insist(self) -> None:
-        """Raise the interrupt if there was one.
-
-        Raises:
-            KeyboardInterrupt: If Interrupt was pressed.
-        """
+    def raise_if_pressed(self) -> None:
+        """Raise the KeyboardInterrupt if there was one."""
         if self.pressed:
             raise KeyboardInterrupt from None
 
@@ -219,25 +200,19 @@ class Interrupts:
         self._original(number, frame)
 
 
-# What `rclpy.init`, `rclpy.spin` and their kin do when a learner calls them in a page.
-#
-# They are written for a process that does nothing else. In a kernel the originals would take over
-# Interrupt (`init` installs signal handlers that shut down *every* context) or never give it back
-# (`spin` waits in C, where Interrupt does not reach). Here they do what their name says and leave
-# the kernel alive; nodes of a session stay with their session.
-
-
 def install_learner_calls() -> None:
-    """Put `init` in the place of rclpy's; a second call does nothing."""
-    if hasattr(rclpy.init, "__wrapped__"):
+    """Put an `init` for pages in the place of rclpy's; a second call does nothing.
+
+    The original is written for a process that does nothing else: in a kernel it would install
+    signal handlers with which Interrupt shuts down *every* context.
+    """
+    original: Callable[..., None] = rclpy.init
+    if hasattr(original, "__wrapped__"):
         return
-    rclpy.init = _init(rclpy.init)
     if in_kernel() and threading.current_thread() is threading.main_thread():
         # rclpy.init() may have been called before rosbeat was imported.
         rclpy.signals.uninstall_signal_handlers()
 
-
-def _init(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def init(
         *,
@@ -246,10 +221,7 @@ def _init(original: Callable[..., None]) -> Callable[..., None]:
         **options: Any,  # noqa: ANN401 - rclpy's own
     ) -> None:
         target = context or rclpy.get_default_context()
-        if isinstance(target, SessionContext):
-            target.init(args)
-            return
-        if isinstance(target, ProgramContext):
+        if isinstance(target, SessionContext | ProgramContext):
             target.init(args, domain_id=options.get("domain_id"))
             return
         if in_kernel():
@@ -260,4 +232,4 @@ def _init(original: Callable[..., None]) -> Callable[..., None]:
             args = [] if args is None else args  # sys.argv is the kernel's, not the node's
         original(args=args, context=context, **options)
 
-    return init
+    rclpy.init = init

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Coroutine, Iterable, Iterator
 from contextlib import suppress
 from inspect import iscoroutinefunction
-from itertools import count
+from itertools import count, product
 from pathlib import Path
 from threading import Event
 from typing import TYPE_CHECKING, Any
@@ -21,6 +21,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 from rclpy.subscription import Subscription
 
+from rosbeat.errors import SessionError
 from rosbeat.records import (
     INFRASTRUCTURE_TOPICS,
     Endpoint,
@@ -31,7 +32,7 @@ from rosbeat.records import (
 )
 from rosbeat.ros.context import show_briefly
 from rosbeat.ros.entities import NodeState, full_name
-from rosbeat.ros.errors import nobody_else_here, nodes_did_not_come
+from rosbeat.ros.errors import nearest
 from rosbeat.ros.qos_events import limit_ns
 from rosbeat.ros.recording import Channel, Memory, Recorder, Unwatched, type_name
 
@@ -54,20 +55,17 @@ def qos_of(profile: QoSProfile) -> QoS:
     )
 
 
-def snapshot(
-    states: Iterable[NodeState], processes: tuple[tuple[str, ...], ...] = ()
-) -> GraphSnapshot:
-    """Return the graph of these nodes as it is now, without destroyed entities.
-
-    Args:
-        states: The nodes.
-        processes: The names of those that share a process.
-    """
+def snapshot(states: Iterable[NodeState]) -> GraphSnapshot:
+    """Return the graph of these nodes as it is now, without destroyed entities."""
     alive = [state for state in states if state.node is not None]
-    endpoints = (end for state in alive for end in _endpoints(state))
-    timers = (timer for state in alive for timer in _timers(state))
+    # Live, one executor runs all nodes; each is taken for a process of its own there, too.
+    processes = {id(state.process): state.process for state in alive}
+    groups = (tuple(state.name for state in one.states) for one in processes.values())
     return GraphSnapshot(
-        tuple(state.name for state in alive), tuple(endpoints), tuple(timers), processes
+        tuple(state.name for state in alive),
+        tuple(end for state in alive for end in _endpoints(state)),
+        tuple(timer for state in alive for timer in _timers(state)),
+        tuple(group for group in groups if len(group) > 1),
     )
 
 
@@ -103,8 +101,7 @@ def _timers(state: NodeState) -> Iterator[TimerRecord]:
                 yield TimerRecord(state.name, entry.label.name, period, entry.calls)
 
 
-# A hidden node, through which a session sees the other processes of its domain.
-
+# The other processes of a domain, seen through a hidden node.
 
 #: The name of a node that has not announced it yet: the middleware announces the names of nodes
 #: about 0.1 s after those of their topics.
@@ -131,9 +128,6 @@ class HiddenNode(Unwatched, Node):
     """Takes part in a domain without services, parameters and log topic.
 
     Its name begins with `_`, so `ros2 node list` leaves it out as it does its own nodes.
-
-    Args:
-        context: The context that it belongs to.
     """
 
     def __init__(self, context: Context) -> None:
@@ -150,9 +144,6 @@ class GraphObserver(HiddenNode):
     """Asks the middleware for the graph of a domain, the nodes of other processes included.
 
     Discovery begins when it is made, so a session keeps one from its beginning on.
-
-    Args:
-        context: The session's context.
     """
 
     def __init__(self, context: Context) -> None:
@@ -191,11 +182,8 @@ class GraphObserver(HiddenNode):
 
     def knows_all_names(self) -> bool:
         """Return whether every endpoint that is known has a node whose name is known."""
-        return not any(
-            one.node_name == _UNKNOWN_NODE
-            for topic in self.topics()
-            for one in self.publishers(topic) + self.subscriptions(topic)
-        )
+        return all(one.node_name != _UNKNOWN_NODE for topic in self.topics()
+                   for one in self.publishers(topic) + self.subscriptions(topic))  # fmt: skip
 
     def wait_until_stable(self) -> None:
         """Wait until every process of this machine is seen, with its names, and nothing changes.
@@ -239,9 +227,6 @@ def _participant(endpoint: Any) -> bytes:  # noqa: ANN401 - rclpy's TopicEndpoin
     return bytes(endpoint.endpoint_gid[:_PARTICIPANT_BYTES])
 
 
-# The graph of the other processes in a domain, as records.
-
-
 def with_other_processes(own: GraphSnapshot, observer: GraphObserver) -> GraphSnapshot:
     """Return a session's graph, completed by the nodes of other processes.
 
@@ -261,12 +246,13 @@ def _topic_endpoints(observer: GraphObserver) -> Iterator[Endpoint]:
         if topic == _LOG_TOPIC or is_hidden(topic):
             continue
         publishers, subscriptions = observer.publishers(topic), observer.subscriptions(topic)
-        for one in filter(observer.is_outside, publishers):
-            matched = sum(_match(one, other) for other in subscriptions)
-            yield _endpoint(one, topic, "publisher", matched)
-        for one in filter(observer.is_outside, subscriptions):
-            matched = sum(_match(other, one) for other in publishers)
-            yield _endpoint(one, topic, "subscription", matched)
+        matches = Counter[int]()
+        for one, other in product(publishers, subscriptions):
+            matches.update({id(one): 1, id(other): 1} if _match(one, other) else {})
+        for kind, ends in (("publisher", publishers), ("subscription", subscriptions)):
+            for one in filter(observer.is_outside, ends):
+                qos, matched = qos_of(one.qos_profile), matches[id(one)]
+                yield Endpoint(owner(one), topic, one.topic_type, kind, qos, matched)
 
 
 def _match(publisher: Any, subscription: Any) -> bool:  # noqa: ANN401 - rclpy's TopicEndpointInfo
@@ -274,10 +260,6 @@ def _match(publisher: Any, subscription: Any) -> bool:  # noqa: ANN401 - rclpy's
     compatible, _ = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
     same_type = publisher.topic_type == subscription.topic_type
     return bool(same_type and compatible != QoSCompatibility.ERROR)
-
-
-def _endpoint(one: Any, topic: str, kind: str, matched: int) -> Endpoint:  # noqa: ANN401
-    return Endpoint(owner(one), topic, one.topic_type, kind, qos_of(one.qos_profile), matched)
 
 
 def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoint]:
@@ -301,19 +283,10 @@ def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoin
 # (RTPS specification, section 9.6.1). So they can be counted before any of them has answered.
 
 
-_SOCKET_TABLES = ("/proc/net/udp", "/proc/net/udp6")
-#: Domains whose ports Linux does not hand out by itself.
-_DOMAINS = range(102)
-#: Columns of the system's table: the local address with its port, and the socket's inode.
-_ADDRESS, _INODE = 1, 9
-
-
 def count_participants(domain_id: int, ports: Collection[int] | None = None) -> int:
     """Return how many participants of this machine are in a domain; 0 if that is unknown.
 
-    Args:
-        domain_id: The domain.
-        ports: The UDP ports that are bound, those of the system by default.
+    They are counted by the UDP ports that are bound, those of the system by default.
     """
     bound = udp_ports(_socket_table()) if ports is None else ports
     first = 7400 + 250 * domain_id + 10
@@ -324,27 +297,21 @@ def count_participants(domain_id: int, ports: Collection[int] | None = None) -> 
 def domains_in_use() -> list[int]:
     """Return the domains in which another process of this machine takes part, ascending."""
     ports = udp_ports(_socket_table(), _own_sockets())
-    return [number for number in _DOMAINS if count_participants(number, ports)]
+    # From 102 on Linux hands out the ports by itself.
+    return [number for number in range(102) if count_participants(number, ports)]
 
 
 def udp_ports(table: str, ignored: Collection[str] = ()) -> set[int]:
-    """Return the ports in Linux's table of UDP sockets.
-
-    Args:
-        table: The table's text.
-        ignored: Inodes of sockets that do not count.
-    """
-    rows = (line.split() for line in table.splitlines())
-    return {
-        int(row[_ADDRESS].rpartition(":")[2], 16)
-        for row in rows
-        if len(row) > _INODE and row[0][0].isdigit() and row[_INODE] not in ignored
-    }
+    """Return the ports in Linux's table of UDP sockets, but for sockets of these inodes."""
+    rows = [line.split() for line in table.splitlines()]
+    # Column 1 is the local address with its port, column 9 the inode.
+    sockets = [row for row in rows if len(row) > 9 and row[0][0].isdigit()]
+    return {int(row[1].rpartition(":")[2], 16) for row in sockets if row[9] not in ignored}
 
 
 def _socket_table() -> str:
     text = ""
-    for name in _SOCKET_TABLES:
+    for name in ("/proc/net/udp", "/proc/net/udp6"):
         with suppress(OSError):
             text += Path(name).read_text(encoding="ascii")
     return text
@@ -362,22 +329,13 @@ def _own_sockets() -> set[str]:
 
 # Waiting in a cell, with a deadline, for something that happens elsewhere.
 
-
 _POLL_EVERY = 0.05
 #: So many polls without a change: 0.2 s, on a machine that is not busy.
 _SAME_POLLS = 4
 
 
 def poll(done: Callable[[], object], deadline: float | None) -> bool:
-    """Wait until something is true.
-
-    Args:
-        done: Asked again and again.
-        deadline: When to give up, on `time.monotonic`'s clock; None for never.
-
-    Returns:
-        Whether it came true.
-    """
+    """Wait until `done` is true, or until a time on `time.monotonic`'s clock; return whether."""
     pulse = Event()  # nobody sets it: it is a sleep that an Interrupt ends at once
     while not done():
         left = _POLL_EVERY if deadline is None else deadline - time.monotonic()
@@ -385,35 +343,6 @@ def poll(done: Callable[[], object], deadline: float | None) -> bool:
             return False
         pulse.wait(min(_POLL_EVERY, left))
     return True
-
-
-def wait_live(world: World, done: Callable[[], object], seconds: float | None) -> bool:
-    """Wait while a session is live, and print what its nodes log.
-
-    Args:
-        world: The session.
-        done: Asked again and again.
-        seconds: How long at most, in seconds of wall time; None for ever.
-
-    Returns:
-        Whether it came true.
-    """
-
-    def is_done() -> object:
-        world.show_news()
-        return done()
-
-    deadline = None if seconds is None else time.monotonic() + seconds
-    world.console.begin()
-    try:
-        return poll(is_done, deadline)
-    except KeyboardInterrupt as interrupt:
-        show_briefly(interrupt, "you stopped waiting; the session is still live.")
-        world.hurry()
-        raise
-    finally:
-        world.show_news()
-        world.console.end()
 
 
 def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
@@ -424,7 +353,11 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     """
     observer = world.graph_observer
     if observer is None:
-        raise nobody_else_here()
+        raise SessionError(
+            "This session does not see nodes of other processes.",
+            "It has a domain to itself, and the nodes of a terminal are in another one.",
+            'Join theirs: `Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))`.',
+        )
     wanted, looks = set(names), observer.looks()
 
     def are_there() -> bool:
@@ -440,7 +373,18 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     seen = world.graph().nodes
     missing = [name for name in names if name not in seen]
     if missing:
-        raise nodes_did_not_come(missing, seen, seconds, world.domain_id or 0)
+        others = [name for name in seen if name not in missing]
+        raise SessionError(
+            f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there after "
+            f"{seconds:g} s.",
+            f"In domain {world.domain_id} the session sees: {', '.join(seen) or 'no node at all'}.",
+            nearest(
+                missing[0],
+                others,
+                "Start it in a terminal, and look whether it goes on running. Both sides need the "
+                "same ROS_DOMAIN_ID.",
+            ),
+        )
 
 
 # Messages that other processes publish, recorded when a node of the session gets them.
@@ -449,7 +393,6 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
 # but neither the publisher nor whether that was this session. So the session's own publishers note
 # when they published what; what is not among these came from another process. Its node is known if
 # only one node outside publishes there.
-
 
 #: The publishing node, as long as it cannot be told.
 _UNKNOWN_PUBLISHER = "?"
@@ -493,7 +436,7 @@ class ExternalMessages:
 
     Args:
         observer: Knows who publishes.
-        recorder: Where messages are remembered.
+        recorder: Where messages are recorded.
         now: Returns the nanoseconds since the session began.
     """
 
@@ -548,7 +491,9 @@ class ExternalMessages:
         if not outside and topic in self._last:
             return self._last[topic]  # the publisher has left
         key = topic, frozenset(bytes(one.endpoint_gid) for one in outside)
-        name = _only_owner(outside)
+        names = {owner(one) for one in outside}
+        is_known = len(names) == 1 and outside[0].node_name != _UNKNOWN_NODE
+        name = names.pop() if is_known else _UNKNOWN_PUBLISHER
         channel = self._channels.get(key)
         if channel is None:
             channel = self._recorder.channel(topic, type_name(self._types[topic]), name, memory)
@@ -556,13 +501,6 @@ class ExternalMessages:
             channel = self._recorder.rename(channel, name)
         self._channels[key] = self._last[topic] = channel
         return channel
-
-
-def _only_owner(publishers: list[Any]) -> str:
-    names = {owner(one) for one in publishers}
-    if len(names) != 1 or publishers[0].node_name == _UNKNOWN_NODE:
-        return _UNKNOWN_PUBLISHER
-    return names.pop()
 
 
 def _with_message_info(

@@ -28,9 +28,6 @@ class Injector(Node):
     """Publishes numbers on topics, once or every second, and runs a slow callback if asked to.
 
     It is in the graph like any node, since a subscriber does hear it.
-
-    Args:
-        context: The session's context.
     """
 
     def __init__(self, context: Context) -> None:
@@ -42,13 +39,7 @@ class Injector(Node):
         self._load_s = 0.0
 
     def send(self, topic: str, type_name: str, value: float) -> None:
-        """Publish one number.
-
-        Args:
-            topic: Full name of the topic.
-            type_name: Its type, one with a field `data` for a number.
-            value: The number.
-        """
+        """Publish one number on a topic of a type with a field `data` for a number."""
         if topic not in self._publishers_by_topic:
             kind = message_class(type_name)
             self._publishers_by_topic[topic] = self.create_publisher(kind, topic, 10)
@@ -70,7 +61,7 @@ class Injector(Node):
         self._load_timer = self._load_timer or self.create_timer(1.0, self._work)
 
     def _work(self) -> None:
-        # It holds the executor up as a computation does, and leaves the processor to the page.
+        # This blocks the executor as a computation does, and leaves the processor to the page.
         time.sleep(self._load_s)
 
     def _send_again(self) -> None:
@@ -87,9 +78,6 @@ class TopicFault:
 
     It sits between a node and its publisher, before the recording: what is recorded is what really
     went out.
-
-    Args:
-        topic: Full name of the topic.
 
     Attributes:
         kind: `none`, `dropout`, `nan` or `offset`.
@@ -131,13 +119,8 @@ class TopicFault:
         return type(msg)(data=value + self.amount) if self.kind == "offset" else msg
 
 
-def make_again(world: World, name: str, maker: Maker) -> None:
-    """Make a node as it was made before, and run its callbacks.
-
-    Args:
-        world: The session.
-        name: The node's name, for the error.
-        maker: What made it.
+def restart_node(world: World, name: str, maker: Maker) -> None:
+    """Make a node of this name as it was made before, and run its callbacks.
 
     Raises:
         SessionError: If another session is open.

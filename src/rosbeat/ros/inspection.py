@@ -83,11 +83,11 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
 def _blocked(world: World) -> list[Condition]:
     """Return the node that holds up the one thread in which all live callbacks run, if any."""
     live = world.live
-    if live is None or live.at_work is None:
+    if live is None or live.task is None:
         return []
-    work, state = live.at_work, world.state_of(live.current)
+    work, state = live.task, world.state_of(live.current)
     callback = world.recorder.newest_callback()
-    if poll(lambda: live.at_work is not work, time.monotonic() + _BLOCKING_SECONDS):
+    if poll(lambda: live.task is not work, time.monotonic() + _BLOCKING_SECONDS):
         return []
     if state is None or callback is None:
         return []

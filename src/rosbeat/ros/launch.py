@@ -1,4 +1,9 @@
-"""How a node is started and made."""
+"""How a node is started and made.
+
+A node's name, namespace, remappings and parameters are what a `Node(...)` action of a launch file
+sets, and `ros2 run` behind `--ros-args`. They reach the node the same way, as arguments that rcl
+reads, so an unmodified class is what is started (design.ros2.org, "ROS Command Line Arguments").
+"""
 
 from __future__ import annotations
 
@@ -16,28 +21,14 @@ from rclpy.parameter import Parameter
 
 from rosbeat.diagnosis.faults import first_sentence, meaning_of
 from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError, SessionError
-from rosbeat.records import Fault
 from rosbeat.ros.faults import fault_of
-from rosbeat.ros.recording import mend_message_classes
+from rosbeat.ros.recording import repair_message_classes
 
 if TYPE_CHECKING:
     from rosbeat.ros.processes import Process
     from rosbeat.ros.world import World
 
-
-# How a node is started: under which name and namespace, with which topics and parameters.
-#
-# The same four things that an `Node(...)` action of a launch file sets, and `ros2 run` behind
-# `--ros-args`. They reach the node the same way, as arguments that rcl reads, so an unmodified
-# class is what is started.
-#
-# Source: design.ros2.org, "ROS Command Line Arguments"; launch_ros, `actions/node.py`.
-
-
-_EXAMPLE = (
-    'Write for example `ros.add(TemperatureMonitor, remappings={"temperature": "humidity"}, '
-    'parameters={"high": 60.0})`.'
-)
+_SIM_TIME = "use_sim_time"
 
 
 class Start(TypedDict, total=False):
@@ -66,20 +57,21 @@ class Launch:
     parameters: Mapping[str, Any] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
-        return bool(self.name or self.namespace or self.remappings or self.parameters)
+        return bool(self.options())
 
     def options(self) -> dict[str, Any]:
-        """The same as keyword arguments of `Session.add`."""
+        """Return the same as keyword arguments of `Session.add`."""
         return {name: value for name, value in vars(self).items() if value}
 
     def arguments(self) -> list[str]:
-        """The arguments of the command line that say the same."""
+        """Return the arguments of the command line that say the same."""
         rules = dict(self.remappings)
         rules |= {"__node": self.name} if self.name else {}
         rules |= {"__ns": "/" + self.namespace.strip("/")} if self.namespace else {}
         said = [word for old, new in rules.items() for word in ("-r", f"{old}:={new}")]
         for name, value in self.parameters.items():
-            said += ["-p", f"{name}:={_yaml(value)}"]
+            # rcl reads YAML, of which JSON is a part.
+            said += ["-p", f"{name}:={json.dumps(value)}"]
         return ["--ros-args", *said, "--"] if said else []
 
 
@@ -135,30 +127,36 @@ def _is_value(value: object) -> bool:
     return isinstance(value, bool | int | str)
 
 
-def _yaml(value: Any) -> str:  # noqa: ANN401 - checked above
-    """A value as rcl reads it: YAML, of which JSON is a part."""
-    return json.dumps(list(value) if isinstance(value, tuple) else value)
-
-
 def _refused(what: str, means: str) -> SessionError:
-    return SessionError(f"A node cannot be started with {what}.", means, _EXAMPLE)
+    return SessionError(
+        f"A node cannot be started with {what}.",
+        means,
+        'Write for example `ros.add(TemperatureMonitor, remappings={"temperature": "humidity"}, '
+        'parameters={"high": 60.0})`.',
+    )
 
 
-# From what a learner hands to `add` to a node.
-
-
-Buildable = type[Node] | Node | Callable[[], Node]
-
-_NOT_READY = "The constructor, `__init__`, raised before the node was ready, so there is no node."
-
-
-def build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
-    """Make a node from a class, a factory, or a node.
+def build_in(
+    world: World, targets: Sequence[Any], start: Launch, process: Process | None = None
+) -> tuple[Node, ...]:
+    """Make the nodes of a process in a session; if that fails, nothing of them is left there.
 
     Raises:
-        NodeClassError: If it is none of these, or the factory returns something else.
-        NodeConstructionError: If the constructor or factory raises.
+        NodeClassError: If a target is no class of nodes, function that returns one, or node.
+        NodeConstructionError: If a constructor or function raises.
     """
+    before = world.states()
+    try:
+        with world.starting(start, process):
+            return tuple(_build_node(target) for target in targets)
+    except BaseException:  # Interrupt, too
+        for state in world.states():
+            if state not in before:
+                world.destroy(state)
+        raise
+
+
+def _build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
     if isinstance(target, Node):
         return target
     if isclass(target) and not issubclass(target, Node):
@@ -169,38 +167,17 @@ def build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
         )
     if not callable(target):
         raise _not_a_node(repr(target), target)
-    made = _call(target)
-    if not isinstance(made, Node):
-        raise _not_a_node(f"What {_name(target)}() returned, {made!r},", made)
-    return made
-
-
-def build_in(
-    world: World,
-    targets: Sequence[Any],
-    start: Launch,
-    process: Process | None = None,
-) -> tuple[Node, ...]:
-    """Make the nodes of a process in a session; if that fails, nothing of them is left there.
-
-    Args:
-        world: The session's.
-        targets: Classes, factories, or nodes.
-        start: How they are started.
-        process: Where they run; by default a new one.
-
-    Raises:
-        NodeClassError, NodeConstructionError: As `build_node` does.
-    """
-    before = world.states()
+    name = getattr(target, "__name__", type(target).__name__)
     try:
-        with world.starting(start, process):
-            return tuple(build_node(target) for target in targets)
-    except BaseException:  # Interrupt, too
-        for state in world.states():
-            if state not in before:
-                world.destroy(state)
-        raise
+        made = target()
+        if isinstance(made, Node):
+            with suppress(InvalidHandle):  # destroyed; that is told elsewhere
+                Node.get_name(made)  # raises if super().__init__ was never called
+    except (Exception, SystemExit) as error:
+        raise _construction_error(name, error) from error
+    if not isinstance(made, Node):
+        raise _not_a_node(f"What {name}() returned, {made!r},", made)
+    return made
 
 
 def _not_a_node(subject: str, found: object) -> NodeClassError:
@@ -211,49 +188,25 @@ def _not_a_node(subject: str, found: object) -> NodeClassError:
     )
 
 
-def _call(target: Callable[[], Any]) -> Any:  # noqa: ANN401
-    try:
-        made = target()
-        if isinstance(made, Node):
-            with suppress(InvalidHandle):  # destroyed; that is told elsewhere
-                Node.get_name(made)  # raises if super().__init__ was never called
-        return made
-    except (Exception, SystemExit) as error:
-        raise _refusal(_name(target), error) from error
-
-
-def _refusal(name: str, error: BaseException) -> NodeConstructionError:
-    mend_message_classes()
+def _construction_error(name: str, error: BaseException) -> NodeConstructionError:
+    repair_message_classes()
     fault = fault_of(error, 0, "", "__init__")
+    known = meaning_of(fault)
+    if isinstance(error, RosbeatError):
+        text, means, to_try = error.what, error.means, error.to_try
+    elif known is not None:
+        text, means = first_sentence(fault.text), known.beside_error
+        to_try = f"{known.to_try} Then run the cell again."
+    else:
+        text = fault.text
+        means = (
+            "The constructor, `__init__`, raised before the node was ready, so there is no node."
+        )
+        line = f"line {fault.line}, then run the cell again." if fault.line else "`__init__`."
+        to_try = f"Mend {line}"
     where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
-    text, means, to_try = _told(error, fault)
     what = f"{name} could not be made: {fault.kind}: {text}{where}"
     return NodeConstructionError(what, means, to_try)
-
-
-def _told(error: BaseException, fault: Fault) -> tuple[str, str, str]:
-    """What is said of an exception: its text, what it means, what to try."""
-    if isinstance(error, RosbeatError):
-        return error.what, error.means, error.to_try
-    known = meaning_of(fault)
-    if known is not None:
-        return (
-            first_sentence(fault.text),
-            known.beside_error,
-            f"{known.to_try} Then run the cell again.",
-        )
-    line = f"line {fault.line}, then run the cell again." if fault.line else "`__init__`."
-    return fault.text, _NOT_READY, f"Mend {line}"
-
-
-def _name(target: Any) -> str:  # noqa: ANN401
-    return getattr(target, "__name__", type(target).__name__)
-
-
-# The parameter `use_sim_time`, kept truthful.
-
-
-NAME = "use_sim_time"
 
 
 def show_sim_time(node: Node | None, active: bool) -> None:
@@ -264,5 +217,5 @@ def show_sim_time(node: Node | None, active: bool) -> None:
     `/parameter_events`, and would subscribe the node to `/clock`, which makes every wait of the
     live executor longer. The node's clock does not depend on it; see `SessionClock`.
     """
-    if node is not None and NAME in node._parameters:
-        node._parameters[NAME] = Parameter(NAME, value=active)
+    if node is not None and _SIM_TIME in node._parameters:
+        node._parameters[_SIM_TIME] = Parameter(_SIM_TIME, value=active)

@@ -8,9 +8,10 @@ from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from functools import partial
 from threading import Event, Thread, current_thread
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rclpy.context import Context
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import (
     ConditionReachedException,
     ExternalShutdownException,
@@ -21,25 +22,15 @@ from rclpy.executors import (
 from rclpy.node import Node
 from rclpy.task import Future, Task
 
-from rosbeat.ros.entities import Entry, NodeState, next_message, work_for
+from rosbeat.ros.entities import Entry, next_message, work_for
+
+if TYPE_CHECKING:
+    from rosbeat.ros.world import World
 
 #: Seconds that a callback may still take when live mode ends; then it is broken off.
-PATIENCE = 2.0
+_STOP_TIMEOUT = 2.0
 #: The same when the learner presses Interrupt.
-HURRY = 0.1
-
-
-class LiveHost(Protocol):
-    """What the live executor asks of its session."""
-
-    def spinning_nodes(self) -> list[NodeState]:
-        """Return the nodes whose callbacks run, in order of creation."""
-
-    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
-        """Record a callback of this entity, which is about to run."""
-
-    def entity_raised(self, node: Node | None, entity: Any, error: BaseException) -> None:  # noqa: ANN401
-        """Record an exception that left a callback of this entity."""
+_INTERRUPT_TIMEOUT = 0.1
 
 
 class BrokenOff(BaseException):
@@ -55,18 +46,15 @@ class LiveExecutor(SingleThreadedExecutor):
     rclpy re-raises what a callback raises, which would end the thread and silence every node. Here
     the session is told, the node that raised is taken out, and the others go on.
 
-    Args:
-        context: The session's context.
-        host: The session.
-
     Attributes:
         current: The node whose callback is running, or None.
+        task: The task of that callback, or None.
     """
 
-    def __init__(self, context: Context, host: LiveHost) -> None:
+    def __init__(self, context: Context, world: World) -> None:
         self.current: Node | None = None
-        self._handler: Task | None = None
-        self._host = host
+        self.task: Task | None = None
+        self._world = world
         self._stopping = Event()
         super().__init__(context=context)
         self._thread = Thread(target=self.spin, name="rosbeat live", daemon=True)
@@ -74,16 +62,16 @@ class LiveExecutor(SingleThreadedExecutor):
     def get_nodes(self) -> list[Node]:
         """Return the nodes in order of creation; rclpy's own answer comes from an unordered set."""
         mine = self._nodes
-        return [state.node for state in self._host.spinning_nodes() if state.node in mine]
+        return [one.node for one in self._world.states() if one.spinning and one.node in mine]
 
     def start(self) -> None:
         """Begin to run callbacks."""
-        for state in self._host.spinning_nodes():
-            for entry in state.entries:
-                self._hand_out_early(entry)
+        for state in self._world.states():
+            for entry in state.entries if state.spinning else ():
+                self._run_taken_messages(entry)
         self._thread.start()
 
-    def _hand_out_early(self, entry: Entry) -> None:
+    def _run_taken_messages(self, entry: Entry) -> None:
         """Make tasks of messages that are in no queue any more; see `qos_events.TakenEarly`."""
 
         def take(_: object) -> Callable[[], Coroutine[Any, Any, None]] | None:
@@ -96,11 +84,6 @@ class LiveExecutor(SingleThreadedExecutor):
         if entry.kind == "subscription" and entry.handle is not entry.entity.handle:
             for _ in range(len(entry.handle)):
                 self._make_handler(entry.entity, entry.state.node, take)
-
-    @property
-    def at_work(self) -> object:
-        """Return the task of the callback that is running now; None if none is."""
-        return self._handler
 
     def is_this_thread(self) -> bool:
         """Return whether the caller is a callback of this executor."""
@@ -121,23 +104,23 @@ class LiveExecutor(SingleThreadedExecutor):
         """
         self._stopping.set()
         self.wake()
-        self._thread.join(PATIENCE)
+        self._thread.join(_STOP_TIMEOUT)
         if self._thread.is_alive():
             self._break_off()
-            self._thread.join(PATIENCE)
+            self._thread.join(_STOP_TIMEOUT)
         for task, _, _ in self._tasks:
             with suppress(ValueError):  # it does not wait but runs, in a call that nobody can end
                 task.cancel()  # a coroutine that still waits; this frees its callback group
         self.shutdown()
 
-    def hurry(self) -> None:
+    def interrupt(self) -> None:
         """Break off the callback that is running now, unless it returns at once.
 
         An endless loop in a callback leaves other threads so little time that even showing the
         interrupt would take seconds.
         """
-        running, deadline = self._handler, time.monotonic() + HURRY
-        while running is not None and self._handler is running:
+        running, deadline = self.task, time.monotonic() + _INTERRUPT_TIMEOUT
+        while running is not None and self.task is running:
             if time.monotonic() > deadline:
                 self._break_off()
                 return
@@ -154,23 +137,27 @@ class LiveExecutor(SingleThreadedExecutor):
                 return
 
     def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
-        self._host.callback_ran(entity, node)
+        self._world.callback_ran(entity, node)
         return super()._make_handler(entity, node, take)
 
     def _run_one(self) -> None:
-        handler, entity, node = self.wait_for_ready_callbacks(condition=self._stopping.is_set)
+        try:
+            handler, entity, node = self.wait_for_ready_callbacks(condition=self._stopping.is_set)
+        except InvalidHandle:  # another thread destroyed an entity while rclpy gathered them
+            self._cb_iter = None
+            return
         error: BaseException | None = None
-        self.current, self._handler = node, handler
+        self.current, self.task = node, handler
         try:
             handler()
         except BaseException as stop:  # SystemExit would end the thread unheard
             error = stop
             handler.cancel()
         finally:
-            self.current = self._handler = None
+            self.current = self.task = None
         error = error or handler.exception()
         if error is not None:
-            self._host.entity_raised(node, entity, error)
+            self._world.entity_raised(node, entity, error)
 
     def _break_off(self) -> None:
         # Nothing else ends Python code in another thread: a signal is handled in the main thread

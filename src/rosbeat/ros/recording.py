@@ -317,7 +317,7 @@ class Recorder:
 # that a cell that is put right runs at once.
 
 
-def mend_message_classes() -> list[str]:
+def repair_message_classes() -> list[str]:
     """Give every message class that was written into its fields back.
 
     Returns:

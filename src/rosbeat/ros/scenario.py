@@ -281,7 +281,7 @@ class Steps:
         if isinstance(step, Remove):
             self._world.destroy(state)
         elif isinstance(step, Pause):
-            self._world.rest_node(state)
+            self._world.pause_node(state)
         elif isinstance(step, Resume) and not state.ended:
             self._world.spin_node(state)
         elif isinstance(step, SetParameter | SetParameters):
@@ -519,7 +519,7 @@ class _Run:
 
     def _destroy_nodes(self) -> None:
         # Not in `close`, whose variables would keep a node from being collected.
-        self._world.hurry()
+        self._world.interrupt()
         for node in reversed(self._session.nodes):
             with suppress(Exception):
                 Node.destroy_node(node)  # and not what its class makes of that

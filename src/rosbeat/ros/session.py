@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
 from weakref import finalize
 
 from rclpy.node import Node
 
+from rosbeat.errors import SessionError
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros import spinning
 from rosbeat.ros.context import install_learner_calls, show_briefly
@@ -17,19 +19,19 @@ from rosbeat.ros.errors import (
     check_name,
     check_whole,
     duration_ns,
-    is_made_already,
+    foreign_node,
     node_has_ended,
-    nothing_to_add,
-    one_name_for_several,
+    node_name,
     session_has_ended,
     session_is_live,
     session_is_not_live,
+    unknown_topic,
 )
-from rosbeat.ros.graph import wait_for_nodes, wait_live
-from rosbeat.ros.launch import Maker, Start, build_in, checked
+from rosbeat.ros.graph import poll, wait_for_nodes
+from rosbeat.ros.launch import Launch, Maker, Start, build_in, checked
 from rosbeat.ros.processes import Process
 from rosbeat.ros.simulated_program import SimulatedProgram
-from rosbeat.ros.world import World, find, log_lines, observation, samples, state_of
+from rosbeat.ros.world import World, find, state_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self, Unpack
@@ -44,31 +46,7 @@ spinning.install()
 class Session:
     """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
 
-    ::
-
-        with Session(seed=7) as ros:
-            sensor = ros.add(TemperatureSensor)
-            ros.run(seconds=60)
-            ros.messages("temperature")
-
-    The nodes are real `rclpy` nodes on the real middleware, in a ROS context and domain of their
-    own. In virtual time (`run`) the clock jumps from one timer to the next, so a minute takes
-    milliseconds and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes
-    run against the wall clock, and other processes in the same domain can talk to them.
-
-    It ends with its `with` block, with `close()`, when nothing refers to it or with the kernel, and
-    leaves nothing behind. While it is open, a node without a context belongs to the last session.
-
-    Args:
-        seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
-            global generator. The same seed gives the same run.
-        domain_id: The ROS domain to join, 0 to 101; the session then sees the nodes of other
-            processes there, too. By default it has a domain to itself, and neither another session
-            nor a terminal hears it.
-
-    Raises:
-        SessionError: If the seed or the domain id is not a whole number in its range.
-        DomainsExhaustedError: If no private domain id is left on this machine.
+    The page's own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
     """
 
     def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
@@ -97,22 +75,22 @@ class Session:
 
     @property
     def time(self) -> float:
-        """Seconds of virtual time since the session began; live time counts as it passes."""
+        """Return the seconds since the session began; live time counts as it passes."""
         return self._world.now() / 1e9
 
     @property
     def domain_id(self) -> int:
-        """The ROS domain id, for `ROS_DOMAIN_ID` of a process that shall hear these nodes."""
+        """Return the ROS domain, the `ROS_DOMAIN_ID` of processes that shall hear these nodes."""
         return int(self._world.domain_id or 0)
 
     @property
     def is_live(self) -> bool:
-        """Whether the nodes run against the wall clock now."""
+        """Return whether the nodes run against the wall clock now."""
         return self._world.live is not None
 
     @property
     def nodes(self) -> tuple[Node, ...]:
-        """The nodes of this session, in order of creation."""
+        """Return the nodes of this session, in order of creation."""
         return tuple(state.node for state in self._world.states())
 
     # Nodes.
@@ -162,25 +140,43 @@ class Session:
         start = checked(name, namespace, remappings, parameters)
         check_whole("threads", threads, 1, 1000, "ros.add(TemperatureSensor, threads=4)")
         if not nodes:
-            raise nothing_to_add()
+            raise SessionError(
+                "`ros.add()` was given no node.",
+                "It starts a process, and a process without a node does nothing.",
+                "Hand over a class, without brackets: `ros.add(TemperatureSensor)`.",
+            )
         if name is not None and len(nodes) > 1:
-            raise one_name_for_several(name)
-        code = [node for node in nodes if not isinstance(node, Node)]
-        with self._running("add", code):
-            for node in nodes:
-                if start and isinstance(node, Node):
-                    raise is_made_already(node)
-            process = Process(threads)
-            made = build_in(self._world, nodes, start, process)
-            states = [state_of(self._world, node) for node in made]
-            for state in states:
-                process.adopt(state)
-            for state in states:
-                self._world.spin_node(state)
-            for given, node in zip(nodes, made, strict=True):
-                if node is not given:
-                    self._world.makers[node] = Maker(given, start)
+            raise SessionError(
+                f"Several nodes cannot all be called {name!r}.",
+                "`name` renames every node that is started, as `__node` does on a command line.",
+                "Add them without `name`, or each by itself.",
+            )
+        with self._running("add", [node for node in nodes if not isinstance(node, Node)]):
+            made = self._start_process(nodes, start, threads)
         return made if len(made) > 1 else made[0]
+
+    def _start_process(
+        self, given: tuple[Any, ...], start: Launch, threads: int
+    ) -> tuple[Node, ...]:
+        ready = [node for node in given if isinstance(node, Node)]
+        if start and ready:
+            raise SessionError(
+                f"The node {node_name(ready[0])} is made already and cannot be started in another "
+                "way.",
+                "Its name, topics and parameters are settled while it is made.",
+                "Hand over its class, without brackets: the session then makes the node.",
+            )
+        process = Process(threads)
+        made = build_in(self._world, given, start, process)
+        states = [state_of(self._world, node) for node in made]
+        for state in states:
+            process.adopt(state)
+        for state in states:
+            self._world.spin_node(state)
+        for maker, node in zip(given, made, strict=True):
+            if node is not maker:
+                self._world.makers[node] = Maker(maker, start)
+        return made
 
     def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401
         """Start a program: a Python file with a function `main`, run unchanged in virtual time.
@@ -219,26 +215,22 @@ class Session:
         self._world.destroy(find(self._world, node))
 
     def pause(self, node: Node | str) -> None:
-        """Run none of this node's callbacks for a while, as if it were busy.
+        """Run no callbacks of a node, given itself or by name, as if it were busy.
 
         Messages go on arriving and wait in its queues, as many as each queue holds.
-
-        Args:
-            node: The node, or its name.
 
         Raises:
             SessionError: If the session has no such node.
         """
         self._check_open()
         state = find(self._world, node)
-        self._world.rest_node(state)
+        self._world.pause_node(state)
         state.paused = True
 
     def resume(self, node: Node | str) -> None:
-        """Run a paused node's callbacks again; it first gets what waits in its queues.
+        """Run the callbacks of a paused node, given itself or by name, again.
 
-        Args:
-            node: The node, or its name.
+        It first gets what waits in its queues.
 
         Raises:
             SessionError: If the session has no such node, or it ended with an exception.
@@ -289,8 +281,7 @@ class Session:
         Raises:
             SessionError: If `start` is called from a callback.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.start")
+        self._check_call("start")
         if not self.is_live:
             self._world.go_live()
 
@@ -310,12 +301,27 @@ class Session:
             DurationError: If `seconds` is not a number from 0 up.
             SessionError: If the session is not live, or `wait` is called from a callback.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.wait")
+        self._check_call("wait")
         if not self.is_live:
             raise session_is_not_live()
-        span = None if seconds is None else duration_ns(seconds, "wait(seconds=...)") / 1e9
-        return wait_live(self._world, until or bool, span)
+        deadline = None
+        if seconds is not None:
+            deadline = time.monotonic() + duration_ns(seconds, "wait(seconds=...)") / 1e9
+
+        def is_done() -> object:
+            self._world.show_news()
+            return until is not None and until()
+
+        self._world.console.begin()
+        try:
+            return poll(is_done, deadline)
+        except KeyboardInterrupt as interrupt:
+            show_briefly(interrupt, "you stopped waiting; the session is still live.")
+            self._world.interrupt()
+            raise
+        finally:
+            self._world.show_news()
+            self._world.console.end()
 
     def wait_for_nodes(self, *names: str, timeout: float = 10.0) -> None:
         """Wait until nodes are in the graph, those of other processes too, as a terminal's.
@@ -331,8 +337,7 @@ class Session:
             SessionError: If they do not come, the session has no `domain_id`, a name is not a text,
                 or `wait_for_nodes` is called from a callback.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.wait_for_nodes")
+        self._check_call("wait_for_nodes")
         wanted = ["/" + check_name("wait_for_nodes", name).lstrip("/") for name in names]
         seconds = duration_ns(timeout, "wait_for_nodes(timeout=...)") / 1e9
         wait_for_nodes(self._world, wanted, seconds)
@@ -346,8 +351,7 @@ class Session:
         Raises:
             SessionError: If `stop` is called from a callback.
         """
-        self._check_open()
-        self._world.refuse_in_callback("ros.stop")
+        self._check_call("stop")
         self._world.go_virtual()
         self._world.show_news()
 
@@ -358,7 +362,7 @@ class Session:
     # What happened.
 
     def messages(self, topic: str) -> tuple[Sample, ...]:
-        """What was published on a topic, in order.
+        """Return what was published on a topic, in order.
 
         In a domain that was joined with `domain_id`, what other processes publish is included from
         the moment at which a node of this session subscribes.
@@ -371,10 +375,15 @@ class Session:
             SessionError: If `topic` is not a name.
         """
         self._world.show_faults()
-        return samples(self._world, topic)
+        name = "/" + check_name("messages", topic).lstrip("/")
+        outside = self._world.external_messages
+        known = self._world.recorder.topics().union(outside.topics() if outside else ())
+        if name not in known:
+            raise unknown_topic(name, known, self._world.graph())
+        return tuple(self._world.recorder.samples(name))
 
     def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
-        """What the nodes said, in order.
+        """Return what the nodes said, in order.
 
         Args:
             node: Only the lines of this node, given itself or by name.
@@ -383,10 +392,17 @@ class Session:
             SessionError: If `node` is neither a name nor a node that is or was in this session.
         """
         self._world.show_faults()
-        return log_lines(self._world, node)
+        records = tuple(self._world.recorder.logs)
+        if node is None:
+            return records
+        name = self._world.name_of(node) if isinstance(node, Node) else check_name("logs", node)
+        if name is None:
+            raise foreign_node(cast(Node, node))
+        wanted = name.strip("/").replace("/", ".")
+        return tuple(record for record in records if record.name == wanted)
 
     def graph(self) -> GraphSnapshot:
-        """The nodes, topics, services and timers as they are now, or were when the session ended.
+        """Return the nodes, topics, services and timers as they are now, or were at the end.
 
         In a domain that was joined with `domain_id`, the nodes of other processes are included as
         far as they are known yet; see `wait_for_nodes`.
@@ -395,22 +411,36 @@ class Session:
         return self._world.graph()
 
     def observation(self) -> Observation:
-        """Everything that was recorded so far, as plain data.
+        """Return everything that was recorded so far, as plain data.
 
         Of a session that has ended it holds the graph as it was just before the end.
         """
         self._world.show_faults()
-        return observation(self._world, self._seed)
+        recorder = self._world.recorder
+        return Observation(
+            self._world.now(),
+            self._seed,
+            tuple(recorder.samples()),
+            tuple(recorder.logs),
+            tuple(recorder.callbacks()),
+            tuple(recorder.faults),
+            self._world.graph(),
+            waits=self._world.virtual.all_waits(),
+        )
 
     # How it works.
 
     @contextmanager
     def _running(self, what: str, code: Iterable[object] = ()) -> Iterator[None]:
         """Let nodes of this session run in this thread, and classes that make some."""
-        self._check_open()
-        self._world.refuse_in_callback(f"ros.{what}")
+        self._check_call(what)
         with self._world.running(code):
             yield
+
+    def _check_call(self, what: str) -> None:
+        """Refuse a call that runs nodes, in a callback and after the end of the session."""
+        self._check_open()
+        self._world.refuse_in_callback(f"ros.{what}")
 
     def _check_open(self) -> None:
         if self._world.closed:

@@ -297,7 +297,7 @@ class SimulatedProgram:
         elif error is not None:
             self.stderr = _traceback_of(error)
             code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
-            self._world.program_failed(fault_of(error, self._world.now(), self.name, "main"))
+            self._world.add_fault(fault_of(error, self._world.now(), self.name, "main"))
         if self.stderr:
             print(self.stderr, end="", file=sys.stderr)
         self._end(code)

@@ -228,7 +228,7 @@ def _global_executor(world: Any, node: Node) -> Iterator[list[NodeState]]:  # no
     taken_away = has_own and state.spinning
     yield [state, *others]
     if taken_away:
-        world.rest_node(state)
+        world.pause_node(state)
         note(
             f"a spin function of rclpy has taken {state.name} from the executor of its process, "
             "and given it to nobody: its callbacks run no more."
@@ -274,7 +274,7 @@ def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401
             pulse.wait(PULSE / 2)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, f"{state.name} has stopped spinning; the session goes on.")
-        world.hurry()
+        world.interrupt()
         raise
     finally:
         if not was_live:

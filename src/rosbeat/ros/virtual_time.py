@@ -403,7 +403,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._chain.depth = 0
             self.forget_passes()
             self.look_anew()
-            self._interrupts.insist()
+            self._interrupts.raise_if_pressed()
             raise
         finally:
             self.running = False
@@ -521,7 +521,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             call.process.spins.remove(spin)
             for state in begun:
                 if not state.ended:
-                    self._host.rest_node(state)
+                    self._host.pause_node(state)
             call.process.refresh()
 
     def end_wait(self, call: Call, error: BaseException | None = None) -> None:
@@ -661,7 +661,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             if self._done is not None and self._done():
                 self._end_run()
                 continue
-            self._interrupts.insist()
+            self._interrupts.raise_if_pressed()
             if self.elsewhere:
                 self.elsewhere.popleft()()
             elif (self._woken or self._looking) and (wait := self._over()) is not None:
@@ -871,7 +871,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
-            self._interrupts.insist()
+            self._interrupts.raise_if_pressed()
             self._raised(self._current(), entry.label.name, error)
         else:
             # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
@@ -896,7 +896,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         try:
             result = callback(*arguments)
         except (Exception, SystemExit) as error:
-            self._interrupts.insist()
+            self._interrupts.raise_if_pressed()
             self._raised(call, entry.label.name, error)
         except KeyboardInterrupt as error:
             if process.program is None or process.program.interrupt is not error:

@@ -167,7 +167,7 @@ class Host(Protocol):
     def spin_node(self, state: NodeState) -> None:
         """Run this node's callbacks from now on."""
 
-    def rest_node(self, state: NodeState) -> None:
+    def pause_node(self, state: NodeState) -> None:
         """Run none of this node's callbacks until `spin_node`."""
 
     def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401

@@ -7,8 +7,9 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
+from itertools import count
 from threading import get_ident
-from typing import Any, Protocol
+from typing import Any
 from weakref import WeakKeyDictionary, WeakSet
 
 from greenlet import getcurrent
@@ -18,31 +19,14 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.errors import SessionError
-from rosbeat.records import (
-    INFRASTRUCTURE_TOPICS,
-    Fault,
-    GraphSnapshot,
-    LogRecord,
-    Observation,
-    Sample,
-)
+from rosbeat.records import INFRASTRUCTURE_TOPICS, Fault, GraphSnapshot, LogRecord
 from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
 from rosbeat.ros.blocking import VirtualWaits
 from rosbeat.ros.clock import SessionClock, make_clock
-from rosbeat.ros.console import Console, note
+from rosbeat.ros.console import Console, deadlock_text, fault_text, note, work_text
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
-from rosbeat.ros.errors import (
-    asks_before_it_runs,
-    asleep_while_going_live,
-    called_in_callback,
-    check_name,
-    deadlock,
-    foreign_node,
-    no_such_node,
-    unanswered_call,
-    unknown_topic,
-)
+from rosbeat.ros.errors import INSTEAD_OF_WAITING, check_name, deadlock, foreign_node, no_such_node
 from rosbeat.ros.faults import fault_of, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, snapshot, with_other_processes
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
@@ -55,7 +39,7 @@ from rosbeat.ros.recording import (
     PublisherTap,
     Recorder,
     SessionLogger,
-    mend_message_classes,
+    repair_message_classes,
     tap_client,
     tap_rate,
     tap_timer,
@@ -65,47 +49,38 @@ from rosbeat.ros.virtual_time import VirtualTimeExecutor
 from rosbeat.ros.wait_set import waitable_kind, waitable_name
 
 
-class Closable(Protocol):
-    """What ends with the session."""
-
-    def close(self) -> None:
-        """End."""
-
-
 class World:
     """Everything behind a `Session`.
 
-    It is what the hooks tell of new nodes and entities (see `recording.Watcher`), and what the
-    executors ask for nodes. It never refers to the `Session`, so that a session nobody holds any
-    more is closed at once.
+    The hooks of `recording` and `actions` tell it of new nodes and entities, and the executors ask
+    it for nodes. It never refers to the `Session`, so that a session nobody holds any more is
+    closed at once.
 
     Args:
         seed: Seed of the random numbers that the nodes draw.
         domain_id: The ROS domain to join, or None for a private one.
 
     Attributes:
-        recorder: What happened so far.
-        console: Where log lines are printed.
-        context: The ROS context.
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
         limits: The deadlines and lifespans that the session counts.
         graph_observer: Sees the other processes; None in a private domain, where there are none.
         external_messages: Records what comes from outside; None in a private domain.
         start: How the node that is being made is started.
-        closed: Whether `close` was called.
         panel: The instrument panel, or None.
         makers: What the session was handed to make each node, and how it was started.
+        next_number: Returns the place of a new entity in the order of creation.
     """
 
     def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
         self._states: dict[Node, NodeState] = {}
         self._entries: dict[Any, Entry] = {}
+        # A destroyed node cannot say its name, and a destroyed action stays in the graph.
         self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
         self._action_ends: WeakSet[Any] = WeakSet()
-        self._count = self._goals = 0
-        self._rosout_heard: Callable[[], None] | None = None
-        mend_message_classes()
+        self._goals = count(1)
+        self.next_number = count(1).__next__
+        repair_message_classes()
         self._lease: DomainLease | None = lease_domain() if domain_id is None else None
         self.domain_id = self._lease.domain_id if self._lease else domain_id
         self.start = Launch()
@@ -116,7 +91,7 @@ class World:
         self.live: LiveExecutor | None = None
         self.limits = Limits(self)
         self.closed = False
-        self.panel: Closable | None = None
+        self.panel: Any = None
         self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
         self._waits = VirtualWaits(self.virtual, self._entries.get)
         self._random = SeededRandom(seed)
@@ -128,8 +103,6 @@ class World:
             self.graph_observer, self.recorder, self.now
         )
         self.context.install()
-
-    # Time.
 
     def now(self) -> int:
         """Return nanoseconds since the session began."""
@@ -143,10 +116,6 @@ class World:
         """Return all nodes that have not been destroyed, in order of creation."""
         return list(self._states.values())
 
-    def spinning_nodes(self) -> list[NodeState]:
-        """Return the nodes whose callbacks run, in order of creation."""
-        return [state for state in self.states() if state.spinning]
-
     def named(self, name: str) -> NodeState | None:
         """Return the node of this full name."""
         return next((state for state in self.states() if state.name == name), None)
@@ -156,36 +125,15 @@ class World:
         return self._states.get(node)
 
     def name_of(self, node: Node) -> str | None:
-        """Return the full name of a node that is or was here; a destroyed one cannot say it."""
+        """Return the full name of a node that is or was here."""
         return self._names.get(node)
 
     def graph(self) -> GraphSnapshot:
         """Return the graph as it is now, or as it was when the session ended."""
         if self._last_graph is not None:
             return self._last_graph
-        own = snapshot(self.states(), self.shared())
-        return (
-            own if self.graph_observer is None else with_other_processes(own, self.graph_observer)
-        )
-
-    def shared(self) -> tuple[tuple[str, ...], ...]:
-        """Return the names of nodes that share a process, in order of creation.
-
-        Live, one executor runs all nodes; each is taken for a process of its own there, too.
-        """
-        found = {id(state.process): state.process for state in self.states()}
-        names = (tuple(state.name for state in one.states) for one in found.values())
-        return tuple(group for group in names if len(group) > 1)
-
-    def known_topics(self) -> set[str]:
-        """Return every topic of which it is known what was published."""
-        outside = self.external_messages.topics() if self.external_messages else ()
-        return self.recorder.topics().union(outside)
-
-    def next_number(self) -> int:
-        """Return the place of a new entity in the order of creation."""
-        self._count += 1
-        return self._count
+        own = snapshot(self.states())
+        return with_other_processes(own, self.graph_observer) if self.graph_observer else own
 
     # Nodes come, run, rest and go.
 
@@ -197,7 +145,7 @@ class World:
         executor.wake()
         self.virtual.resume(state)
 
-    def rest_node(self, state: NodeState) -> None:
+    def pause_node(self, state: NodeState) -> None:
         """Run none of this node's callbacks until `spin_node`; its messages wait in queues."""
         state.spinning = False
         state.process.refresh()
@@ -207,7 +155,7 @@ class World:
     def end_process(self, process: Process) -> None:
         """Run no callbacks of a process any more; its nodes stay in the graph until destroyed."""
         for state in list(process.states):
-            self.rest_node(state)
+            self.pause_node(state)
             state.ended = True
         for call in [one for one in process.calls if one.wait is not None]:
             self.virtual.break_off(call)
@@ -244,9 +192,8 @@ class World:
         """
         old = self.named(full_name(name, namespace))
         if old is not None:
-            program = old.process.program
-            if program is not None:
-                program.kill()
+            if old.process.program is not None:
+                old.process.program.kill()
             self.destroy(old)
 
     def node_made(self, node: Node) -> None:
@@ -288,7 +235,7 @@ class World:
         name: str,
         options: dict[str, Any],
     ) -> None:
-        """Note that an action server or client was made."""
+        """Note that an action server or client was made; see `ActionEnd` for the arguments."""
         state = self._states[node]
         state.actions.append(ActionEnd(self, state, kind, entity, name, options))
         self._action_ends.add(entity)
@@ -333,38 +280,39 @@ class World:
         note(f"{state.name} called rclpy.shutdown() and stops; the other nodes go on.")
 
     def refuse_in_callback(self, call: str) -> None:
-        """Refuse what would run the simulation, when a node calls it.
-
-        Raises:
-            SessionError: If code of one of this session's nodes is running, in this thread.
-        """
+        """Raise a SessionError for what would run the simulation, if a node calls it."""
         running = self.virtual.running and get_ident() == self.virtual.thread
         if running or (self.live is not None and self.live.is_this_thread()):
-            raise called_in_callback(call)
+            raise SessionError(
+                f"`{call}` was called from inside a callback.",
+                "It waits for other callbacks, and they can only run when this one has returned: "
+                "a deadlock, on a real robot too.",
+                INSTEAD_OF_WAITING,
+            )
 
     @property
     def counts_limits(self) -> bool:
-        """Whether deadlines and lifespans of what is made now are counted here; see `Limits`."""
+        """Return whether `limits` counts deadlines and lifespans of what is made now."""
         return self.live is None and self.external_messages is None
 
-    # What the executors tell.
+    # What the executors and actions tell.
 
     def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
         """Record a callback that is about to run, live or through rclpy's wait set."""
-        entry = self._entries.get(entity)
-        state = self.state_of(node)
+        entry, state = self._entries.get(entity), self.state_of(node)
         if entry is not None:
             entry.calls += 1
-            label = entry.label
-        elif state is not None:
-            kind, name = waitable_kind(entity), waitable_name(entity)
+            with self.recorder.lock:
+                self.recorder.add_callback(self.now(), entry.label_number)
+        # An action tells by itself, as soon as it knows what it was.
+        elif state is not None and not action_of(entity, state):
+            kind = waitable_kind(entity)
             source = event_source(entity, topic_of(entity, node)) if kind == "event" else ""
-            if action_of(entity, state):
-                return  # which tells when it knows what it was
-            label = self.recorder.label(state.name, kind, name, source)
-            self.virtual.calling = label
-        else:
-            return
+            self.heard(state, kind, waitable_name(entity), source)
+
+    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
+        """Record a callback of an action or another waitable that is about to run."""
+        self.virtual.calling = label = self.recorder.label(state.name, kind, name, source)
         with self.recorder.lock:
             self.recorder.add_callback(self.now(), label.number)
 
@@ -379,7 +327,7 @@ class World:
         """Record an exception that left a callback; end its process, and let the others go on."""
         node = state.name if state else "A task"
         self.recorder.faults.append(fault_of(error, self.now(), node, name))
-        mend_message_classes()
+        repair_message_classes()
         if state is not None:
             self.end_process(state.process)
         if self.live is None:
@@ -392,40 +340,22 @@ class World:
         """Record that callbacks wait for ever, at the line where the first of them waits."""
         for wait in waits:
             wait.told = True
-        call, error = waits[0].call, deadlock(waits)
-        if call is None:
-            return
-        thread = waits[0].thread
-        frame = thread.gr_frame if thread is not getcurrent() else sys._getframe(1)
-        now, name = self.now(), type(error).__name__
-        fault = Fault(now, call.node, call.name, name, str(error), *line_of(frame))
-        self.recorder.faults.append(fault)
-        self._shown_faults += 1
-        self.console.deadlock(fault, error)
-
-    def program_failed(self, fault: Fault) -> None:
-        """Record that a program ended with an exception, whose traceback is printed by itself."""
-        self.recorder.faults.append(fault)
-        self._shown_faults += 1
-
-    def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
-        """Record a callback of an action that is about to run."""
-        self.virtual.calling = label = self.recorder.label(state.name, kind, name, source)
-        with self.recorder.lock:
-            self.recorder.add_callback(self.now(), label.number)
+        call, thread, error = waits[0].call, waits[0].thread, deadlock(waits)
+        if call is not None:
+            frame = thread.gr_frame if thread is not getcurrent() else sys._getframe(1)
+            now, kind = self.now(), type(error).__name__
+            fault = Fault(now, call.node, call.name, kind, str(error), *line_of(frame))
+            self.add_fault(fault, deadlock_text(fault, error))
 
     def work_raised(self, state: NodeState, name: str, error: BaseException) -> None:
         """Record an exception that left the work on a goal; rclpy aborts the goal and logs it."""
         fault = fault_of(error, self.now(), state.name, name)
-        self.recorder.faults.append(fault)
-        self._shown_faults += 1
-        self.console.work(fault)
+        self.add_fault(fault, work_text(fault))
 
-    # What actions ask; see `actions.Place`.
-
-    def sent(self, kind: str, name: str, origin: NodeState) -> None:
+    def sent(self, kind: str, name: str, origin: NodeState | None = None) -> None:
         """Note that a node sent something to the `kind` entities called `name`."""
-        self._sender(kind, name, origin)()
+        if self.live is None:
+            self.virtual.happened(kind, name, origin)
 
     def wait(
         self,
@@ -440,14 +370,13 @@ class World:
             self.refuse_in_callback(call)
             return wait_by_the_wall(done, seconds)
         if self.virtual.in_callback:
-            needed = self._own(needs)
+            needed = needs if self._is_in_current_process(needs) else None
             return self.virtual.block(reason, self.virtual.after(seconds), done, needs=needed)
         return self.wait_until(done, seconds)
 
     def next_goal(self) -> int:
         """Return how many goals were sent here; 0 in a domain with other processes in it."""
-        self._goals += 1
-        return self._goals if self.external_messages is None else 0
+        return next(self._goals) if self.external_messages is None else 0
 
     # What is printed.
 
@@ -464,13 +393,20 @@ class World:
         faults = self.recorder.faults
         while self._shown_faults < len(faults):
             self._shown_faults += 1
-            self.console.fault(faults[self._shown_faults - 1])
+            print(fault_text(faults[self._shown_faults - 1]), file=sys.stderr)
+
+    def add_fault(self, fault: Fault, text: str = "") -> None:
+        """Record a fault and print `text` now, instead of what is usually printed later."""
+        self.recorder.faults.append(fault)
+        self._shown_faults += 1
+        if text:
+            print(text, file=sys.stderr)
 
     # Running.
 
     @contextmanager
     def running(self, code: Iterable[object] = ()) -> Iterator[None]:
-        """Make nodes feel at home while they run in this thread.
+        """Prepare this thread for running nodes.
 
         Their context is rclpy's default, the random numbers they draw are the session's, and what
         waits takes virtual time.
@@ -488,30 +424,38 @@ class World:
         finally:
             self.context.uninstall(before)
 
+    def _code(self) -> Iterator[object]:
+        """Yield classes and functions in whose modules `from time import sleep` may stand."""
+        for state in self.states():
+            yield type(state.node)
+            for entry in state.entries:
+                yield getattr(entry.entity, "callback", None)
+
     def wait_until(self, done: Callable[[], bool], seconds: float | None) -> bool:
         """Run virtual time for a cell until `done` is true, at most so many seconds.
 
         Without a limit it ends, too, when nothing can happen any more.
         """
         limit = self.virtual.after(seconds)
+        end = self.virtual.longest() if limit is None else limit
         with self.running():
-            self.virtual.run_until(self.virtual.longest() if limit is None else limit, done,
-                                   ends_idle=limit is None)  # fmt: skip
+            self.virtual.run_until(end, done, ends_idle=limit is None)
         return bool(done())
 
     def go_live(self) -> None:
-        """Run the nodes against the wall clock, in a background thread.
-
-        Raises:
-            SessionError: If a callback waits: it can go on in virtual time only.
-        """
+        """Run the nodes against the wall clock; raise a SessionError if a callback waits."""
         waiting = [call for call in self.virtual.suspended if call.wait is not None]
         if waiting:
-            raise asleep_while_going_live(waiting[0].node, waiting[0].name)
+            raise SessionError(
+                f"The session cannot go live: `{waiting[0].name}` of {waiting[0].node} still "
+                "waits.",
+                "It began in virtual time, and what it waits for comes in virtual time.",
+                "Let it return first, with `ros.run(seconds)`, or remove the node.",
+            )
         self.live = LiveExecutor(self.context, self)
         self.virtual.deadlines.forget()
         self._live_since = time.monotonic_ns()
-        self._change_over(self.live, virtual=False)
+        self._change_executor(self.live)
         self.live.start()
 
     def go_virtual(self) -> None:
@@ -520,13 +464,31 @@ class World:
             return
         self.live.finish()
         self.virtual.now, self.live = self.now(), None
-        self._change_over(self.virtual, virtual=True)
+        self._change_executor(self.virtual)
         self.virtual.look_anew()
 
-    def hurry(self) -> None:
+    def _change_executor(self, executor: LiveExecutor | VirtualTimeExecutor) -> None:
+        is_virtual = executor is self.virtual
+        self.virtual.is_live = not is_virtual
+        for state in self.states():
+            clock: SessionClock = state.node._clock  # type: ignore[union-attr]
+            if is_virtual:
+                clock.follow_session()
+            else:
+                clock.follow_wall()
+            show_sim_time(state.node, is_virtual)
+            if state.spinning:
+                state.node.executor = executor  # type: ignore[union-attr]
+            for timer in (one.entity for one in state.entries if one.kind.endswith("timer")):
+                # Each timer begins a new period: its deadline is a reading of the other clock.
+                with suppress(InvalidHandle):  # destroyed by its node
+                    if not timer.is_canceled():
+                        timer.reset()
+
+    def interrupt(self) -> None:
         """End a callback that hangs: Interrupt was pressed while the nodes run live."""
         if self.live is not None:
-            self.live.hurry()
+            self.live.interrupt()
 
     def close(self) -> None:
         """Destroy the nodes, end the context and give the domain id back."""
@@ -540,7 +502,7 @@ class World:
         self.virtual.close()
         for state in reversed(self.states()):
             self.destroy(state)
-        for entity in list(self._action_ends):  # destroying its node leaves it in the graph
+        for entity in list(self._action_ends):
             with suppress(Exception):  # destroyed already, or half-made
                 entity.destroy()
         if self.graph_observer is not None:
@@ -550,69 +512,44 @@ class World:
         if self._lease:
             self._lease.release()
 
-    # How it works.
-
-    def _code(self) -> Iterator[object]:
-        """Yield classes and functions in whose modules `from time import sleep` may stand."""
-        for state in self.states():
-            yield type(state.node)
-            for entry in state.entries:
-                yield getattr(entry.entity, "callback", None)
-
-    def _change_over(self, executor: LiveExecutor | VirtualTimeExecutor, virtual: bool) -> None:
-        self.virtual.is_live = not virtual
-        for state in self.states():
-            clock: SessionClock = state.node._clock  # type: ignore[union-attr]
-            if virtual:
-                clock.follow_session()
-            else:
-                clock.follow_wall()
-            show_sim_time(state.node, virtual)
-            if state.spinning:
-                state.node.executor = executor  # type: ignore[union-attr]
-            for entry in state.entries:
-                # Each timer begins a new period: its deadline is a reading of the other clock.
-                if entry.kind.endswith("timer"):
-                    _restart(entry)
+    # Watching what nodes make.
 
     def _watch(self, state: NodeState, kind: str, entity: Any) -> None:  # noqa: ANN401
-        name = "" if kind == "timer" else _name_of(kind, entity)
-        source = period_text(entity.timer_period_ns) if kind == "timer" else name
+        if kind == "timer":
+            name, source = "", period_text(entity.timer_period_ns)
+        else:
+            name = source = entity.topic_name if kind == "subscription" else entity.service_name
         called = "answer" if kind == "client" else callback_name(entity.callback)
         label = self.recorder.label(state.name, kind, called, source)
         entry = Entry(self.next_number(), state, kind, entity, name, label, TAKERS.get(kind))
         state.entries.append(entry)
         self._entries[entity] = entry
-        prepare = {"timer": self._timer, "subscription": self._subscription, "client": self._client}
-        prepare.get(kind, bool)(entry)
+        if kind == "timer":
+            self._watch_timer(entry)
+        elif kind == "subscription":
+            self._watch_subscription(entry)
+        elif kind == "client":
+            sent = partial(self.sent, "service", name, state)
+            tap_client(entity, partial(self._check_call, entry), sent,
+                       partial(self._wait_for_answer, entity))  # fmt: skip
         self.virtual.watch(entry)
 
-    def _timer(self, entry: Entry) -> None:
-        if not isinstance(entry.entity.clock, SessionClock):
-            entry.kind = "wall timer"
-            note(
-                f"a timer of {entry.state.name} has a clock of its own, which counts real time: it "
-                "fires only while the session is live."
-            )
+    def _watch_timer(self, entry: Entry) -> None:
+        clock = entry.entity.clock
+        if isinstance(clock, SessionClock):
+            tap_timer(entry.entity, clock.move, partial(self._timer_reset, entry))
             return
-        tap_timer(entry.entity, entry.entity.clock.move, partial(self._timer_reset, entry))
+        entry.kind = "wall timer"
+        note(
+            f"a timer of {entry.state.name} has a clock of its own, which counts real time: it "
+            "fires only while the session is live."
+        )
 
     def _timer_reset(self, entry: Entry) -> None:
         if self.live is None:
             self.virtual.timer_reset(entry)
 
-    def _client(self, entry: Entry) -> None:
-        asked = self._sender("service", entry.name, entry.state)
-        tap_client(entry.entity, partial(self._check_call, entry), asked,
-                   partial(self._wait_for_answer, entry.entity))  # fmt: skip
-
-    def _check_call(self, entry: Entry) -> None:
-        if self.live is not None:
-            self.refuse_in_callback("client.call")
-        if not entry.state.spinning and entry.state.process.program is None:
-            raise asks_before_it_runs(entry.state.name, entry.name)
-
-    def _subscription(self, entry: Entry) -> None:
+    def _watch_subscription(self, entry: Entry) -> None:
         entry.born = self.recorder.mark()
         taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
         wait_for_stored(taps, entry)
@@ -622,17 +559,16 @@ class World:
             self.external_messages.watch_subscription(entry.entity)
 
     def _tap_publisher(self, state: NodeState, publisher: Any) -> None:  # noqa: ANN401
-        topic = publisher.topic_name
-        memory = Memory(publisher.msg_type)
-        happened = self.virtual.sender("subscription", topic, state)
+        topic, memory = publisher.topic_name, Memory(publisher.msg_type)
         if topic in INFRASTRUCTURE_TOPICS:
-            quiet = self._sender("subscription", topic, state)
+            quiet = partial(self.sent, "subscription", topic, state)
             state.taps.append(PublisherTap(publisher, memory, lambda _: quiet()))
             return
-        kind = type_name(publisher.msg_type)
-        channel = self.recorder.channel(topic, kind, state.name, memory)
-        heard = self._published(happened, partial(self.recorder.add_sample, channel.number))
-        tap = PublisherTap(publisher, memory, heard)
+        channel = self.recorder.channel(topic, type_name(publisher.msg_type), state.name, memory)
+        happened = self.virtual.sender("subscription", topic, state)
+        record = partial(self._record_in_virtual_time, channel.number, happened)
+        published = partial(self._published, channel.number, record, get_ident())
+        tap = PublisherTap(publisher, memory, published)
         tap.channel = channel
         state.taps.append(tap)
         if self.counts_limits:
@@ -641,101 +577,89 @@ class World:
             self.external_messages.watch_publisher(publisher)
 
     def _published(
-        self, happened: Callable[[], None], add: Callable[[int, Any], None]
-    ) -> Callable[[Any], None]:
-        virtual, home = self.virtual, get_ident()
-
-        def heard(copy: Any) -> None:  # noqa: ANN401
-            if self.live is None:
-                if get_ident() != home:  # a thread of the node's own
-                    virtual.elsewhere.append(partial(heard_elsewhere, copy))
-                    return
-                add(virtual.now, copy)
-                happened()
-                return
+        self,
+        channel: int,
+        record: Callable[[Any], None],
+        thread: int,
+        copy: Any,  # noqa: ANN401
+    ) -> None:
+        if self.live is not None:
             with self.recorder.lock:
-                add(self.now(), copy)
+                self.recorder.add_sample(channel, self.now(), copy)
+        elif get_ident() == thread:
+            record(copy)
+        else:  # a thread of the node's own
+            self.virtual.elsewhere.append(partial(record, copy))
 
-        def heard_elsewhere(copy: Any) -> None:  # noqa: ANN401
-            add(virtual.now, copy)
-            happened()
-
-        return heard
-
-    def _sender(self, kind: str, name: str, origin: NodeState | None = None) -> Callable[[], None]:
-        happened = self.virtual.sender(kind, name, origin)
-
-        def sent() -> None:
-            if self.live is None:
-                happened()
-
-        return sent
+    def _record_in_virtual_time(
+        self,
+        channel: int,
+        happened: Callable[[], None],
+        copy: Any,  # noqa: ANN401
+    ) -> None:
+        self.recorder.add_sample(channel, self.virtual.now, copy)
+        happened()
 
     def _logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
-        record = LogRecord(self.now(), level, name, text, function, line)
-        self.recorder.logs.append(record)
-        if self._rosout_heard is None:
-            self._rosout_heard = self._sender("subscription", "/rosout")
-        self._rosout_heard()
+        self.recorder.logs.append(LogRecord(self.now(), level, name, text, function, line))
+        self.sent("subscription", "/rosout")
         if self.live is None:
             self.show_news()
+
+    # Calls that wait.
+
+    def _check_call(self, entry: Entry) -> None:
+        if self.live is not None:
+            self.refuse_in_callback("client.call")
+        if not entry.state.spinning and entry.state.process.program is None:
+            raise SessionError(
+                f"{entry.state.name} asks {entry.name} before it runs itself.",
+                "Nobody takes the answer of a node that is still being made, was not added, or is "
+                "paused. Outside a page the call would wait for ever.",
+                "Add the node first, with `ros.add(...)`, and ask then, or in a timer's callback "
+                "with `call_async`.",
+            )
 
     def _wait_for_answer(self, client: Any, future: Any, timeout_sec: float | None) -> Any:  # noqa: ANN401
         """Do what `client.call` does when it has sent its request (rclpy, `client.py`)."""
         in_callback = self.live is None and self.virtual.in_callback
-        if in_callback:
-            reason = f"an answer from {client.service_name}"
-            until, needed = self.virtual.after(timeout_sec), self._own(client)
-            self.virtual.block(reason, until, future.done, needs=needed)
-        elif self.live is None:
-            self.wait_until(future.done, timeout_sec)
-        else:
+        if self.live is not None:
             self.live.wait_for(future, timeout_sec)
+        else:
+            reason = f"an answer from {client.service_name}"
+            self.wait("client.call", reason, future.done, timeout_sec, client)
         if not future.done():
             client.remove_pending_request(future)
             if timeout_sec is None and not in_callback:
-                raise unanswered_call(client.service_name)
+                raise SessionError(
+                    f"Nobody has answered the call to {client.service_name}.",
+                    "Either no node of this session offers that service, or its callback does not "
+                    "end. Outside a page the call would wait for ever.",
+                    "Add the node that offers the service first, and compare the two names.",
+                )
         return future.result()
-
-    def _own(self, entity: Any) -> Any:  # noqa: ANN401 - any entity of rclpy
-        """Return an entity if it belongs to the process that runs now, else None."""
-        call = self.virtual.current
-        mine = call.process.states if call is not None else []
-        found = (one.entity for state in mine for one in (*state.entries, *state.actions))
-        return entity if any(one is entity for one in found) else None
 
     def _sleep(self, entry: Entry, original: Callable[[], None]) -> None:
         calls = entry.calls
         if self.live is not None:
             self.refuse_in_callback("rate.sleep")
             original()
-        elif self.virtual.in_callback:
-            needed = self._own(entry.entity)
-            self.virtual.block("a rate", None, lambda: entry.calls > calls, needs=needed)
         else:
-            self.wait_until(lambda: entry.calls > calls, None)
+            done = lambda: entry.calls > calls  # noqa: E731
+            self.wait("rate.sleep", "a rate", done, None, entry.entity)
+
+    def _is_in_current_process(self, entity: Any) -> bool:  # noqa: ANN401 - any entity of rclpy
+        call = self.virtual.current
+        states = call.process.states if call is not None else []
+        return any(one.entity is entity for state in states
+                   for one in (*state.entries, *state.actions))  # fmt: skip
 
 
-def _name_of(kind: str, entity: Any) -> str:  # noqa: ANN401
-    name: str = entity.topic_name if kind == "subscription" else entity.service_name
-    return name
-
-
-def _restart(entry: Entry) -> None:
-    with suppress(InvalidHandle):  # destroyed by its node
-        if not entry.entity.is_canceled():
-            entry.entity.reset()
-
-
-# From what a caller names to what a session has of it.
+# Checks of what a caller names.
 
 
 def state_of(world: World, node: Node) -> NodeState:
-    """What is known of a node.
-
-    Raises:
-        NodeClassError: If it does not belong to the session.
-    """
+    """Return what is known of a node; raise a NodeClassError if it is not of this session."""
     state = world.state_of(node)
     if state is None:
         raise foreign_node(node, world.name_of(node))
@@ -743,11 +667,7 @@ def state_of(world: World, node: Node) -> NodeState:
 
 
 def find(world: World, node: Node | str) -> NodeState:
-    """A node, given itself or by name.
-
-    Raises:
-        SessionError: If the session has no such node.
-    """
+    """Return a node, given itself or by name; raise a SessionError if there is no such node."""
     if isinstance(node, Node):
         return state_of(world, node)
     name = "/" + str(node).lstrip("/")
@@ -757,81 +677,19 @@ def find(world: World, node: Node | str) -> NodeState:
     return state
 
 
-def samples(world: World, topic: Any) -> tuple[Sample, ...]:  # noqa: ANN401 - unchecked input
-    """The messages of a topic.
-
-    Raises:
-        UnknownTopicError: If it never had a publisher.
-        SessionError: If `topic` is not a name.
-    """
-    name = "/" + check_name("messages", topic).lstrip("/")
-    known = world.known_topics()
-    if name not in known:
-        raise unknown_topic(name, known, world.graph())
-    return tuple(world.recorder.samples(name))
-
-
-def log_lines(world: World, node: Node | str | None) -> tuple[LogRecord, ...]:
-    """The log lines of one node, or of all.
-
-    Raises:
-        SessionError: If `node` is neither a name nor a node that is or was in the session.
-    """
-    records = tuple(world.recorder.logs)
-    if node is None:
-        return records
-    wanted = _checked_name(world, node).strip("/").replace("/", ".")
-    return tuple(record for record in records if record.name == wanted)
-
-
-def observation(world: World, seed: int) -> Observation:
-    """Everything that was recorded so far, as plain data."""
-    recorder = world.recorder
-    return Observation(
-        world.now(),
-        seed,
-        tuple(recorder.samples()),
-        tuple(recorder.logs),
-        tuple(recorder.callbacks()),
-        tuple(recorder.faults),
-        world.graph(),
-        waits=world.virtual.all_waits(),
-    )
-
-
-def _checked_name(world: World, node: Node | str) -> str:
-    if not isinstance(node, Node):
-        return check_name("logs", node)
-    name = world.name_of(node)
-    if name is None:
-        raise foreign_node(node)
-    return name
-
-
 def full_topic(call: str, topic: Any) -> str:  # noqa: ANN401 - unchecked input
-    """The full name of a topic, such as `/temperature`; nobody need use it.
-
-    Args:
-        call: Who asks, for the error.
-        topic: What was typed.
-
-    Raises:
-        SessionError: If it is no text, or ROS does not allow it as a name.
-    """
+    """Return the full name of a topic; raise a SessionError if ROS does not allow it."""
     name = "/" + check_name(call, topic).lstrip("/")
     try:
         validate_full_topic_name(name)
     except InvalidTopicNameException as error:
+        # The exception also repeats the name and draws an arrow below it.
+        _, _, reason = str(error).split("\n")[0].partition(":")
+        reason = reason.split(":")[0].strip() or "it breaks the rules for names"
         raise SessionError(
             f"{topic!r} cannot be the name of a topic.",
-            f"ROS does not allow it: {_reason(error)}.",
+            f"ROS does not allow it: {reason}.",
             "Names have letters, digits, `_` and `/`, and no part of them begins with a digit: "
             "`room_1/temperature`.",
         ) from None
     return name
-
-
-def _reason(error: InvalidTopicNameException) -> str:
-    """What is wrong, from an exception that also repeats the name and draws an arrow below it."""
-    parts = str(error).split("\n")[0].split(":")
-    return parts[1].strip() if len(parts) > 1 else "it breaks the rules for names"
