@@ -413,3 +413,32 @@ def test_a_session_can_be_closed_in_another_thread_while_a_callback_waits():
     ros.add(Sleeper)
     ros.run(1.5)
     assert not in_thread(ros.close)
+
+
+# In a cell, and explained.
+
+
+def test_a_cell_waits_for_a_service_in_virtual_time(ros):
+    client = ros.add(lambda: Node("guest")).create_client(Trigger, "ask")
+    begin = time.monotonic()
+    assert not client.wait_for_service(timeout_sec=30.0)
+    assert (ros.time, time.monotonic() - begin < 5) == (30, True)
+    ros.add(Server)
+    assert client.wait_for_service(timeout_sec=30.0)
+    assert ros.time == 30
+
+
+def test_explain_knows_a_deadlock(capsys):
+    class Speaker(Asker):
+        def __init__(self):
+            super().__init__()
+            self.pub = self.create_publisher(Int32, "speech", 10)
+            self.create_timer(0.4, lambda: self.pub.publish(Int32(data=1)))
+
+    with Session() as ros:
+        ros.add(Server)
+        ros.add(Speaker)
+        ros.run(5)
+        told = str(ros.explain("speech"))
+    assert "a callback of /asker does not return" in told
+    capsys.readouterr()

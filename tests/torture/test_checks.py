@@ -132,7 +132,6 @@ INTERRUPTED = {
     "loop": "nasty.loop",
     "catches everything": "nasty.swallow",
     "suppresses": "nasty.suppress",
-    "executor of its own": "nasty.spins_alone",
 }
 
 

@@ -43,7 +43,8 @@ def nodes(sides: Sides, scene: Scene) -> Iterator[Finding]:
         if found:
             yield found
     yield from _twins(ends, scene)
-    if any(one.state == BLOCKED and one.node in scene.own for one in scene.conditions):
+    held_up = any(one.state == BLOCKED and one.node in scene.own for one in scene.conditions)
+    if held_up and not scene.virtual:
         return  # nobody else can do anything either
     if _stands_still(sides, scene):
         yield _no_time(sides, scene)
@@ -61,7 +62,7 @@ def _conditions(ends: tuple[Endpoint, ...], scene: Scene) -> list[Condition]:
     return [
         one
         for one in scene.conditions
-        if one.state == BLOCKED
+        if (one.state == BLOCKED and not scene.virtual)
         or (one.node in here and not (one.state == SILENT and one.node in speaks))
     ]
 
@@ -103,7 +104,8 @@ def _first_line(text: str) -> str:
 
 def _blocked(condition: Condition, scene: Scene) -> Finding:
     node = condition.node
-    others = ", and no other node of the session runs meanwhile" if node in scene.own else ""
+    alone = node in scene.own and not scene.virtual
+    others = ", and no other node of the session runs meanwhile" if alone else ""
     return finding(
         "callback-blocks",
         f"a callback of {node} does not return",

@@ -532,7 +532,20 @@ class World:
             sent = partial(self.sent, "service", name, state)
             tap_client(entity, partial(self._check_call, entry), sent,
                        partial(self._wait_for_answer, entity))  # fmt: skip
+            waits = partial(self._wait_for_service, entity, entity.wait_for_service)
+            entity.wait_for_service = waits
         self.virtual.watch(entry)
+
+    def _wait_for_service(
+        self,
+        client: Any,  # noqa: ANN401
+        original: Callable[..., bool],
+        timeout_sec: float | None = None,
+    ) -> bool:
+        """Let the nodes run while a cell waits; in the code of a node, rclpy's own way sleeps."""
+        if self.live is not None or self.virtual.in_callback:
+            return original(timeout_sec)
+        return self.wait_until(client.service_is_ready, timeout_sec)
 
     def _watch_timer(self, entry: Entry) -> None:
         clock = entry.entity.clock

@@ -65,7 +65,7 @@ def test_a_node_that_nobody_runs(state, mistake, words):
 
 def test_who_blocks_need_not_be_on_the_topic():
     told = silent(Condition("/busy", "blocked", callback="work"))
-    told = replace(told, own=told.own | {"/busy"})
+    told = replace(told, own=told.own | {"/busy"}, virtual=False)
     assert causes(told) == ["callback-blocks"]
     assert "no other node of the session" in first(told)[0].evidence
 
