@@ -14,6 +14,7 @@ from std_srvs.srv import Trigger
 
 from rosbeat import Session
 from rosbeat.errors import NodeConstructionError, SessionError
+from rosbeat.observations import digest
 
 pytestmark = pytest.mark.ros
 
@@ -442,3 +443,58 @@ def test_explain_knows_a_deadlock(capsys):
         told = str(ros.explain("speech"))
     assert "a callback of /asker does not return" in told
     capsys.readouterr()
+
+
+# What is left behind when a cell is run again; and the same every time.
+
+
+def test_a_node_that_is_replaced_in_its_sleep_ends_there(ros):
+    ended = []
+
+    class Careful(Sleeper):
+        def sleep(self):
+            try:
+                super().sleep()
+            finally:
+                ended.append(1)
+
+    before = len(all_greenlets())
+    for _ in range(3):
+        ros.add(Careful)
+        ros.run(1.5)
+    assert len(ended) == 2
+    assert len(all_greenlets()) <= before + 2  # the one asleep, and the one that runs the loop
+    ros.run(5)
+    assert [text for _, text in lines(ros)] == ["awake"]
+
+
+def test_an_exception_after_a_sleep_leaves_nothing_behind(ros, capsys):
+    class Fails(Sleeper):
+        def sleep(self):
+            super().sleep()
+            raise ValueError("no")
+
+    before = len(all_greenlets())
+    ros.add(Fails)
+    ros.run(5)
+    (fault,) = ros.observation().faults
+    assert (fault.kind, fault.time, fault.callback) == ("ValueError", 2.2, "sleep")
+    assert len(all_greenlets()) <= before + 2
+    capsys.readouterr()
+
+
+def busy_system():
+    """Run processes, threads, sleeps, calls and coroutines, and return what was seen."""
+    group = ReentrantCallbackGroup
+    with Session(seed=3) as ros:
+        ros.add(Server)
+        ros.add(lambda: Asker(group()), Beat, threads=3)
+        ros.add(Sleeper, lambda: Beat("other"))
+        ros.add(lambda: Two(group(), group()), threads=2)
+        ros.run(2.1, quiet=True)
+        ros.run(3, quiet=True)
+        return ros.observation()
+
+
+def test_every_run_is_the_same():
+    assert len({digest(busy_system()) for _ in range(20)}) == 1
