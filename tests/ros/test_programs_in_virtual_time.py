@@ -226,3 +226,26 @@ def test_arguments_are_texts_and_signals_are_known(ros, says, program):
     with pytest.raises(SessionError) as caught:
         running.send_signal(signal.SIGHUP)
     says(caught.value, "SIGINT")
+
+
+def test_a_program_that_is_started_again_replaces_the_first(ros, program):
+    file = program(SENSOR.replace("{ending}", "try_shutdown"))
+    first = ros.spawn(file)
+    second = ros.spawn(file)
+    assert (first.returncode, second.returncode) == (-9, None)
+    ros.run(2)
+    assert len(ros.messages("temperature")) == 2
+
+
+def test_a_program_may_make_a_node_anew_under_its_name(ros, program):
+    again = ros.spawn(
+        program("""
+        import rclpy
+        def main():
+            rclpy.init()
+            rclpy.create_node("same")
+            rclpy.spin(rclpy.create_node("same"))
+        """)
+    )
+    ros.run(1)
+    assert (again.returncode, len(again.nodes)) == (None, 1)

@@ -192,8 +192,9 @@ class World:
         """
         old = self.named(full_name(name, namespace))
         if old is not None:
-            if old.process.program is not None:
-                old.process.program.kill()
+            call, program = self.virtual.current, old.process.program
+            if program is not None and (call is None or call.process is not old.process):
+                program.kill()
             self.destroy(old)
 
     def node_made(self, node: Node) -> None:
