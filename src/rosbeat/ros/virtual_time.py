@@ -555,7 +555,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
                 main()
             finally:
                 self._forget_call(call)
-                if not self._closing:
+                if not call.broken:  # else whoever has ended it goes on
                     getcurrent().parent = self._next_driver()
 
         self._woken.append(Wait(None, greenlet(run, self._main), "start", self.now))
