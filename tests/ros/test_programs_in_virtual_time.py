@@ -206,9 +206,24 @@ def test_closing_the_session_ends_a_program_that_sleeps(program, capsys):
                 print("tidied")
     """)
     with Session() as ros:
-        ros.spawn(file)
+        sleeper = ros.spawn(file)
         ros.run(1)
     assert capsys.readouterr().out == "tidied\n"
+    assert sleeper.returncode == -9
+
+
+def test_closing_the_session_shuts_the_context_of_its_programs_down(program):
+    seen = []
+
+    def main():
+        rclpy.init()
+        seen.append(rclpy.get_default_context())
+        rclpy.spin(rclpy.create_node("left_alone"))
+
+    with Session() as ros:
+        ros.spawn(main)
+        assert seen[0].ok()
+    assert not seen[0].ok()
 
 
 @pytest.mark.parametrize("target", ["no_such_file.py", 3, None, Session, ""])

@@ -1,7 +1,9 @@
-"""A node with the ending of the course's own programs, for tests of signals.
+"""A node that SIGTERM ends as Ctrl+C does, for tests of signals.
 
 Publishes on `temperature` each tenth of a second, and says so.
 """
+
+import signal
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -21,6 +23,7 @@ class TemperatureSensor(Node):
 
 
 def main(args=None):
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     rclpy.init(args=args)
     node = TemperatureSensor()
     try:  # noqa: SIM105 - as a learner writes it

@@ -203,7 +203,10 @@ class SimulatedProgram:
                 error = raised
         finally:
             self.leave()
-        if isinstance(error, GreenletExit):
+        if isinstance(error, GreenletExit):  # it was killed, or its session was closed
+            if self._context is not None:
+                Context.try_shutdown(self._context)
+            self.returncode = -signal.SIGKILL
             return
         if isinstance(error, KeyboardInterrupt) and error is not self.interrupt:
             self._end(-signal.SIGINT)
