@@ -264,3 +264,31 @@ def test_a_program_may_make_a_node_anew_under_its_name(ros, program):
     )
     ros.run(1)
     assert (again.returncode, len(again.nodes)) == (None, 1)
+
+
+def test_sigterm_before_init_ends_it_with_that_signal(ros, program):
+    sleeper = ros.spawn(program("import time\ndef main():\n    time.sleep(100)"))
+    ros.run(1)
+    sleeper.terminate()
+    assert (sleeper.returncode, sleeper.stderr) == (-15, "")
+
+
+def test_an_executor_of_its_own_spins_once_until_a_future_is_done(ros, program):
+    alone = ros.spawn(
+        program("""
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.task import Future
+
+        def main():
+            rclpy.init()
+            node, future, executor = rclpy.create_node("alone"), Future(), SingleThreadedExecutor()
+            node.create_timer(0.5, lambda: future.set_result(True))
+            executor.add_node(node)
+            while not future.done():
+                executor.spin_once_until_future_complete(future, timeout_sec=1.0)
+            return 5
+        """)
+    )
+    ros.run(2)
+    assert alone.returncode == 5

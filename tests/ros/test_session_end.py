@@ -136,3 +136,15 @@ def test_closing_the_outer_session_first():
         third.add(Talker)
         third.run(1)
         assert len(third.messages("count")) == 1
+
+
+def test_everybody_is_told_of_a_shutdown_even_if_one_raises():
+    told = []
+
+    def fail():
+        raise ValueError
+
+    with Session() as ros:
+        ros._world.context.on_shutdown(fail)
+        ros._world.context.on_shutdown(lambda: told.append(True))
+    assert told == [True]

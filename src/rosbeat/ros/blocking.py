@@ -9,7 +9,6 @@ rosbeat's code, sleep as ever.
 from __future__ import annotations
 
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -60,7 +59,7 @@ class VirtualWaits:
     def sleep(self, seconds: Any) -> None:  # noqa: ANN401 - unchecked
         """Sleep, as `time.sleep` does; in the code of a node, in virtual time."""
         own = sys._getframe(1).f_code.co_filename.startswith(_OWN)
-        if own or not self._is_simulated() or not _is_span(seconds):
+        if own or not self._virtual.in_callback or not _is_span(seconds):
             self._sleep(seconds)  # which refuses what is no span of time
         else:
             self._virtual.sleep(float(seconds))
@@ -75,7 +74,7 @@ class VirtualWaits:
         time_to_wait: float = -1,
     ) -> tuple[bool, Any]:
         """Wait for the next message of a topic; see `rclpy.wait_for_message`."""
-        if not self._is_simulated():
+        if not self._virtual.in_callback:
             found: tuple[bool, Any] = self._wait_for_message(
                 msg_type, node, topic, qos_profile=qos_profile, time_to_wait=time_to_wait
             )
@@ -92,15 +91,12 @@ class VirtualWaits:
             taken.extend(found[:1] if found else [])
             return bool(taken)
 
-        until = None if time_to_wait < 0 else self._virtual.now + round(time_to_wait * 1e9)
+        until = self._virtual.after(time_to_wait)
         try:
             self._virtual.block(f"a message on {subscription.topic_name}", until, arrived)
         finally:
             node.destroy_subscription(subscription)
         return (True, taken[0]) if taken else (False, None)
-
-    def _is_simulated(self) -> bool:
-        return self._virtual.in_callback and threading.get_ident() == self._virtual.thread
 
 
 @contextmanager

@@ -20,19 +20,19 @@ if TYPE_CHECKING:
 
 
 def full_name(name: str, namespace: str) -> str:
-    """A node's full name, such as `/room/sensor`."""
+    """Return a node's full name, such as `/room/sensor`."""
     return f"/{namespace.strip('/')}/{name}".replace("//", "/")
 
 
 def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any callable
-    """The name a learner gave to a function, also when it is a lambda or an object."""
+    """Return the name a learner gave to a function, also when it is a lambda or an object."""
     if callback is None:
         return "nothing"  # a timer whose callback was left out, or that of a rate
     return getattr(callback, "__name__", type(callback).__name__)
 
 
 def period_text(period_ns: int) -> str:
-    """A timer's period as a person writes it, such as `0.5 s`."""
+    """Return a timer's period as a person writes it, such as `0.5 s`."""
     return f"{period_ns / NANOSECONDS:g} s"
 
 
@@ -49,7 +49,6 @@ class NodeState:
         born_ns: When it was made, in nanoseconds since the session began.
         open: Whether its callbacks can run at once: it spins, and nothing in its process waits.
         paused: It rests because the session was told to pause it.
-        asleep: How many of its callbacks sleep now; see `virtual_time`.
         ended: It raised in a callback or asked for shutdown, and does not come back.
         logger: The logger handed to its code, made at the first call of `get_logger`.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
@@ -136,7 +135,8 @@ class Sender(Protocol):
 
 
 def take_message(entry: Entry, _: Sender) -> Work | None:
-    """One message from a subscription."""
+    """Take one message from a subscription."""
+    # Not by `next_message` and `work_for`: two more calls would slow every message down.
     subscription, handle = entry.entity, entry.handle
     with handle:
         taken = handle.take_message(subscription.msg_type, subscription.raw)
@@ -147,21 +147,21 @@ def take_message(entry: Entry, _: Sender) -> Work | None:
 
 
 def next_message(entry: Entry) -> Any:  # noqa: ANN401 - a message with its info, or None
-    """The same without the callback: the message, and what is known of it."""
+    """Take one message, and return it with its info, or None."""
     subscription, handle = entry.entity, entry.handle
     with handle:
         return handle.take_message(subscription.msg_type, subscription.raw)
 
 
 def work_for(entry: Entry, taken: tuple[Any, ...]) -> Work:
-    """The callback of a subscription, and what it is given of a message and its info."""
+    """Return the callback of a subscription, and its arguments for a message and its info."""
     subscription = entry.entity
     only = subscription._callback_type is _MESSAGE_ONLY
     return subscription.callback, taken[:1] if only else taken
 
 
 def take_request(entry: Entry, sender: Sender) -> Work | None:
-    """One request from a service's server."""
+    """Take one request from a service's server."""
     service = entry.entity
     with service.handle:
         request, header = service.handle.service_take_request(service.srv_type.Request)
@@ -188,7 +188,7 @@ def _answer(entry: Entry, response: Any, header: Any, sender: Sender) -> None:  
 
 
 def take_answer(entry: Entry, executor: Sender) -> Work | None:
-    """One answer to a client's request."""
+    """Take one response to a client's request."""
     client = entry.entity
     with client.handle:
         header, response = client.handle.take_response(client.srv_type.Response)

@@ -99,7 +99,7 @@ def _condition(world: World, state: NodeState) -> Condition:
         faults = [one for one in world.recorder.faults if one.node == state.name]
         return Condition(state.name, ENDED, faults[-1] if faults else None)
     for call in state.process.calls:
-        if call.wait is not None and call.wait.told:  # a deadlock
+        if call.wait is not None and call.wait.reported:  # as a deadlock
             return Condition(state.name, BLOCKED, callback=call.name)
     if state.spinning:
         return Condition(state.name, RUNNING)

@@ -52,7 +52,6 @@ class Process:
         pending: What is ready and could not run at once: timers that are due, and entities whose
             queues may hold something.
         due: How many of its timers are due at this instant and have not had their turn.
-        program: The program that runs in it; None for nodes that were handed to `Session.add`.
     """
 
     def __init__(self, threads: int = 1, program: Any = None) -> None:  # noqa: ANN401
@@ -198,17 +197,18 @@ class Wait:
         reason: What for, in words: `sleep`, or `an answer from /add`.
         began_ns: Since when, in nanoseconds of virtual time.
         until_ns: Until when at most; None without a limit.
-        met: Returns whether it has come true; None if only time or `wake` ends it.
+        met: Returns whether it has come true; None if only time or `end_wait` ends it.
         needs: The entity of the same process whose callback has to run first, if there is one.
 
     Attributes:
         over: Whether it has ended.
         error: What is raised in the call when it goes on.
-        told: Whether it was reported as a deadlock.
+        reported: Whether it was reported as a deadlock.
     """
 
     __slots__ = (
-        "began_ns", "call", "error", "met", "needs", "over", "reason", "thread", "told", "until_ns",
+        "began_ns", "call", "error", "met", "needs", "over", "reason", "reported", "thread",
+        "until_ns",
     )  # fmt: skip
 
     def __init__(
@@ -223,7 +223,7 @@ class Wait:
     ) -> None:
         self.call, self.thread, self.reason = call, thread, reason
         self.began_ns, self.until_ns, self.met, self.needs = began_ns, until_ns, met, needs
-        self.over = self.told = False
+        self.over = self.reported = False
         self.error: BaseException | None = None
 
     def is_for_good(self) -> bool:

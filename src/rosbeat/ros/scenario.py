@@ -395,11 +395,11 @@ class _Run:
         """
         self._constructing = True
         self._world.node_begins = lambda *_: None  # type: ignore[method-assign]
-        self._world.virtual.nap = self._nap
+        self._world.virtual.constructor_waits = self._count_wait
         try:
             yield
         finally:
-            self._world.virtual.nap = None
+            self._world.virtual.constructor_waits = None
             del self._world.node_begins
         self._constructing = False
 
@@ -430,7 +430,7 @@ class _Run:
             if executor is not None and executor is not self._world.virtual:
                 executor.wake()
 
-    def _nap(self, span_ns: int, reason: str) -> None:
+    def _count_wait(self, span_ns: int, reason: str) -> None:
         self._slept += span_ns
         if self._slept > self._end:
             self._late = self._late_fault("", "__init__", reason, sys._getframe(1))
@@ -505,7 +505,7 @@ class _Run:
 
     def close(self) -> None:
         """End the session, whatever the nodes do against it."""
-        last_words = [ref(one) for one in self._session.nodes if hasattr(type(one), "__del__")]
+        with_finalizer = [ref(one) for one in self._session.nodes if hasattr(type(one), "__del__")]
         with Deadline(_TO_TIDY, nudge=self._wake):
             run_in_generator(self._destroy_nodes)
         self._session.close()
@@ -513,7 +513,7 @@ class _Run:
         # What a class does in `__del__` happens here, where it has a deadline, and not later. On
         # a busy machine another thread may still hold such a node for a moment.
         end = time.monotonic() + _TO_TIDY
-        while any(one() is not None for one in last_words) and time.monotonic() < end:
+        while any(one() is not None for one in with_finalizer) and time.monotonic() < end:
             with Deadline(_TO_TIDY):
                 run_in_generator(gc.collect)
 

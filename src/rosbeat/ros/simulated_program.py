@@ -54,6 +54,8 @@ class SimulatedProgram:
         name: The file's name without `.py`, or the function's module and name.
         returncode: The exit code; negative for a signal that ended it; None while it runs.
         stderr: The traceback with which it ended; empty if there was none.
+        argv: Its command line, as `sys.argv` has it.
+        interrupt: The exception that a simulated Ctrl+C raises, to be told from a real one.
 
     Raises:
         SessionError: If it is neither a file nor a function.
@@ -67,13 +69,12 @@ class SimulatedProgram:
         self._world = world
         self._process = Process(program=self)
         self._main: Call | None = None
-        #: The exception that a simulated Ctrl+C raises, to be told from a real one.
         self.interrupt: KeyboardInterrupt | None = None
         self._handlers: dict[int, Any] = {
             signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL,
         }  # fmt: skip
         self._replaced: set[int] = set()
-        self._argv = [self.name, *arguments]
+        self.argv = [self.name, *arguments]
         self._context: Context | None = None
         self._modules: dict[str, ModuleType] = {}
         self._outside: tuple[Any, ...] = ()
@@ -134,23 +135,18 @@ class SimulatedProgram:
     def start(self) -> None:
         """Run it until it waits for the first time."""
         virtual = self._world.virtual
-        virtual.start_thread(self._run, self._process)
+        virtual.start_main(self._run, self._process)
         virtual.run_until(virtual.now)
 
-    @property
-    def argv(self) -> list[str]:
-        """Its command line, as `sys.argv` has it."""
-        return self._argv
-
     def enter(self) -> None:
-        """Make the process of Python look as the program's own does, while its code runs."""
+        """Put the program's own `sys.argv`, context, signal handlers and modules in place."""
         utilities = rclpy.utilities
         self._outside = (
             utilities.g_default_context, utilities.Context, sys.argv, signal.signal, list(sys.path),
         )  # fmt: skip
         utilities.Context = self._new_context
         utilities.g_default_context = self._context
-        sys.argv = self._argv
+        sys.argv = self.argv
         signal.signal = self._set_handler  # type: ignore[assignment]
         sys.modules.update(self._modules)
         if isinstance(self._target, Path):
@@ -206,7 +202,8 @@ class SimulatedProgram:
         if isinstance(error, GreenletExit):  # it was killed, or its session was closed
             if self._context is not None:
                 Context.try_shutdown(self._context)
-            self.returncode = -signal.SIGKILL
+            if self.returncode is None:  # else a signal has ended it, and has said so
+                self.returncode = -signal.SIGKILL
             return
         if isinstance(error, KeyboardInterrupt) and error is not self.interrupt:
             self._end(-signal.SIGINT)
@@ -242,7 +239,7 @@ class SimulatedProgram:
         return main
 
     def _deliver(self, number: signal.Signals) -> None:
-        """Do what the handlers of rclpy and of Python do."""
+        """Do what the signal handlers of rclpy and of Python do."""
         handler = self._handlers[number]
         had_context = self._context is not None and self._context.ok()
         if had_context and number not in self._replaced:
@@ -319,7 +316,7 @@ class SimulatedProgram:
 
 
 def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input
-    """Return the file or the function, refuse anything else."""
+    """Return the file or the function; refuse anything else."""
     if callable(target) and not isinstance(target, type):
         return target
     if isinstance(target, str | Path):

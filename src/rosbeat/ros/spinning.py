@@ -43,6 +43,8 @@ def install() -> None:
     Executor.spin_until_future_complete = _executor_until(Executor.spin_until_future_complete)
     for kind in (SingleThreadedExecutor, MultiThreadedExecutor):
         kind.spin_once = _executor_once(kind.spin_once)
+        once_until = _executor_once_until(kind.spin_once_until_future_complete)
+        kind.spin_once_until_future_complete = once_until
 
 
 # `rclpy.spin(node)` and its kin.
@@ -154,7 +156,23 @@ def _executor_until(original: Callable[..., None]) -> Callable[..., None]:
     return spin_until_future_complete
 
 
-def _world_of(executor: Executor) -> Any:  # noqa: ANN401 - World imports this room
+def _executor_once_until(original: Callable[..., None]) -> Callable[..., None]:
+    @wraps(original)
+    def spin_once_until_future_complete(
+        executor: Executor, future: Future, timeout_sec: float | None = None
+    ) -> None:
+        world = _world_of(executor)
+        if world is None:
+            original(executor, future, timeout_sec)
+            return
+        nodes = executor.get_nodes()
+        _play_until(world, _states(world, executor), future, timeout_sec, most=1)
+        _give_back(nodes, executor)
+
+    return spin_once_until_future_complete
+
+
+def _world_of(executor: Executor) -> Any:  # noqa: ANN401 - a World
     """Return the session in whose code an executor spins, or None."""
     world = getattr(executor.context, "watcher", None)
     return world if world is not None and _is_simulated(world) else None
@@ -201,10 +219,11 @@ def _play_until(
     states: list[NodeState],
     future: Future,
     timeout_sec: float | None,
+    most: int | None = None,
 ) -> None:
     until = world.virtual.after(timeout_sec)
     client = next((one for state in states for one in _clients(state) if _asked(one, future)), None)
-    world.virtual.spin(states, until, lambda: future.done() or future.cancelled(), needs=client)
+    world.virtual.spin(states, until, lambda: future.done() or future.cancelled(), most, client)
 
 
 def _clients(state: NodeState) -> list[Any]:

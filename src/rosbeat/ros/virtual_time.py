@@ -78,12 +78,12 @@ class Agenda:
         heappush(self._heap, (entry.deadline, entry.number, entry))
 
     def move(self, entry: Entry, now: int) -> None:
-        """A timer was reset, so its deadline may have come nearer."""
+        """Put a timer in its place anew after a `reset`, which may have brought it nearer."""
         if entry.deadline is not None:
             self.add(entry, now)
 
     def next_deadline(self, now: int) -> int | None:
-        """When the next timer is due, in nanoseconds, or None if there is none."""
+        """Return when the next timer is due, in nanoseconds, or None if there is none."""
         if self._aside:
             self._bring_back(now)
         heap = self._heap
@@ -142,11 +142,11 @@ class ChainGuard:
         self._trail: deque[str] = deque(maxlen=_TRAIL)
 
     def instant_ends(self) -> None:
-        """Time passes, so whatever happened before is no circle."""
+        """Forget the counts of this instant: time passes, so what happened before is no circle."""
         self._firings = self._followers = 0
 
     def timer_fires(self, entry: Entry) -> None:
-        """A timer begins a chain.
+        """Begin a chain at a timer.
 
         Raises:
             EndlessChainError: If timers fire without end at one instant (a period of zero).
@@ -162,7 +162,7 @@ class ChainGuard:
             )
 
     def inspect(self, entry: Entry) -> None:
-        """A callback is about to run more than `SUSPICIOUS` steps after a timer.
+        """Check a callback that is about to run more than `SUSPICIOUS` steps after a timer.
 
         Raises:
             EndlessChainError: If the chain is longer or wider than any that ends.
@@ -175,7 +175,7 @@ class ChainGuard:
                 raise self._refusal()
 
     def turns_without_end(self, names: list[str]) -> EndlessChainError:
-        """The error for coroutines and tasks that keep one another busy for ever."""
+        """Return the error for coroutines and tasks that keep one another busy for ever."""
         return EndlessChainError(
             f"Callbacks wait for each other without end: {', '.join(names)}.",
             "Each gets further whenever another has run, and no time passes meanwhile.",
@@ -197,6 +197,14 @@ class ChainGuard:
 # The simulation.
 
 
+#: Virtual nanoseconds that a cell waits for another node at most, in a call without a limit.
+LONGEST_WAIT = 3600 * 1_000_000_000
+#: Virtual nanoseconds that a constructor may wait while it is called by a cell.
+LONGEST_START = 600 * 1_000_000_000
+#: How often a callback is told to end that catches even that.
+_MOST_EXITS = 100
+
+
 class VirtualTimeExecutor(WaitSetExecutor):
     """Runs the callbacks of all processes in virtual time.
 
@@ -215,8 +223,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         calling: The callback that is running, or ran last; None before the first.
         elsewhere: What threads of the nodes' own have published since the last step.
         deadlines: How long publishers and subscriptions may stay without a message.
-        nap: What is called, with nanoseconds and the reason, when a constructor waits that a
-            scenario calls; None to let virtual time pass.
+        constructor_waits: Called with nanoseconds and the reason when a constructor waits, in the
+            place of the wait; None to let virtual time pass. Only scenarios set it.
         thread: The thread in which the nodes run.
     """
 
@@ -232,7 +240,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.deadlines = Deadlines()
         self._waits: list[WaitRecord] = []
         self._suspended: dict[Call, None] = {}
-        self.nap: Callable[[int, str], None] | None = None
+        self.constructor_waits: Callable[[int, str], None] | None = None
         self._host = host
         self._note_callback = recorder.add_callback
         self._label = recorder.label
@@ -329,7 +337,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         state.process.refresh()
         for entry in state.entries:
             if entry.take is not None:
-                self._hold(entry)  # nobody counted what has come
+                self._hold(entry)  # messages may have arrived while it did not spin
 
     def sender(self, kind: str, name: str, origin: NodeState | None = None) -> Callable[[], None]:
         """Return a function to call whenever something is sent to the `kind` entities of a name.
@@ -418,6 +426,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             _throw(idle, GreenletExit())
         self._idle.clear()
         self._looking.clear()
+        self._woken.clear()
         self._sleeping.clear()
 
     # Waiting.
@@ -446,7 +455,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
     ) -> bool:
         """Suspend the code of a node that calls this, until a time or until something is true.
 
-        In a cell, and in a constructor that a cell calls, the others run meanwhile until then.
+        In a cell, or in a constructor that a cell calls, it runs the other nodes until then.
 
         Args:
             reason: What it waits for, in words.
@@ -546,7 +555,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self.current, self.calling = before
         self._forget_call(call)
 
-    def start_thread(self, main: Callable[[], None], process: Process) -> None:
+    def start_main(self, main: Callable[[], None], process: Process) -> None:
         """Begin another greenlet, for the `main` of a program, as soon as virtual time goes on."""
 
         def run() -> None:
@@ -565,8 +574,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if threading.get_ident() != self.thread:
             time.sleep(max(0, until - self.now) / 1e9)  # a thread of the node's own: in real time
         elif until > self.now:
-            if self.nap is not None and not self.running:
-                self.nap(until - self.now, "sleep")
+            if self.constructor_waits is not None and not self.running:
+                self.constructor_waits(until - self.now, "sleep")
             else:
                 self.block("sleep", until)
 
@@ -574,10 +583,10 @@ class VirtualTimeExecutor(WaitSetExecutor):
         """Run the others until then; the greenlet that waits for the run cannot be suspended."""
         call, label = self.current, self.calling
         latest = self.longest() if until is None else until
-        if self.nap is not None:
+        if self.constructor_waits is not None:
             self.run_until(self.now, met)
             if met is None or not met():
-                self.nap(latest - self.now, reason)
+                self.constructor_waits(latest - self.now, reason)
         elif call is None:
             self.run_until(latest, met, ends_idle=until is None)
         else:  # a constructor that a cell has called
@@ -638,7 +647,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         return driver
 
     def _enter_thread(self) -> None:
-        """Greenlets belong to the thread that has made them."""
+        """Use the calling thread from now on; greenlets cannot change threads."""
         if threading.get_ident() == self.thread:
             return
         if self.suspended:
@@ -654,7 +663,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
     # The loop.
 
     def _drive(self, *_: object) -> None:
-        """Run whatever is next, for ever; at the end of a run, hand over to who waits for it."""
+        """Run what comes next, for ever; at the end of a run, switch to who has called it."""
         while True:
             self.current = None
             self._drain()
@@ -715,8 +724,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         return True
 
     def _nothing_left(self) -> bool:
-        """Nothing will ever happen: who waits without a limit waits for ever, and is told."""
-        stuck = [wait for wait in self._looking if wait.is_for_good() and not wait.told]
+        """Report a deadlock for all who wait without a limit, since nothing will ever happen."""
+        stuck = [wait for wait in self._looking if wait.is_for_good() and not wait.reported]
         if stuck:
             self._host.deadlocked(stuck)
         if not self._ends_idle:
@@ -863,7 +872,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...] = ()
     ) -> None:
         if not entry.state.open:
-            self._call_elsewhere(entry, callback, arguments)
+            self._call_in_busy_process(entry, callback, arguments)
             return
         entry.calls += 1
         self._note_callback(self.now, entry.label_number)
@@ -882,10 +891,10 @@ class VirtualTimeExecutor(WaitSetExecutor):
             if self._call_of_entry is not None:
                 self._end_call(self._call_of_entry)
 
-    def _call_elsewhere(
+    def _call_in_busy_process(
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...]
     ) -> None:
-        """Do the same in a process that is not idle, or that a program plays."""
+        """Do the same in a process where something waits already, such as a program's `spin`."""
         process = entry.state.process
         entry.calls += 1
         self._note_callback(self.now, entry.label_number)
@@ -1013,14 +1022,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def _suspects(self) -> list[str]:
         names = [f"{w.state.name} ({w.name})" for w in self._coroutines.waiting if w.state]
         return list(dict.fromkeys(names)) or [s.name for s in self._host.states() if s.spinning]
-
-
-#: Virtual nanoseconds that a cell waits for another node at most, in a call without a limit.
-LONGEST_WAIT = 3600 * 1_000_000_000
-#: Virtual nanoseconds that a constructor may wait while it is called by a cell.
-LONGEST_START = 600 * 1_000_000_000
-#: How often a callback is told to end that catches even that.
-_MOST_EXITS = 100
 
 
 def _throw(thread: greenlet, error: BaseException) -> None:

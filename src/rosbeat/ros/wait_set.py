@@ -112,13 +112,13 @@ class Coroutines:
         return waiting
 
     def step(self, run: Callable[[Waiting], None]) -> bool:
-        """Let one of them go on until it waits again; return whether any has got further.
+        """Let one of them go on until it waits again; return whether any made progress.
 
         Each gets its turn before one of them gets another.
         """
         for _ in range(2):
             while self._round:
-                if self._one(self._round.popleft(), run):
+                if self._step_one(self._round.popleft(), run):
                     return True
             of_process: dict[int, list[Waiting]] = {}
             for waiting in self.waiting:
@@ -141,7 +141,7 @@ class Coroutines:
             self.end(waiting)
 
     @staticmethod
-    def _one(waiting: Waiting, run: Callable[[Waiting], None]) -> bool:
+    def _step_one(waiting: Waiting, run: Callable[[Waiting], None]) -> bool:
         if waiting.ended or waiting.rests:
             return False
         before = waiting.place()
@@ -180,7 +180,7 @@ class Host(Protocol):
         """Record that callbacks wait for ever."""
 
     def running(self) -> AbstractContextManager[None]:
-        """Make nodes feel at home while they run in this thread."""
+        """Prepare this thread for running nodes."""
 
 
 class WaitSetExecutor(SingleThreadedExecutor):

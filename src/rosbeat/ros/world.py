@@ -340,7 +340,7 @@ class World:
     def deadlocked(self, waits: Sequence[Wait]) -> None:
         """Record that callbacks wait for ever, at the line where the first of them waits."""
         for wait in waits:
-            wait.told = True
+            wait.reported = True
         call, thread, error = waits[0].call, waits[0].thread, deadlock(waits)
         if call is not None:
             frame = thread.gr_frame if thread is not getcurrent() else sys._getframe(1)
@@ -445,7 +445,7 @@ class World:
 
     def go_live(self) -> None:
         """Run the nodes against the wall clock; raise a SessionError if a callback waits."""
-        waiting = [call for call in self.virtual.suspended if call.wait is not None]
+        waiting = self.virtual.suspended
         if waiting:
             raise SessionError(
                 f"The session cannot go live: `{waiting[0].name}` of {waiting[0].node} still "
