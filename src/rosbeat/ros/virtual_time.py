@@ -381,6 +381,9 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._agenda.rebuild([e for s in states for e in s.entries if e.kind == "timer"], self.now)
         for state in states:
             self.resume(state)
+        for call in self.suspended:  # one whose time had come may have been left where it was
+            if call.wait is not None and call.wait.until_ns is not None:
+                heappush(self._sleeping, (call.wait.until_ns, next(self._order), call.wait))
 
     def run_until(
         self, end: int, done: Callable[[], object] | None = None, *, ends_idle: bool = False
@@ -633,7 +636,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def _resume(self, wait: Wait) -> None:
         """Go on with a call whose wait is over; the greenlet of the caller stands by."""
-        wait.over = True
         wait.thread.parent = self._main
         wait.thread.gr_context = self._variables
         self._idle.append(getcurrent())
@@ -641,6 +643,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def _next_driver(self) -> greenlet:
         """Return a greenlet that goes on with the loop."""
+        self._idle = [one for one in self._idle if not one.dead]  # one may have been interrupted
         driver = self._idle.pop() if self._idle else greenlet(self._drive)
         driver.parent = self._main
         driver.gr_context = self._variables
