@@ -292,3 +292,27 @@ def test_an_executor_of_its_own_spins_once_until_a_future_is_done(ros, program):
     )
     ros.run(2)
     assert alone.returncode == 5
+
+
+def test_a_file_called_as_a_module_of_python_does_not_replace_it(ros, program):
+    import random
+
+    assert ros.spawn(program("def main():\n    pass", "random.py")).returncode == 0
+    assert sys.modules["random"] is random
+
+
+def test_a_program_that_catches_everything_leaves_nothing_patched(program):
+    file = program("""
+        import time
+        def main():
+            while True:
+                try:
+                    time.sleep(0.5)
+                except BaseException:
+                    pass
+    """)
+    before = sys.argv, signal.signal, rclpy.utilities.Context
+    with Session() as ros:
+        ros.spawn(file)
+        ros.run(1)
+    assert (sys.argv, signal.signal, rclpy.utilities.Context) == before

@@ -76,7 +76,9 @@ class SimulatedProgram:
         self._replaced: set[int] = set()
         self.argv = [self.name, *arguments]
         self._context: Context | None = None
+        # Its own modules, and those of the kernel that have their names.
         self._modules: dict[str, ModuleType] = {}
+        self._hidden: dict[str, ModuleType] = {}
         self._outside: tuple[Any, ...] = ()
 
     def __repr__(self) -> str:
@@ -162,6 +164,8 @@ class SimulatedProgram:
         sys.path[:] = path
         for name in self._modules:
             sys.modules.pop(name, None)
+        for name, module in self._hidden.items():
+            sys.modules.setdefault(name, module)
 
     def shut_down(self) -> None:
         """Let a `spin` of the program return: its context was shut down."""
@@ -220,7 +224,8 @@ class SimulatedProgram:
         root, before = _root_of(file), set(sys.modules)
         name = ".".join(file.relative_to(root).with_suffix("").parts)
         own = {known for known, one in sys.modules.items() if _is_below(one, root)}
-        hidden = {known: sys.modules.pop(known) for known in own}
+        own |= {name} & sys.modules.keys()  # a file may be called as a module of Python's is
+        self._hidden = hidden = {known: sys.modules.pop(known) for known in own}
         try:
             spec = spec_from_file_location(name, file)
             assert spec is not None

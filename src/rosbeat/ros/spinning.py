@@ -24,7 +24,7 @@ from rclpy.task import Future
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.console import note
-from rosbeat.ros.context import show_briefly
+from rosbeat.ros.context import Interrupts, show_briefly
 from rosbeat.ros.entities import NodeState
 from rosbeat.ros.recording import watcher_of
 
@@ -288,9 +288,11 @@ def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401
     note(f"{state.name} spins in real time until you interrupt the cell.")
     pulse = threading.Event()  # nobody sets it: it is a sleep that Interrupt ends at once
     try:
-        while world.live is not None and not state.ended:
-            world.show_news()
-            pulse.wait(PULSE / 2)
+        with Interrupts() as interrupts:  # printing may swallow the exception
+            while world.live is not None and not state.ended:
+                interrupts.raise_if_pressed()
+                world.show_news()
+                pulse.wait(PULSE / 2)
     except KeyboardInterrupt as interrupt:
         show_briefly(interrupt, f"{state.name} has stopped spinning; the session goes on.")
         world.interrupt()

@@ -479,6 +479,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if call is not None and (call.broken or self._closing):
             call.broken += 1
             if call.broken > _MOST_EXITS:  # it catches everything: it is left where it is
+                if call.process.program is not None:
+                    call.process.program.leave()
                 here.parent.switch()
             raise GreenletExit
         if here is self._main or not self.running:
@@ -621,6 +623,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self._catch_up(call.process)
 
     def _unsuspend(self, call: Call, wait: Wait) -> None:
+        # First of all: an interrupt may come at any of these lines, and be caught by the call.
+        self.current, self.calling = call, call.label or self.calling
         wait.over = True
         if wait in self._looking:
             self._looking.remove(wait)
@@ -630,7 +634,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
             )
         call.wait, call.spinning = None, False
         call.process.refresh()
-        self.current, self.calling = call, call.label or self.calling
         if call.process.program is not None:
             call.process.program.enter()
 
