@@ -22,7 +22,7 @@ Point = tuple[float, float | None]
 
 @dataclass(frozen=True)
 class Arrival:
-    """What came from one node on one topic since the last look.
+    """Hold what came from one node on one topic since the last look.
 
     Attributes:
         count: How many messages.

@@ -22,7 +22,7 @@ Line = tuple[float, str, str, str]
 
 @dataclass(frozen=True)
 class News:
-    """What happened in a session since the last look.
+    """Hold what happened in a session since the last look.
 
     Attributes:
         arrivals: One for each topic and publishing node that was heard.

@@ -13,7 +13,7 @@ _POINT = rclpy_implementation.rcl_time_point_t
 
 
 class Timekeeper(Protocol):
-    """What knows the time of a session."""
+    """Keeps the time of a session."""
 
     now: int
     is_live: bool

@@ -1,4 +1,4 @@
-"""What a session knows of each node and of each thing that can call back."""
+"""Describe nodes and entities, and take from an entity what has arrived."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ _MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 
 
 class Sender(Protocol):
-    """What is told that something was sent, so that whoever waits for it can take it."""
+    """Learns that something was sent, so that whoever waits for it can take it."""
 
     def happened(self, kind: str, name: str, origin: NodeState) -> None:
         """Note that a node sent something to the `kind` entities called `name`."""

@@ -197,7 +197,7 @@ _Spin = Callable[[], None]
 
 @dataclass(frozen=True)
 class _External:
-    """What is known of other processes.
+    """Holds what is known of other processes.
 
     Attributes:
         beats: The publishers there, as far as it is known which published what.

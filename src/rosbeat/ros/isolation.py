@@ -265,7 +265,7 @@ _RESERVED: dict[str, Callable[..., Any]] = {
 
 
 class Count:
-    """How much was printed.
+    """Counts what was printed.
 
     Attributes:
         characters: By code that is not rosbeat's own, on both streams.

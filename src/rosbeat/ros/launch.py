@@ -1,4 +1,4 @@
-"""How a node is started and made.
+"""Start and make nodes.
 
 A node's name, namespace, remappings and parameters are what a `Node(...)` action of a launch file
 sets, and `ros2 run` behind `--ros-args`. They reach the node the same way, as arguments that rcl

@@ -43,7 +43,7 @@ def install() -> None:
     Executor.spin_until_future_complete = _executor_until(Executor.spin_until_future_complete)
     for kind in (SingleThreadedExecutor, MultiThreadedExecutor):
         kind.spin_once = _executor_once(kind.spin_once)
-        once_until = _executor_once_until(kind.spin_once_until_future_complete)
+        once_until = _executor_until(kind.spin_once_until_future_complete, 1)
         kind.spin_once_until_future_complete = once_until
 
 
@@ -140,36 +140,20 @@ def _executor_once(original: Callable[..., None]) -> Callable[..., None]:
     return spin_once
 
 
-def _executor_until(original: Callable[..., None]) -> Callable[..., None]:
+def _executor_until(original: Callable[..., None], most: int | None = None) -> Callable[..., None]:
+    """Wrap a method that spins until a future is done, or until `most` callbacks have run."""
+
     @wraps(original)
-    def spin_until_future_complete(
-        executor: Executor, future: Future, timeout_sec: float | None = None
-    ) -> None:
+    def spin(executor: Executor, future: Future, timeout_sec: float | None = None) -> None:
         world = _world_of(executor)
         if world is None:
             original(executor, future, timeout_sec)
             return
         nodes = executor.get_nodes()
-        _play_until(world, _states(world, executor), future, timeout_sec)
+        _play_until(world, _states(world, executor), future, timeout_sec, most)
         _give_back(nodes, executor)
 
-    return spin_until_future_complete
-
-
-def _executor_once_until(original: Callable[..., None]) -> Callable[..., None]:
-    @wraps(original)
-    def spin_once_until_future_complete(
-        executor: Executor, future: Future, timeout_sec: float | None = None
-    ) -> None:
-        world = _world_of(executor)
-        if world is None:
-            original(executor, future, timeout_sec)
-            return
-        nodes = executor.get_nodes()
-        _play_until(world, _states(world, executor), future, timeout_sec, most=1)
-        _give_back(nodes, executor)
-
-    return spin_once_until_future_complete
+    return spin
 
 
 def _world_of(executor: Executor) -> Any:  # noqa: ANN401 - a World
