@@ -32,7 +32,6 @@ MAY_IMPORT = {
     "comparisons": {"records", "errors"},
     "bags": {"records", "errors", "comparisons", "ros"},
     "viz": {"records", "errors", "diagnosis", "comparisons"},
-    "checks": {"records", "errors", "diagnosis"},
     # Of diagnosis only what names a fault and what it is told of a topic, as plain data.
     "ros": {
         *("errors", "records", "record_columns", "environment", "domains"),
@@ -42,24 +41,21 @@ MAY_IMPORT = {
     "page_session": {"ros", "diagnosis", "panel"},
     "explain_command": {"errors", "ros", "diagnosis"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
-    # Beside a stranger's code: nothing that judges, and no diagnosis, which knows the mistakes.
-    "scenarios": {
-        *("errors", "records", "record_json", "environment", "comparisons", "bags", "ros"),
-        "workspace",
-    },
+    # The import line of page 07.
+    "scenarios": {"ros"},
     "exercises": {
-        *("ros", "checks", "records", "observations", "errors", "viz", "workspace"),
-        *("diagnosis", "environment", "rosbeat", "bags", "clinic", "scenarios"),
+        *("ros", "records", "record_json", "comparisons", "errors", "viz", "workspace"),
+        *("diagnosis", "environment", "rosbeat", "bags", "clinic", "observations"),
     },
     "workspace": {"errors", "records", "environment", "diagnosis"},
     "grading": {
-        *("errors", "records", "record_json", "environment", "ros", "viz", "checks"),
-        *("exercises", "scenarios", "workspace", "diagnosis", "rosbeat"),
+        *("errors", "records", "record_json", "environment", "ros", "viz"),
+        *("exercises", "workspace", "diagnosis", "rosbeat"),
     },
     "authoring": {"errors", "domains"},
     # The package itself hands out names of other rooms.
     "rosbeat": {
-        *("checks", "environment", "viz", "page_session", "exercises", "workspace"),
+        *("environment", "viz", "page_session", "exercises", "workspace"),
         *("bags", "clinic"),
     },
 }
@@ -79,7 +75,6 @@ THIRD_PARTY = {
     "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
     "viz": {"matplotlib", "PIL", "numpy"},
     "panel": {"anywidget", "traitlets", "IPython"},
-    "checks": set(),
     "diagnosis": set(),
     "clinic": {"rclpy", "std_msgs"},
 }
@@ -316,7 +311,6 @@ BAD = {
         *(wrong_directions, "rosbeat.ros.a"),
         "from rosbeat.diagnosis.explanation import explain",
     ),
-    "checks import viz": (wrong_directions, "rosbeat.checks.a", "from rosbeat.viz import graph"),
     "inside a function": (wrong_directions, "rosbeat.records", "def f():\n import rosbeat.viz"),
     "for types": (
         *(wrong_directions, "rosbeat.records"),
@@ -333,13 +327,9 @@ BAD = {
         "from rosbeat.authoring import a",
     ),
     "anybody imports cli": (wrong_directions, "rosbeat.grading.a", "from rosbeat.cli import main"),
-    "scenarios import judges": (
-        *(wrong_directions, "rosbeat.scenarios.a"),
-        "from rosbeat.exercises import a",
-    ),
-    "scenarios import diagnosis": (
-        *(wrong_directions, "rosbeat.scenarios.a"),
-        "from rosbeat.diagnosis.wires import Wire",
+    "diagnosis imports exercises": (
+        *(wrong_directions, "rosbeat.diagnosis.a"),
+        "from rosbeat.exercises import page_03",
     ),
     "a new room": (unknown_rooms, "rosbeat.cellar.a", ""),
     "viz imports rclpy": (rclpy_outside_ros, "rosbeat.viz.a", "from rclpy.node import Node"),

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from rosbeat import clinic as clinic
     from rosbeat import viz as viz
     from rosbeat import workspace as workspace
-    from rosbeat.checks.predictions import predict as predict
-    from rosbeat.exercises.checking import check as check
-    from rosbeat.exercises.hinting import hint as hint
+    from rosbeat.exercises.check import check as check
+    from rosbeat.exercises.hint import hint as hint
+    from rosbeat.exercises.predict import predict as predict
     from rosbeat.exercises.progress import progress as progress
     from rosbeat.page_session import Session as Session
 
@@ -38,10 +38,10 @@ if os.environ.get("NBGRADER_EXECUTION"):
 _HOMES = {
     "Session": ("rosbeat.page_session", "Session"),
     "bags": ("rosbeat.bags", None),
-    "check": ("rosbeat.exercises.checking", "check"),
+    "check": ("rosbeat.exercises.check", "check"),
     "clinic": ("rosbeat.clinic", None),
-    "hint": ("rosbeat.exercises.hinting", "hint"),
-    "predict": ("rosbeat.checks.predictions", "predict"),
+    "hint": ("rosbeat.exercises.hint", "hint"),
+    "predict": ("rosbeat.exercises.predict", "predict"),
     "progress": ("rosbeat.exercises.progress", "progress"),
     "viz": ("rosbeat.viz", None),
     "workspace": ("rosbeat.workspace", None),

@@ -88,9 +88,9 @@ def _progress_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _progress(options: argparse.Namespace) -> int:
-    from rosbeat.exercises import progress_table
+    from rosbeat.exercises import progress
 
-    print(progress_table.as_json() if options.json else progress_table.as_text())
+    print(progress.as_json() if options.json else progress.as_text())
     return 0
 
 

@@ -20,7 +20,7 @@ WITHIN = 0.3
 _CELL = """
 import json, time
 from rosbeat import check
-from rosbeat.exercises.solutions import answer_to
+from rosbeat.exercises.hint import answer_to
 from rosbeat.exercises.registry import EXERCISES
 from rclpy.node import Node
 

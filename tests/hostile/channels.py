@@ -37,12 +37,12 @@ DEEDS = (
         f"{_FRAMES}\nos.write(3, (seal + '[' * 100_000).encode())\nos._exit(0)", WRONG),
         alone="seal"),
     Deed("a forged observation with the seal", before(
-        f"{_FRAMES}\nfrom rosbeat.scenarios.page_03 import SCENARIOS\n"
-        "from rosbeat.scenarios.evidence import to_json\n"
+        f"{_FRAMES}\nfrom rosbeat.exercises.registry import scenario\n"
+        "from rosbeat.exercises.evidence import to_json\n"
         "class Right(Node):\n    def __init__(self):\n        super().__init__('humidity_sensor')\n"
         "        self.p = self.create_publisher(Float32, 'humidity', 5)\n"
         "        self.create_timer(0.5, lambda: self.p.publish(Float32(data=1.0)))\n"
-        "text = to_json(SCENARIOS['03a'](Right))\n"
+        "text = to_json(scenario('03a')(Right))\n"
         "os.write(3, (seal + json.dumps({'evidence': text, 'changed': []})).encode())\n"
         "os._exit(0)", WRONG), alone="passed", inspected_only=True),
 )  # fmt: skip

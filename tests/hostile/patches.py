@@ -31,12 +31,12 @@ DEEDS = (
          alone="immutable"),
     Deed("rosbeat's judge", before(
         "import rosbeat.exercises.registry\nrosbeat.exercises.registry.EXERCISES = {}", WRONG),
-        words="imports rosbeat", alone="There is no module"),
+        words="imports rosbeat", alone="readings"),
     Deed("rosbeat's recorder", before(
         "from rosbeat.ros.recording import Recorder\nRecorder.samples = None", WRONG),
         words="imports rosbeat", alone="immutable"),
     Deed("rosbeat's evidence", before(
-        "import rosbeat.scenarios.evidence as e\ne.to_json = lambda seen: '{}'", WRONG),
+        "import rosbeat.exercises.evidence as e\ne.to_json = lambda seen: '{}'", WRONG),
         words="imports rosbeat", alone="cannot set"),
     Deed("builtins", before("import builtins\nbuiltins.len = lambda x: 10", WRONG),
          words="imports builtins", alone=""),
@@ -45,7 +45,7 @@ DEEDS = (
         "builtins.isinstance = lambda *a: True\n"
         "threading.Timer(0.3, setattr, (builtins, 'isinstance', old)).start()", WRONG), alone=""),
     Deed("the code of a function", before(
-        "from rosbeat.scenarios import evidence\n"
+        "from rosbeat.exercises import evidence\n"
         "evidence.to_json.__code__ = (lambda seen: '{}').__code__", WRONG), alone="to_json"),
     Deed("the defaults of a function", before(
         "import json\njson.dumps.__kwdefaults__ = {'cls': None}", WRONG), alone=""),

@@ -45,12 +45,12 @@ DEEDS = (
            "FileNotFoundError"),
     _reads("the sources of the lessons", f"import os\nfound = os.listdir('{COURSE}/src/lessons')",
            "FileNotFoundError"),
-    _reads("the judges' files", "import os, rosbeat\n"
-           "found = os.listdir(os.path.dirname(rosbeat.__file__) + '/exercises')", "[]"),
+    _reads("the answers", "import os, rosbeat\n"
+           "found = os.listdir(os.path.dirname(rosbeat.__file__) + '/exercises/solved')", "[]"),
     _reads("the judges, imported", "from rosbeat.exercises import page_03 as found",
            words="imports rosbeat"),
     _reads("what the grader has loaded", "import sys\nfound = [one for one in sys.modules"
-           " if 'exercise' in one or 'judging' in one or 'ledger' in one]", "[]"),
+           " if 'judging' in one or 'ledger' in one]", "[]"),
     _reads("what the grader remembers", "import sys\nframe, found = sys._getframe(), []\n"
            "while frame:\n    found += [value for value in frame.f_locals.values()"
            " if isinstance(value, str) and 'canary' + '-5c1d' in value]\n    frame = frame.f_back",

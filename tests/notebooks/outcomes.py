@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-#: As an outcome comes with its output; see `rosbeat.checks.display`.
+#: As an outcome comes with its output; see `rosbeat.exercises.cards`.
 OUTCOME = "application/vnd.rosbeat.outcome+json"
 
 

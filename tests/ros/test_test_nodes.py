@@ -5,6 +5,7 @@ import random
 
 import pytest
 from rclpy.node import Node
+from rosbeat.exercises.scenarios import station
 
 from rosbeat import Session
 from rosbeat.records import QoS
@@ -17,7 +18,6 @@ from rosbeat.ros.test_nodes import (
     hearer,
     observe_greenhouse,
 )
-from rosbeat.scenarios.running import station
 
 pytestmark = pytest.mark.ros
 STRING = "std_msgs/msg/String"

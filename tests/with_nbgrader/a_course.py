@@ -25,7 +25,7 @@ from bank.pages import references
 #: Beside the pages: what the pages of this class do not do.
 ODD = {
     "some-points": """
-        from rosbeat.exercises.under_nbgrader import for_nbgrader
+        from rosbeat.exercises.check import for_nbgrader
         from rosbeat.records import Outcome
         for_nbgrader(Outcome("13b", "failed", points=13, out_of=20), "autograde")""",
     "stderr": """

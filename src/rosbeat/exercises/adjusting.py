@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises.page_12_scenarios import FLOAT, Request
 from rosbeat.records import Observation, Reply
-from rosbeat.scenarios.page_12 import FLOAT, Request
 
 TEMPERATURE = Wire("/temperature", FLOAT)
 STATUS = Wire("/status", "std_msgs/msg/String")

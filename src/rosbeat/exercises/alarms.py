@@ -10,11 +10,11 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from rosbeat.checks.verdicts import before_judging, failed, failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises.exercise import before_judging, failed, failed_by, passed
+from rosbeat.exercises.replays import STRING, Replayed, Replays
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Outcome, Sample
-from rosbeat.scenarios.replays import STRING, Replayed, Replays
 
 FAULT = Wire("/fault", STRING)
 #: Python's words for a None where a number is meant.

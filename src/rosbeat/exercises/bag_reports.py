@@ -1,7 +1,6 @@
 """What a function found in several recordings: judged, with what it should have found.
 
-Pure functions. The messages are made up (`rosbeat.scenarios.bag_reports`), so there it stands what
-there is to find.
+Pure functions. The messages are made up in `rosbeat.exercises.bag_report_runs`.
 """
 
 from __future__ import annotations
@@ -11,12 +10,12 @@ from itertools import pairwise
 from math import isclose, isnan
 from statistics import median
 
-from rosbeat.checks.verdicts import failed, failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.exercises.reports import before_reading
+from rosbeat.exercises.bag_report_runs import RECORDINGS, BagReports, Readings, words_beside
+from rosbeat.exercises.exercise import failed, failed_by, passed
+from rosbeat.exercises.model import before_reading
+from rosbeat.exercises.scenarios import Report
 from rosbeat.records import NANOSECONDS, Outcome
-from rosbeat.scenarios.bag_reports import RECORDINGS, BagReports, Readings, words_beside
-from rosbeat.scenarios.reports import Report
 
 KEYS = ("messages", "gap", "mean")
 #: How far a number may be off: somebody may have rounded it to two decimals.

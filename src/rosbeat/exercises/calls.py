@@ -6,7 +6,7 @@ import re
 from importlib.metadata import EntryPoint
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.scenarios.calls import ARGUMENTS, LATE, Calls
+from rosbeat.exercises.call_runs import ARGUMENTS, LATE, Calls
 
 
 def diagnose_calls(seen: Calls) -> Diagnosis | None:

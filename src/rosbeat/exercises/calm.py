@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire
-from rosbeat.exercises.heard import missing, on
+from rosbeat.exercises.exercise import failed_by, passed
+from rosbeat.exercises.model import missing, on
 from rosbeat.records import Observation, Outcome
 
 MEAN = Wire("/mean", "std_msgs/msg/Float32")

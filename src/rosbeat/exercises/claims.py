@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rosbeat.checks.verdicts import BLANK, failed
+from rosbeat.exercises.exercise import BLANK, failed
 from rosbeat.records import Outcome
 
 #: The ward of the page.

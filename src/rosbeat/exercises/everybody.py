@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import POLICY_ALONE, incompatible, rule, words
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises import page_08_scenarios as page_08
+from rosbeat.exercises.exercise import failed_by, passed
 from rosbeat.records import Endpoint, Observation, Outcome
-from rosbeat.scenarios import page_08
 
 READING = Wire(page_08.READING, page_08.FLOAT)
 ARCHIVE = Wire("/archive", "std_msgs/msg/Float32")

@@ -1,4 +1,4 @@
-"""What an exercise is."""
+"""Define an exercise, and the outcomes of a check."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
-from rosbeat.checks.verdicts import PASSED, before_judging
-from rosbeat.records import Observation, Outcome
+from rosbeat.diagnosis.faults import diagnose_fault, first_sentence, line_of
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.records import Fault, Observation, Outcome
+
+# What an exercise is.
 
 Seen = TypeVar("Seen")
 
@@ -32,7 +35,7 @@ class Exercise(Generic[Seen]):
     """
 
     id: str
-    scenario: Callable[[Any], Seen]
+    scenario: Callable[..., Seen]
     judge: Callable[[Seen], Outcome]
     title: str = ""
     points: int = 1
@@ -48,3 +51,72 @@ class Exercise(Generic[Seen]):
         if outcome.parts:  # points for each requirement, whether the whole is right or not
             reached = sum(part.points for part in outcome.parts)
         return replace(outcome, points=reached, out_of=self.points)
+
+
+# The three outcomes, and the reasons that every exercise shares.
+
+PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
+
+#: What a learner replaces; the name is never defined, so running it raises a NameError.
+BLANK = "____"
+
+#: What to do about an exception that has no name here.
+NEW_TO_ME = (
+    "The last sentence of an error says what Python met and, often, what it expected there; the "
+    "line says where. Print the values on that line before it runs."
+)
+_STILL_BLANK = f"There is still a blank, {BLANK}, in the cell above."
+
+
+def passed(exercise: str, evidence: str, *remarks: str) -> Outcome:
+    """The answer does what was asked; `remarks` are worth knowing all the same."""
+    return Outcome(exercise, PASSED, evidence, remarks=remarks)
+
+
+def failed(exercise: str, evidence: str, hint: str, mistake: str = UNKNOWN) -> Outcome:
+    """The answer does something else; `evidence` says what, `hint` where to look.
+
+    Args:
+        exercise: The exercise's id.
+        evidence: What was observed, one or two sentences.
+        hint: Where to look, without the answer.
+        mistake: Id of the mistake, from `diagnosis.mistakes`.
+    """
+    return Outcome(exercise, FAILED, evidence, hint, mistake)
+
+
+def failed_by(exercise: str, diagnosis: Diagnosis) -> Outcome:
+    """The answer failed, and the mistake was recognised."""
+    return failed(exercise, diagnosis.evidence, diagnosis.hint, diagnosis.mistake)
+
+
+def not_attempted(exercise: str, evidence: str = _STILL_BLANK) -> Outcome:
+    """Nothing was tried yet: a blank is still a blank, or what was asked for is not there."""
+    return Outcome(exercise, NOT_ATTEMPTED, evidence)
+
+
+def is_blank(fault: Fault) -> bool:
+    """Whether an exception came from a blank that was not filled in."""
+    return fault.kind == "NameError" and f"'{BLANK}'" in fault.text
+
+
+def before_judging(exercise: str, observation: Observation) -> Outcome | None:
+    """What can be said whatever the exercise asks: a blank, or an exception; else None."""
+    if any(is_blank(fault) for fault in observation.faults):
+        return not_attempted(exercise)
+    if observation.faults:
+        return _raised(exercise, observation.faults[0])
+    return None
+
+
+def _raised(exercise: str, fault: Fault) -> Outcome:
+    known = diagnose_fault(fault)
+    if known is not None:
+        return failed_by(exercise, known)
+    if fault.callback in ("add", "run"):  # the session itself refused; its sentence is complete
+        return failed(exercise, fault.text, "Hand over the class that you wrote, by its name.")
+    return failed(
+        exercise,
+        f"{fault.callback} raised {fault.kind}: {first_sentence(fault.text)}.{line_of(fault)}",
+        NEW_TO_ME,
+    )

@@ -9,13 +9,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from rosbeat.checks.verdicts import BLANK, failed, not_attempted, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.exercises import findings_facts as facts
+from rosbeat.exercises.exercise import BLANK, failed, not_attempted, passed
 from rosbeat.exercises.findings_facts import GreenhouseFindings, full
-from rosbeat.exercises.reports import before_reading
+from rosbeat.exercises.model import before_reading
+from rosbeat.exercises.scenarios import Report
 from rosbeat.records import Outcome
-from rosbeat.scenarios.reports import Report
 
 _EXAMPLE = 'check("07a", findings)'
 #: A rate that was measured may be off by so much of it.

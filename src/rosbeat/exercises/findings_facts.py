@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from rosbeat.exercises.scenarios import Report
 from rosbeat.records import INFRASTRUCTURE_TOPICS as INFRASTRUCTURE_TOPICS
 from rosbeat.records import Observation
-from rosbeat.scenarios.reports import Report
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.explanation_names import difference, nearest
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_published
+from rosbeat.exercises.exercise import failed_by, passed
+from rosbeat.exercises.heating_run import GOALS, START, TYPE, Goal
 from rosbeat.records import Observation, Outcome, Reply
-from rosbeat.scenarios.heating_run import GOALS, START, TYPE, Goal
 
 _ACTION, _TYPE = "/heat", TYPE
 _HEATER = Wire("/heater", "std_msgs/msg/Bool")

@@ -8,14 +8,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import POLICY_ALONE, incompatible, rule
 from rosbeat.diagnosis.qos import words as said_of
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises import page_08_scenarios as page_08
+from rosbeat.exercises.exercise import failed_by, passed
+from rosbeat.exercises.page_08_scenarios import Display
 from rosbeat.records import Endpoint, Observation, Outcome
-from rosbeat.scenarios import page_08
-from rosbeat.scenarios.page_08 import Display
 
 MODE = Wire(page_08.MODE, page_08.STRING)
 COMMAND = Wire(page_08.COMMAND, page_08.STRING)

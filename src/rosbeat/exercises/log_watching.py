@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises import page_07_scenarios as page_07
+from rosbeat.exercises.exercise import failed_by, passed
+from rosbeat.exercises.page_07_scenarios import DEBUG, ERROR, FATAL, INFO, LINES, WARN, Line
 from rosbeat.records import Observation, Outcome, Sample
-from rosbeat.scenarios import page_07
-from rosbeat.scenarios.page_07 import DEBUG, ERROR, FATAL, INFO, LINES, WARN, Line
 
 ROSOUT = Wire(page_07.ROSOUT, page_07.LOG)
 WARNINGS = Wire("/warnings", "std_msgs/msg/String")

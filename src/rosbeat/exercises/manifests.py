@@ -7,8 +7,8 @@ from difflib import get_close_matches
 
 from packaging.licenses import InvalidLicenseExpression, canonicalize_license_expression
 
-from rosbeat.checks.verdicts import BLANK
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.exercise import BLANK
 from rosbeat.exercises.paths import alike
 from rosbeat.workspace.manifest import Manifest
 

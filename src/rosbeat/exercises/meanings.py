@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
-from rosbeat.scenarios.looking import CommandMeaning
+from rosbeat.exercises.scenarios import CommandMeaning
 
 
 def diagnosis_of(meaning: CommandMeaning | None) -> Diagnosis | None:

@@ -9,11 +9,11 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises import page_09_scenarios as page_09
+from rosbeat.exercises.exercise import failed_by, passed
 from rosbeat.records import Observation, Outcome
-from rosbeat.scenarios import page_09
 
 READING = Wire(page_09.TEMPERATURE, page_09.FLOAT)
 STATUS = Wire("/status", "std_msgs/msg/String")

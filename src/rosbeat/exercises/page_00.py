@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from rosbeat.checks.verdicts import failed, failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard
-from rosbeat.exercises.beats import diagnose_beat
-from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.heard import missing
+from rosbeat.exercises.exercise import Exercise, failed, failed_by, passed
+from rosbeat.exercises.model import diagnose_beat, missing
+from rosbeat.exercises.page_00_scenarios import ARTICLES, SCENARIOS, STRING
 from rosbeat.records import Observation, Outcome
-from rosbeat.scenarios.page_00 import ARTICLES, SCENARIOS, STRING
 
 _WEATHER, _SPORTS = Wire("/weather", STRING), Wire("/sports", STRING)
 #: Seconds from one article of 00b to the next.

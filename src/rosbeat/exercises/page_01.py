@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosbeat.checks.verdicts import failed, failed_by, not_attempted, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import Exercise, failed, failed_by, not_attempted, passed
+from rosbeat.exercises.page_01_scenarios import SCENARIOS
 from rosbeat.exercises.paths import (
     alike,
     closeness,
@@ -17,9 +17,8 @@ from rosbeat.exercises.paths import (
     misspelled,
     moves,
 )
+from rosbeat.exercises.scenarios import TypedIn, Workspace
 from rosbeat.records import Outcome
-from rosbeat.scenarios.looking import TypedIn, Workspace
-from rosbeat.scenarios.page_01 import SCENARIOS
 from rosbeat.workspace.place import NAME
 from rosbeat.workspace.stages import FOLDERS
 

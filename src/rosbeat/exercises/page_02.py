@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosbeat.checks.verdicts import BLANK, failed, failed_by, not_attempted, passed
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import BLANK, Exercise, failed, failed_by, not_attempted, passed
 from rosbeat.exercises.manifests import (
     diagnose_dependencies,
     diagnose_tags,
@@ -14,10 +13,10 @@ from rosbeat.exercises.manifests import (
     is_open,
     remark_on_license,
 )
+from rosbeat.exercises.page_02_scenarios import SCENARIOS
 from rosbeat.exercises.paths import alike
+from rosbeat.exercises.scenarios import Workspace
 from rosbeat.records import Outcome
-from rosbeat.scenarios.looking import Workspace
-from rosbeat.scenarios.page_02 import SCENARIOS
 from rosbeat.workspace.manifest import Manifest
 from rosbeat.workspace.packages import Package
 

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rosbeat.checks.verdicts import failed, failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire
-from rosbeat.exercises.beats import diagnose_beat
-from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.heard import missing, on
+from rosbeat.exercises.exercise import Exercise, failed, failed_by, passed
+from rosbeat.exercises.model import diagnose_beat, missing, on
+from rosbeat.exercises.page_03_scenarios import (
+    GREENHOUSE,
+    GREENHOUSE_RATE,
+    ROOM,
+    SCENARIOS,
+    SECONDS,
+)
+from rosbeat.exercises.walk_runs import PHASE
 from rosbeat.exercises.walks import Walk
 from rosbeat.records import Observation, Outcome
-from rosbeat.scenarios.page_03 import GREENHOUSE, GREENHOUSE_RATE, ROOM, SCENARIOS, SECONDS
-from rosbeat.scenarios.walks import PHASE
 
 _FLOAT = "std_msgs/msg/Float32"
 _HUMIDITY = Wire("/humidity", _FLOAT)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard
 from rosbeat.exercises.calm import judge_calm
-from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.heard import missing, on
+from rosbeat.exercises.exercise import Exercise, failed_by, passed
+from rosbeat.exercises.model import missing, on
+from rosbeat.exercises.page_04_scenarios import CALM, FLOAT, FRIDGE, ROOM, SCENARIOS, TOPIC
 from rosbeat.records import Observation, Outcome
-from rosbeat.scenarios.page_04 import CALM, FLOAT, FRIDGE, ROOM, SCENARIOS, TOPIC
 
 _TEMPERATURE, _ALERT = Wire(TOPIC, FLOAT), Wire("/alert", "std_msgs/msg/String")
 _WORDS = ("Warm", "Frost", "Fine")

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosbeat.checks.verdicts import BLANK, failed_by, not_attempted, passed
+from rosbeat.exercises.call_runs import Calls
 from rosbeat.exercises.calls import diagnose_calls
 from rosbeat.exercises.entries import diagnose_entries, diagnose_script, differences
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import BLANK, Exercise, failed_by, not_attempted, passed
+from rosbeat.exercises.page_05_scenarios import SCENARIOS
+from rosbeat.exercises.scenarios import Workspace
 from rosbeat.records import Outcome
-from rosbeat.scenarios.calls import Calls
-from rosbeat.scenarios.looking import Workspace
-from rosbeat.scenarios.page_05 import SCENARIOS
 from rosbeat.workspace.packages import Package
 
 _PACKAGE = "sensor_simulator"

@@ -5,15 +5,14 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from rosbeat.checks.verdicts import failed_by, not_attempted, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.exercises.entries import diagnose_name, diagnose_script
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
 from rosbeat.exercises.meanings import diagnosis_of
+from rosbeat.exercises.page_06_scenarios import RUN, SCENARIOS
 from rosbeat.exercises.paths import alike
+from rosbeat.exercises.scenarios import TypedIn, Workspace
 from rosbeat.records import Outcome
-from rosbeat.scenarios.looking import TypedIn, Workspace
-from rosbeat.scenarios.page_06 import RUN, SCENARIOS
 from rosbeat.workspace.meanings.flaws import diagnose_flaw
 from rosbeat.workspace.packages import Package
 

@@ -7,7 +7,7 @@ from typing import Any
 from rosbeat.exercises import log_watching, tuning
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.findings import judge_report
-from rosbeat.scenarios.page_07 import SCENARIOS
+from rosbeat.exercises.page_07_scenarios import SCENARIOS
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(

@@ -7,8 +7,8 @@ from typing import Any
 from rosbeat.exercises.everybody import judge_everybody
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.last_word import judge_last_word
+from rosbeat.exercises.page_08_scenarios import COMMANDS, DISPLAYS, READINGS, SCENARIOS, TIMES
 from rosbeat.exercises.silence import judge_silence
-from rosbeat.scenarios.page_08 import COMMANDS, DISPLAYS, READINGS, SCENARIOS, TIMES
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(

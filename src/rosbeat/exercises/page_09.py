@@ -6,9 +6,9 @@ from typing import Any
 
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.noticing import judge_noticing
+from rosbeat.exercises.page_09_scenarios import GREENHOUSE, HOME, ORDERS, PORCH, READINGS, SCENARIOS
 from rosbeat.exercises.reusable import HIGH, LOW, UNIT, Place, judge_reusable
 from rosbeat.exercises.steady_work import judge_work
-from rosbeat.scenarios.page_09 import GREENHOUSE, HOME, ORDERS, PORCH, READINGS, SCENARIOS
 
 _PLACES = (
     Place("", HOME.topic, "/status", LOW, HIGH, UNIT, HOME.readings),

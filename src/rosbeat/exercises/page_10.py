@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.page_10_scenarios import SCENARIOS
 from rosbeat.exercises.rounds import judge
-from rosbeat.scenarios.page_10 import SCENARIOS
 
 _SILENT, _HEARD, _PAIRS = range(1, 5), range(5, 9), range(9, 12)
 

@@ -7,9 +7,9 @@ from typing import Any
 from rosbeat.exercises.alarms import judge_alarms
 from rosbeat.exercises.bag_reports import judge_bag_reports
 from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.page_11_scenarios import SCENARIOS
 from rosbeat.exercises.sick_sensor import TASK as SICK_SENSOR
 from rosbeat.exercises.two_sensors import TASK as TWO_SENSORS
-from rosbeat.scenarios.page_11 import SCENARIOS
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.explanation_names import difference, nearest
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.exercises import adjusting, heating
 from rosbeat.exercises.adjusting import Answer, Limits, phases
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import Exercise, failed_by, passed
+from rosbeat.exercises.page_12_scenarios import BASIC, BY_PARAMETER, BY_SERVICE, SCENARIOS, SERVICE
 from rosbeat.records import Observation, Outcome
-from rosbeat.scenarios.page_12 import BASIC, BY_PARAMETER, BY_SERVICE, SCENARIOS, SERVICE
 
 #: What holds when, and which requests make sense: from 10 to 40; and low below high.
 _BY_SERVICE = phases(Limits(26.0), BY_SERVICE, lambda limits: 10 <= limits.high <= 40)

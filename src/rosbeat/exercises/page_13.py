@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosbeat.checks.verdicts import before_judging, failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import Exercise, before_judging, failed_by, passed
 from rosbeat.exercises.greenhouse.commands import repeated
+from rosbeat.exercises.greenhouse.days import airing
 from rosbeat.exercises.greenhouse.judge import judge_greenhouse
 from rosbeat.exercises.greenhouse.reading import silent, switch
 from rosbeat.exercises.greenhouse.rubric import TOTAL, rubric_of, the_rubric
+from rosbeat.exercises.greenhouse.trials import Trials, aired, tried
 from rosbeat.exercises.greenhouse.vent import wrong_vent
 from rosbeat.records import Observation, Outcome
-from rosbeat.scenarios.greenhouse.days import airing
-from rosbeat.scenarios.greenhouse.trials import Trials, aired, tried
 
 _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 _VENT = Wire("/vent", "std_msgs/msg/Bool")
@@ -56,7 +55,7 @@ def _judge_all(trials: Trials) -> Outcome:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "13a",
-        lambda answer: aired(answer, **_given()),
+        aired,
         _judge_vent,
         "the vent alone",
         3,
@@ -70,7 +69,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "13b",
-        lambda answer: tried(answer, **_given()),
+        tried,
         _judge_all,
         "a greenhouse",
         TOTAL,

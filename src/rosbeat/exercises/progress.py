@@ -1,16 +1,248 @@
-"""`progress`: how far somebody is with the course, as a picture for the end of a page."""
+"""Remember how far somebody is, and show it: `progress`."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import json
+import os
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
-from rosbeat.exercises.progress_file import Standings, progress_file
+from rosbeat.errors import RecordError
+from rosbeat.exercises.cards import LOOKS
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.registry import PAGES, Page
-from rosbeat.exercises.standing import Standing
 from rosbeat.records import Outcome
+from rosbeat.workspace.place import steady_home, workspace_parent
+from rosbeat.workspace.saving import only_writer, write
 
 if TYPE_CHECKING:
     from rosbeat.viz.picture import Picture
+
+
+# How far somebody is with one exercise, as plain data.
+
+
+@dataclass(frozen=True)
+class Standing:
+    """How far somebody is with one exercise.
+
+    Attributes:
+        outcome: What the last check said: `passed`, `failed` or `not attempted`.
+        passed: Whether any check so far said `passed`.
+        points: The most points that a check gave.
+        attempts: How many checks found an answer, right or wrong.
+        hints: How many hints were shown.
+        answer: Whether the answer was shown.
+        mistake: Id of the last mistake, or an empty text.
+    """
+
+    outcome: str = NOT_ATTEMPTED
+    passed: bool = False
+    points: int = 0
+    attempts: int = 0
+    hints: int = 0
+    answer: bool = False
+    mistake: str = ""
+
+    @property
+    def status(self) -> str:
+        """The best that is known: who has passed once has passed."""
+        if self.passed:
+            return PASSED
+        return FAILED if self.attempts else NOT_ATTEMPTED
+
+    def after(self, outcome: Outcome) -> Standing:
+        """Return the standing after one more check.
+
+        Args:
+            outcome: What the check said.
+        """
+        return replace(
+            self,
+            outcome=outcome.status,
+            passed=self.passed or outcome.status == PASSED,
+            points=max(self.points, outcome.points),
+            attempts=self.attempts + (outcome.status != NOT_ATTEMPTED),
+            mistake=outcome.mistake or self.mistake,
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """The standing as it is written into a file."""
+        return asdict(self)
+
+
+def parse_standing(data: object) -> Standing:
+    """Read a standing back; what a later version added is left out.
+
+    Args:
+        data: What `as_dict` gave, from a file that anybody may have edited.
+
+    Raises:
+        RecordError: If it is not such a thing.
+    """
+    if not isinstance(data, dict):
+        raise _not_a_standing(data)
+    start = Standing()
+    known = {key: data[key] for key in start.as_dict() if key in data}
+    for key, value in known.items():
+        kind = type(getattr(start, key))
+        if type(value) is not kind or (kind is int and value < 0):
+            raise _not_a_standing(f"{key}: {value!r}")
+    return Standing(**known)
+
+
+def _not_a_standing(found: object) -> RecordError:
+    return RecordError(
+        f"This says nothing about an exercise: {str(found)[:100]}.",
+        "The file of your progress holds something that the course did not write.",
+        "Run the check again.",
+    )
+
+
+# The file that remembers how far somebody is, beside the workspace.
+
+FOLDER, NAME, VERSION = ".rosbeat", "progress.json", 1
+SETTING = "ROSBEAT_PROGRESS_IN"
+#: Neither git nor colcon looks into the folder.
+_IGNORED = {".gitignore": b"*\n", "COLCON_IGNORE": b""}
+
+Standings = Mapping[str, Standing]
+
+
+class ProgressFile:
+    """How far somebody is with each exercise, remembered in a file.
+
+    Args:
+        folder: The hidden folder that holds the file; made when something is written.
+        tell: Gets one line if something is wrong with the file.
+    """
+
+    def __init__(self, folder: Path, tell: Callable[[str], None] = print) -> None:
+        self.path = folder / NAME
+        self._tell = tell
+        self._unsaved: Standings | None = None
+
+    def standings(self) -> Standings:
+        """Return every standing by exercise; a file that cannot be read counts as empty."""
+        if self._unsaved is not None:
+            return self._unsaved
+        try:
+            return _parse(self.path.read_bytes())
+        except (OSError, RecordError):
+            return MappingProxyType({})
+
+    def change(self, exercise: str, edit: Callable[[Standing], Standing]) -> Standing:
+        """Change the standing of one exercise, and write it down.
+
+        Args:
+            exercise: The exercise's id.
+            edit: Makes the new standing of the one before.
+
+        Returns:
+            The new standing. It is right even if it could not be written.
+        """
+        try:
+            self._prepare()
+            with only_writer(self.path.parent):
+                return self._written(exercise, edit)
+        except OSError as error:
+            return self._remembered(exercise, edit, error)
+
+    def _prepare(self) -> None:
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        for name, content in _IGNORED.items():
+            if not (self.path.parent / name).exists():
+                write(self.path.parent / name, content)
+
+    def _written(self, exercise: str, edit: Callable[[Standing], Standing]) -> Standing:
+        before = {**self._sound_content(), **(self._unsaved or {})}
+        after = edit(before.get(exercise, Standing()))
+        write(self.path, _text({**before, exercise: after}))
+        self._unsaved = None
+        return after
+
+    def _sound_content(self) -> Standings:
+        """What the file holds; if that is damaged, it is put aside."""
+        try:
+            return _parse(self.path.read_bytes())
+        except FileNotFoundError:
+            return {}
+        except RecordError:
+            aside = _free_name(self.path)
+            self.path.rename(aside)
+            self._tell(
+                f"# Your progress could not be read. The file is kept as {FOLDER}/{aside.name}, "
+                "and a new one begins."
+            )
+            return {}
+
+    def _remembered(
+        self, exercise: str, edit: Callable[[Standing], Standing], error: OSError
+    ) -> Standing:
+        if self._unsaved is None:
+            self._tell(
+                f"# Your progress cannot be saved ({error.strerror or error}). Everything else "
+                "works; this page remembers it until it is closed."
+            )
+        before = self.standings()
+        after = edit(before.get(exercise, Standing()))
+        self._unsaved = {**before, exercise: after}
+        return after
+
+
+def progress_file() -> ProgressFile:
+    """Return the file of this learner, beside the workspace unless a setting says otherwise."""
+    chosen = os.environ.get(SETTING, "")
+    if chosen and steady_home() is None:
+        return _at(Path(chosen).expanduser().resolve() / FOLDER)
+    return _at(workspace_parent() / FOLDER)
+
+
+@cache
+def _at(folder: Path) -> ProgressFile:
+    # One for each folder, so that what is wrong with it is said once in a kernel.
+    return ProgressFile(folder)
+
+
+def _parse(content: bytes) -> Standings:
+    try:
+        data = json.loads(content)
+    except (ValueError, RecursionError) as error:
+        raise _unreadable(str(error)) from None
+    if not isinstance(data, dict) or data.get("version") != VERSION:
+        raise _unreadable(f"it is not version {VERSION}")
+    found = data.get("exercises")
+    if not isinstance(found, dict):
+        raise _unreadable("it names no exercises")
+    return {name: parse_standing(one) for name, one in found.items()}
+
+
+def _text(standings: Standings) -> bytes:
+    found = {name: one.as_dict() for name, one in sorted(standings.items())}
+    whole = {"version": VERSION, "exercises": found}
+    return (json.dumps(whole, indent=1) + "\n").encode()
+
+
+def _unreadable(why: str) -> RecordError:
+    return RecordError(
+        f"The file of your progress cannot be read: {why}.",
+        "Something else than the course has written it, or another version of the course.",
+        "Run a check: it keeps this file under another name and begins a new one.",
+    )
+
+
+def _free_name(path: Path) -> Path:
+    number = 1
+    while (aside := path.with_name(f"progress-unreadable-{number}.json")).exists():
+        number += 1
+    return aside
+
+
+# `progress`: how far somebody is with the course, as a picture for the end of a page.
 
 
 def progress() -> Picture:
@@ -47,3 +279,80 @@ def outcomes(page: Page, standings: Standings) -> list[Outcome]:
         Outcome(one.id, at.status, mistake=at.mistake, points=at.points, out_of=one.points)
         for one, at in found
     ]
+
+
+# `rosbeat progress`: how far somebody is with the course, as a table in a terminal.
+
+_HEAD = ("", "exercise", "", "outcome", "points", "attempts", "hints")
+_Row = tuple[str, ...]
+
+
+def as_text() -> str:
+    """Return the table of all pages, their exercises and the total."""
+    standings = progress_file().standings()
+    blocks = [(heading(page), [_row(one, standings) for one in page.exercises]) for page in PAGES]
+    widths = [max(map(len, column)) for column in zip(_HEAD, *_every(blocks), strict=True)]
+    lines = [_line(_HEAD, widths)]
+    for title, rows in blocks:
+        lines += ["", title, *(_line(row, widths) for row in rows)]
+    return "\n".join([*lines, "", _total(as_data(standings))])
+
+
+def as_json() -> str:
+    """Return the same as JSON."""
+    return json.dumps(as_data(progress_file().standings()), indent=1)
+
+
+def as_data(standings: Standings) -> dict[str, Any]:
+    """Return the same as plain data, with the version of its form.
+
+    Args:
+        standings: How far somebody is, by exercise.
+    """
+    rows = [
+        {
+            **{"exercise": one.id, "page": page.number, "title": one.title, "out_of": one.points},
+            **{
+                "status": _standing_of(one, standings).status,
+                **_standing_of(one, standings).as_dict(),
+            },
+        }
+        for page in PAGES
+        for one in page.exercises
+    ]
+    return {
+        "version": VERSION,
+        "passed": sum(bool(row["passed"]) for row in rows),
+        "points": sum(row["points"] for row in rows),
+        "out_of": sum(row["out_of"] for row in rows),
+        "exercises": rows,
+    }
+
+
+def _standing_of(exercise: Exercise[Any], standings: Standings) -> Standing:
+    return standings.get(exercise.id, Standing())
+
+
+def _every(blocks: list[tuple[str, list[_Row]]]) -> Iterator[_Row]:
+    for _, rows in blocks:
+        yield from rows
+
+
+def _row(exercise: Exercise[Any], standings: Standings) -> _Row:
+    at = _standing_of(exercise, standings)
+    sign, word = LOOKS[at.status]
+    hints = f"{at.hints} and the answer" if at.answer else str(at.hints)
+    points = f"{at.points} of {exercise.points}"
+    return f"  {sign}", exercise.id, exercise.title, word, points, str(at.attempts), hints
+
+
+def _line(row: _Row, widths: list[int]) -> str:
+    return "  ".join(part.ljust(width) for part, width in zip(row, widths, strict=True)).rstrip()
+
+
+def _total(data: dict[str, Any]) -> str:
+    there_are = len(data["exercises"])
+    return (
+        f"{data['passed']} of {there_are} exercises passed, "
+        f"{data['points']} of {data['out_of']} points"
+    )

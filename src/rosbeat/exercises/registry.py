@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
@@ -63,6 +64,18 @@ PAGES = (
 EXERCISES: dict[str, Exercise[Any]] = {
     exercise.id: exercise for page in PAGES for exercise in page.exercises
 }
+
+
+def scenario(exercise: str) -> Callable[..., Any]:
+    """Return what runs the answers to an exercise, and writes down what they did.
+
+    Args:
+        exercise: The id, such as `03a` or `system`.
+
+    Raises:
+        ExerciseError: If there is no such exercise.
+    """
+    return find(exercise, "{}").scenario
 
 
 def find(exercise: object, example: str) -> Exercise[Any]:

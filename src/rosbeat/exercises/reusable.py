@@ -9,11 +9,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises.exercise import failed_by, passed
+from rosbeat.exercises.page_09_scenarios import FLOAT
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Outcome, Sample
-from rosbeat.scenarios.page_09 import FLOAT
 
 STRING = "std_msgs/msg/String"
 #: The default values of the parameters `low`, `high` and `unit`.

@@ -9,15 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-from rosbeat.checks.verdicts import failed, not_attempted, passed
-from rosbeat.clinic.charts import Chart
-from rosbeat.clinic.ward import Ward
 from rosbeat.exercises.claims import Claim, claims_of, shape, ward_of
-from rosbeat.exercises.reports import before_reading
-from rosbeat.exercises.weighing import weighed
+from rosbeat.exercises.exercise import failed, not_attempted, passed
+from rosbeat.exercises.model import before_reading
+from rosbeat.exercises.scenarios import Report
 from rosbeat.records import Outcome
-from rosbeat.scenarios.reports import Report
+
+if TYPE_CHECKING:
+    from rosbeat.clinic.charts import Chart
 
 _EXAMPLE = 'check("{}", diagnoses)'
 
@@ -53,6 +54,9 @@ def examine(exercise: str, report: Report, patients: Sequence[int]) -> Rounds:
 @lru_cache(maxsize=64)
 def _chart(seed: int, number: int) -> Chart:
     """Examine a patient once: it is the same each time."""
+    # Imported here: what is the matter with a patient is not known where an answer runs.
+    from rosbeat.clinic.ward import Ward
+
     return Ward(seed).chart(number)
 
 
@@ -85,6 +89,8 @@ def judge_rounds(exercise: str, seen: Rounds, patients: Sequence[int]) -> Outcom
 
 
 def _of_all(exercise: str, seen: Rounds, given: dict[int, list[Claim]]) -> Outcome:
+    from rosbeat.exercises.weighing import weighed
+
     weights = [(chart.number, weighed(chart, given[chart.number])) for chart in seen.charts]
     wrong = [(number, found) for number, found in weights if found is not None]
     right = _numbers(number for number, found in weights if found is None)

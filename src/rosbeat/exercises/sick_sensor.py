@@ -9,9 +9,9 @@ from math import isnan, nan
 
 from rosbeat.diagnosis.wires import Wire
 from rosbeat.exercises.alarms import Suspect, Task, Words
+from rosbeat.exercises.page_11_scenarios import TEMPERATURE
+from rosbeat.exercises.replays import FLOAT
 from rosbeat.records import Sample
-from rosbeat.scenarios.page_11 import TEMPERATURE
-from rosbeat.scenarios.replays import FLOAT
 
 _TEMPERATURE = Wire(TEMPERATURE, FLOAT)
 

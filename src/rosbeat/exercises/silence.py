@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises import page_08_scenarios as page_08
+from rosbeat.exercises.exercise import failed_by, passed
+from rosbeat.exercises.page_08_scenarios import LIMIT
 from rosbeat.records import NANOSECONDS, Endpoint, Observation, Outcome
-from rosbeat.scenarios import page_08
-from rosbeat.scenarios.page_08 import LIMIT
 
 TEMPERATURE = Wire(page_08.TEMPERATURE, page_08.FLOAT)
 HEALTH = Wire("/health", "std_msgs/msg/String")

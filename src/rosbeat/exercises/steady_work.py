@@ -8,11 +8,11 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises import page_09_scenarios as page_09
+from rosbeat.exercises.exercise import failed_by, passed
 from rosbeat.records import Observation, Outcome, Sample
-from rosbeat.scenarios import page_09
 
 ORDER = Wire(page_09.ORDER, page_09.INT)
 DONE = Wire("/done", page_09.INT)

@@ -8,16 +8,14 @@ from itertools import pairwise
 from statistics import median
 from typing import Any
 
-from rosbeat.checks.verdicts import failed_by, not_attempted, passed
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.exercises.entries import diagnose_entries, diagnose_script
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
 from rosbeat.exercises.meanings import diagnosis_of
 from rosbeat.exercises.system_remarks import ends_by_the_tutorial, remarks_on
+from rosbeat.exercises.system_run import MONITOR, PACKAGE, SENSOR, TOPIC, SystemRun, run_system
 from rosbeat.records import Outcome, ProgramRun
-from rosbeat.scenarios.system import SCENARIOS
-from rosbeat.scenarios.system_run import MONITOR, PACKAGE, SENSOR, TOPIC, SystemRun
 
 ID = "system"
 _FLOAT = "std_msgs/msg/Float32"
@@ -250,7 +248,7 @@ def _ending(run: ProgramRun) -> Diagnosis | None:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         ID,
-        SCENARIOS[ID],
+        run_system,
         _judge,
         title="the whole system",
         points=5,

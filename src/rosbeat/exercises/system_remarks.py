@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rosbeat.exercises.sources import Source
+from rosbeat.exercises.system_run import MONITOR, SENSOR, SystemRun
 from rosbeat.records import ProgramRun
-from rosbeat.scenarios.sources import Source
-from rosbeat.scenarios.system_run import MONITOR, SENSOR, SystemRun
 
 _MISSPELT = "TemperaturSensor"
 #: How the tutorial's own `main` ends after Ctrl+C, where the signal has shut ROS down already.

@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rosbeat.checks.verdicts import failed_by, passed
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.exercises import page_07_scenarios as page_07
+from rosbeat.exercises.exercise import failed_by, passed
+from rosbeat.exercises.page_07_scenarios import CHANGES, READINGS
 from rosbeat.records import Observation, Outcome, Sample
-from rosbeat.scenarios import page_07
-from rosbeat.scenarios.page_07 import CHANGES, READINGS
 
 TEMPERATURE = Wire(page_07.TEMPERATURE, page_07.FLOAT)
 STATUS = Wire("/status", "std_msgs/msg/String")

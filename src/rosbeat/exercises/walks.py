@@ -11,7 +11,7 @@ from itertools import groupby, pairwise
 from math import isfinite
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.scenarios.walks import LONG, PHASE, READINGS, stays, widest
+from rosbeat.exercises.walk_runs import LONG, PHASE, READINGS, stays, widest
 
 #: Room for rounding to 32 bits.
 _ROUNDING = 1e-4

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
-from rosbeat.checks.frames import RIGHT, WRONG
-from rosbeat.checks.verdicts import FAILED
 from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.exercises.cards import RIGHT, WRONG
+from rosbeat.exercises.exercise import FAILED
 from rosbeat.exercises.registry import PAGES
 from rosbeat.grading.bars import Segment, bar, labels
 from rosbeat.grading.html_page import (

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.collecting import Collection, HandedIn, Submission
 from rosbeat.grading.course_pages import CoursePage

@@ -11,7 +11,7 @@ from functools import cache
 from html import escape
 from importlib.resources import files
 
-from rosbeat.checks.frames import clipped
+from rosbeat.exercises.cards import clipped
 from rosbeat.grading.palette import DARK, LIGHT, variables
 from rosbeat.grading.remarks import printable
 

@@ -13,13 +13,12 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
-from rosbeat.checks.verdicts import before_judging, failed, not_attempted
 from rosbeat.diagnosis.faults import first_sentence
 from rosbeat.errors import RecordError
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.evidence import from_json
+from rosbeat.exercises.exercise import Exercise, before_judging, failed, not_attempted
 from rosbeat.grading.jobs import FORGED, LOST, Observed
 from rosbeat.records import Fault, Observation, Outcome
-from rosbeat.scenarios.evidence import from_json
 
 _WHERE = "the cell"
 #: What is said of an answer that took its watchers along; the next run tries it again.

@@ -12,7 +12,7 @@ from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 
-from rosbeat.checks.verdicts import BLANK
+from rosbeat.exercises.exercise import BLANK
 from rosbeat.grading.notebook import Cell
 
 #: From which share of equal text on a cell without a name counts as the one that was filled in.

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rosbeat.checks.display import LOOKS
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.cards import LOOKS
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING
 
 

@@ -7,8 +7,8 @@ import re
 from collections.abc import Collection, Iterable
 from pathlib import Path
 
-from rosbeat.checks.verdicts import BLANK
 from rosbeat.errors import GradingError
+from rosbeat.exercises.exercise import BLANK
 from rosbeat.grading.course_pages import CoursePage
 from rosbeat.grading.notebook import read_notebook
 

@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.cells import number
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Mark
 from rosbeat.grading.remarks import Remark, printable

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from itertools import groupby
 from statistics import mean, median
 
-from rosbeat.checks.verdicts import FAILED
 from rosbeat.diagnosis.mistakes import UNKNOWN
+from rosbeat.exercises.exercise import FAILED
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
 
 #: How many per cent of the points each step of the distribution covers; 100 is a step of its own.

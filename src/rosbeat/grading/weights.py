@@ -20,8 +20,8 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
 
-from rosbeat.checks.verdicts import PASSED
 from rosbeat.errors import GradingError
+from rosbeat.exercises.exercise import PASSED
 from rosbeat.exercises.registry import PAGES, Page
 from rosbeat.grading.remarks import printable
 from rosbeat.grading.sheets import Row, read_sheet

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from rosbeat.errors import GradingError
+from rosbeat.exercises.evidence import from_json
 from rosbeat.grading.inside.frozen import freeze
 from rosbeat.grading.inside.intact import Census, census
 from rosbeat.grading.inside.kernel import kernel_files, kernel_job
@@ -37,8 +38,6 @@ from rosbeat.grading.sandbox.unsafe import Bare
 from rosbeat.grading.workspaces import read_workspace
 from rosbeat.records import Observation
 from rosbeat.ros.recording import load_type_support, repair_message_classes
-from rosbeat.scenarios import registry
-from rosbeat.scenarios.evidence import from_json
 
 #: What the pages before each page leave: content by path.
 Workspaces = dict[str, Mapping[str, bytes]]
@@ -65,7 +64,7 @@ _KEPT = (
     *(*_FILES, "RMW_FASTRTPS_USE_QOS_FROM_XML"),
 )
 #: Rooms of this package that know answers or judge them, or are nobody's business in there.
-_HIDDEN = ("exercises", "clinic", "checks", "grading", "authoring", "workspace/finished")
+_HIDDEN = ("exercises/solved", "clinic", "grading", "authoring", "workspace/finished")
 #: Of what an answer may have written itself, no more than the course writes is believed.
 _MOST, _MOST_CHANGED, _MOST_LINES = 2_000, 5, 1_000_000
 #: Seconds that one answer may take by the clock on the wall, and a page of terminals.
@@ -135,7 +134,7 @@ def prepare() -> Census:
     Returns:
         What is there then.
     """
-    for name in (*_PREPARED, *(f"rosbeat.scenarios.{one}" for one in registry.MODULES)):
+    for name in (*_PREPARED, "rosbeat.exercises.registry"):
         importlib.import_module(name)
     load_type_support(_TYPES)
     repair_message_classes()  # it looks for them once

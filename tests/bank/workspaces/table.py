@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from rosbeat.exercises.check import check
+
 from bank.workspaces import entries, folders, functions, packages, programs
 from bank.workspaces.answer import Answer
 from bank.workspaces.shell import Terminal, typed
-from rosbeat.exercises.checking import check
 from rosbeat.records import Outcome
 from rosbeat.workspace.stages import FOLDERS, NODES, PACKAGE, finished
 

@@ -8,9 +8,9 @@ import linecache
 import pytest
 from broken_nodes import BROKEN, IMPORTS, UNKNOWN, sensor
 
-from rosbeat.checks.verdicts import before_judging
 from rosbeat.diagnosis.faults import diagnose_fault
 from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.exercises.exercise import before_judging
 from rosbeat.ros.scenario import feeder, observe
 
 pytestmark = pytest.mark.ros

@@ -6,8 +6,7 @@ Exercises about files and terminals have a module of their own for each page.
 
 import answers as a  # the folder is put on the path by conftest.py
 import pytest
-
-from rosbeat.exercises.checking import check
+from rosbeat.exercises.check import check
 
 pytestmark = pytest.mark.ros
 

@@ -3,7 +3,7 @@
 import pytest
 
 from rosbeat.diagnosis.wires import Wire
-from rosbeat.exercises.beats import diagnose_beat
+from rosbeat.exercises.model import diagnose_beat
 from rosbeat.records import NANOSECONDS, Observation, Sample
 
 TYPE = "std_msgs/msg/Float32"

@@ -2,8 +2,8 @@
 
 import pytest
 
+from rosbeat.exercises.call_runs import Calls, call
 from rosbeat.exercises.calls import diagnose_calls
-from rosbeat.scenarios.calls import Calls, call
 
 
 def test_an_object_that_cannot_be_shown():

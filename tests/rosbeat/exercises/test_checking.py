@@ -1,11 +1,10 @@
 import pytest
 from rclpy.node import Node
+from rosbeat.exercises.check import EXERCISES
 
 from rosbeat import Session, check
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises.checking import EXERCISES
-from rosbeat.exercises.progress_file import progress_file
-from rosbeat.exercises.standing import Standing
+from rosbeat.exercises.progress import Standing, progress_file
 
 pytestmark = pytest.mark.ros
 

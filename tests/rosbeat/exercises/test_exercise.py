@@ -2,8 +2,7 @@
 
 import pytest
 
-from rosbeat.checks.verdicts import failed, passed
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import Exercise, failed, passed
 from rosbeat.records import Outcome, Part
 
 MET, MISSED = Part("R1", "It opens.", True, "", 3), Part("R2", "It closes.", False, "No.", 2)

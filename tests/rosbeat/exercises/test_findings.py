@@ -2,10 +2,11 @@
 
 import json
 
+from rosbeat.exercises.scenarios import Report
+
 from rosbeat.exercises.findings import QUESTIONS, judge_greenhouse
 from rosbeat.exercises.findings_facts import GreenhouseFindings
 from rosbeat.records import Endpoint, GraphSnapshot, LogRecord, Observation, QoS, Sample
-from rosbeat.scenarios.reports import Report
 
 KEYS = [question.key for question in QUESTIONS]
 FLOAT, BOOL = "std_msgs/msg/Float32", "std_msgs/msg/Bool"

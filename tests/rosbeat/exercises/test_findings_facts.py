@@ -1,11 +1,11 @@
 """Findings beside a system, and facts from a record of it."""
 
 import pytest
+from rosbeat.exercises.scenarios import Report, report
 
 from rosbeat.exercises import findings_facts as facts
 from rosbeat.exercises.findings_facts import GreenhouseFindings, beside_the_greenhouse
 from rosbeat.records import Observation, Sample
-from rosbeat.scenarios.reports import Report, report
 
 
 def system(*times):

@@ -2,7 +2,7 @@
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire
-from rosbeat.exercises.heard import missing, on
+from rosbeat.exercises.model import missing, on
 from rosbeat.records import CallbackRecord, Endpoint, GraphSnapshot, Observation, QoS, Sample
 
 FLOAT, STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"

@@ -1,13 +1,13 @@
 from __future__ import annotations
 
 import pytest
+from rosbeat.exercises.hint import answer_to
 
 from rosbeat import hint
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises import registry
 from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.progress_file import progress_file
-from rosbeat.exercises.solutions import answer_to
+from rosbeat.exercises.progress import progress_file
 
 HINTS = ("Look at the <timer>.", "Its first argument is a time.")
 ANSWER = answer_to("03a")
@@ -86,7 +86,7 @@ def test_an_exercise_without_a_cell_says_where_the_answer_is(monkeypatch):
 
 def test_without_answers_the_last_hint_stays(monkeypatch):
     hint("03a")
-    monkeypatch.setattr("rosbeat.exercises.hinting.are_here", lambda: False)
+    monkeypatch.setattr("rosbeat.exercises.hint.are_here", lambda: False)
     second, third = str(hint("03a")), str(hint("03a"))
     assert HINTS[1] in second
     assert second == third
@@ -97,7 +97,7 @@ def test_without_answers_the_last_hint_stays(monkeypatch):
 def test_an_answer_that_was_seen_elsewhere_is_not_promised_here(monkeypatch):
     for _ in range(3):
         hint("03a")
-    monkeypatch.setattr("rosbeat.exercises.hinting.are_here", lambda: False)
+    monkeypatch.setattr("rosbeat.exercises.hint.are_here", lambda: False)
     for found in (hint("03a"), hint("03a", again=True)):
         assert found.answer == ""
         assert HINTS[1] in str(found)

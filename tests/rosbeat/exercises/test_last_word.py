@@ -3,6 +3,7 @@
 import pytest
 
 from rosbeat.exercises.last_word import judge_last_word
+from rosbeat.exercises.page_08_scenarios import Display
 from rosbeat.records import (
     CallbackRecord,
     Endpoint,
@@ -12,7 +13,6 @@ from rosbeat.records import (
     QoS,
     Sample,
 )
-from rosbeat.scenarios.page_08 import Display
 
 STRING = "std_msgs/msg/String"
 KEPT = QoS(depth=10, durability="TRANSIENT_LOCAL")

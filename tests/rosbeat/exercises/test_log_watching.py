@@ -5,8 +5,8 @@ from itertools import pairwise
 import pytest
 
 from rosbeat.exercises.log_watching import counts, judge_log_watcher
+from rosbeat.exercises.page_07_scenarios import LINES
 from rosbeat.records import CallbackRecord, Observation, Sample
-from rosbeat.scenarios.page_07 import LINES
 
 STRING = "std_msgs/msg/String"
 HEARD = CallbackRecord(10**9, "/watcher", "subscription", "hear", "/rosout")

@@ -1,8 +1,9 @@
 """What was recognised where an answer ran, in the words of a judge."""
 
+from rosbeat.exercises.scenarios import CommandMeaning
+
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
 from rosbeat.exercises.meanings import diagnosis_of
-from rosbeat.scenarios.looking import CommandMeaning
 
 
 def test_a_known_mistake_keeps_its_name():

@@ -1,10 +1,10 @@
 """The judge of a monitor that notices silences, asked about made-up runs. Needs no ROS."""
 
 import pytest
+from rosbeat.exercises.evidence import from_json, to_json
 
 from rosbeat.exercises.noticing import judge_noticing
 from rosbeat.records import CallbackRecord, Endpoint, GraphSnapshot, Observation, QoS, Sample
-from rosbeat.scenarios.evidence import from_json, to_json
 
 NODE, STRING = "/watchman", "std_msgs/msg/String"
 READINGS = (5.0, 6.0, 8.5, 9.0, 18.0, 19.0, 27.0, 28.0)

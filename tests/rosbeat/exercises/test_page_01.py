@@ -1,10 +1,10 @@
 """Page 01: right, differently right and wrong; each judge is a pure function of what was seen."""
 
 import pytest
+from rosbeat.exercises.scenarios import TypedIn, Workspace
 
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.page_01 import EXERCISES
-from rosbeat.scenarios.looking import TypedIn, Workspace
 
 FOLDERS = ("docs", "resources", "resources/images", "scripts", "src")
 folder_01a, way_01b = EXERCISES

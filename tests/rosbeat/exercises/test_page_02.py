@@ -2,7 +2,7 @@
 
 import pytest
 
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.page_02 import EXERCISES
 
 manifest_02a, second_02b = EXERCISES

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises import entries as entries_module
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.page_05 import EXERCISES
 from rosbeat.workspace import targets
 from rosbeat.workspace.meanings.flaws import MISTAKE_OF

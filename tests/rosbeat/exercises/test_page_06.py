@@ -1,10 +1,10 @@
 """Page 06: what a terminal shows, and how a package is installed."""
 
 import pytest
+from rosbeat.exercises.scenarios import TypedIn
 
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.page_06 import EXERCISES
-from rosbeat.scenarios.looking import TypedIn
 
 monitor_06a, links_06b = EXERCISES
 PLACE = "ROS2_and_RL_Tutorials"

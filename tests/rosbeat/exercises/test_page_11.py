@@ -5,17 +5,17 @@ import math
 from dataclasses import replace
 
 import pytest
+from rosbeat.exercises.evidence import from_json, to_json
+from rosbeat.exercises.scenarios import Report
 
 from rosbeat.bags import inject
 from rosbeat.exercises import bag_reports, page_11, sick_sensor, two_sensors
+from rosbeat.exercises.bag_report_runs import RECORDINGS, BagReports
 from rosbeat.exercises.bag_reports import judge_bag_reports
+from rosbeat.exercises.page_11_scenarios import SICK as SICK_RECORDINGS
+from rosbeat.exercises.page_11_scenarios import TWO as TWO_RECORDINGS
+from rosbeat.exercises.replays import PLAYER, STRING, Replayed, Replays, seen_in
 from rosbeat.records import CallbackRecord, Endpoint, Fault, GraphSnapshot, Observation, QoS, Sample
-from rosbeat.scenarios.bag_reports import RECORDINGS, BagReports
-from rosbeat.scenarios.evidence import from_json, to_json
-from rosbeat.scenarios.page_11 import SICK as SICK_RECORDINGS
-from rosbeat.scenarios.page_11 import TWO as TWO_RECORDINGS
-from rosbeat.scenarios.replays import PLAYER, STRING, Replayed, Replays, seen_in
-from rosbeat.scenarios.reports import Report
 
 SICK = (page_11.EXERCISES[1], SICK_RECORDINGS, sick_sensor.TASK)
 TWO = (page_11.EXERCISES[2], TWO_RECORDINGS, two_sensors.TASK)

@@ -3,9 +3,8 @@ from __future__ import annotations
 import pytest
 
 from rosbeat import progress
-from rosbeat.checks.verdicts import failed, passed
-from rosbeat.exercises.progress import heading, outcomes
-from rosbeat.exercises.progress_file import progress_file
+from rosbeat.exercises.exercise import failed, passed
+from rosbeat.exercises.progress import heading, outcomes, progress_file
 from rosbeat.exercises.registry import EXERCISES, PAGES, Page
 
 

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from rosbeat.exercises import progress_file as file
-from rosbeat.exercises.progress_file import ProgressFile
-from rosbeat.exercises.standing import Standing
+from rosbeat.exercises import progress as file
+from rosbeat.exercises.progress import ProgressFile, Standing
 
 PASSED = Standing("passed", True, 2, 1)
 
@@ -123,7 +122,7 @@ KERNEL = """
 import sys
 from dataclasses import replace
 from pathlib import Path
-from rosbeat.exercises.progress_file import ProgressFile
+from rosbeat.exercises.progress import ProgressFile
 file = ProgressFile(Path(sys.argv[1]))
 for number in range(40):
     file.change(sys.argv[2], lambda one: replace(one, attempts=one.attempts + 1))

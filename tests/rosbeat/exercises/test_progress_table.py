@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from rosbeat import cli
-from rosbeat.checks.verdicts import failed, passed
-from rosbeat.exercises.progress_file import progress_file
+from rosbeat.exercises.exercise import failed, passed
+from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES, PAGES
 
 

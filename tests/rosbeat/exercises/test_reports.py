@@ -2,9 +2,9 @@
 
 import pytest
 
-from rosbeat.exercises.reports import before_reading
-from rosbeat.scenarios.evidence import from_json, to_json
-from rosbeat.scenarios.reports import report
+from rosbeat.exercises.evidence import from_json, to_json
+from rosbeat.exercises.model import before_reading
+from rosbeat.exercises.scenarios import report
 
 SAY = 'check("07a", findings)'
 

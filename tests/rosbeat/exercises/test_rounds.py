@@ -4,13 +4,13 @@ import json
 from dataclasses import replace
 
 import pytest
+from rosbeat.exercises.check import check
+from rosbeat.exercises.evidence import from_json, to_json
+from rosbeat.exercises.hint import hint
+from rosbeat.exercises.scenarios import Report
 
-from rosbeat.exercises.checking import check
-from rosbeat.exercises.hinting import hint
+from rosbeat.exercises.page_10_scenarios import SCENARIOS
 from rosbeat.exercises.rounds import Rounds, examine, judge, judge_rounds
-from rosbeat.scenarios.evidence import from_json, to_json
-from rosbeat.scenarios.page_10 import SCENARIOS
-from rosbeat.scenarios.reports import Report
 
 pytestmark = pytest.mark.ros
 

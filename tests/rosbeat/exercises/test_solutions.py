@@ -1,5 +1,6 @@
+from rosbeat.exercises.hint import answer_to, are_here
+
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.exercises.solutions import answer_to, are_here
 
 
 def test_every_exercise_of_a_page_has_an_answer_without_a_blank():
@@ -20,6 +21,6 @@ def test_what_is_no_exercise_has_none():
 
 def test_whether_there_are_answers_at_all(monkeypatch, tmp_path):
     assert are_here()
-    monkeypatch.setattr("rosbeat.exercises.solutions.files", lambda _: tmp_path)
+    monkeypatch.setattr("rosbeat.exercises.hint.files", lambda _: tmp_path)
     assert not are_here()
     assert answer_to("03a") == ""

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from rosbeat.checks.verdicts import failed, not_attempted, passed
 from rosbeat.errors import RecordError
-from rosbeat.exercises.standing import Standing, parse_standing
+from rosbeat.exercises.exercise import failed, not_attempted, passed
+from rosbeat.exercises.progress import Standing, parse_standing
 from rosbeat.records import Outcome
 
 

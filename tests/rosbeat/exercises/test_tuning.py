@@ -2,9 +2,9 @@
 
 import pytest
 
+from rosbeat.exercises.page_07_scenarios import CHANGES, READINGS
 from rosbeat.exercises.tuning import DEFAULTS, judge_tuning
 from rosbeat.records import CallbackRecord, Observation, Sample
-from rosbeat.scenarios.page_07 import CHANGES, READINGS
 
 STRING = "std_msgs/msg/String"
 

@@ -5,8 +5,8 @@ import random
 
 import pytest
 
+from rosbeat.exercises.walk_runs import DOWN, FREE, LONG, PHASE, READINGS, UP, is_open
 from rosbeat.exercises.walks import Walk
-from rosbeat.scenarios.walks import DOWN, FREE, LONG, PHASE, READINGS, UP, is_open
 
 ROOM = Walk(18.0, 28.0, 0.3)
 

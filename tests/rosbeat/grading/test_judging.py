@@ -4,13 +4,13 @@ import gc
 import signal
 
 import pytest
+from rosbeat.exercises.evidence import to_json
 
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.jobs import FORGED, LOST, Observed
 from rosbeat.grading.judging import judge, untouched
 from rosbeat.records import Fault, Observation
-from rosbeat.scenarios.evidence import to_json
 
 EXERCISE = EXERCISES["03a"]
 FAULT = Fault(0, "/humidity_sensor", "tick", "ZeroDivisionError", "division by zero", 3, "1 / 0")

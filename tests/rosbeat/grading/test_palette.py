@@ -2,7 +2,7 @@
 
 import pytest
 
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING
 from rosbeat.grading.palette import DARK, LIGHT, STATUSES, look_of, variables
 

@@ -9,8 +9,8 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.errors import RecordError
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark
 from rosbeat.grading.results import FORMAT, UNSTEADY, VERSION, from_results, to_results

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import pytest
 
-from rosbeat.checks.verdicts import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.errors import GradingError
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.weights import Points, read_points, scaled, without_effect
 from rosbeat.records import Outcome

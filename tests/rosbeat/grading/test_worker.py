@@ -12,6 +12,7 @@ import pytest
 
 from grading_files import DONE
 from rosbeat.errors import GradingError
+from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import worker as module
 from rosbeat.grading.jobs import FORGED, READY, Job, Observed, read_observed, write_line
@@ -22,7 +23,6 @@ from rosbeat.grading.sandbox.running import Ending
 from rosbeat.grading.sandbox.unsafe import Bare
 from rosbeat.grading.worker import furnished, limits_of, main
 from rosbeat.records import Fault, LogRecord, Observation
-from rosbeat.scenarios.evidence import to_json
 
 JOB = Job("03a", "Beat", DONE)
 SEAL = "5ea1"
@@ -89,12 +89,12 @@ def test_a_page_gets_more_than_an_answer():
     assert page.processes > answer.processes
 
 
-def test_the_sandbox_has_no_judge_in_it_and_nothing_of_this_environment(monkeypatch):
+def test_the_sandbox_has_no_answers_in_it_and_nothing_of_this_environment(monkeypatch):
     monkeypatch.setenv("MY_SECRET", "x")
     monkeypatch.setenv("HOME", "/somewhere")
     cage = furnished()
     hidden = {Path(one).name for one in cage.hidden}
-    assert hidden >= {"exercises", "clinic", "checks", "grading", "authoring", "finished"}
+    assert hidden >= {"solved", "clinic", "grading", "authoring", "finished"}
     assert all(Path(one).is_dir() for one in cage.hidden)
     assert "MY_SECRET" not in cage.environment
     assert cage.environment["HOME"] == "/tmp"

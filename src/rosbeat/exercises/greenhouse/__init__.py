@@ -3,7 +3,7 @@
 The rooms of this house: `rubric` (what is required, read from a file), `reading` and the judges of
 the requirements beside it (pure functions), `judge` (from all of them to an outcome), `showing`
 (for the page). What runs a greenhouse, and in which weather, stands in
-`rosbeat.scenarios.greenhouse`.
+`rosbeat.exercises.greenhouse`.
 """
 
 from __future__ import annotations

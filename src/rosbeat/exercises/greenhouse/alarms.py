@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import inf
 
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.greenhouse.days import broken_day
 from rosbeat.exercises.greenhouse.reading import EPS, said, silent, stamp
-from rosbeat.scenarios.greenhouse.days import broken_day
-from rosbeat.scenarios.greenhouse.trials import BROKEN, Trials
+from rosbeat.exercises.greenhouse.trials import BROKEN, Trials
 
 ALARM = "/alarm"
 Alarm = tuple[float, str]

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from math import isfinite
 
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.greenhouse.days import air, broken_day
 from rosbeat.exercises.greenhouse.reading import EPS, said, silent, stamp, switch
 from rosbeat.exercises.greenhouse.reports import judge_reports
+from rosbeat.exercises.greenhouse.trials import BROKEN, Trials
 from rosbeat.records import Observation
-from rosbeat.scenarios.greenhouse.days import air, broken_day
-from rosbeat.scenarios.greenhouse.trials import BROKEN, Trials
 
 _HINT = "Who looks whether a reading can be, before anybody else uses it?"
 

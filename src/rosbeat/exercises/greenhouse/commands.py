@@ -6,8 +6,8 @@ from itertools import pairwise
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.exercises.greenhouse.reading import Switch, silent, stamp, switch
+from rosbeat.exercises.greenhouse.trials import LATE_PUMP, LATE_VENT, Trials
 from rosbeat.records import Observation
-from rosbeat.scenarios.greenhouse.trials import LATE_PUMP, LATE_VENT, Trials
 
 _ACTUATORS = ("/vent", "/pump")
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from rosbeat.checks.verdicts import FAILED, NEW_TO_ME, PASSED, failed, failed_by, not_attempted
 from rosbeat.diagnosis.faults import diagnose_fault, first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.exercises.exercise import FAILED, NEW_TO_ME, PASSED, failed, failed_by, not_attempted
 from rosbeat.exercises.greenhouse.alarms import judge_alarms
 from rosbeat.exercises.greenhouse.believing import judge_belief
 from rosbeat.exercises.greenhouse.commands import judge_calm, judge_latecomers
@@ -14,9 +14,9 @@ from rosbeat.exercises.greenhouse.pump import judge_interlock, judge_pump
 from rosbeat.exercises.greenhouse.reports import judge_reports
 from rosbeat.exercises.greenhouse.rubric import Requirement, rubric_of
 from rosbeat.exercises.greenhouse.structure import judge_endings, judge_parameters, judge_tasks
+from rosbeat.exercises.greenhouse.trials import OTHER, Trials, is_hopeless
 from rosbeat.exercises.greenhouse.vent import judge_vent
 from rosbeat.records import Fault, Outcome, Part
-from rosbeat.scenarios.greenhouse.trials import OTHER, Trials, is_hopeless
 
 Judge = Callable[[Trials], Diagnosis | None]
 

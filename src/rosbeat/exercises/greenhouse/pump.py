@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import pairwise
 
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.greenhouse.days import plain_day
 from rosbeat.exercises.greenhouse.reading import EPS, silent, stamp, switch
-from rosbeat.scenarios.greenhouse.days import plain_day
-from rosbeat.scenarios.greenhouse.trials import Trials
+from rosbeat.exercises.greenhouse.trials import Trials
 
 PUMP, VENT = "/pump", "/vent"
 #: Seconds by which a run of the pump may be shorter or longer.

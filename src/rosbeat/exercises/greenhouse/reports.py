@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.greenhouse.days import plain_day
 from rosbeat.exercises.greenhouse.reading import EPS, said, silent, stamp
-from rosbeat.scenarios.greenhouse.days import plain_day
-from rosbeat.scenarios.greenhouse.trials import Trials
+from rosbeat.exercises.greenhouse.trials import Trials
 
 REPORT = "/report"
 #: How far a mean may be away, for what a float32 rounds.

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from textwrap import wrap
 from typing import Any
 
-from rosbeat.checks.frames import words
 from rosbeat.errors import ExerciseError
+from rosbeat.exercises.cards import words
+from rosbeat.exercises.greenhouse import days
 from rosbeat.exercises.greenhouse.rubric import Requirement, the_rubric
-from rosbeat.scenarios.greenhouse import days
-from rosbeat.scenarios.greenhouse.trials import BROKEN, PLAIN, SENSORS
-from rosbeat.scenarios.running import station
+from rosbeat.exercises.greenhouse.trials import BROKEN, PLAIN, SENSORS
+from rosbeat.exercises.scenarios import station
 
 _DAYS = {PLAIN: days.plain_day, BROKEN: days.broken_day}
 _WIDTH = 84

@@ -6,6 +6,7 @@ from collections import Counter
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.exercises.greenhouse.alarms import judge_alarms
+from rosbeat.exercises.greenhouse.days import lossy_day, other_day
 from rosbeat.exercises.greenhouse.pump import judge_interlock
 from rosbeat.exercises.greenhouse.reading import (
     EPS,
@@ -18,10 +19,9 @@ from rosbeat.exercises.greenhouse.reading import (
     switch,
 )
 from rosbeat.exercises.greenhouse.reports import judge_reports
+from rosbeat.exercises.greenhouse.trials import BROKEN, LOSSY, OTHER, Trials
 from rosbeat.exercises.greenhouse.vent import judge_vent
 from rosbeat.records import GraphSnapshot
-from rosbeat.scenarios.greenhouse.days import lossy_day, other_day
-from rosbeat.scenarios.greenhouse.trials import BROKEN, LOSSY, OTHER, Trials
 
 #: For each output: which inputs it depends on, and who says whether it does so rightly.
 _NEEDS = (

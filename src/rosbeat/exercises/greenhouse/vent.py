@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.greenhouse.days import Day, plain_day
 from rosbeat.exercises.greenhouse.reading import Switch, silent, stamp, switch
-from rosbeat.scenarios.greenhouse.days import Day, plain_day
-from rosbeat.scenarios.greenhouse.trials import Trials
+from rosbeat.exercises.greenhouse.trials import Trials
 
 VENT = "/vent"
 #: Seconds before a temperature ends, when the vent is looked at for the last time.

@@ -12,13 +12,13 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+from rosbeat.exercises.evidence import to_json
+from rosbeat.exercises.registry import scenario
 from rosbeat.grading.inside.careful import careful_functions
 from rosbeat.grading.inside.definitions import define_missing
 from rosbeat.grading.inside.intact import Census, differences
 from rosbeat.grading.inside.standins import run_imports
 from rosbeat.grading.jobs import Job
-from rosbeat.scenarios.evidence import to_json
-from rosbeat.scenarios.registry import scenario
 
 #: The file name of the answer's cell, by which its lines are found.
 CELL = "<answer>"

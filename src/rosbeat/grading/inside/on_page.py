@@ -15,12 +15,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from rosbeat.exercises.evidence import to_json
+from rosbeat.exercises.registry import scenario
 from rosbeat.grading.inside.kernel import JOB, SEEN
 from rosbeat.grading.inside.observing import fault_of
 from rosbeat.grading.inside.standins import StandIn, run_imports
 from rosbeat.grading.jobs import Job, read_job
-from rosbeat.scenarios.evidence import to_json
-from rosbeat.scenarios.registry import scenario
 
 
 def settle_in(folder: str) -> None:

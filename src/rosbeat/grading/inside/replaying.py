@@ -14,12 +14,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from rosbeat.exercises.evidence import to_json
+from rosbeat.exercises.registry import scenario
 from rosbeat.grading.inside.observing import fault_of, writer
 from rosbeat.grading.inside.standins import StandIn, run_imports
 from rosbeat.grading.jobs import Job
 from rosbeat.grading.sandbox import linux
-from rosbeat.scenarios.evidence import to_json
-from rosbeat.scenarios.registry import scenario
 from rosbeat.workspace.place import STEADY
 from rosbeat.workspace.place import workspace as folder
 

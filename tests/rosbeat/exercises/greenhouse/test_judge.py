@@ -1,14 +1,14 @@
 """From trials to an outcome with parts."""
 
 import pytest
+from rosbeat.exercises.check import EXERCISES
+from rosbeat.exercises.evidence import from_json, to_json
 
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises.checking import EXERCISES
 from rosbeat.exercises.greenhouse.judge import JUDGES, judge_greenhouse
 from rosbeat.exercises.greenhouse.rubric import KNOWN, the_rubric
+from rosbeat.exercises.greenhouse.trials import BROKEN, LOSSY, OTHER, PLAIN, Trials
 from rosbeat.records import Endpoint, Fault, GraphSnapshot, Observation, QoS
-from rosbeat.scenarios.evidence import from_json, to_json
-from rosbeat.scenarios.greenhouse.trials import BROKEN, LOSSY, OTHER, PLAIN, Trials
 
 NODE = GraphSnapshot(("/a",), (Endpoint("/a", "/x", "t", "publisher", QoS()),))
 EMPTY = Observation(175 * 10**9, 0, graph=NODE)

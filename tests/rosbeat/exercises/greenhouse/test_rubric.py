@@ -6,9 +6,9 @@ from importlib.resources import files
 import pytest
 
 from rosbeat.errors import ExerciseError
+from rosbeat.exercises.greenhouse.days import USUAL
 from rosbeat.exercises.greenhouse.rubric import KNOWN, NUMBERS, SETTING, TOTAL, parsed, the_rubric
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.scenarios.greenhouse.days import USUAL
 
 OWN = files("rosbeat.exercises").joinpath("rubrics/greenhouse.json").read_text(encoding="utf-8")
 

@@ -2,9 +2,9 @@
 
 import pytest
 
+from rosbeat.exercises.greenhouse.days import USUAL, airing
 from rosbeat.exercises.greenhouse.reading import Switch
 from rosbeat.exercises.greenhouse.vent import stands, wrong_vent
-from rosbeat.scenarios.greenhouse.days import USUAL, airing
 
 DAY = airing(USUAL)
 

@@ -1,0 +1,166 @@
+"""Show in a cell what a learner is told: the frame around it, and the outcome of a check."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from html import escape
+from typing import Any
+
+from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.records import Outcome, Part
+
+# The frame around what a learner is told in a cell: a coloured edge, and nothing else of its own.
+
+#: Signs for what went well, for what did not, for what was not tried, and for a hint.
+RIGHT, WRONG, OPEN, HELP = "\N{CHECK MARK}", "\N{BALLOT X}", "\N{WHITE CIRCLE}", "\N{BULLET}"
+
+#: Colours of the edge, at least 3:1 against a white and against a dark page.
+EDGES = {RIGHT: "#00875f", WRONG: "#c65102", OPEN: "#6b7b8b", HELP: "#3a7ab8"}
+_MOST_LINES = 40
+_MOST_LETTERS = 4000
+
+
+def framed(sign: str, *rows: str) -> str:
+    """Put rows of HTML into a frame.
+
+    Args:
+        sign: Which frame, such as `RIGHT`.
+        rows: HTML that is escaped already; empty rows are left out.
+    """
+    style = f"border-left:4px solid {EDGES[sign]};padding:0.3em 0.8em;margin:0.3em 0"
+    body = "".join(f"<div>{row}</div>" for row in rows if row)
+    return f'<div style="{style}">{body}</div>'
+
+
+def words(text: str, mark: str = "") -> str:
+    """Make HTML of a text; several lines keep their shape.
+
+    Args:
+        text: Any text.
+        mark: An HTML element to put it into, such as `strong`.
+    """
+    text = clipped(text)
+    if "\n" in text:
+        return code(text)
+    return f"<{mark}>{escape(text)}</{mark}>" if mark else escape(text)
+
+
+def code(text: str) -> str:
+    """Make HTML of a text that keeps its shape.
+
+    Args:
+        text: Any text, such as a program.
+    """
+    return f"<pre>{escape(text)}</pre>"
+
+
+def indented(text: str, by: str = "  ") -> str:
+    """Return a text with every line but the first one set in, for plain text."""
+    return clipped(text).replace("\n", f"\n{by}")
+
+
+def clipped(text: str) -> str:
+    """Return a text that somebody can read: its beginning, if it is very long."""
+    lines = text.strip("\n").split("\n")
+    shown = "\n".join(lines[:_MOST_LINES])[:_MOST_LETTERS]
+    if len(shown) == len(text.strip("\n")):
+        return shown
+    return f"{shown}\n... and more, {len(text):,} characters in all"
+
+
+# An outcome as a learner sees it in a cell.
+
+#: The record of an outcome in a cell's output, for programs.
+MIME = "application/vnd.rosbeat.outcome+json"
+VERSION = 1
+
+#: Sign and word of each status.
+LOOKS = {
+    PASSED: (RIGHT, "passed"),
+    FAILED: (WRONG, "not there yet"),
+    NOT_ATTEMPTED: (OPEN, "not attempted yet"),
+}
+
+
+@dataclass(frozen=True)
+class Shown:
+    """An outcome with the ways in which Jupyter and a terminal show it.
+
+    Attributes:
+        outcome: The outcome.
+    """
+
+    outcome: Outcome
+
+    def __str__(self) -> str:
+        return "\n".join([f"{self._head} {indented(self.outcome.evidence)}".strip(), *self._rows()])
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def html(self) -> str:
+        """The outcome as HTML."""
+        head = f"{words(self._head, 'strong')} {words(self.outcome.evidence)}"
+        rows = (_labelled(label, text) for label, text in self._details())
+        return framed(self._look[0], head, *rows)
+
+    def record(self) -> dict[str, Any]:
+        """The outcome as JSON-like data, with the version of its form."""
+        said = {"version": VERSION, **asdict(self.outcome), "remarks": list(self.outcome.remarks)}
+        parts = list(said.pop("parts"))
+        return {**said, "parts": parts} if parts else said
+
+    @property
+    def _look(self) -> tuple[str, str]:
+        return LOOKS[self.outcome.status]
+
+    @property
+    def _head(self) -> str:
+        sign, word = self._look
+        return f"{sign} Exercise {self.outcome.exercise}: {word}{self._points()}."
+
+    def _points(self) -> str:
+        if self.outcome.out_of == 1 or self.outcome.status == NOT_ATTEMPTED:
+            return ""
+        return f", {self.outcome.points} of {self.outcome.out_of} points"
+
+    def _rows(self) -> Iterator[str]:
+        for label, text in self._details():
+            yield f"  {f'{label}: ' if label else ''}{indented(text, '    ')}"
+
+    def _details(self) -> Iterator[tuple[str, str]]:
+        """What comes below the head: a label, which may be empty, and a text."""
+        for part in self.outcome.parts:
+            yield _looked_at(part)
+        if self.outcome.status == FAILED:
+            yield _named(self.outcome.mistake)
+        if self.outcome.hint:
+            yield "Hint", self.outcome.hint
+        for remark in self.outcome.remarks:
+            yield "Remark", remark
+        if self.outcome.status == FAILED:
+            yield "More help", f'hint("{self.outcome.exercise}")'
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"text/plain": str(self), "text/html": self.html(), MIME: self.record()}
+
+
+def _looked_at(part: Part) -> tuple[str, str]:
+    """A requirement: what is required if it is met, and what was seen instead if it is not."""
+    word = "met" if part.met else "not yet"
+    extra = ", optional" if part.optional else ""
+    head = f"{RIGHT if part.met else WRONG} {part.id} {word}, {part.points} of {part.out_of}{extra}"
+    return head, part.text if part.met else part.evidence
+
+
+def _named(mistake: str) -> tuple[str, str]:
+    known = MISTAKES.get(mistake)
+    if known is None:
+        return "", "This is new to me: I have no name for this mistake."
+    return "Mistake", f"{known.title}."
+
+
+def _labelled(label: str, text: str) -> str:
+    return f"{words(f'{label}:', 'em')} {words(text)}" if label else words(text)

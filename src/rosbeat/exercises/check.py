@@ -1,0 +1,109 @@
+"""Check an answer: `check`, as a learner and as nbgrader calls it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from textwrap import wrap
+from typing import Any
+
+from IPython.display import display
+
+from rosbeat.errors import ExerciseError
+from rosbeat.exercises.cards import Shown
+from rosbeat.exercises.progress import progress_file
+from rosbeat.exercises.registry import EXERCISES as EXERCISES
+from rosbeat.exercises.registry import find
+from rosbeat.records import Outcome
+from rosbeat.workspace import graded_runs
+
+# `check`: what a learner calls.
+
+
+def check(exercise: str, answer: Any) -> Shown:  # noqa: ANN401 - whatever a learner hands over
+    """Run the answer to an exercise and say what is right or what is missing.
+
+    A node runs in a session of its own, in virtual time; nothing on the page changes. How far you
+    are is kept beside your workspace; `progress()` shows it.
+
+    Args:
+        exercise: The exercise's id, such as `"03a"`.
+        answer: What the cell above made: a node class, the workspace or a terminal.
+
+    Returns:
+        The outcome, which Jupyter shows.
+
+    Raises:
+        ExerciseError: If there is no such exercise; where nbgrader runs the page, also if the
+            answer does not get all points.
+    """
+    found = find(exercise, "check({}, ...)")
+    outcome = found.judged(found.scenario(answer, **found.given()))
+    standing = progress_file().change(found.id, lambda before: before.after(outcome))
+    told = _with_hints(outcome, standing.hints) if found.tells_hints else outcome
+    execution = graded_runs.execution()
+    return for_nbgrader(told, execution) if execution else Shown(told)
+
+
+def _with_hints(outcome: Outcome, hints: int) -> Outcome:
+    """The outcome, and how many hints were used."""
+    said = f" (With {hints} hint{'' if hints == 1 else 's'}.)" if hints else ""
+    return replace(outcome, evidence=f"{outcome.evidence}{said}")
+
+
+# Outcomes as nbgrader counts them.
+
+#: `nbgrader validate` cuts lines at 87 characters, its own indentation of 4 included.
+_WIDTH = 80
+
+
+class NotPassedError(ExerciseError):
+    """An answer does not get all points; this is how nbgrader is told."""
+
+    def _render_traceback_(self) -> list[str]:
+        """The text alone (IPython calls this): where in rosbeat it was raised helps nobody."""
+        return self.what.splitlines()
+
+
+class AllPoints(Shown):
+    """An outcome with all points: it is shown, and there is no result to be taken for a number."""
+
+    def _ipython_display_(self) -> None:
+        display(Shown(self.outcome))
+
+
+class SomePoints(Shown):
+    """An outcome with some of the points: the result is their number, the words are for readers."""
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {**super()._repr_mimebundle_(), "text/plain": f"{self.outcome.points:g}"}
+
+
+def for_nbgrader(outcome: Outcome, execution: str) -> Shown:
+    """Say an outcome so that nbgrader gives the points for it that the course gives.
+
+    Args:
+        outcome: The outcome.
+        execution: Why nbgrader runs the page: `autograde`, where points are noted, or `validate`,
+            where a learner reads why there are not all of them.
+
+    Returns:
+        What Jupyter shows.
+
+    Raises:
+        NotPassedError: If there are no points; under `validate`, if there are not all of them.
+    """
+    if outcome.points >= outcome.out_of:
+        return AllPoints(outcome)
+    if execution == "validate":
+        rows = str(Shown(outcome)).splitlines()
+        raise NotPassedError("\n".join(line for row in rows for line in _lines(row)))
+    if outcome.points > 0:
+        return SomePoints(outcome)
+    display(Shown(outcome))
+    raise NotPassedError(f"Exercise {outcome.exercise}: 0 of {outcome.out_of} points.")
+
+
+def _lines(row: str) -> list[str]:
+    """A row in lines that nbgrader does not cut, set in as the row is."""
+    inside = " " * (len(row) - len(row.lstrip()) + 2)
+    return wrap(row, _WIDTH, subsequent_indent=inside) or [""]

@@ -1,0 +1,70 @@
+"""Evidence as text: whatever a scenario hands to a judge, written as JSON and read back.
+
+The text is an object with `format`, `version`, `kind` and the fields of that kind, nested as they
+are in the dataclass; see `rosbeat.record_json` for numbers that JSON does not have. Nothing of a
+learner's is run when it is read, so an answer can be judged elsewhere, and later.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosbeat.exercises.bag_report_runs import BagReports
+from rosbeat.exercises.call_runs import Calls
+from rosbeat.exercises.greenhouse.trials import Trials
+from rosbeat.exercises.replays import Replays
+from rosbeat.exercises.scenarios import Report, TypedIn, Workspace
+from rosbeat.exercises.system_run import SystemRun
+from rosbeat.record_json import parse, record, refusal, write
+from rosbeat.records import Observation, ProgramRun
+
+FORMAT = "rosbeat evidence"
+#: Raised by one whenever a field is added, taken away or given another meaning; not for a field
+#: that is omitted while it is empty (`records.OMIT_EMPTY`).
+VERSION = 4
+KINDS: dict[str, type] = {
+    kind.__name__: kind
+    for kind in (
+        Observation,
+        Workspace,
+        TypedIn,
+        Calls,
+        SystemRun,
+        ProgramRun,
+        Report,
+        Replays,
+        BagReports,
+        Trials,
+    )
+}
+
+
+def to_json(seen: Any) -> str:  # noqa: ANN401 - any of the kinds
+    """Write what a scenario has seen; the same evidence gives the same text.
+
+    Raises:
+        RecordError: If it is of no known kind.
+    """
+    kind = type(seen).__name__
+    if KINDS.get(kind) is not type(seen):
+        raise refusal(f"There is no evidence of the kind {kind}.", _known())
+    head = {"format": FORMAT, "version": VERSION, "kind": kind}
+    return write(seen, head, columns=True)
+
+
+def from_json(text: str) -> Any:  # noqa: ANN401 - any of the kinds
+    """Read what `to_json` wrote.
+
+    Raises:
+        RecordError: If it is not JSON, of another format, version or kind, or if any field is
+            missing, unknown or of another type.
+    """
+    body = parse(text, "evidence", FORMAT, VERSION)
+    kind = body.pop("kind", None)
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise refusal(f"Its kind is {kind!r}.", _known())
+    return record(KINDS[kind], body, kind)
+
+
+def _known() -> str:
+    return f"The kinds are: {', '.join(KINDS)}."

@@ -1,0 +1,147 @@
+"""Help with an exercise, one step at a time, the answer last: `hint`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from importlib.resources import files
+from textwrap import indent
+
+from rosbeat.exercises.cards import HELP, code, framed, words
+from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.progress import Standing, progress_file
+from rosbeat.exercises.registry import find
+
+# The answers of the exercises, for the last hint.
+
+_FOLDER = "solved"
+
+
+def answer_to(exercise: str) -> str:
+    """Return the cell that solves an exercise; an empty text if there is none.
+
+    Args:
+        exercise: The exercise's id.
+    """
+    file = files("rosbeat.exercises") / _FOLDER / f"{exercise}.txt"
+    return file.read_text(encoding="utf-8").rstrip("\n") if file.is_file() else ""
+
+
+def are_here() -> bool:
+    """Whether there are answers at all; what an instructor releases to a class has none."""
+    return (files("rosbeat.exercises") / _FOLDER).is_dir()
+
+
+# `hint`: help with an exercise, one step at a time, the answer last.
+
+#: For an exercise that has no hint of its own.
+_READ_AGAIN = (
+    "Read once more what the exercise asks for, word by word, and compare it with what the check "
+    "says.",
+)
+
+#: Where there are no answers, as in what an instructor releases to a class.
+_LAST = "This was the last one. Who teaches the course can tell you more."
+
+
+@dataclass(frozen=True)
+class Hint:
+    """Hints as Jupyter and a terminal show them.
+
+    Attributes:
+        exercise: The exercise's id.
+        hints: The hints to show, each with its number.
+        answer: The cell that solves the exercise; an empty text unless its turn has come.
+        next: What comes next, one sentence; may be empty.
+    """
+
+    exercise: str
+    hints: tuple[tuple[str, str], ...] = ()
+    answer: str = ""
+    next: str = ""
+
+    def __str__(self) -> str:
+        rows = [f"{HELP} {head} {text}" for head, text in self.hints]
+        if self.answer:
+            cell = indent(self.answer, "    ")
+            rows.append(f"{HELP} {self._answer_head}\n\n{cell}\n")
+        return "\n".join([*rows, f"  {self.next}"] if self.next else rows)
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def html(self) -> str:
+        """The hints as HTML."""
+        rows = [f"{words(f'{HELP} {head}', 'strong')} {words(text)}" for head, text in self.hints]
+        if self.answer:
+            rows += [words(f"{HELP} {self._answer_head}", "strong"), code(self.answer)]
+        return framed(HELP, *rows, words(self.next))
+
+    @property
+    def _answer_head(self) -> str:
+        return f"The answer to exercise {self.exercise}, one way among several:"
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        return {"text/plain": str(self), "text/html": self.html()}
+
+
+def hint(exercise: str, *, again: bool = False) -> Hint:
+    """Help with an exercise: each call gives one hint more, and the last one the answer.
+
+    Args:
+        exercise: The exercise's id, such as `"03a"`.
+        again: Show what was shown so far, and nothing new.
+
+    Returns:
+        The hint, which Jupyter shows. How many you have used is kept, also when the kernel
+        restarts.
+
+    Raises:
+        ExerciseError: If there is no such exercise.
+    """
+    found = find(exercise, "hint({})")
+    texts = found.hints or _READ_AGAIN
+    file = progress_file()
+    if again:
+        return _all_so_far(found.id, texts, file.standings().get(found.id, Standing()))
+    standing = file.change(found.id, lambda before: _one_more(before, len(texts)))
+    return _newest(found, texts, standing)
+
+
+def _one_more(before: Standing, there_are: int) -> Standing:
+    if before.hints < there_are:
+        return replace(before, hints=before.hints + 1)
+    return replace(before, answer=True) if are_here() else before
+
+
+def _newest(exercise: Exercise[object], texts: tuple[str, ...], standing: Standing) -> Hint:
+    if standing.answer and are_here():
+        return Hint(exercise.id, answer=_answer(exercise.id))
+    number = min(standing.hints, len(texts))
+    return Hint(
+        exercise.id,
+        (_numbered(exercise.id, texts, number),),
+        next=_next(texts, number, exercise.id),
+    )
+
+
+def _all_so_far(exercise: str, texts: tuple[str, ...], standing: Standing) -> Hint:
+    used = min(standing.hints, len(texts))
+    shown = tuple(_numbered(exercise, texts, number) for number in range(1, used + 1))
+    if standing.answer and are_here():
+        return Hint(exercise, shown, _answer(exercise))
+    return Hint(exercise, shown, next=_next(texts, used, exercise))
+
+
+def _numbered(exercise: str, texts: tuple[str, ...], number: int) -> tuple[str, str]:
+    return f"Hint {number} of {len(texts)} for exercise {exercise}:", texts[number - 1]
+
+
+def _next(texts: tuple[str, ...], used: int, exercise: str) -> str:
+    if used >= len(texts):
+        return "The next one is the answer." if are_here() else _LAST
+    what = "One more" if used else "There was no hint yet. The first one"
+    return f'{what}: hint("{exercise}")'
+
+
+def _answer(exercise: str) -> str:
+    return answer_to(exercise) or "# It stands on the solution page of this exercise."

@@ -1,0 +1,304 @@
+"""Run or look at an answer: the means that scenarios of several pages share."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from rosbeat.errors import ExerciseError
+from rosbeat.records import Observation, QoS
+from rosbeat.ros.isolation import Deadline
+from rosbeat.workspace.meanings import recognise
+from rosbeat.workspace.packages import Package, find_packages, read_package
+
+# What `ros` runs answers with, imported when the first one runs.
+
+#: A node, or what makes one; its type is rclpy's, which is not imported here.
+Node = Any
+
+
+def observe(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
+    """Run an answer in virtual time; see `rosbeat.ros.scenario.observe`."""
+    from rosbeat.ros import scenario
+
+    return scenario.observe(answer, seconds, **options)
+
+
+def feeder(
+    name: str,
+    topic: str,
+    type_name: str,
+    values: Iterable[Any],
+    **options: Any,  # noqa: ANN401
+) -> Callable[[], Node]:
+    """A node that publishes one value a second; see `rosbeat.ros.scenario.feeder`."""
+    from rosbeat.ros import scenario
+
+    return scenario.feeder(name, topic, type_name, values, **options)
+
+
+def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
+    """A node that logs what it hears; see `rosbeat.ros.test_nodes.hearer`."""
+    from rosbeat.ros import test_nodes
+
+    return test_nodes.hearer(name, topic, type_name, qos)
+
+
+def started(make: Any, **start: Any) -> Any:  # noqa: ANN401
+    """A node to run beside an answer, started like `Session.add(make, **start)`."""
+    from rosbeat.ros import launch
+
+    names = ("name", "namespace", "remappings", "parameters")
+    return launch.Maker(make, launch.checked(*(start.get(name) for name in names)))
+
+
+def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
+    """A node that tilts random numbers; see `rosbeat.ros.test_nodes.drift`."""
+    from rosbeat.ros import test_nodes
+
+    return test_nodes.drift(phases)
+
+
+def observe_system(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
+    """Run several nodes in virtual time; see `rosbeat.ros.scenario.observe_system`."""
+    from rosbeat.ros import scenario
+
+    return scenario.observe_system(answer, seconds, **options)
+
+
+def station(name: str, topic: str, readings: Iterable[float | None]) -> Callable[[], Node]:
+    """A sensor that publishes a `Float32` each second; None is a second without a message."""
+    values = [None if reading is None else float(reading) for reading in readings]
+    return feeder(name, topic, "std_msgs/msg/Float32", values)
+
+
+def adding(at: float, make: Callable[[], Node]) -> Any:  # noqa: ANN401
+    """A step that adds a node."""
+    from rosbeat.ros.scenario import Add
+
+    return Add(at, make=make)
+
+
+def removing(at: float, node: str) -> Any:  # noqa: ANN401
+    """A step that destroys a node."""
+    from rosbeat.ros.scenario import Remove
+
+    return Remove(at, node)
+
+
+# A function whose result is the answer: called once, and what it gave back as plain data.
+
+#: Seconds of wall time that the function may take.
+SECONDS = 2.0
+#: Characters of JSON that a result may have.
+MOST = 20_000
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a function gave back.
+
+    Attributes:
+        result: Its result as a text of JSON, where tuples are lists and keys of dicts are texts;
+            empty if it gave back something else, or raised.
+        problem: The exception that it raised, or why its result is no plain data; or empty.
+        type_name: The type of its result.
+    """
+
+    result: str
+    problem: str = ""
+    type_name: str = ""
+
+    @property
+    def value(self) -> Any:  # noqa: ANN401 - any plain data
+        """The result; None if there is none."""
+        return json.loads(self.result) if self.result else None
+
+
+def report(answer: Any, *arguments: Any) -> Report:  # noqa: ANN401 - whatever a learner hands over
+    """Call a function and write down what it gives back.
+
+    Args:
+        answer: The function.
+        arguments: What it is called with.
+    """
+    seen = Report("", f"Deadline: it was still running after {SECONDS:g} s")
+    with Deadline(SECONDS) as deadline:
+        try:
+            seen = _written(answer(*arguments))
+        except (Exception, SystemExit) as error:  # whatever a learner's function does is evidence
+            seen = Report("", f"{type(error).__name__}: {error}")
+    late = f"Deadline: it was still running after {SECONDS:g} s"
+    return Report("", late) if deadline.passed else seen
+
+
+def _written(value: Any) -> Report:  # noqa: ANN401
+    kind = type(value).__name__
+    if value is None:
+        return Report("", "", kind)
+    try:
+        text = json.dumps(value)
+    except (TypeError, ValueError, RecursionError) as error:
+        return Report("", f"NotPlain: {error}", kind)
+    if len(text) > MOST:
+        return Report("", f"NotPlain: it is {len(text)} characters long", kind)
+    return Report(text, "", kind)
+
+
+# Scenarios that look: at a workspace, or at a terminal. Nothing of a learner's is run here.
+
+#: What colcon makes; it belongs to no exercise.
+_BUILT = {"build", "install", "log", "kept"}
+#: A line that was typed, behind its prompt.
+_TYPED = re.compile(r"^(\S+)\$ (.+)$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """What is in a workspace.
+
+    Attributes:
+        folders: Every folder, relative to the workspace, without what colcon makes.
+        packages: Every package, wherever it lies.
+    """
+
+    folders: tuple[str, ...]
+    packages: dict[str, Package]
+
+    def place_of(self, name: str, root: str = "src") -> str:
+        """Where a package lies that is not in `root`, or an empty text."""
+        package = self.packages.get(name)
+        parent = package.folder.parent.as_posix() if package else root
+        return "" if parent == root else parent.replace(".", "the workspace itself")
+
+
+@dataclass(frozen=True)
+class CommandMeaning:
+    """What a command's outcome means, as `workspace.meanings` recognised it on the spot.
+
+    The files that a command was about are gone when the evidence is judged.
+
+    Attributes:
+        mistake: The mistake's id.
+        evidence: What shows it.
+        hint: What to try.
+    """
+
+    mistake: str
+    evidence: str
+    hint: str
+
+
+@dataclass(frozen=True)
+class TypedIn:
+    """What was typed in a terminal, and where that led.
+
+    Attributes:
+        folder: The folder it is in, relative to the workspace; absolute if that is outside.
+        commands: Each line that was typed, with the folder it was typed in, as the prompt said it.
+        exit_code: Of the last command that ended.
+        text: All that it shows.
+        meaning: What a line that was typed has led to, if it is a known mistake.
+    """
+
+    folder: str
+    commands: tuple[tuple[str, str], ...]
+    exit_code: int | None
+    text: str
+    meaning: CommandMeaning | None = None
+
+
+def look_at_workspace(answer: Any) -> Workspace:  # noqa: ANN401 - whatever a learner hands over
+    """Look at a workspace.
+
+    Args:
+        answer: Its folder; `workspace.folder()` on a page.
+
+    Raises:
+        ExerciseError: If that is no folder.
+    """
+    # An empty text would be the folder of the notebook.
+    root = Path(answer) if isinstance(answer, (str, Path)) and str(answer).strip() else None
+    if root is None or not root.is_dir():
+        raise ExerciseError(
+            f"There is no workspace at {root or repr(answer)}.",
+            "This check looks at the folders of your workspace.",
+            "Write workspace.folder(), and run the cells above first: they make it.",
+        )
+    found = [_relative(read_package(folder, root), root) for folder in find_packages(root)]
+    # Of two with one name, the one in src under that name counts; a backup has its name, too.
+    packages = sorted(found, key=lambda one: one.folder.as_posix() == f"src/{one.name}")
+    return Workspace(_folders(root), {package.name: package for package in packages})
+
+
+def look_at_terminal(answer: Any, root: Path, about: str = "") -> TypedIn:  # noqa: ANN401
+    """Look at a terminal of the page.
+
+    Args:
+        answer: The terminal; `workspace.terminal("one")` on a page.
+        root: The workspace.
+        about: What the line holds whose meaning is asked for; of several the last one. By default,
+            and if there is none, it is the last line of all.
+
+    Raises:
+        ExerciseError: If that is no terminal.
+    """
+    if not all(hasattr(answer, name) for name in ("folder", "text", "exit_code")):
+        raise ExerciseError(
+            f"{answer!r} is not a terminal.",
+            "This check looks at a terminal of the page.",
+            'Write workspace.terminal("...") with the name of the terminal in the cell above.',
+        )
+    folder, text, code = Path(answer.folder), answer.text, answer.exit_code
+    typed = list(_TYPED.finditer(text))
+    at = max((at for at, one in enumerate(typed) if about in one[2]), default=len(typed) - 1)
+    return TypedIn(
+        _inside(folder, root),
+        tuple((one[1], one[2]) for one in typed),
+        code,
+        text,
+        _meaning(typed[at:], text, code, folder, root) if typed else None,
+    )
+
+
+def meaning_of(
+    command: str, output: str, code: int, folder: Path, root: Path
+) -> CommandMeaning | None:
+    """Name the mistake behind a command's outcome, if it is one of the known ones.
+
+    Args:
+        command: What was typed.
+        output: What the terminal showed.
+        code: The exit code.
+        folder: The folder in which the terminal was.
+        root: The workspace; its files are looked at, and nothing is run.
+    """
+    found = recognise(command, output, code, folder, root)
+    return CommandMeaning(found.mistake, found.evidence, found.hint) if found else None
+
+
+def _meaning(
+    lines: list[re.Match[str]], text: str, code: int | None, folder: Path, root: Path
+) -> CommandMeaning | None:
+    """What the first of some lines has led to. Of an earlier one the exit code is not known."""
+    end = lines[1].start() if len(lines) > 1 else len(text)
+    output = text[lines[0].end() : end]
+    return meaning_of(lines[0][2], output, 1 if len(lines) > 1 else code or 0, folder, root)
+
+
+def _folders(root: Path) -> tuple[str, ...]:
+    found = (path.relative_to(root) for path in root.rglob("*") if path.is_dir())
+    return tuple(sorted(path.as_posix() for path in found if path.parts[0] not in _BUILT))
+
+
+def _relative(package: Package, root: Path) -> Package:
+    return replace(package, folder=package.folder.relative_to(root))
+
+
+def _inside(folder: Path, root: Path) -> str:
+    folder, root = folder.resolve(), root.resolve()
+    return folder.relative_to(root).as_posix() if root in (folder, *folder.parents) else str(folder)

@@ -1,1 +1,0 @@
-"""The greenhouse of the last page, run: the weather of each trial, and the trials themselves."""
