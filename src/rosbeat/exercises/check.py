@@ -12,14 +12,18 @@ from rosbeat.errors import ExerciseError
 from rosbeat.exercises.cards import Shown
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
-from rosbeat.exercises.registry import find
+from rosbeat.exercises.registry import find, which_exercise
 from rosbeat.records import Outcome
 from rosbeat.workspace import graded_runs
 
 # `check`: what a learner calls.
 
 
-def check(exercise: str, answer: Any) -> Shown:  # noqa: ANN401 - whatever a learner hands over
+#: Stands for an answer that was not handed over; None is one that was.
+_NOTHING = object()
+
+
+def check(exercise: str = "", answer: Any = _NOTHING) -> Shown:  # noqa: ANN401 - a learner's
     """Run the answer to an exercise and say what is right or what is missing.
 
     A node runs in a session of its own, in virtual time; nothing on the page changes. How far you
@@ -33,10 +37,18 @@ def check(exercise: str, answer: Any) -> Shown:  # noqa: ANN401 - whatever a lea
         The outcome, which Jupyter shows.
 
     Raises:
-        ExerciseError: If there is no such exercise; where nbgrader runs the page, also if the
-            answer does not get all points.
+        ExerciseError: If there is no such exercise, or no answer was handed over; where nbgrader
+            runs the page, also if the answer does not get all points.
     """
+    if exercise == "" and answer is _NOTHING:
+        raise which_exercise("check", "check({}, ...)")
     found = find(exercise, "check({}, ...)")
+    if answer is _NOTHING:
+        raise ExerciseError(
+            f"`check` was given no answer to exercise {found.id}.",
+            "It looks at what the cell above has made, such as a class.",
+            f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
+        )
     outcome = found.judged(found.scenario(answer, **found.given()))
     standing = progress_file().change(found.id, lambda before: before.after(outcome))
     told = _with_hints(outcome, standing.hints) if found.tells_hints else outcome

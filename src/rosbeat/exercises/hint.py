@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 from importlib.resources import files
 from textwrap import indent
 
+from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.cards import HELP, code, framed, words
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.progress import Standing, progress_file
-from rosbeat.exercises.registry import find
+from rosbeat.exercises.registry import find, which_exercise
 
 # The answers of the exercises, for the last hint.
 
@@ -74,7 +75,7 @@ class Hint:
         rows = [f"{words(f'{HELP} {head}', 'strong')} {words(text)}" for head, text in self.hints]
         if self.answer:
             rows += [words(f"{HELP} {self._answer_head}", "strong"), code(self.answer)]
-        return framed(HELP, *rows, words(self.next))
+        return framed(HELP, *rows, words(self.next.replace("\n  ", " ")))
 
     @property
     def _answer_head(self) -> str:
@@ -84,8 +85,10 @@ class Hint:
         return {"text/plain": str(self), "text/html": self.html()}
 
 
-def hint(exercise: str, *, again: bool = False) -> Hint:
+def hint(exercise: str = "", *, again: bool = False) -> Hint:
     """Help with an exercise: each call gives one hint more, and the last one the answer.
+
+    If the last check has named a mistake, the first call after it is about that mistake.
 
     Args:
         exercise: The exercise's id, such as `"03a"`.
@@ -96,18 +99,34 @@ def hint(exercise: str, *, again: bool = False) -> Hint:
         restarts.
 
     Raises:
-        ExerciseError: If there is no such exercise.
+        ExerciseError: If there is no such exercise; it offers those of the page.
     """
+    if exercise == "":
+        raise which_exercise("hint", "hint({})")
     found = find(exercise, "hint({})")
     texts = found.hints or _READ_AGAIN
     file = progress_file()
     if again:
         return _all_so_far(found.id, texts, file.standings().get(found.id, Standing()))
+    before = file.standings().get(found.id, Standing())
     standing = file.change(found.id, lambda before: _one_more(before, len(texts)))
+    if before.lead:
+        return _about(before, found, texts)
     return _newest(found, texts, standing)
 
 
+def _about(standing: Standing, exercise: Exercise[object], texts: tuple[str, ...]) -> Hint:
+    """Return the hint about the mistake that the last check has named."""
+    known = MISTAKES[standing.mistake]
+    head = f"Your last check of {exercise.id} found: {known.title}."
+    return Hint(
+        exercise.id, ((head, standing.lead),), next=_next(texts, standing.hints, exercise.id)
+    )
+
+
 def _one_more(before: Standing, there_are: int) -> Standing:
+    if before.lead:
+        return replace(before, lead="")
     if before.hints < there_are:
         return replace(before, hints=before.hints + 1)
     return replace(before, answer=True) if are_here() else before
@@ -120,8 +139,13 @@ def _newest(exercise: Exercise[object], texts: tuple[str, ...], standing: Standi
     return Hint(
         exercise.id,
         (_numbered(exercise.id, texts, number),),
-        next=_next(texts, number, exercise.id),
+        next=_next(texts, number, exercise.id) + _earlier(exercise.id, number),
     )
+
+
+def _earlier(exercise: str, number: int) -> str:
+    """Say how to see earlier hints again, once there are some."""
+    return f'\n  The earlier ones again: hint("{exercise}", again=True)' if number > 1 else ""
 
 
 def _all_so_far(exercise: str, texts: tuple[str, ...], standing: Standing) -> Hint:

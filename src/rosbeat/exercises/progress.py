@@ -11,6 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import RecordError
 from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
@@ -38,6 +39,8 @@ class Standing:
         hints: How many hints were shown.
         answer: Whether the answer was shown.
         mistake: Id of the last mistake, or an empty text.
+        lead: The hint that the last check gave, if it failed and named a mistake; empty once
+            `hint` has shown it.
     """
 
     outcome: str = NOT_ATTEMPTED
@@ -47,6 +50,7 @@ class Standing:
     hints: int = 0
     answer: bool = False
     mistake: str = ""
+    lead: str = ""
 
     @property
     def status(self) -> str:
@@ -68,6 +72,7 @@ class Standing:
             points=max(self.points, outcome.points),
             attempts=self.attempts + (outcome.status != NOT_ATTEMPTED),
             mistake=outcome.mistake or self.mistake,
+            lead=outcome.hint if outcome.mistake in MISTAKES else "",
         )
 
     def as_dict(self) -> dict[str, Any]:

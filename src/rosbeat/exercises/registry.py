@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import os
+import re
+import sys
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
@@ -86,16 +89,70 @@ def find(exercise: object, example: str) -> Exercise[Any]:
         example: The call to show if there is none, with `{}` where the id belongs.
 
     Raises:
-        ExerciseError: If there is no such exercise.
+        ExerciseError: If there is no such exercise; it offers those of the page that is open.
     """
     name = str(exercise).strip().lower()
     found = EXERCISES.get(name)
     if found is None:
-        near = get_close_matches(name, EXERCISES, 1) or sorted(EXERCISES)[:1]
+        here = this_page()
+        near = get_close_matches(name, EXERCISES, 1) or [_offered(here)[0].id]
         near = [f"0{name}"] if f"0{name}" in EXERCISES else near  # 3a is as near to 13a
-        raise ExerciseError(
-            f"There is no exercise {exercise!r}.",
-            f"The exercises are: {', '.join(sorted(EXERCISES))}.",
-            f"Write for example {example.format(repr(near[0]).replace(chr(39), chr(34)))}.",
-        )
+        said = f"There is no exercise {exercise!r}."
+        if callable(exercise):
+            handed = getattr(exercise, "__name__", type(exercise).__name__)
+            said = f"The id of the exercise comes first, and `{handed}` is no id."
+        raise ExerciseError(said, offer(here), f"Write for example {shown(example, near[0])}.")
     return found
+
+
+def which_exercise(call: str, example: str) -> ExerciseError:
+    """Return the error for a call that names no exercise."""
+    page = this_page()
+    near = worked_on() or _offered(page)[0].id
+    return ExerciseError(
+        f"`{call}` was not told which exercise is meant.",
+        offer(page),
+        f"Write for example {shown(example, near)}.",
+    )
+
+
+def shown(example: str, exercise: str) -> str:
+    """Return a call with the id of an exercise in it, such as `hint("03a")`."""
+    return example.format(f'"{exercise}"')
+
+
+def offer(page: Page | None) -> str:
+    """Return a sentence that names the exercises of a page, or of the whole course for None."""
+    if page is None:
+        return f"The exercises are: {', '.join(sorted(EXERCISES))}."
+    listed = ", ".join(f"{one.id} ({one.title})" for one in page.exercises)
+    return f"The exercises on this page are: {listed}."
+
+
+def _offered(page: Page | None) -> Sequence[Exercise[Any]]:
+    return page.exercises if page else list(EXERCISES.values())
+
+
+#: How a page of the course is called: its number, and words.
+_FILE = re.compile(r"(\d\d)_[^/]*$")
+_ASKED = re.compile(r"""\b(?:check|hint)\(\s*["'](\w+)["']""")
+
+
+def this_page() -> Page | None:
+    """Return the page that is open in this kernel; None if that cannot be told.
+
+    Jupyter's server names the notebook in the environment of its kernel. Elsewhere the exercises
+    that the cells so far have asked for tell the page.
+    """
+    file = _FILE.search(os.environ.get("JPY_SESSION_NAME", ""))
+    number = file[1] if file else worked_on()[:2]
+    return next((page for page in PAGES if page.number and page.number == number), None)
+
+
+def worked_on() -> str:
+    """Return the id of the exercise that a cell of this kernel asked for last, or an empty text."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    cells = shell.user_ns.get("In", []) if shell else []
+    asked = [one.lower() for cell in cells for one in _ASKED.findall(str(cell))]
+    return next((one for one in reversed(asked) if one in EXERCISES), "")

@@ -1,12 +1,14 @@
 from __future__ import annotations
 
-import pytest
-from rosbeat.exercises.hint import answer_to
+from types import SimpleNamespace
 
-from rosbeat import hint
+import pytest
+
+from rosbeat import check, hint
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises import registry
-from rosbeat.exercises.exercise import Exercise
+from rosbeat.exercises.exercise import Exercise, failed, passed
+from rosbeat.exercises.hint import answer_to
 from rosbeat.exercises.progress import progress_file
 
 HINTS = ("Look at the <timer>.", "Its first argument is a time.")
@@ -25,7 +27,9 @@ def test_each_call_gives_one_hint_more_and_the_answer_last():
     assert str(first) == (f'• Hint 1 of 2 for exercise 03a: {HINTS[0]}\n  One more: hint("03a")')
     assert HINTS[1] in str(second)
     assert HINTS[0] not in str(second)
-    assert str(second).endswith("\n  The next one is the answer.")
+    assert str(second).endswith(
+        '\n  The next one is the answer.\n  The earlier ones again: hint("03a", again=True)'
+    )
     assert "    class HumiditySensor(Node):\n" in str(third)
     assert third == fourth
     assert third.answer == ANSWER
@@ -90,7 +94,7 @@ def test_without_answers_the_last_hint_stays(monkeypatch):
     second, third = str(hint("03a")), str(hint("03a"))
     assert HINTS[1] in second
     assert second == third
-    assert second.endswith("This was the last one. Who teaches the course can tell you more.")
+    assert "This was the last one. Who teaches the course can tell you more." in second
     assert not progress_file().standings()["03a"].answer
 
 
@@ -124,3 +128,78 @@ def test_where_nothing_can_be_written_the_hints_go_on_all_the_same(tmp_path, cap
     assert HINTS[1] in shown[1]
     assert "The answer" in shown[2]
     assert capsys.readouterr().out.count("cannot be saved") == 1
+
+
+# After a check.
+
+
+def fail_with(mistake, lead="Compare the two names."):
+    outcome = failed("03a", "Nothing came.", lead, mistake)
+    progress_file().change("03a", lambda before: before.after(outcome))
+
+
+def test_the_first_hint_after_a_check_is_about_the_mistake_it_named():
+    hint("03a")
+    fail_with("topic-misspelled")
+    first, second, third = str(hint("03a")), str(hint("03a")), hint("03a")
+    assert first == (
+        "• Your last check of 03a found: a topic's name that nobody else uses. "
+        'Compare the two names.\n  One more: hint("03a")'
+    )
+    assert HINTS[1] in second
+    assert third.answer == ANSWER
+
+
+@pytest.mark.parametrize("mistake", ["new-to-me", "never-heard-of"])
+def test_a_check_that_named_nothing_leaves_the_hints_as_they_are(mistake):
+    fail_with(mistake)
+    assert HINTS[0] in str(hint("03a"))
+
+
+def test_an_answer_that_passed_since_has_no_mistake_any_more():
+    fail_with("topic-misspelled")
+    progress_file().change("03a", lambda before: before.after(passed("03a", "All is well.")))
+    assert HINTS[0] in str(hint("03a"))
+
+
+# Without an exercise.
+
+
+@pytest.mark.parametrize("call", [hint, check])
+def test_a_call_without_an_exercise_offers_those_of_the_page(call, monkeypatch, says):
+    monkeypatch.setenv("JPY_SESSION_NAME", "/home/ana/notebooks/04_write_a_subscriber.ipynb")
+    with pytest.raises(ExerciseError, match="was not told which exercise") as caught:
+        call()
+    says(caught.value, "on this page", "04a (", "04c (", f'{call.__name__}("04a"')
+
+
+def test_elsewhere_the_cells_tell_the_page(monkeypatch, says):
+    monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
+    cells = ["import rosbeat", "check( '08b', Display)", "check('99z', Display)"]
+    shell = SimpleNamespace(user_ns={"In": cells})
+    monkeypatch.setattr("IPython.get_ipython", lambda: shell)
+    with pytest.raises(ExerciseError) as caught:
+        hint()
+    says(caught.value, "08a (", "08c (", 'hint("08b")')
+    with pytest.raises(ExerciseError) as caught:
+        hint("8d")
+    says(caught.value, "There is no exercise '8d'", "08a (", 'hint("08')
+
+
+def test_a_check_without_an_answer_says_what_to_hand_over(says):
+    with pytest.raises(ExerciseError) as caught:
+        check("03a")
+    says(caught.value, "no answer to exercise 03a", 'check("03a", ...)')
+
+
+def test_a_class_in_the_place_of_the_id_is_told_so(says):
+    class WeatherReader:
+        pass
+
+    with pytest.raises(ExerciseError) as caught:
+        check(WeatherReader)
+    says(caught.value, "`WeatherReader` is no id", "check(")
+
+
+def test_none_is_an_answer_that_was_handed_over():
+    assert check("00a", None).outcome.status == "failed"
