@@ -23,7 +23,6 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 #: the files that have most tests.)
 _LONGEST = (
     "tests/conformance/",
-    "tests/bank/test_mutants_of_walks.py",
     *(f"{tree}/{page}" for page in ("07", "06", "09") for tree in ("solutions", "notebooks")),
     "tests/ros2_command/verbs/test_topic.py",
     "tests/torture/",
@@ -41,8 +40,20 @@ _WAITING = (
 )
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with what takes longest; the tests of a file stay together and in their order."""
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option that runs the tests marked as thorough, too."""
+    parser.addoption("--thorough", action="store_true", help="run what takes minutes, too")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Begin with what takes longest; the tests of a file stay together and in their order.
+
+    Tests marked as thorough are left out, unless they are asked for.
+    """
+    if not config.getoption("--thorough"):
+        left_out = [one for one in items if one.get_closest_marker("thorough")]
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [one for one in items if one not in set(left_out)]
     files: dict[str, list[pytest.Item]] = {}
     for item in items:
         files.setdefault(item.nodeid.partition("::")[0], []).append(item)

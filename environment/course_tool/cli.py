@@ -16,7 +16,8 @@ HELP = """\
 Usage:  ./environment/course COMMAND [OPTIONS]
 
   lab      open the course in JupyterLab; options go to it: --no-browser --port 8889 --ip ...
-  test     check everything: lint, types, pages, tests; with arguments, pytest alone runs with them
+  test     check everything: lint, types, pages, tests; --thorough adds tests that take minutes;
+           with other arguments, pytest alone runs with them
   shell    a bash in which ROS and the course's Python are active; -c "command" runs one command
   doctor   say what works here, with the cure for what does not
   bench    measure the course on this machine

@@ -51,7 +51,10 @@ class Counts:
 
 
 def test(layout: Layout, arguments: Sequence[str]) -> int:
-    """Run every step, or only pytest when there are arguments for it."""
+    """Run every step, or only pytest when there are arguments for it.
+
+    `--thorough` alone runs every step, and the tests that take minutes as well.
+    """
     if not (layout.root / "tests").is_dir():
         raise Problem(
             "There are no tests in this folder.",
@@ -59,11 +62,12 @@ def test(layout: Layout, arguments: Sequence[str]) -> int:
             "./environment/course doctor  looks at what works here.",
         )
     environ = prepare.ready(layout, "test")
-    if arguments:
+    thorough = list(arguments) == ["--thorough"]
+    if arguments and not thorough:
         return subprocess.call([layout.python, "-m", "pytest", *arguments], env=environ)
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "pytest.xml"
-        *short, tests = steps(layout, report)
+        *short, tests = steps(layout, report, thorough)
         verdicts = [*_side_by_side(short, layout, environ), _run(tests, layout, environ)]
         counts = read_counts(report)
     say(summary(verdicts, counts))
@@ -79,13 +83,14 @@ def workers(cores: int | None) -> int:
     return min(max(cores or 1, 2) + 1, _MOST_WORKERS)
 
 
-def steps(layout: Layout, report: Path) -> list[Step]:
+def steps(layout: Layout, report: Path, thorough: bool = False) -> list[Step]:
     """Return what `course test` runs, in order; the tests are the last."""
     python = str(layout.python)
     # The order of the files is that of conftest.py, where the longest come first.
     shared = ("--dist", "loadfile", "--no-loadscope-reorder")
     number = str(workers(os.cpu_count()))
-    pytest = (python, "-m", "pytest", "-n", number, *shared, f"--junitxml={report}")
+    more = ("--thorough",) if thorough else ()
+    pytest = (python, "-m", "pytest", "-n", number, *shared, f"--junitxml={report}", *more)
     tool = str(layout.environment / "course_tool")
     # Solution pages are run once, by pytest, which compares them as `build --check` would.
     unrun = ("build", "--check", "--no-run")

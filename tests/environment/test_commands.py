@@ -67,6 +67,10 @@ def test_test_runs_every_kind_of_check(layout, tmp_path):
     for words in ("ruff check", "ruff format --check", "mypy", "rosbeat build --check", "pytest"):
         assert any(words in command for command in commands)
     assert "--dist loadfile" in commands[-1]
+    assert "--thorough" not in commands[-1]
+    *others, tests = testing.steps(layout, tmp_path / "report.xml", thorough=True)
+    assert others == steps[:-1]
+    assert tests.command == (*steps[-1].command, "--thorough")
 
 
 @pytest.mark.parametrize(("cores", "number"), [(None, 3), (1, 3), (2, 3), (4, 5), (64, 6)])
