@@ -18,7 +18,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "src" / "rosbeat"
 
-#: Which rooms of the house a room may import from; `diagnosis.faults` is one module of a room.
+#: Which rooms of the house a room may import from; `diagnosis.exceptions` is one module of a room.
 #: A room may always import from itself.
 MAY_IMPORT = {
     "errors": set(),
@@ -35,7 +35,7 @@ MAY_IMPORT = {
     # Of diagnosis only what names a fault and what it is told of a topic, as plain data.
     "ros": {
         *("errors", "records", "record_columns", "environment", "domains"),
-        *("diagnosis.callbacks", "diagnosis.faults", "diagnosis.situation"),
+        *("diagnosis.calls", "diagnosis.exceptions", "diagnosis.situation"),
     },
     "panel": {"records", "errors", "viz", "ros"},
     "page_session": {"ros", "diagnosis", "panel"},

@@ -134,6 +134,37 @@ class WaitRecord(Timed):
     reason: str
 
 
+@dataclass(frozen=True)
+class Argument:
+    """Describe one argument of a call, without keeping it.
+
+    Attributes:
+        kind: What it is: `message_type`, `type`, `message`, `method`, `function`, or the name of
+            its type.
+        name: For these: which one.
+        parameters: Of a method or function: the names of its parameters; None if unknown.
+    """
+
+    kind: str
+    name: str = ""
+    parameters: tuple[str, ...] | None = None
+
+
+@dataclass(frozen=True)
+class FailedCall:
+    """Describe a call of rclpy that raised.
+
+    Attributes:
+        method: What was called, such as `create_publisher`.
+        given: What it was given without a name, in order.
+        named: What it was given by name.
+    """
+
+    method: str
+    given: tuple[Argument, ...] = ()
+    named: dict[str, Argument] = field(default_factory=dict)
+
+
 @dataclass(frozen=True, slots=True)
 class Fault(Timed):
     """An exception that left a callback, and so ended its node; in the work on a goal, the goal.
@@ -146,10 +177,10 @@ class Fault(Timed):
         text: The exception's message.
         line: Line number of the learner's own line nearest to the fault, 0 if unknown.
         code: That line's text, stripped, or an empty string.
-        asked: The call of rclpy that failed, with the types of what it was given, such as
-            `create_publisher(message_type[Float32], str)`; empty if it was none. If a callback was
-            called while a call was being prepared, `create(called[...])` with its name. If a field
-            of a message refused a value, `field(int)` with the value's type.
+        asked: The call of rclpy that failed, with the types of what it was given; None if it was
+            none. If a callback was called while a call was being prepared, the method is `create`,
+            and what it was given is of the kind `called`. If a field of a message refused a value,
+            the method is `field`.
     """
 
     time_ns: int
@@ -159,7 +190,7 @@ class Fault(Timed):
     text: str
     line: int
     code: str
-    asked: str = ""
+    asked: FailedCall | None = None
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,11 @@ from rclpy.qos import QoSProfile
 from std_msgs.msg import Float32
 from std_srvs.srv import Trigger
 
+from failed_calls import failed_call
 from nodes import Doer, Listener, Server, Speaker, Talker, Ticker
 from rosbeat.errors import SessionError
-from rosbeat.ros.faults import asked_by, asked_text, asking, fault_of, suggestion
+from rosbeat.ros.faults import asked_by, asking, fault_of, suggestion
+from rosbeat.ros.faults import failed_call as described
 
 pytestmark = pytest.mark.ros
 
@@ -228,7 +230,7 @@ def test_the_line_is_the_one_that_calls_the_callback_too_early():
         Hasty()
     fault = fault_of(caught.value, 0, "", "__init__")
     assert fault.code == "self.create_timer(1.0, self.tick())"
-    assert fault.asked == "create(called[tick])"
+    assert fault.asked == failed_call("create(called[tick])")
 
 
 # The call of rclpy that failed is noted on the exception, without calling what it was given.
@@ -269,14 +271,14 @@ class Deceiver:
     ],
 )
 def test_how_a_thing_is_described(given, words):
-    assert asked_text("f", (given,), {"by": given}) == f"f({words}, by={words})"
+    assert described("f", (given,), {"by": given}) == failed_call(f"f({words}, by={words})")
 
 
 def test_the_innermost_call_counts():
     with pytest.raises(KeyError) as caught, asking("outer"), asking("inner", 1):
         raise KeyError
-    assert asked_by(caught.value) == "inner(int)"
-    assert asked_by(KeyError()) == ""
+    assert asked_by(caught.value) == failed_call("inner(int)")
+    assert asked_by(KeyError()) is None
 
 
 def test_a_node_s_failing_calls_are_noted(ros):
@@ -291,7 +293,7 @@ def test_a_node_s_failing_calls_are_noted(ros):
     ros.add(Wrong)
     ros.run(1)
     (fault,) = ros.observation().faults
-    assert fault.asked == "create_publisher(message_type[Float32], str)"
+    assert fault.asked == failed_call("create_publisher(message_type[Float32], str)")
 
 
 def test_an_error_of_the_learner_s_own_is_no_call(ros):
@@ -305,7 +307,7 @@ def test_an_error_of_the_learner_s_own_is_no_call(ros):
 
     ros.add(Wrong)
     ros.run(1)
-    assert ros.observation().faults[0].asked == ""
+    assert ros.observation().faults[0].asked is None
 
 
 #

@@ -1,19 +1,55 @@
-"""The call of rclpy that failed, as `Fault.asked` writes it down.
+"""Calls of rclpy that fail: arguments that are missing, swapped, or of another kind.
 
-`create_subscription(message_type[Float32], str, method[listen(self)], depth=int)`: what was given,
-by its type. It reads as an expression of Python, so Python's own parser takes it apart.
+rclpy's own text is the same for a missing callback and a missing queue depth. So a call that fails
+is recorded as data, with the types of what it was given (`records.FailedCall`). In a terminal,
+where a program's output is all that is known, it is read from the line of source.
 """
 
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass, field
-from typing import TypeGuard
+import re
+from typing import NamedTuple, TypeGuard
 
-from rosbeat.diagnosis.meaning import MESSAGES
-from rosbeat.records import Fault
+from rosbeat.diagnosis.mistakes import Meaning
+from rosbeat.records import Argument, FailedCall, Fault
 
-#: What is given for each kind of thing, by the first word of its description.
+#: The types of `std_msgs`, which learners of this course use.
+MESSAGES = frozenset(
+    (
+        *("Bool", "Byte", "Char", "ColorRGBA", "Empty", "Float32", "Float64", "Header", "String"),
+        *("Int8", "Int16", "Int32", "Int64", "UInt8", "UInt16", "UInt32", "UInt64"),
+        *("Float32MultiArray", "Float64MultiArray", "Int32MultiArray"),
+    )
+)
+
+_SPIN = re.compile(r"\b(spin|spin_once|spin_until_future_complete)\(")
+
+
+def matched(fault: Fault, pattern: str, *kinds: str) -> re.Match[str] | None:
+    """Look for a pattern in an exception's text.
+
+    Args:
+        fault: The exception.
+        pattern: A regular expression.
+        kinds: Only of these classes; of every class if there are none.
+    """
+    return re.search(pattern, fault.text) if not kinds or fault.kind in kinds else None
+
+
+def called_by_ros(fault: Fault) -> bool:
+    """Return whether the call that failed was made by ROS, and not by a line of the learner's."""
+    return not fault.line or _SPIN.search(fault.code) is not None
+
+
+def article(word: str) -> str:
+    """Return a word with `a` or `an` before it."""
+    return f"an {word}" if word[:1].lower() in tuple("aeio") else f"a {word}"
+
+
+# What a call was given.
+
+#: What an argument could be used as, by its kind; any other kind is used as nothing here.
 _ROLES = {
     "message_type": "type",
     "type": "type",
@@ -30,32 +66,7 @@ _ROLES = {
     "float": "number",
     "unknown": "unknown",
 }
-
-
-@dataclass(frozen=True)
-class Given:
-    """One argument of a call.
-
-    Attributes:
-        kind: What it is: a type's name, or `message_type`, `message`, `method`, `function`, `type`.
-        name: For these: which one.
-        parameters: Of a method or function: the names of its parameters; None if unknown.
-    """
-
-    kind: str
-    name: str = ""
-    parameters: tuple[str, ...] | None = None
-
-    @property
-    def role(self) -> str:
-        """What it could be used as: `type`, `topic`, `callback`, `depth`; or else what it is."""
-        return _ROLES.get(self.kind, "other")
-
-    def __str__(self) -> str:
-        return _WORDS.get(self.kind, f"an object of type {self.kind}").format(self.name)
-
-
-#: How an argument is called in a sentence.
+#: How an argument is called in a sentence, by its kind.
 _WORDS = {
     "message_type": "the message type {}",
     "type": "the type {}",
@@ -71,100 +82,297 @@ _WORDS = {
 }
 
 
-@dataclass(frozen=True)
-class Asked:
-    """A call.
-
-    Attributes:
-        method: What was called, such as `create_publisher`.
-        given: What it was given without a name, in order.
-        named: What it was given by name.
-    """
-
-    method: str
-    given: tuple[Given, ...] = ()
-    named: dict[str, Given] = field(default_factory=dict)
+def role_of(argument: Argument) -> str:
+    """Return what an argument could be used as: `type`, `topic`, `callback`, `depth`, ..."""
+    return _ROLES.get(argument.kind, "other")
 
 
-def asked_of(fault: Fault) -> Asked | None:
-    """The call of rclpy that failed; None if it was none, or cannot be read."""
-    try:
-        call = ast.parse(fault.asked, mode="eval").body if fault.asked else None
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+def in_words(argument: Argument) -> str:
+    """Return an argument as a part of a sentence, such as `the method tick`."""
+    return _WORDS.get(argument.kind, f"an object of type {argument.kind}").format(argument.name)
+
+
+# Publishers and subscriptions.
+
+
+class _Parameter(NamedTuple):
+    role: str
+    name: str
+    words: str
+
+
+_TYPE = _Parameter("type", "msg_type", "the message type")
+_TOPIC = _Parameter("topic", "topic", "the topic's name")
+_CALLBACK = _Parameter("callback", "callback", "the callback")
+_DEPTH = _Parameter("depth", "qos_profile", "the queue depth")
+_WANTED = {
+    "create_publisher": (_TYPE, _TOPIC, _DEPTH),
+    "create_subscription": (_TYPE, _TOPIC, _CALLBACK, _DEPTH),
+}
+#: What else these calls may be given by name.
+_OPTIONS = frozenset(
+    ("callback_group", "event_callbacks", "qos_overriding_options", "publisher_class", "raw")
+)
+_MISSING = {"depth": "depth-missing", "callback": "callback-missing"}
+#: In which order each call takes its arguments.
+ORDER = {
+    "create_publisher": "create_publisher takes the message type, the topic and the queue depth, "
+    "in this order.",
+    "create_subscription": "create_subscription takes the message type, the topic, the callback "
+    "and the queue depth, in this order.",
+    "create_timer": "create_timer takes the time between two calls, in seconds, and then the "
+    "callback.",
+    "create_service": "create_service takes the service type, the name and the callback. Unlike a "
+    "subscription, a service needs no queue depth.",
+}
+#: What belongs in each place.
+KINDS = {
+    "topic": "A topic's name is a text: it stands in quotes.",
+    "callback": "A callback is a function or a method: its name, without quotes and brackets.",
+    "depth": "The queue depth is a whole number from 1 up, without quotes.",
+}
+
+
+def wrong_call(fault: Fault) -> Meaning | None:
+    """Recognise a publisher or a subscription that was given the wrong arguments."""
+    call = fault.asked
+    if call is None or call.method not in _WANTED:
         return None
-    if not isinstance(call, ast.Call):
+    wanted, order = _WANTED[call.method], ORDER[call.method]
+    unknown = [name for name in call.named if name not in {one.name for one in wanted} | _OPTIONS]
+    if unknown:
+        means = f"{call.method} has no argument called {unknown[0]}."
+        return Meaning("wrong-argument", means, order)
+    if len(call.given) > len(wanted):
+        means = f"{call.method} was given {len(call.given)} arguments, and takes {len(wanted)}."
+        return Meaning("wrong-argument", means, order)
+    left = [one for one in wanted if one.name not in call.named]
+    return _missing(call, left) or _swapped(call, left) or _of_another_kind(call, left)
+
+
+def _missing(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
+    lacking = len(left) - len(call.given)
+    if lacking <= 0:
         return None
-    return Asked(
-        ast.unparse(call.func),
-        tuple(_given(one) for one in call.args),
-        {one.arg: _given(one.value) for one in call.keywords if one.arg},
+    # What cannot be told by its kind is taken for what its place says.
+    known = {one.role for one in left}
+    roles = [
+        role if (role := role_of(given)) in known else wanted.role
+        for given, wanted in zip(call.given, left, strict=False)
+    ]
+    missing = [one for one in left if one.role not in roles] or left[len(call.given) :]
+    words = " and ".join(one.words for one in missing[:lacking])
+    name = _MISSING.get(missing[0].role, "argument-missing") if lacking == 1 else "argument-missing"
+    asks = " What is the last one for?" if name == "depth-missing" else ""
+    means = f"{call.method} got no argument for {words}."
+    return Meaning(name, means, ORDER[call.method] + asks)
+
+
+def _swapped(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
+    got, order = [role_of(one) for one in call.given], [one.role for one in left]
+    if got == order or sorted(got) != sorted(order):
+        return None
+    at = next(at for at, role in enumerate(order) if got[at] != role)
+    means = f"{call.method} got {in_words(call.given[at])} in the place of {left[at].words}."
+    return Meaning("arguments-swapped", means, ORDER[call.method])
+
+
+def _of_another_kind(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
+    named = [(one, call.named[one.name]) for one in _WANTED[call.method] if one.name in call.named]
+    for (role, _, words), given in [*zip(left, call.given, strict=False), *named]:
+        found = role_of(given)
+        if found == "unknown" or found == role != "type":
+            continue
+        if role == "type" and given.kind != "message_type":
+            return no_message_type(given)
+        if role == "callback" and given.kind == "NoneType":
+            return callback_called("The callback of the subscription")
+        if role != "type" and not (role == "callback" and found == "other"):
+            mistake = "wrong-depth" if role == "depth" else "wrong-argument"
+            means = f"{call.method} got {in_words(given)} in the place of {words}."
+            return Meaning(mistake, means, KINDS[role])
+    return None
+
+
+def no_message_type(given: Argument | None) -> Meaning:
+    """Return the meaning of something that stands in the place of the message type (row 8)."""
+    if given is not None and given.kind == "message":
+        return Meaning(
+            "not-a-message-type",
+            f"A message of type {given.name} stands where its class belongs.",
+            "Here the class itself is wanted: nothing is sent yet. What do the brackets do?",
+        )
+    what = f"{in_words(given)}, which" if given is not None else "something that"
+    return Meaning(
+        "not-a-message-type",
+        f"In the place of the message type stands {what} is none.",
+        "Message types are classes that are imported from a package of messages. Which one does "
+        "this topic carry?",
+        "(Never mind ROS 1 in the error: it guesses.)",
     )
 
 
-def _given(node: ast.expr) -> Given:
-    if not isinstance(node, ast.Subscript):
-        return Given(ast.unparse(node))
-    kind, what = ast.unparse(node.value), node.slice
-    if isinstance(what, ast.Call):
-        return Given(kind, ast.unparse(what.func), tuple(ast.unparse(one) for one in what.args))
-    return Given(kind, ast.unparse(what))
+def callback_called(subject: str) -> Meaning:
+    """Return the meaning of a callback that is None, since it was called (row 9)."""
+    return Meaning(
+        "callback-called",
+        f"{subject} is None. That happens when a method is called on the spot and what it "
+        "returns, nothing, is handed over.",
+        "Hand over the method itself, without brackets after its name: ROS calls it later.",
+    )
 
 
-def written_call(code: str) -> str:
-    """A call that makes an entity, in the words of `Fault.asked`, as a line of source shows it.
+# The callback of a subscription.
 
-    Where a program's output is all that is known, the line is the only trace of the call. What the
-    line does not tell is `unknown`.
+_HAND_OVER = "Hand over the method itself, without brackets after its name: ROS calls it later."
+_WITH_MESSAGE = (
+    "Python hands a method its own object first, and ROS hands a subscription's callback the "
+    "message: which two parameters does it need?"
+)
+
+
+def refused_callback(fault: Fault) -> Meaning | None:
+    """Recognise a callback that cannot be called with a message (rows 9 and 10)."""
+    refused = r"callback should be either be callable|invalid method signature"
+    if not matched(fault, refused, "RuntimeError", "ValueError"):
+        return None
+    callback = _part(fault.asked, 2, "callback") if fault.asked else None
+    if callback is None:
+        return Meaning(
+            "wrong-argument",
+            "What stands in the place of the callback cannot be called with a message.",
+            f"A callback takes self and the message. {_HAND_OVER}",
+        )
+    role = role_of(callback)
+    if role == "none":
+        return callback_called("The callback of the subscription")
+    return _parameters(callback) if role in ("callback", "unknown") else None
+
+
+def _part(call: FailedCall, at: int, name: str) -> Argument | None:
+    return call.named.get(name) or (call.given[at] if len(call.given) > at else None)
+
+
+def _parameters(callback: Argument) -> Meaning:
+    names = callback.parameters
+    if names is None:
+        means = f"{callback.name or 'The callback'} cannot be called with a message."
+    elif names and names[0] != "self" and callback.kind == "method":
+        means = f"{callback.name} has no parameter self, so the message finds no place."
+    else:
+        means = f"{callback.name} has no parameter for the message."
+    return Meaning("callback-parameters", means, _WITH_MESSAGE)
+
+
+def called_at_once(fault: Fault) -> Meaning | None:
+    """Recognise a callback that was called in order to be handed over (row 9)."""
+    call = fault.asked
+    if call and call.given and call.given[0].kind == "called":
+        return _called(call.given[0].name)
+    found = matched(fault, r"(\w+)\(\) missing \d required positional arguments?:", "TypeError")
+    name = found[1] if found else ""
+    if not found and matched(fault, r"name 'msg' is not defined", "NameError"):
+        handed = re.search(r"\.(\w+)\(msg\)", fault.code)
+        name = handed[1] if handed else ""
+    return _called(name) if name and is_argument(fault.code, name) else None
+
+
+def _called(name: str) -> Meaning:
+    means = f"{name} is called while the node is being made, and not handed over."
+    return Meaning("callback-called", means, _HAND_OVER)
+
+
+def is_argument(code: str, name: str) -> bool:
+    """Return whether a line calls a method in order to hand over what it returns.
 
     Args:
-        code: The line; if it is only a part of the call, the answer is an empty text.
+        code: A line of source, perhaps one of several of a call.
+        name: The method.
     """
+    call = rf"\.{re.escape(name)}\([^()]*\)"
+    at_once = r"(?:(?!\blambda\b).)*"  # what stands in a lambda is called later
+    handed = rf"create_\w+\({at_once}{call}|^\w+{call},$|^callback=\w+{call}"
+    return re.search(handed, code) is not None
+
+
+def called_callback(name: str) -> FailedCall:
+    """Return the call that is recorded where a callback was called while one was prepared."""
+    return FailedCall("create", (Argument("called", name),))
+
+
+# Timers.
+
+
+def wrong_timer(fault: Fault) -> Meaning | None:
+    """Recognise a `create_timer` that was given the wrong arguments."""
+    call = fault.asked
+    if call is None or call.method != "create_timer":
+        return None
+    order = ORDER["create_timer"]
+    period, callback = _part(call, 0, "timer_period_sec"), _part(call, 1, "callback")
+    if period and role_of(period) == "callback" and callback:
+        means = "create_timer got the callback in the place of the period."
+        return Meaning("arguments-swapped", means, order)
+    if period is None or role_of(period) == "callback":
+        return Meaning("argument-missing", "create_timer was not told how often.", order)
+    if callback is None:
+        return Meaning("callback-missing", "create_timer was not told what to call.", order)
+    if len(call.given) > 2:
+        return Meaning("wrong-argument", "create_timer was given an argument too many.", order)
+    means = f"create_timer got {in_words(period)} as the time between two calls."
+    if period.kind in ("int", "float"):
+        means = "The time between two calls of the timer is a number that no clock can wait for."
+    return Meaning("wrong-rate", means, PERIOD)
+
+
+#: What the period of a timer may be.
+PERIOD = "The period is a number of seconds above zero, such as 0.5 or 2."
+
+
+# A call as a line of source shows it. What the line does not tell is `unknown`.
+
+
+def written_call(code: str) -> FailedCall | None:
+    """Return the call that makes an entity in a line of source; None if it holds none, whole."""
     try:
         tree = ast.parse(code)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return ""
-    calls = [node for node in ast.walk(tree) if _makes_an_entity(node)]
-    return _in_words(calls[0]) if calls else ""
+        return None
+    call = next((node for node in ast.walk(tree) if _makes_an_entity(node)), None)
+    if call is None:
+        return None
+    return FailedCall(
+        ast.unparse(call.func).split(".")[-1],
+        tuple(_written(one) for one in call.args),
+        {one.arg: _written(one.value) for one in call.keywords if one.arg},
+    )
 
 
 def _makes_an_entity(node: ast.AST) -> TypeGuard[ast.Call]:
     if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
         return False
-    return node.func.attr.startswith("create_") and not _unpacks(node)
+    unpacks = any(isinstance(one, ast.Starred) for one in node.args)
+    unpacks = unpacks or any(one.arg is None for one in node.keywords)
+    return node.func.attr.startswith("create_") and not unpacks
 
 
-def _in_words(call: ast.Call) -> str:
-    given = [_written(one) for one in call.args]
-    given += [f"{one.arg}={_written(one.value)}" for one in call.keywords]
-    return f"{ast.unparse(call.func).split('.')[-1]}({', '.join(given)})"
-
-
-def _unpacks(call: ast.Call) -> bool:
-    starred = any(isinstance(one, ast.Starred) for one in call.args)
-    return starred or any(one.arg is None for one in call.keywords)
-
-
-def _written(node: ast.expr) -> str:
+def _written(node: ast.expr) -> Argument:
     if isinstance(node, ast.Constant):
-        return type(node.value).__name__
+        return Argument(type(node.value).__name__)
     if isinstance(node, ast.Lambda):
-        return "function"
+        return Argument("function")
     if isinstance(node, ast.Attribute):
-        return _dotted(node)
+        own = isinstance(node.value, ast.Name) and node.value.id == "self"
+        return Argument("method", node.attr) if own else _named(node.attr)
     if isinstance(node, ast.Name):
         return _named(node.id)
     if isinstance(node, ast.Call) and ast.unparse(node.func).startswith("self."):
-        return "NoneType"  # what a callback returns that is called on the spot
-    return "unknown"
+        return Argument("NoneType")  # what a callback returns that is called on the spot
+    return Argument("unknown")
 
 
-def _dotted(node: ast.Attribute) -> str:
-    if isinstance(node.value, ast.Name) and node.value.id == "self":
-        return f"method[{node.attr}]"
-    return _named(node.attr)
-
-
-def _named(name: str) -> str:
+def _named(name: str) -> Argument:
     if name in MESSAGES:
-        return f"message_type[{name}]"
-    return f"type[{name}]" if name in ("float", "int", "str", "bool") else "unknown"
+        return Argument("message_type", name)
+    plain = name in ("float", "int", "str", "bool")
+    return Argument("type", name) if plain else Argument("unknown")

@@ -9,17 +9,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rosbeat.diagnosis.beyond import (
-    grading,
-    page_07,
-    page_08,
-    page_09,
-    page_10,
-    page_11,
-    page_12,
-    page_13,
-)
-from rosbeat.diagnosis.mistake import Mistake as Mistake
+
+@dataclass(frozen=True)
+class Mistake:
+    """A mistake that has a name.
+
+    Attributes:
+        id: Its name in records and tests, such as `topic-misspelled`.
+        title: Its name for people, a few words in lower case.
+        row: Its number in the table of thirty, or 0.
+    """
+
+    id: str
+    title: str
+    row: int = 0
+
+    @property
+    def heading(self) -> str:
+        """Its title as a sentence begins, unless that begins with code: `super().__init__ ...`."""
+        first = self.title.split()[0]
+        return self.title[:1].upper() + self.title[1:] if first.isalpha() else self.title
 
 
 @dataclass(frozen=True)
@@ -35,6 +44,28 @@ class Diagnosis:
     mistake: str
     evidence: str
     hint: str
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """An error that was recognised, in the words of this course.
+
+    Attributes:
+        mistake: Its id, from `mistakes.MISTAKES`.
+        means: What happened, as a sentence or two.
+        to_try: Where to look, without the answer, one or two sentences.
+        aside: A sentence about the error's own words, for where they stand above; may be empty.
+    """
+
+    mistake: str
+    means: str
+    to_try: str
+    aside: str = ""
+
+    @property
+    def beside_error(self) -> str:
+        """Return what happened, said where the error's own words can be read."""
+        return f"{self.means} {self.aside}".strip()
 
 
 #: What a failed outcome is called if no mistake was recognised.
@@ -210,13 +241,152 @@ _OTHERS = (
     Mistake("other-package", "another package than asked for"),
 )
 
-_BEYOND = tuple(
-    one
-    for page in (page_07, page_08, page_09, page_10, page_11, page_12, page_13, grading)
-    for one in page.MISTAKES
+_OF_PAGES = (
+    # Those of page 07.
+    # Findings about a system.
+    Mistake("finding-missing", "a question that has no answer any more"),
+    Mistake("finding-wrong", "a finding that the system contradicts"),
+    Mistake("other-kind", "a finding of another kind than was asked for"),
+    Mistake("name-incomplete", "a part of a name in the place of the whole"),
+    Mistake("not-in-graph", "a name that nothing in the graph has"),
+    Mistake("sides-confused", "one side of a topic taken for the other"),
+    Mistake("period-for-rate", "seconds from one message to the next instead of messages a second"),
+    # Parameters.
+    Mistake("parameter-frozen", "a parameter that is read only once"),
+    Mistake("parameter-late", "a parameter that counts one reading too late"),
+    Mistake("parameter-refused", "a parameter that refuses a good value"),
+    Mistake("parameters-swapped", "two parameters in each other's place"),
+    # Log lines as messages.
+    Mistake("level-too-low", "a log line counted that is no warning"),
+    Mistake("level-missed", "a level left out that is worse than a warning"),
+    Mistake("text-for-name", "a log line's text in the place of its node's name"),
+    Mistake("own-name", "the listener's own name in the place of the speaker's"),
+    Mistake("said-once", "a name that is said only the first time"),
+    # Those of page 08.
+    Mistake("not-kept", "a last word that is not kept for those who come late"),
+    Mistake("old-words-too", "more kept for those who come late than asked for"),
+    Mistake("change-missing", "a change that nobody is told about"),
+    Mistake("queue-too-short", "a queue too short for the pause"),
+    Mistake("heard-twice", "the same message heard by two subscriptions"),
+    Mistake("no-deadline", "a silence that nothing measures"),
+    Mistake("deadline-unheard", "a deadline that nobody is told about"),
+    Mistake("deadline-wrong-side", "a deadline where nothing is waited for"),
+    Mistake("wrong-deadline", "another deadline than asked for"),
+    # Those of page 09.
+    Mistake("parameter-type", "a parameter of another type than declared"),
+    Mistake("parameter-undeclared", "a parameter that was not declared"),
+    Mistake("parameter-twice", "a parameter declared twice"),
+    Mistake("parameter-for-value", "a parameter where its value is meant"),
+    Mistake("absolute-name", "a name that no namespace moves"),
+    Mistake("limits-fixed", "limits that no parameter changes"),
+    Mistake("unit-fixed", "a unit that no parameter changes"),
+    Mistake("other-default", "another default than asked for"),
+    Mistake("beat-starved", "a beat that waits for the work"),
+    Mistake("work-too-short", "work that takes less time than it has to"),
+    Mistake("work-too-long", "work that takes more time than it has to"),
+    Mistake("work-at-once", "two orders worked on at once"),
+    Mistake("order-lost", "an order that nobody works on"),
+    Mistake("order-swapped", "orders done in another order than they came"),
+    Mistake("done-twice", "an order reported done twice"),
+    Mistake("silence-unnoticed", "a silence that nobody notices"),
+    Mistake("noticed-afterwards", "a silence noticed only when it is over"),
+    Mistake("noticed-early", "a silence reported that is none"),
+    Mistake("noticed-late", "a silence noticed too late"),
+    Mistake("lost-before-found", "a sensor reported lost that was never there"),
+    Mistake("back-missing", "a return that nobody reports"),
+    Mistake("back-too-often", "a return reported of one that was not lost"),
+    # Those of page 10.
+    # What a patient may have.
+    Mistake("wrong-namespace", "a topic's name in another namespace"),
+    Mistake("two-sources", "two publishers where one was ordered"),
+    Mistake("depth-too-small", "a queue too short for what comes at once"),
+    # What a diagnosis may be.
+    Mistake("contradicted", "a diagnosis that the instruments contradict"),
+    Mistake("other-place", "the right kind of fault at another place"),
+    Mistake("no-such-diagnosis", "a diagnosis that the clinic does not know"),
+    Mistake("no-such-place", "a place that the patient does not have"),
+    Mistake("no-diagnosis-yet", "a patient without a diagnosis"),
+    Mistake("half-a-diagnosis", "one diagnosis where there are two faults"),
+    Mistake("no-diagnoses", "a result that holds no diagnoses"),
+    # Those of page 11.
+    Mistake("all-topics", "messages of another topic counted"),
+    Mistake("nan-left-out", "a message left out because it holds no number"),
+    Mistake("counted-wrong", "counted one too many or too few"),
+    Mistake("other-gap", "another stretch of time than asked for"),
+    Mistake("nan-spreads", "a NaN that spoils a mean"),
+    Mistake("wrong-share", "a sum divided by another count than its own"),
+    Mistake("other-mean", "another number than the mean"),
+    Mistake("no-dict", "a result without names"),
+    Mistake("key-missing", "a result without a name that was asked for"),
+    Mistake("no-number", "something else than one number"),
+    Mistake("fixed-answer", "the same answer whatever is given"),
+    Mistake("nan-compared", "a NaN that nobody notices"),
+    Mistake("nan-kept", "a NaN kept for the next comparison"),
+    Mistake("alarm-at-start", "an alarm for the very first reading"),
+    Mistake("one-direction", "a difference noticed in one direction only"),
+    Mistake("other-reading", "compared with another reading than asked for"),
+    Mistake("never-reset", "a memory that is never reset"),
+    Mistake("nearly-equal", "nearly equal taken for equal"),
+    Mistake("too-few-pairs", "a mean of too few pairs"),
+    Mistake("mean-of-sizes", "signs lost before the mean is made"),
+    Mistake("pairs-mixed-up", "pairs that do not belong together"),
+    # Those of page 12.
+    Mistake("no-service", "nothing that answers"),
+    Mistake("service-misspelled", "a service or action under another name"),
+    Mistake("response-missing", "a service's callback that gives nothing back"),
+    Mistake("response-wrong", "something else given back than the response"),
+    Mistake("response-not-filled", "a response that says no although it was done"),
+    Mistake("reason-missing", "a refusal without a reason"),
+    Mistake("reason-too-many", "a reason although nothing was refused"),
+    Mistake("nonsense-accepted", "a value accepted that makes no sense"),
+    Mistake("nan-accepted", "a NaN that passes because it compares with nothing"),
+    Mistake("good-value-refused", "a good value refused"),
+    Mistake("refused-and-kept", "a value refused and used all the same"),
+    Mistake("accepted-and-lost", "a value accepted and not used"),
+    Mistake("not-validated", "a parameter that takes any value"),
+    Mistake("result-of-another-kind", "a parameter callback that gives back no result"),
+    Mistake("validated-one-by-one", "a new value compared with an old one"),
+    Mistake("no-action", "nothing that takes a goal"),
+    Mistake("result-missing", "work that gives no result back"),
+    Mistake("result-wrong", "a result that holds something else"),
+    Mistake("feedback-wrong", "something else than feedback"),
+    Mistake("feedback-missing", "feedback that does not come each second"),
+    Mistake("canceled-unasked", "a goal reported canceled that nobody canceled"),
+    Mistake("ended-twice", "a goal that ends twice"),
+    Mistake("await-missing", "a future where its result is meant"),
+    Mistake("not-an-integer", "a number that is not whole"),
+    Mistake("succeed-forgotten", "a goal that was reached and is not reported"),
+    Mistake("never-ends", "work that does not end"),
+    Mistake("ends-too-soon", "work that ends before the goal is reached"),
+    Mistake("left-on", "a heater that nobody switches off"),
+    Mistake("cancel-refused", "a goal that cannot be canceled"),
+    Mistake("cancel-ignored", "a cancel that the work does not look at"),
+    Mistake("cancel-not-reported", "a canceled goal that is reported as another end"),
+    # Those of page 13.
+    Mistake("no-system", "something that is no list of nodes"),
+    Mistake("two-controllers", "two nodes that command one actuator"),
+    Mistake("two-tasks", "one node with two tasks"),
+    Mistake("shared-variable", "nodes that share a variable and no topic"),
+    Mistake("falls-together", "a node that takes another one down with it"),
+    Mistake("never-switched-on", "an actuator that is not switched on when it should be"),
+    Mistake("wrong-duration", "another duration than asked for"),
+    Mistake("rest-too-short", "a rest that is too short"),
+    Mistake("no-interlock", "two actuators at work that exclude each other"),
+    Mistake("alarm-too-early", "an alarm before its time"),
+    Mistake("nonsense-believed", "a reading that cannot be is believed"),
+    Mistake("limit-fixed", "a limit that cannot be set from outside"),
+    # Those of grading.
+    Mistake("unreadable-cell", "a cell that Python cannot read"),
+    Mistake("too-long", "a program that does not come to an end"),
+    Mistake("too-much-memory", "a program that takes more and more memory"),
+    Mistake("too-much-output", "a program that prints without end"),
+    Mistake("crashed", "a process that died"),
+    Mistake("left-early", "a program that ends its process"),
+    Mistake("changes-the-course", "a program that changes what observes it"),
+    Mistake("evidence-unreadable", "a run that leaves something else than evidence"),
 )
 
-MISTAKES: dict[str, Mistake] = {one.id: one for one in (*_OF_THE_TABLE, *_OTHERS, *_BEYOND)}
+MISTAKES: dict[str, Mistake] = {one.id: one for one in (*_OF_THE_TABLE, *_OTHERS, *_OF_PAGES)}
 
 
 def mistake(name: str) -> Mistake:

@@ -12,11 +12,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rosbeat.diagnosis.callbacks import CALLED, is_argument
-from rosbeat.diagnosis.calls import written_call
-from rosbeat.diagnosis.faults import diagnosed, meaning_of
-from rosbeat.diagnosis.meaning import Meaning, matched
-from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.calls import called_callback, is_argument, matched, written_call
+from rosbeat.diagnosis.exceptions import diagnosed, meaning_of
+from rosbeat.diagnosis.mistakes import Diagnosis, Meaning
 from rosbeat.records import Fault
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
@@ -117,7 +115,7 @@ def _fault(kind: str, text: str, frames: list[_Frame]) -> Fault:
     asked = written_call(at.code)
     for outer, inner in pairwise(own):
         if is_argument(outer.code, inner.name):
-            at, asked = outer, f"create({CALLED}[{inner.name}])"
+            at, asked = outer, called_callback(inner.name)
     return Fault(0, "", at.name, kind, text, at.line, at.code, asked)
 
 

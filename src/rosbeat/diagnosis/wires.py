@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from rosbeat.diagnosis.exceptions import diagnose_fault
 from rosbeat.diagnosis.explanation_names import difference, nearest
-from rosbeat.diagnosis.faults import diagnose_fault
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
 from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Observation

@@ -21,7 +21,7 @@ from rosbeat.records import Observation, ProgramRun
 FORMAT = "rosbeat evidence"
 #: Raised by one whenever a field is added, taken away or given another meaning; not for a field
 #: that is omitted while it is empty (`records.OMIT_EMPTY`).
-VERSION = 4
+VERSION = 5
 KINDS: dict[str, type] = {
     kind.__name__: kind
     for kind in (

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
-from rosbeat.diagnosis.faults import diagnose_fault, first_sentence, line_of
+from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.records import Fault, Observation, Outcome
 

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
-from rosbeat.diagnosis.faults import first_sentence
+from rosbeat.diagnosis.exceptions import first_sentence
 from rosbeat.errors import RecordError
 from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import Exercise, before_judging, failed, not_attempted

@@ -6,7 +6,7 @@ page prints the same text on every run.
 
 from __future__ import annotations
 
-from rosbeat.diagnosis.faults import first_sentence, meaning_of
+from rosbeat.diagnosis.exceptions import first_sentence, meaning_of
 from rosbeat.errors import RosbeatError
 from rosbeat.records import Fault, LogRecord
 

@@ -18,8 +18,8 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from rosbeat.diagnosis.callbacks import CALLED, is_argument
-from rosbeat.records import Fault
+from rosbeat.diagnosis.calls import called_callback, is_argument
+from rosbeat.records import Argument, FailedCall, Fault
 
 # What to propose for an unknown name. A traceback in a terminal ends with `Did you mean:
 # 'publisher_'?`, which Python adds while it prints, and differently in each version.
@@ -106,55 +106,45 @@ def asking(method: str, *given: Any, **named: Any) -> Iterator[None]:  # noqa: A
     try:
         yield
     except Exception as error:
-        if not asked_by(error):
-            setattr(error, _NOTE, asked_text(method, given, named))
+        if asked_by(error) is None:
+            setattr(error, _NOTE, failed_call(method, given, named))
         raise
 
 
-def asked_by(error: BaseException) -> str:
-    """Return the call that was noted on an exception, or an empty text."""
-    return str(getattr(error, _NOTE, ""))
+def asked_by(error: BaseException) -> FailedCall | None:
+    """Return the call that was noted on an exception, or None."""
+    return getattr(error, _NOTE, None)
 
 
-def asked_text(method: str, given: tuple[Any, ...], named: dict[str, Any]) -> str:
-    """Return a call with the types of what it was given, as `Fault.asked` has it."""
-    words = [_kind(one) for one in given]
-    words += [f"{name}={_kind(one)}" for name, one in named.items()]
-    return f"{method}({', '.join(words)})"
+def failed_call(method: str, given: tuple[Any, ...], named: dict[str, Any]) -> FailedCall:
+    """Return a call with the types of what it was given."""
+    words = {name: _described(one) for name, one in named.items()}
+    return FailedCall(method, tuple(map(_described, given)), words)
 
 
-def _kind(one: Any) -> str:  # noqa: ANN401
+def _described(one: Any) -> Argument:  # noqa: ANN401
     if isinstance(one, type):
         kind = "message_type" if is_message_class(one) else "type"
-        return f"{kind}[{_safe(one.__name__)}]"
-    if isinstance(one, MethodType):
-        return f"method[{_signature(one.__func__)}]"
-    if isinstance(one, FunctionType):
-        return f"function[{_signature(one)}]"
+        return Argument(kind, one.__name__)
+    if isinstance(one, MethodType | FunctionType):
+        function = one.__func__ if isinstance(one, MethodType) else one
+        kind = "method" if isinstance(one, MethodType) else "function"
+        code = getattr(function, "__code__", None)
+        if code is None:
+            return Argument(kind, type(function).__name__)
+        # The names of the parameters come first among the local ones.
+        name = code.co_name if code.co_name.isidentifier() else "function"  # <lambda> is none
+        return Argument(kind, name, code.co_varnames[: code.co_argcount])
     if is_message_class(type(one)):
-        return f"message[{_safe(type(one).__name__)}]"
+        return Argument("message", type(one).__name__)
     known = (QoSProfile, partial, BuiltinFunctionType, ModuleType, bool, int, float, str)
-    return _safe(next((base for base in known if isinstance(one, base)), type(one)).__name__)
+    base: Any = next((base for base in known if isinstance(one, base)), type(one))
+    return Argument(base.__name__)
 
 
 def is_message_class(kind: type) -> bool:
     """Return whether a class is that of a ROS message."""
     return "_fields_and_field_types" in vars(kind)
-
-
-def _signature(function: Any) -> str:  # noqa: ANN401 - what a method is bound to may be anything
-    code = getattr(function, "__code__", None)
-    if code is None:
-        return _safe(type(function).__name__)
-    # The names of the parameters come first among the local ones.
-    names = code.co_varnames[: code.co_argcount]
-    return f"{_safe(code.co_name)}({', '.join(map(_safe, names))})"
-
-
-def _safe(name: object) -> str:
-    """Return a name that Python's parser can read; `<lambda>` is none."""
-    text = str(name)
-    return text if text.isidentifier() else "function"
 
 
 # A frame in the standard library, in an installed package or in rosbeat is not the learner's.
@@ -189,15 +179,15 @@ def _own_lines(error: BaseException) -> list[tuple[str, int, str]]:
     return [(one.f_code.co_name, *_line(one, line)) for one, line in frames if is_learners(one)]
 
 
-def _refused_by_field(error: BaseException) -> str:
+def _refused_by_field(error: BaseException) -> FailedCall | None:
     """Return what a field of a message was given, if the field's setter raised."""
     frames = [frame for frame, _ in walk_tb(error.__traceback__)]
     if not isinstance(error, AssertionError) or not frames:
-        return ""
+        return None
     setter = frames[-1]
     of_message = ".msg._" in str(setter.f_globals.get("__name__"))
     known = of_message and "value" in setter.f_locals
-    return f"field({_kind(setter.f_locals['value'])})" if known else ""
+    return FailedCall("field", (_described(setter.f_locals["value"]),)) if known else None
 
 
 def error_text(error: BaseException) -> str:
@@ -219,5 +209,5 @@ def fault_of(error: BaseException, time_ns: int, node: str, callback: str) -> Fa
     for (_, at, text), (called, *_) in pairwise(own):
         # `create_timer(1.0, self.tick())`: what failed in `tick` is not where the mistake is.
         if is_argument(text, called):
-            line, code, asked = at, text, f"create({CALLED}[{called}])"
+            line, code, asked = at, text, called_callback(called)
     return Fault(time_ns, node, callback, kind, error_text(error), line, code, asked)

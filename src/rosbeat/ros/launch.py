@@ -19,7 +19,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from rosbeat.diagnosis.faults import first_sentence, meaning_of
+from rosbeat.diagnosis.exceptions import first_sentence, meaning_of
 from rosbeat.errors import NodeClassError, NodeConstructionError, RosbeatError, SessionError
 from rosbeat.ros.faults import fault_of
 from rosbeat.ros.recording import repair_message_classes

@@ -1,11 +1,12 @@
 import pytest
 
-from rosbeat.diagnosis.faults import diagnose_fault
+from failed_calls import failed_call
+from rosbeat.diagnosis.exceptions import diagnose_fault
 from rosbeat.records import Fault
 
 
 def _fault(kind, text, asked="", line=0, code="", callback="answer"):
-    return Fault(0, "/a", callback, kind, text, line, code, asked)
+    return Fault(0, "/a", callback, kind, text, line, code, failed_call(asked))
 
 
 @pytest.mark.parametrize(

@@ -2,47 +2,26 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosbeat.diagnosis.calls import Asked, Given, asked_of, written_call
-from rosbeat.records import Fault
-
-
-def asked(text):
-    return asked_of(Fault(0, "/s", "__init__", "TypeError", "", 0, "", text))
-
-
-def test_a_call_is_read():
-    text = "create_subscription(message_type[Float32], str, method[cb(self, msg)], qos_profile=int)"
-    assert asked(text) == Asked(
-        "create_subscription",
-        (
-            Given("message_type", "Float32"),
-            Given("str"),
-            Given("method", "cb", ("self", "msg")),
-        ),
-        {"qos_profile": Given("int")},
-    )
-
-
-@pytest.mark.parametrize("text", ["", "nonsense here", "create_timer", "f(", "\0"])
-def test_what_is_no_call(text):
-    assert asked(text) is None
+from failed_calls import failed_call
+from rosbeat.diagnosis.calls import in_words, role_of, written_call
+from rosbeat.records import Argument
 
 
 @pytest.mark.parametrize(
     ("kind", "role", "words"),
     [
-        (Given("message_type", "Float32"), "type", "the message type Float32"),
-        (Given("type", "float"), "type", "the type float"),
-        (Given("int"), "depth", "a whole number"),
-        (Given("QoSProfile"), "depth", "a QoS profile"),
-        (Given("function", "f", ()), "callback", "the function f"),
-        (Given("NoneType"), "none", "None"),
-        (Given("deque"), "other", "an object of type deque"),
+        (Argument("message_type", "Float32"), "type", "the message type Float32"),
+        (Argument("type", "float"), "type", "the type float"),
+        (Argument("int"), "depth", "a whole number"),
+        (Argument("QoSProfile"), "depth", "a QoS profile"),
+        (Argument("function", "f", ()), "callback", "the function f"),
+        (Argument("NoneType"), "none", "None"),
+        (Argument("deque"), "other", "an object of type deque"),
     ],
 )
 def test_what_an_argument_could_be(kind, role, words):
-    assert kind.role == role
-    assert str(kind) == words
+    assert role_of(kind) == role
+    assert in_words(kind) == words
 
 
 @pytest.mark.parametrize(
@@ -68,10 +47,9 @@ def test_what_an_argument_could_be(kind, role, words):
     ],
 )
 def test_a_call_that_is_written(code, call):
-    assert written_call(code) == call
+    assert written_call(code) == failed_call(call)
 
 
 @given(st.text())
 def test_any_line_can_be_looked_at(code):
-    assert isinstance(written_call(code), str)
-    asked(code)
+    written_call(code)

@@ -1,6 +1,6 @@
 import pytest
 
-from rosbeat.diagnosis.mistake import Mistake
+from rosbeat.diagnosis.mistakes import Mistake
 
 
 @pytest.mark.parametrize(

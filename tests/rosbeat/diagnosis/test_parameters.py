@@ -3,7 +3,7 @@
 import pytest
 from rclpy.node import Node
 
-from rosbeat.diagnosis.faults import diagnose_fault
+from rosbeat.diagnosis.exceptions import diagnose_fault
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.ros.launch import Launch
 from rosbeat.ros.scenario import observe

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rosbeat.diagnosis.faults import meaning_of
+from rosbeat.diagnosis.exceptions import meaning_of
 from rosbeat.records import Fault
 
 KEYS = "Invalid arguments passed to constructor: dict_keys(['depth', 'durabilty'])"

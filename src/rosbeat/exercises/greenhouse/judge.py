@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from rosbeat.diagnosis.faults import diagnose_fault, first_sentence, line_of
+from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.exercises.exercise import FAILED, NEW_TO_ME, PASSED, failed, failed_by, not_attempted
 from rosbeat.exercises.greenhouse.alarms import judge_alarms

@@ -7,15 +7,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from failed_calls import failed_call
 from rosbeat import diagnosis
-from rosbeat.diagnosis.faults import diagnose_fault, first_sentence, meaning_of
+from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, meaning_of
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.records import Fault
 
 
 def fault(kind, text, code="", asked="", callback="tick", line=4):
-    return Fault(0, "/sensor", callback, kind, text, line if code else 0, code, asked)
+    return Fault(0, "/sensor", callback, kind, text, line if code else 0, code, failed_call(asked))
 
 
 def named(*arguments, **more):
@@ -244,7 +245,8 @@ texts = st.one_of(st.text(), st.sampled_from(PARTS), st.builds(
 ))  # fmt: skip
 faults = st.builds(
     Fault, st.just(0), st.just("/s"), st.sampled_from(["", "tick", "__init__", "<lambda>"]),
-    st.one_of(st.sampled_from(KINDS), st.text()), texts, st.integers(0, 3), texts, texts,
+    st.one_of(st.sampled_from(KINDS), st.text()), texts, st.integers(0, 3), texts,
+    st.sampled_from([None, *(failed_call(asked) for _, asked in BY_CALL)]),
 )  # fmt: skip
 
 
@@ -275,7 +277,7 @@ def ids_in_the_room():
                 node.args[0].value
                 for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
                 if isinstance(node, ast.Call)
-                and ast.unparse(node.func) in ("Meaning", "Diagnosis", "finding", "Finding")
+                and ast.unparse(node.func) in ("Meaning", "Row", "Diagnosis", "finding")
                 and node.args
                 and isinstance(node.args[0], ast.Constant)
             }

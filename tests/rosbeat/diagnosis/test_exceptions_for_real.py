@@ -8,7 +8,7 @@ import linecache
 import pytest
 from broken_nodes import BROKEN, IMPORTS, UNKNOWN, sensor
 
-from rosbeat.diagnosis.faults import diagnose_fault
+from rosbeat.diagnosis.exceptions import diagnose_fault
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.exercise import before_judging
 from rosbeat.ros.scenario import feeder, observe

@@ -1,0 +1,1253 @@
+"""Name the mistake that an exception comes from.
+
+`_RULES` is one table: the first rule that recognises an exception speaks, and what none of them
+recognises stays unnamed. Most rules are rows, which go by the exception's class and text, and where
+that is not enough by the learner's line. What a row cannot say is a function. Numbers of rows in
+brackets are those of the table in docs/mistakes.md.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from itertools import pairwise
+
+from rosbeat.diagnosis import calls
+from rosbeat.diagnosis.calls import MESSAGES, article, called_by_ros, matched
+from rosbeat.diagnosis.mistakes import Diagnosis, Meaning
+from rosbeat.records import Fault
+
+#: A rule knows one kind of mistake, and answers None if an exception is none of its kind.
+Rule = Callable[[Fault], "Meaning | None"]
+Found = re.Match[str]
+
+
+def _always(_: Fault, __: Found) -> bool:
+    return True
+
+
+@dataclass(frozen=True)
+class Row:
+    """A rule that goes by an exception's class and text.
+
+    Attributes:
+        mistake: The mistake's id.
+        kinds: Names of exception classes, with blanks between them; empty for every class.
+        pattern: A regular expression that is looked for in the exception's text.
+        means: What happened; `{1}` is the first group of the pattern.
+        to_try: Where to look, with groups as well.
+        when: What else has to be true.
+    """
+
+    mistake: str
+    kinds: str
+    pattern: str
+    means: str
+    to_try: str
+    when: Callable[[Fault, Found], bool] = _always
+
+    def __call__(self, fault: Fault) -> Meaning | None:
+        """Return the meaning of an exception of this kind; None for any other."""
+        found = matched(fault, self.pattern, *self.kinds.split())
+        if not found or not self.when(fault, found):
+            return None
+        words = [found[0], *(group.replace("'", "") for group in found.groups(""))]
+        return Meaning(self.mistake, self.means.format(*words), self.to_try.format(*words))
+
+
+def meaning_of(fault: Fault) -> Meaning | None:
+    """Return what an exception means, if it comes from a known mistake; else None."""
+    found = (rule(fault) for rule in _RULES)
+    return next((meaning for meaning in found if meaning is not None), None)
+
+
+def diagnose_fault(fault: Fault) -> Diagnosis | None:
+    """Name the mistake that an exception comes from.
+
+    Args:
+        fault: The exception.
+
+    Returns:
+        The mistake with the learner's own line as evidence; None if it is not a known one.
+    """
+    meaning = meaning_of(fault)
+    return None if meaning is None else diagnosed(fault, meaning)
+
+
+def diagnosed(fault: Fault, meaning: Meaning) -> Diagnosis:
+    """Return a meaning as a diagnosis: with who raised, and the learner's line, as evidence."""
+    if fault.text == meaning.means:  # the session itself refused; its sentence is complete
+        return Diagnosis(meaning.mistake, meaning.means, meaning.to_try)
+    raised = _raised(fault) if fault.callback else ""
+    return Diagnosis(meaning.mistake, f"{raised}{meaning.means}{line_of(fault)}", meaning.to_try)
+
+
+def _raised(fault: Fault) -> str:
+    if fault.kind == "DeadlinePassed":  # no exception of the learner's
+        return ""
+    ticks = matched(fault, r"object is not callable") and called_by_ros(fault)
+    by = "" if ticks else fault.callback
+    return f"{by or 'The first tick'} raised {fault.kind}. "
+
+
+def line_of(fault: Fault) -> str:
+    """Return the learner's line as the end of a sentence before it, or an empty text."""
+    return f" Line {fault.line}: `{fault.code}`." if fault.line and fault.code else ""
+
+
+def first_sentence(text: str) -> str:
+    """Return the part of an error's text that says something.
+
+    Errors of the middleware go on for lines, with addresses of objects and places in its own
+    source files.
+    """
+    return text.split(", at /")[0].split("\n")[0].rstrip(".: ")
+
+
+def _in_line(pattern: str) -> Callable[[Fault, Found], bool]:
+    """Return a condition on the learner's line; `%s` stands for the first group."""
+
+    def when(fault: Fault, found: Found) -> bool:
+        wanted = pattern % re.escape(found[1]) if "%s" in pattern else pattern
+        return re.search(wanted, fault.code) is not None
+
+    return when
+
+
+def _about_a_message(_: Fault, found: Found) -> bool:
+    return found[1] in MESSAGES
+
+
+# Making a node, naming it, and ROS itself.
+
+#: Attributes that `Node.__init__` makes, of which the first use without it complains.
+_MADE_BY_NODE = (
+    "_default_callback_group|_logger|_clock|_context|_parameter_overrides|_parameters|_timers|"
+    "_publishers|_subscriptions|_descriptors|_allow_undeclared_parameters|_clients|_services|"
+    "_guards|_rate_group|_on_set_parameters_callbacks|_Node__\\w+"
+)
+_SUPER = (
+    "What makes a node of your class is the constructor of its parent: it has to be called first "
+    "of all in `__init__`, with the node's name."
+)
+_NAME = "The parent's constructor, super().__init__, takes the node's name, a text in quotes."
+
+
+def _no_node(fault: Fault) -> Meaning | None:
+    """Recognise something handed over that is no node; the sentence is the session's own."""
+    if fault.kind != "NodeClassError" or not fault.text:
+        return None
+    to_try = "Hand over the class that you wrote, by its name, without quotes and brackets."
+    if "is a class, but not a node" in fault.text:
+        to_try = "A class becomes a node by what stands in brackets behind its name: its parent."
+    elif " returned, " in fault.text:
+        to_try = "A function that makes a node has to give it back. What does its last line do?"
+    return Meaning("no-node", fault.text, to_try)
+
+
+def _name_missing(fault: Fault) -> Meaning | None:
+    """Recognise `super().__init__()` without a name (row 11)."""
+    if not matched(fault, r"^Node\.__init__\(\) missing 1 .*'node_name'", "TypeError"):
+        return None
+    call = fault.asked
+    if call and call.given and call.given[0].kind == "str":
+        means = "Node.__init__ was called without the node that it is to make."
+        return Meaning("super-missing", means, _SUPER)
+    if fault.line and fault.callback == "__init__":
+        return Meaning("node-name-missing", "The node was made without a name.", _NAME)
+    return Meaning(
+        "node-name-missing",
+        "The class has no constructor of its own that gives the node a name.",
+        "Look at the line that should begin the constructor: is it spelled `__init__`, with two "
+        "underscores on both sides, and does it stand inside of the class?",
+    )
+
+
+def _wrong_name_argument(fault: Fault) -> Meaning | None:
+    """Recognise `super().__init__(5)` and `super().__init__(self, 'name')`."""
+    call = fault.asked
+    if call is None or call.method != "Node.__init__":
+        return None
+    if len(call.given) > 1 and call.given[0].kind == call.given[1].kind:
+        means = "super().__init__ was given self, which super() hands over by itself."
+        return Meaning("wrong-argument", means, _NAME)
+    name = call.named.get("node_name") or (call.given[1] if len(call.given) > 1 else None)
+    if name is None or name.kind == "str":
+        return None
+    means = f"The node got {calls.in_words(name)} in the place of its name."
+    return Meaning("wrong-argument", means, _NAME)
+
+
+_LETTERS = "Names hold letters of the English alphabet, digits and `_`, and begin with a letter."
+_REASONS = (
+    ("must not be empty", "it is empty"),
+    ("must not end with a forward slash", "it ends with a slash"),
+    ("must not start with a number", "a digit stands at the beginning of it or of a part"),
+    ("must not contain repeated '/'", "two slashes stand side by side"),
+)
+
+
+def _invalid_name(fault: Fault) -> Meaning | None:
+    """Recognise a name with characters that ROS does not allow (row 12)."""
+    found = re.match(r"Invalid(Node|Topic|Service|Namespace|Handle)Name\w*", fault.kind)
+    if not found:
+        return None
+    name = matched(fault, r"\n\s*'(.*)'")
+    subject = f"'{name[1]}'" if name and name[1] else "That"
+    slash = "" if found[1] == "Node" else " A slash may stand between two parts, not at the end."
+    return Meaning(
+        "invalid-name",
+        f"{subject} cannot be the name of a {found[1].lower()}: {_reason(fault.text)}.",
+        f"{_LETTERS}{slash}",
+    )
+
+
+def _reason(text: str) -> str:
+    for sign, words in _REASONS:
+        if sign in text:
+            return words
+    character = _marked(text)
+    if character == " ":
+        return "it holds a blank"
+    return f"it holds the character {character}" if character else "ROS does not allow it"
+
+
+def _marked(text: str) -> str:
+    """Return the character under which the message of ROS puts its `^`."""
+    for row, below in pairwise(text.split("\n")):
+        at = below.find("^")
+        if at >= 0 and not below.strip("^ ") and at < len(row):
+            return row[at]
+    return ""
+
+
+_NODE_RULES: tuple[Rule, ...] = (
+    _no_node,
+    Row(
+        "exits",
+        "SystemExit",
+        "",
+        "This line ends the whole program, and every node in it.",
+        "A node runs until somebody outside ends it. Take that line out.",
+    ),
+    Row(
+        "super-missing",
+        "AttributeError",
+        rf"has no attribute '({_MADE_BY_NODE})'",
+        "The node is used before it is made: super().__init__ has not been called yet.",
+        _SUPER,
+    ),
+    Row(
+        "super-missing",
+        "AttributeError",
+        r"'super' object has no attribute '(\w+)'",
+        "The parent's constructor is not called {1}.",
+        _SUPER,
+    ),
+    Row(
+        "super-missing",
+        "TypeError",
+        r"'__init__' requires a 'super' object",
+        "super itself was asked, and it is super(), with brackets, that finds the parent.",
+        _SUPER,
+    ),
+    Row(
+        "node-name-missing",
+        "",
+        r"error creating node: name argument is null",
+        "The node's name is None.",
+        _NAME,
+    ),
+    _name_missing,
+    _wrong_name_argument,
+    Row(
+        "invalid-name",
+        "ValueError",
+        r"unknown substitution|topic name .* is invalid",
+        "The topic's name holds braces, and nothing is known that belongs in them.",
+        "An f-string has an f before its quotes; in a plain text braces stay braces.",
+    ),
+    _invalid_name,
+    Row(
+        "type-mismatch",
+        "",
+        r"invalid allocator|existing topic name .* incompatible type",
+        "The topic exists already, with another message type.",
+        "One topic carries one type. Which one do the others use on this topic?",
+    ),
+    Row(
+        "not-initialised",
+        "NotInitializedException NoSessionError",
+        "",
+        "A node was made before ROS was started.",
+        "In a program one call starts ROS, and it comes before the first node. Look at the "
+        "beginning of main.",
+    ),
+    Row(
+        "initialised-twice",
+        "RuntimeError",
+        r"Context\.init\(\) must only be called once",
+        "ROS was started twice.",
+        "Once is enough for a program. Look for a second rclpy.init, in main and elsewhere.",
+    ),
+    Row(
+        "shut-down-twice",
+        "",
+        r"must be initialized before it can be shutdown|rcl_shutdown already",
+        "ROS was shut down a second time.",
+        "Ctrl+C shuts it down, too. `rclpy.try_shutdown` does so only if it still runs.",
+    ),
+    Row(
+        "init-in-with",
+        "TypeError AttributeError",
+        r"^__enter__$|'NoneType' object does not support the context manager protocol",
+        "In this version of ROS, `rclpy.init` returns nothing, so `with` has nothing to work with.",
+        "Documentation of newer versions writes it so. Here ROS is started and ended by two calls "
+        "of their own.",
+        _in_line(r"\binit\("),
+    ),
+)
+
+
+# Callbacks: those that do not return, that have other parameters, or are nothing to call.
+
+_WHO_SPINS = (
+    "A node only says what is to be done, in callbacks that return soon; spinning is the "
+    "business of whoever runs the node."
+)
+
+
+def _blocks(fault: Fault) -> Meaning | None:
+    """Recognise a callback or a constructor that does not return (row 16)."""
+    if fault.kind == "DeadlinePassed":
+        return _stuck(fault)
+    if fault.kind == "DeadlockError":
+        return Meaning("callback-blocks", fault.text.partition("\n")[0], _WHO_SPINS)
+    if not matched(fault, r"was called (from )?inside|spin_once was called for", "SessionError"):
+        return None
+    call = matched(fault, r"`?(rclpy\.\w+|[\w.]+)`? was called")
+    return Meaning(
+        "callback-blocks",
+        f"{call[1] if call else 'A wait'} waits for callbacks, and none can run before this one "
+        "has returned.",
+        _WHO_SPINS,
+    )
+
+
+def _stuck(fault: Fault) -> Meaning:
+    waits = re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
+    loops = re.match(r"(while|for)\b", fault.code) is not None
+    if fault.callback == "__init__":
+        to_try = "There is no node before its constructor has returned. What ends it?"
+        if waits or loops:
+            to_try = (
+                "A constructor sets the node up and returns; only then do callbacks run. What "
+                "comes later, or again and again, is a timer's business."
+            )
+        means = f"The constructor does not return: {fault.text}."
+        return Meaning("constructor-blocks", means, to_try)
+    to_try = "While it runs, the node can do nothing else. What ends it?"
+    if waits:
+        to_try = (
+            "A callback must not wait: the node takes no message meanwhile. What comes later, or "
+            "again and again, is a timer's business."
+        )
+    elif loops:
+        to_try = (
+            "A callback does its work once and returns. What is to happen again and again is a "
+            "timer's business."
+        )
+    means = f"{fault.callback or 'The program'} does not return: {fault.text}."
+    return Meaning("callback-blocks", means, to_try)
+
+
+def _endless(fault: Fault) -> Meaning | None:
+    """Recognise callbacks that cause each other while no time passes."""
+    if fault.kind != "EndlessChainError" or not fault.text:
+        return None
+    if matched(fault, r"^A timer of "):
+        return Meaning("wrong-rate", fault.text, calls.PERIOD)
+    return Meaning(
+        "endless-chain",
+        fault.text,
+        "Each callback causes the next, and the clock stands still. Does a node hear what it "
+        "publishes itself?",
+    )
+
+
+def _called_with_others(fault: Fault) -> Meaning | None:
+    """Recognise a timer's callback that takes a message, or no self (row 10)."""
+    found = matched(fault, r"^([\w.<>]*?)(\w+)\(\) (takes|missing) (\d+)", "TypeError")
+    if not found or found[2] == "__init__" or not called_by_ros(fault):
+        return None
+    if found[3] == "takes" and found[4] == "0":
+        return Meaning(
+            "callback-parameters",
+            f"{found[2]} takes no parameter, and Python hands every method its own object.",
+            "Compare its `def` line with those of the other methods of a class.",
+        )
+    if found[3] == "missing":
+        return Meaning(
+            "callback-parameters",
+            f"{found[2]} wants more than it is given: a timer calls its callback without "
+            "arguments.",
+            "A message comes only to the callback of a subscription. Which parameters does a "
+            "timer's callback need?",
+        )
+    return None
+
+
+def _nothing_to_call(fault: Fault) -> Meaning | None:
+    """Recognise a timer that was given `self.tick()`: it fails at its first tick (row 9)."""
+    found = matched(fault, r"^'(\w+)' object is not callable$", "TypeError")
+    if not found or not called_by_ros(fault):
+        return None
+    if found[1] == "NoneType":
+        return calls.callback_called("The callback of the timer")
+    return Meaning(
+        "wrong-argument",
+        f"The timer was given an object of type {found[1]} to call, which cannot be called.",
+        calls.KINDS["callback"],
+    )
+
+
+def _not_a_message_type(fault: Fault) -> Meaning | None:
+    """Recognise row 8 by rclpy's text alone."""
+    if not matched(fault, r"has no attribute '_TYPE_SUPPORT'", "AttributeError"):
+        return None
+    return calls.no_message_type(None)
+
+
+_CALL_RULES: tuple[Rule, ...] = (
+    _blocks,
+    _endless,
+    calls.called_at_once,
+    calls.wrong_call,
+    calls.refused_callback,
+    _not_a_message_type,
+    Row(
+        "wrong-depth",
+        "",
+        r"Expected QoSProfile or int|history depth must be greater",
+        "What stands in the place of the queue depth is no depth.",
+        calls.KINDS["depth"],
+    ),
+    # Where the call itself is not known, in a terminal.
+    Row(
+        "depth-missing",
+        "TypeError",
+        r"create_publisher\(\) missing 1 .*: 'qos_profile'",
+        "An argument is missing: the queue depth was left out.",
+        calls.ORDER["create_publisher"],
+    ),
+    Row(
+        "argument-missing",
+        "TypeError",
+        r"create_\w+\(\) missing 1 .*: 'qos_profile'",
+        "An argument is missing: the queue depth, or the callback before it, was left out.",
+        calls.ORDER["create_subscription"],
+    ),
+    Row(
+        "arguments-swapped",
+        "TypeError",
+        r"rclpy_resolve_name\(\): incompatible function arguments",
+        "In the place of the topic's name stands something that is no text.",
+        "The order is: first the message type, then the topic's name as text, then the rest.",
+    ),
+    calls.wrong_timer,
+    _called_with_others,
+    _nothing_to_call,
+)
+
+
+# Services and actions: what a callback gives back, and how work on a goal ends.
+
+
+def _not_given_back(fault: Fault) -> Meaning | None:
+    """Recognise a service's callback that does not give back its response."""
+    call = fault.asked
+    if call is None or call.method != "send_response" or fault.kind != "TypeError":
+        return None
+    (given,) = call.given or (None,)
+    if given is not None and given.kind == "NoneType":
+        means = f"{fault.callback} gives nothing back, so the client never gets an answer."
+        return Meaning("response-missing", means, "The last line of a service's callback: return.")
+    what = calls.in_words(given) if given is not None else "something"
+    return Meaning(
+        "response-wrong",
+        f"{fault.callback} gives back {what}, and not the response that it was handed.",
+        "ROS hands the callback an empty response: fill its fields, and give that one back.",
+    )
+
+
+def _called_with_more(fault: Fault) -> Meaning | None:
+    """Recognise a service's callback without `response`, or a parameter's without its list."""
+    pattern = r"^(?:[\w.<>]*\.)?(\w+)\(\) takes (\d+) positional arguments? but (\d+) (?:was|were)"
+    found = matched(fault, pattern, "TypeError")
+    if not found or not called_by_ros(fault) or int(found[2]) > int(found[3]):
+        return None
+    name, takes, given = found[1], int(found[2]), int(found[3])
+    if name != fault.callback or takes == 0:
+        return None
+    return Meaning(
+        "callback-parameters",
+        f"{name} takes {takes} arguments, and ROS calls it with {given}, self included.",
+        "A service's callback is handed the request and a response to fill; that of an action the "
+        "goal's handle; that of parameters a list of them.",
+    )
+
+
+def _ended_goal(fault: Fault) -> Meaning | None:
+    """Recognise a second end of a goal."""
+    found = matched(fault, r"invalid transition from state (\w+) with event")
+    if not found:
+        return None
+    means = f"A goal that had ended ({found[1].lower()}) was ended again."
+    return Meaning("ended-twice", means, "Each goal ends once: on each way only one of the calls.")
+
+
+_ANSWER_RULES: tuple[Rule, ...] = (
+    Row(
+        "wrong-argument",
+        "",
+        r"^The service type provided is not valid \(<class '[\w.]*?(\w+)'>\)",
+        "{1} is no service type: it holds one message, and a service type holds two.",
+        "A service is made from a class that has a Request and a Response inside. Which one?",
+    ),
+    Row(
+        "wrong-argument",
+        "TypeError",
+        r"^Node\.create_service\(\) takes 4 positional",
+        "create_service was given an argument too many.",
+        calls.ORDER["create_service"],
+    ),
+    Row(
+        "callback-missing",
+        "TypeError",
+        r"^Node\.create_service\(\) missing 1 .*: 'callback'",
+        "create_service was given no callback.",
+        calls.ORDER["create_service"],
+    ),
+    _not_given_back,
+    Row(
+        "result-missing",
+        "AssertionError",
+        r"'result' field must be a sub message of type",
+        "The work on a goal ends and gives no Result back.",
+        "Make a Result of the action, fill its field, and return it.",
+    ),
+    Row(
+        "feedback-wrong",
+        "TypeError",
+        r"^$",
+        "publish_feedback was given something else than a Feedback of the action.",
+        "An action brings three classes: its Goal, its Feedback and its Result.",
+        _in_line("publish_feedback"),
+    ),
+    Row(
+        "canceled-unasked",
+        "",
+        r"invalid transition from state \w+ with event CANCELED",
+        "A goal was reported canceled, and nobody had asked for that.",
+        "Ask the goal handle first.",
+    ),
+    _ended_goal,
+    Row(
+        "await-missing",
+        "TypeError",
+        r"^(?!.* is not callable).*'Future'",
+        "A future stands where its result is meant.",
+        "A future is an answer that is still to come. What does await do with it?",
+    ),
+    Row(
+        "not-an-integer",
+        "TypeError",
+        r"'float' object cannot be interpreted as an integer",
+        "A number with a decimal point stands where a whole one belongs.",
+        "A sequence of int32 takes whole numbers only, and 19.0 is none for Python.",
+    ),
+    _called_with_more,
+)
+
+
+# Parameters.
+
+_PARAMETER_KINDS = {
+    "DOUBLE": "a decimal number",
+    "INTEGER": "a whole number",
+    "STRING": "a text",
+    "BOOL": "True or False",
+}
+
+
+def _parameter_of_another_type(fault: Fault) -> Meaning | None:
+    """Recognise `declare_parameter("low", 20)` for a node started with `-p low:=40.0`."""
+    refused = r"parameter '([^']+)' to '(.*)' of type '(\w+)', expecting type '(\w+)'"
+    found = matched(fault, refused, "InvalidParameterTypeException")
+    if not found:
+        return None
+    name, value, *words = found.groups()
+    got, declared = (_PARAMETER_KINDS.get(w, w.lower().replace("_", " ")) for w in words)
+    return Meaning(
+        "parameter-type",
+        f"The parameter {name} got {value}, {got}, and it was declared with {declared}.",
+        "The first value that declare_parameter gets decides about the type: 20 is a whole "
+        "number, 20.0 is a decimal one.",
+    )
+
+
+_DECLARE = (
+    "A parameter is declared once, in the constructor, before its value is asked for. Compare the "
+    "two names letter by letter."
+)
+_PARAMETER_RULES: tuple[Rule, ...] = (
+    _parameter_of_another_type,
+    Row(
+        "parameter-type",
+        "TypeError",
+        r"not one of the allowed types",
+        "A parameter got something that no parameter can have as a value.",
+        "Behind its name stands the first value: a number, a text, or True or False.",
+    ),
+    Row(
+        "arguments-swapped",
+        "TypeError",
+        r"^First element .* in parameters list is not a str",
+        "declare_parameter got something else in the place of the name.",
+        "The name comes first, in quotes, and then the first value.",
+    ),
+    Row(
+        "wrong-argument",
+        "TypeError",
+        r"Node\.get_parameter\(\) takes 2 positional",
+        "get_parameter takes the name of a parameter, and was given more.",
+        "The first value is said once, where the parameter is declared.",
+    ),
+    Row(
+        "parameter-undeclared",
+        "ParameterNotDeclaredException",
+        r"undeclared parameter\(s\): \W*(.+?)\W*$",
+        "The node asks for a parameter that is not declared: {1}.",
+        _DECLARE,
+    ),
+    Row(
+        "parameter-undeclared",
+        "ParameterNotDeclaredException",
+        "",
+        "The node asks for a parameter that is not declared.",
+        _DECLARE,
+    ),
+    Row(
+        "parameter-twice",
+        "ParameterAlreadyDeclaredException",
+        r"already declared: \W*(.+?)\W*$",
+        "The parameter {1} is declared twice.",
+        "It is declared once, in the constructor; a callback only asks for its value.",
+    ),
+    Row(
+        "parameter-for-value",
+        "TypeError AttributeError",
+        r"'Parameter(?:Value)?'",
+        "A parameter, which has a name and a type, too, is used as if it were its value.",
+        "What does a parameter offer behind a dot?",
+    ),
+)
+
+
+# Quality of service. rclpy checks most of a `QoSProfile` with an `assert` that says nothing.
+
+_QOS_CALLS = r"QoSProfile|Duration|SubscriptionEventCallbacks|PublisherEventCallbacks"
+_POLICIES = (
+    "history", "depth", "reliability", "durability", "lifespan", "deadline", "liveliness",
+    "liveliness_lease_duration", "avoid_ros_namespace_conventions",
+)  # fmt: skip
+_EVENTS = "the name of an event, such as deadline= or incompatible_qos="
+_TAKES = {
+    "QoSProfile": "depth=, reliability=, durability=, deadline= or lifespan=",
+    "Duration": "seconds= or nanoseconds=",
+}
+
+
+def _without_a_name(fault: Fault) -> Meaning | None:
+    """Recognise `Duration(2)`: an argument that has to have a name."""
+    found = matched(fault, rf"^({_QOS_CALLS})\.__init__\(\) takes 1 positional", "TypeError")
+    if not found:
+        return None
+    return Meaning(
+        "wrong-argument",
+        f"{found[1]} was given something without a name.",
+        f"What it takes has a name in front: {_TAKES.get(found[1], _EVENTS)}.",
+    )
+
+
+def _of_another_name(fault: Fault) -> Meaning | None:
+    """Recognise an argument under a name that is not there."""
+    said = rf"^({_QOS_CALLS})\.__init__\(\) got an unexpected .*'(\w+)'"
+    found = matched(fault, said, "TypeError")
+    called, name = (found[1], found[2]) if found else ("QoSProfile", _unknown_policy(fault))
+    if not name:
+        return None
+    return Meaning(
+        "wrong-argument",
+        f"{called} has no argument {name}.",
+        f"It takes {_TAKES.get(called, _EVENTS)}. Compare letter by letter.",
+    )
+
+
+def _unknown_policy(fault: Fault) -> str:
+    said = r"^Invalid arguments passed to .*dict_keys\(\[(.*)\]\)"
+    found = matched(fault, said, "AssertionError")
+    names = re.findall(r"\w+", found[1]) if found else []
+    return next((name for name in names if name not in _POLICIES), "")
+
+
+def _policy_of_another_kind(fault: Fault) -> Meaning | None:
+    """Recognise a text or a number where a policy or a duration belongs."""
+    if fault.kind != "AssertionError" or fault.text:
+        return None
+    policies = [one for one in _POLICIES if re.search(rf"\b{one}\s*=(?!=)", fault.code)]
+    if not policies and not re.search(r"\bQoSProfile\(", fault.code):
+        return None
+    if len(policies) > 1 and "depth" in policies:
+        policies.remove("depth")  # a number, and people know how to write one
+    which = policies[0] if len(policies) == 1 else "one of the policies"
+    return Meaning(
+        "wrong-argument",
+        f"QoSProfile was given something for {which} that cannot be one.",
+        "A depth is a whole number, a deadline or a lifespan is a Duration, and for reliability "
+        "and durability there are names in ReliabilityPolicy and DurabilityPolicy.",
+    )
+
+
+def _no_such_policy(fault: Fault) -> Meaning | None:
+    """Recognise `DurabilityPolicy.TRANSIENT`: Python 3.11 says no more than the name."""
+    if not matched(fault, r"^[A-Za-z_]+$", "AttributeError"):
+        return None
+    found = re.search(rf"(\w*Policy)\.{fault.text}\b", fault.code)
+    if not found:
+        return None
+    return Meaning(
+        "wrong-attribute",
+        f"{found[1]} has no {fault.text}.",
+        f"Compare the name with the ones on the page, or print list({found[1]}).",
+    )
+
+
+def _no_events(fault: Fault) -> Meaning | None:
+    """Recognise `event_callbacks=self.on_silence`: a method in the place of a set of callbacks."""
+    found = matched(fault, r"'(\w+)' object has no attribute 'create_event_h", "AttributeError")
+    if not found:
+        return None
+    method = found[1] in ("method", "function")
+    given = "the method itself" if method else f"something of type {found[1]}"
+    return Meaning(
+        "wrong-argument",
+        f"event_callbacks was given {given}, which does not say for which event it is.",
+        "A subscription takes SubscriptionEventCallbacks(...), a publisher "
+        "PublisherEventCallbacks(...); inside, each event has a name.",
+    )
+
+
+def _called_for_an_event(fault: Fault, found: Found) -> bool:
+    """Return whether a line calls a method among the arguments of event callbacks."""
+    call = rf"\.{found[1]}\(\)"
+    handed = rf"EventCallbacks\(.*{call}|^\w+=\w+{call}|^\w+, .*{call},"
+    return fault.callback == "__init__" and re.search(handed, fault.code) is not None
+
+
+_QOS_RULES: tuple[Rule, ...] = (
+    Row(
+        "depth-missing",
+        "InvalidQoSProfileException",
+        "depth",
+        "QoSProfile was not told how many messages the queue holds.",
+        "A profile is made with depth= and with whatever else is not as usual.",
+    ),
+    _without_a_name,
+    _of_another_name,
+    _policy_of_another_kind,
+    _no_such_policy,
+    Row(
+        "callback-called",
+        "TypeError",
+        r"(\w+)\(\) missing 1 required positional argument",
+        "{1} is called while the node is being made, and not handed over.",
+        "Hand over the method itself, without brackets after its name: it is called later.",
+        _called_for_an_event,
+    ),
+    _no_events,
+    Row(
+        "wrong-argument",
+        "TypeError",
+        r"incompatible constructor arguments.*\n.*EventHandle",
+        "The event callbacks are made for the other side of a topic.",
+        "A subscription takes SubscriptionEventCallbacks, a publisher PublisherEventCallbacks.",
+    ),
+)
+
+
+# Messages and their fields.
+
+_SHOW = "`ros2 interface show std_msgs/msg/{1}` in a terminal lists what a {1} has."
+_ENVELOPE = "The message is an envelope: what it carries is in one of its fields."
+_TO_MAKE = {
+    "float": "A number such as 18 is an int, and one in quotes is a text. A decimal point makes a "
+    "float, and so does float(...).",
+    "str": "A text stands in quotes; str(...) or an f-string makes one of a number.",
+}
+_PLAIN_KINDS = ("int", "bool", "str", "float", "bytes", "list", "tuple", "dict")
+
+
+def _field_of_another_type(fault: Fault) -> Meaning | None:
+    """Recognise `msg.data = 25`: a value of another type than the field's (row 1)."""
+    found = matched(fault, r"The '(\w+)' field must be of type '(\w+)'", "AssertionError")
+    if not found:
+        return None
+    name, wanted = found.groups()
+    got, is_message = _given_to_field(fault, name)
+    means = f"The field {name} of the message takes {article(wanted)}, and {got}."
+    if is_message:
+        return Meaning("message-for-value", means, _ENVELOPE)
+    return Meaning("not-a-float", means, _TO_MAKE.get(wanted, f"Give it {article(wanted)}."))
+
+
+def _given_to_field(fault: Fault, name: str) -> tuple[str, bool]:
+    """Return what is known of a value that a field refused, and whether it is a message."""
+    constant = _constant_for(fault.code, name)
+    if constant:
+        kind = type(ast.literal_eval(constant)).__name__
+        nothing = kind == "NoneType"
+        return f"{constant} is {'nothing at all' if nothing else article(kind)}", False
+    call = fault.asked
+    if call is None or call.method != "field" or not call.given:
+        return "what it was given is something else", False
+    given = call.given[0]
+    words = article(given.kind) if given.kind in _PLAIN_KINDS else calls.in_words(given)
+    return f"what it was given is {words}", given.kind == "message"
+
+
+def _constant_for(code: str, name: str) -> str:
+    """Return the constant that a line puts into a field, as it is written; or an empty text."""
+    try:
+        tree = ast.parse(code)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ""
+    for node in ast.walk(tree):
+        value: ast.expr | None = None
+        if isinstance(node, ast.keyword) and node.arg == name:
+            value = node.value
+        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute):
+            value = node.value if node.targets[0].attr == name else None
+        if isinstance(value, ast.Constant):
+            return ast.unparse(value)
+    return ""
+
+
+def _field_of_another_name(fault: Fault) -> Meaning | None:
+    """Recognise `Float32(dat=25.0)` (row 4)."""
+    found = matched(fault, r"Invalid arguments passed to constructor: (.+)", "AssertionError")
+    if not found:
+        return None
+    kind = re.search(rf"\b({'|'.join(sorted(MESSAGES))})\(", fault.code)
+    return Meaning(
+        "wrong-keyword",
+        f"The message has no field called {found[1]}, so it cannot be given one.",
+        "Compare the name letter by letter. " + _SHOW.format("", kind[1] if kind else "Float32"),
+    )
+
+
+_IN_PLACE_OF_ITS_VALUE = (
+    r"unsupported format string passed to (\w+)\.__format__",
+    r"not supported between instances of '(\w+)' and '\w+'",
+    r"not supported between instances of '\w+' and '(\w+)'",
+    r"unsupported operand type\(s\) for [^:]+: '(\w+)' and '\w+'",
+    r"unsupported operand type\(s\) for [^:]+: '\w+' and '(\w+)'",
+    r"can only concatenate \w+ \(not \"(\w+)\"\) to \w+",
+    r"argument must be a (?:string|real number|string or a (?:real )?number).*, not '?(\w+)'?",
+    r"(?:a|must be) (?:real )?number(?: is required)?,? not (\w+)",
+    r"type (\w+) doesn't define __\w+__ method",
+    r"bad operand type for .*: '(\w+)'",
+    r"can't convert type '(\w+)' to numerator/denominator",
+    r"'(\w+)' object (?:is not (?:subscriptable|iterable)|cannot be interpreted as an integer)",
+)
+
+
+def _published(fault: Fault) -> Meaning | None:
+    """Recognise `publish(25.0)`, `publish(Float32)` (rows 2 and 3), or another type's message."""
+    call = fault.asked
+    if call and call.method == "publish" and [one.kind for one in call.given] == ["bytes"]:
+        return _value_published("message", "bytes")
+    found = matched(fault, r"^Expected <class '([\w.]+)'>, got <class '([\w.]+)'>", "TypeError")
+    if not found:
+        return None
+    wanted, got = found[1].split(".")[-1], found[2].split(".")[-1]
+    if got.startswith("Metaclass_"):
+        name = got.removeprefix("Metaclass_")
+        return Meaning(
+            "class-published",
+            f"publish was given the class {name} itself, and no message of it.",
+            f"{name} is the form; a filled-in form is made by calling it. How do you call a class?",
+        )
+    if ".msg." in found[2]:
+        return Meaning(
+            "type-mismatch",
+            f"The publisher was made for messages of type {wanted}, and was given a {got}.",
+            "One topic carries one type. Compare the line that makes the publisher with the line "
+            "that makes the message.",
+        )
+    return _value_published(wanted, got)
+
+
+def _value_published(wanted: str, got: str) -> Meaning:
+    words = {"NoneType": "None", "bytes": "bytes"}.get(got, f"a bare value, {article(got)}")
+    return Meaning(
+        "number-published",
+        f"publish was given {words}, and not a message.",
+        f"Make a {wanted} first and put the value into its field; publish sends that.",
+    )
+
+
+_FIELD_RULES: tuple[Rule, ...] = (
+    _field_of_another_type,
+    Row(
+        "wrong-values",
+        "AssertionError",
+        r"The '(\w+)' field must be an? [\w ]+ in \[",
+        "The number is too large for the field {1}.",
+        "Print it before that line, for each call: does it grow from one to the next?",
+    ),
+    _field_of_another_name,
+    Row(
+        "field-without-name",
+        "TypeError",
+        r"^(\w+)\.__init__\(\) takes 1 positional argument but \d",
+        "{1}(...) was given a value without the name of the field it belongs in.",
+        f"A message can have many fields, so each value is given by its field's name. {_SHOW}",
+        _about_a_message,
+    ),
+    Row(
+        "wrong-field",
+        "AttributeError",
+        r"'(\w+)' object has no attribute '((?!__)\w+)'",
+        "A {1} has no field called {2}.",
+        _SHOW,
+        _about_a_message,
+    ),
+    Row(
+        "class-changed",
+        "AttributeError",
+        r"'(\w+)' object attribute '(\w+)' is read-only",
+        "Some line before this one has put a value into {2} of the class {1} itself. That has "
+        "spoilt the class for all messages; it is whole again now.",
+        "Look for a {1} without brackets behind it, then run your cells again.",
+    ),
+    _published,
+    Row(
+        "number-published",
+        "TypeError",
+        r"Publisher\.publish\(\) (takes|missing|got)",
+        "publish takes exactly one thing, a message, and was called with something else.",
+        "Make the message first, put the value into its field, and hand over the message alone.",
+        lambda fault, _: not called_by_ros(fault),
+    ),
+    *(
+        Row(
+            "message-for-value",
+            "TypeError",
+            pattern,
+            "A whole message of type {1} stands where the value in it is meant.",
+            f"{_ENVELOPE} {_SHOW}",
+            _about_a_message,
+        )
+        for pattern in _IN_PLACE_OF_ITS_VALUE
+    ),
+)
+
+
+# Names that Python does not know: of variables, methods, attributes, modules.
+
+#: Methods of a node that learners of this course call.
+NODE_METHODS = (
+    *("create_publisher", "create_subscription", "create_timer", "create_service"),
+    *("create_client", "create_rate", "get_logger", "get_clock", "get_name", "get_parameter"),
+    *("declare_parameter", "destroy_node", "destroy_timer", "get_namespace"),
+)
+_IMPORTED = MESSAGES | {
+    *("random", "math", "statistics", "time", "rclpy", "Node", "QoSProfile", "deque", "partial"),
+    *("std_msgs", "functools", "collections"),
+}
+_CAPITALS = {"true": "True", "false": "False", "none": "None"}
+_SUGGESTED = r"Did you mean: '([^']+)'"
+_KNOWN_MODULES = ("rclpy", "rclpy.node", "rclpy.qos", "std_msgs", "std_msgs.msg", "random", "math")
+_LEVELS = ("debug", "info", "warning", "warn", "error", "fatal")
+
+
+def _name_error(fault: Fault) -> Meaning | None:
+    """Recognise a name that is defined nowhere."""
+    found = matched(fault, r"name '(\w+)' is not defined", "NameError")
+    if not found:
+        return None
+    meant = matched(fault, _SUGGESTED)
+    means = f"Python does not know the name {found[1]} here."
+    return Meaning("name-error", means, _about(found[1], meant[1] if meant else ""))
+
+
+def _about(name: str, meant: str) -> str:
+    if name in _CAPITALS:
+        return "Python's words for yes, no and nothing begin with a capital letter."
+    if name in NODE_METHODS or meant.startswith("self."):
+        return "It belongs to the node, and inside of its methods the node is called self."
+    if meant and meant != name:
+        return f"There is something of the name {meant}. Compare the two letter by letter."
+    if name in _IMPORTED:
+        return "It comes from a package: what stands in the imports at the top?"
+    return (
+        "A text needs quotes; a method or attribute of the node needs self. before it; and what "
+        "is imported or assigned elsewhere has to be spelled alike."
+    )
+
+
+def _not_assigned_yet(fault: Fault) -> Meaning | None:
+    """Recognise a variable of a function that has no value yet."""
+    if fault.kind != "UnboundLocalError":
+        return None
+    found = matched(fault, r"variable '(\w+)'")
+    name = found[1] if found else "A variable"
+    if re.search(rf"^{name} = .*\(\s*{name}\b", fault.code):
+        means = f"{name} has no value yet: this line asks for it, and only then gives it one."
+        to_try = "If its name is meant, it is a text, and a text needs quotes."
+        return Meaning("no-value-yet", means, to_try)
+    return Meaning(
+        "no-value-yet",
+        f"{name} has no value yet at this line.",
+        "It gets one in a branch that was not taken, or further below. What should be kept from "
+        "one call to the next belongs to the node: self. before it.",
+    )
+
+
+def _no_such_attribute(fault: Fault) -> Meaning | None:
+    """Recognise `self.create_publisherr(...)`, `self.tempreature`, `random.unifrom(...)`."""
+    said = r"^(?:'(\w+)' object|module '([\w.]+)'|type object '(\w+)') has no attribute '(\w+)'"
+    found = matched(fault, said, "AttributeError")
+    if not found or found[1] in ("NoneType", "super") or found[1] in MESSAGES:
+        return None
+    owner, name = found[1] or found[2] or found[3], found[4]
+    meant = _meant(fault, owner, name)
+    if meant:
+        plain = meant.removeprefix("self.").lower()
+        alike = get_close_matches(name.lower(), [plain], 1, 0.7)
+        return Meaning(
+            "wrong-attribute",
+            f"{owner} has nothing called {name}; it has {meant}.",
+            "Compare the two letter by letter." if alike else "Is that the one?",
+        )
+    return Meaning("wrong-attribute", f"{owner} has nothing called {name}.", _where(fault, found))
+
+
+def _meant(fault: Fault, owner: str, name: str) -> str:
+    said = matched(fault, _SUGGESTED)
+    if said:
+        return said[1]
+    of_its_own = {"Publisher": ("publish",), "SessionLogger": _LEVELS, "RcutilsLogger": _LEVELS}
+    plain = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
+    near = get_close_matches(plain, of_its_own.get(owner, NODE_METHODS), 1, 0.8)
+    return near[0] if near else ""
+
+
+def _where(fault: Fault, found: Found) -> str:
+    if found[2] or not re.search(rf"\bself\.{re.escape(found[4])}\b", fault.code):
+        return "Compare the name with the documentation, or with the line that makes it."
+    if fault.callback == "__init__":
+        return (
+            "What is used in the constructor has to be made on a line above; and a method belongs "
+            "to the class only if its def stands as far left as that of the constructor."
+        )
+    return (
+        "Compare the spelling with the line in the constructor that makes it. Does it begin with "
+        "self. there, and does that line run?"
+    )
+
+
+def _not_importable(fault: Fault) -> Meaning | None:
+    """Recognise `from std_msgs.msg import Float` and `import rclpi`."""
+    if fault.kind not in ("ImportError", "ModuleNotFoundError"):
+        return None
+    name = matched(fault, r"cannot import name '(\w+)' from '([\w.]+)'")
+    if name:
+        near = get_close_matches(name[1], sorted(MESSAGES), 1, 0.6) if "msg" in name[2] else []
+        meant = f" It has {near[0]}." if near and near[0] != name[1] else ""
+        hint = "Compare the name, and where the package keeps it, with the imports on the page."
+        return Meaning("not-importable", f"{name[2]} has no {name[1]}.{meant}", hint)
+    module = matched(fault, r"No module named '([\w.]+)'")
+    if not module:
+        return None
+    near = get_close_matches(module[1], _KNOWN_MODULES, 1, 0.7)
+    meant = f" There is {near[0]}." if near and near[0] != module[1] else ""
+    hint = "Compare its name letter by letter with the imports on the page."
+    return Meaning("not-importable", f"There is no module called {module[1]} here.{meant}", hint)
+
+
+_NAME_RULES: tuple[Rule, ...] = (
+    _not_assigned_yet,
+    _name_error,
+    Row(
+        "brackets-missing",
+        "AttributeError",
+        r"'(function|method|builtin_function_or_method)' object has no attribute '(\w+)'",
+        "A method itself was asked for {2}, and not what the method returns.",
+        "A method runs only if brackets follow its name. Which one on this line has none?",
+    ),
+    Row(
+        "name-taken",
+        "AttributeError",
+        r"(?:property|can't set attribute) '?(\w+)'?(?: of '\w+' object has no setter)?$",
+        "{1} is something that every node has already, and it cannot be replaced.",
+        "Take another name for your own attribute; an underscore at its end is enough.",
+    ),
+    Row(
+        "name-taken",
+        "AttributeError",
+        r"can't set attribute",
+        "That name is something that every node has already, and it cannot be replaced.",
+        "Take another name for your own attribute; an underscore at its end is enough.",
+    ),
+    Row(
+        "none-used",
+        "AttributeError",
+        r"'NoneType' object has no attribute '(\w+)'",
+        "What stands before .{1} on this line is None.",
+        "Where does it get its value? A function without return gives None.",
+    ),
+    _no_such_attribute,
+    _not_importable,
+)
+
+
+# Values of a kind that Python cannot work with at that place.
+
+_NUMBER = "'(?:float|int)'"
+_TEXT_AND_NUMBER = "|".join(
+    (
+        r"can only concatenate str \(not \"(?:float|int)\"\)",
+        rf"unsupported operand type\(s\) for [^:]+: {_NUMBER} and 'str'",
+        rf"unsupported operand type\(s\) for [^:]+: 'str' and {_NUMBER}",
+        rf"not supported between instances of {_NUMBER} and 'str'",
+        rf"not supported between instances of 'str' and {_NUMBER}",
+        r"must be str, not (?:float|int)",
+    )
+)
+
+_VALUE_RULES: tuple[Rule, ...] = (
+    Row(
+        "text-and-number",
+        "TypeError",
+        _TEXT_AND_NUMBER,
+        "A text and a number stand side by side where Python wants two of a kind.",
+        "An f-string puts a number into a text. A number in quotes is a text.",
+    ),
+    Row(
+        "none-used",
+        "TypeError",
+        r"not supported between instances of (?:'NoneType' and '\w+'|'\w+' and 'NoneType')",
+        "One of the two things that are compared on this line is None: it has no value.",
+        "Where does it get its value? A function without return gives None, and so does a "
+        "parameter that was declared without a first value.",
+    ),
+    Row(
+        "format-code",
+        "ValueError",
+        r"Unknown format code '(.)' for object of type '(\w+)'",
+        "The letter {1} after the colon in the braces does not fit: the value there is of type "
+        "{2}.",
+        "f writes a float, with .2f to two decimals; d is for whole numbers, s for texts.",
+    ),
+    Row(
+        "logged-no-text",
+        "TypeError",
+        r"rclpy_logging_rcutils_log\(\): incompatible function arguments"
+        r"|Logger\.\w+\(\) (takes|missing|got) ",
+        "The logger takes one text, and was given something else.",
+        "Unlike print it puts nothing together. An f-string makes one text of many parts.",
+    ),
+    Row(
+        "wrong-argument",
+        "TypeError",
+        r"^Node\.((?!__init__)\w+)\(\) takes 1 positional argument but",
+        "{1} was given something, and takes nothing.",
+        "Its brackets stay empty; what it returns does the work.",
+    ),
+    Row(
+        "not-callable",
+        "TypeError",
+        r"^'(\w+)' object is not callable",
+        "Brackets follow something of type {1}, which is no function.",
+        "Which name on this line stands before the brackets? A module or an object keeps its "
+        "functions behind a dot; a value needs no brackets.",
+        lambda fault, _: not called_by_ros(fault),
+    ),
+    *(
+        Row(
+            "division-by-zero",
+            kind,
+            pattern,
+            "A number is divided by zero, as by the count of a list that is still empty.",
+            "How many readings are there at the first call?",
+        )
+        for kind, pattern in (
+            ("ZeroDivisionError", ""),
+            ("StatisticsError", "at least one data point"),
+        )
+    ),
+    Row(
+        "index-error",
+        "IndexError",
+        r"index out of range|from (an )?empty",
+        "The list has no such place: it is shorter than this line expects.",
+        "How long is it at the first call? Counting begins at 0, so the last place is its length "
+        "less one.",
+    ),
+    Row(
+        "self-missing",
+        "TypeError",
+        r"(\w+)\(\) takes 0 positional arguments but (\d)",
+        "{1} takes no parameter, and Python hands every method its own object.",
+        "Compare its `def` line with those of the other methods of a class.",
+    ),
+    Row(
+        "argument-missing",
+        "TypeError",
+        r"(\w+)\(\) missing \d required positional arguments?: (.+)",
+        "{1} wants {2}, and is called with empty brackets.",
+        "Look at the line that begins with def {1}: what does it take besides self?",
+        _in_line(r"\bself\.%s\(\)"),
+    ),
+    Row(
+        "constructor-parameters",
+        "TypeError",
+        r"^(?!Node\.).*__init__\(\) missing \d .*?arguments?: (.+)",
+        "The constructor wants {1}, and the class is called without arguments.",
+        "Whoever runs your node cannot know what to give it: let the constructor take self alone.",
+        lambda fault, _: not fault.line,
+    ),
+    Row(
+        "calls-itself",
+        "RecursionError",
+        "",
+        "A function calls itself again and again, until Python gives up.",
+        "What is to happen again later is a timer's business; a callback only has to return.",
+    ),
+)
+
+_RULES: tuple[Rule, ...] = (
+    *_NODE_RULES,
+    *_CALL_RULES,
+    *_ANSWER_RULES,
+    *_PARAMETER_RULES,
+    *_QOS_RULES,
+    *_FIELD_RULES,
+    *_NAME_RULES,
+    *_VALUE_RULES,
+)
