@@ -13,6 +13,7 @@ program's own context has no nodes.
 from __future__ import annotations
 
 import linecache
+import reprlib
 import signal
 import sys
 import traceback
@@ -76,10 +77,15 @@ class SimulatedProgram:
         self._replaced: set[int] = set()
         self.argv = [self.name, *arguments]
         self._context: Context | None = None
-        # Its own modules, and those of the kernel that have their names.
+        # Its own modules, and those of the kernel that are not to be seen while it runs.
         self._modules: dict[str, ModuleType] = {}
         self._hidden: dict[str, ModuleType] = {}
+        self._known = 0
         self._outside: tuple[Any, ...] = ()
+        if isinstance(self._target, Path):
+            self._root = _root_of(self._target)
+            self._module = ".".join(self._target.relative_to(self._root).with_suffix("").parts)
+            self._names = {name for name, one in sys.modules.items() if self._is_own(name, one)}
 
     def __repr__(self) -> str:
         state = "running" if self.returncode is None else f"exit code {self.returncode}"
@@ -150,9 +156,11 @@ class SimulatedProgram:
         utilities.g_default_context = self._context
         sys.argv = self.argv
         signal.signal = self._set_handler  # type: ignore[assignment]
-        sys.modules.update(self._modules)
         if isinstance(self._target, Path):
-            sys.path.insert(0, str(_root_of(self._target)))
+            sys.path.insert(0, str(self._root))
+            self._hidden = {one: sys.modules.pop(one) for one in self._names if one in sys.modules}
+            sys.modules.update(self._modules)
+            self._known = len(sys.modules)
 
     def leave(self) -> None:
         """Put everything back; the program's own state is kept for the next time."""
@@ -162,10 +170,15 @@ class SimulatedProgram:
             self._outside
         )
         sys.path[:] = path
-        for name in self._modules:
-            sys.modules.pop(name, None)
-        for name, module in self._hidden.items():
-            sys.modules.setdefault(name, module)
+        if isinstance(self._target, Path):
+            # What it has imported since `enter` is at the end.
+            for name, module in list(sys.modules.items())[self._known :]:
+                if self._is_own(name, module):
+                    self._modules[name] = module
+            self._names.update(self._modules)
+            for name in self._modules:
+                sys.modules.pop(name, None)
+            sys.modules.update(self._hidden)
 
     def shut_down(self) -> None:
         """Let a `spin` of the program return: its context was shut down."""
@@ -219,29 +232,30 @@ class SimulatedProgram:
         if not isinstance(self._target, Path):
             found: Callable[[], Any] = self._target
             return found
-        file = self._target
-        linecache.checkcache(str(file))
-        root, before = _root_of(file), set(sys.modules)
-        name = ".".join(file.relative_to(root).with_suffix("").parts)
-        own = {known for known, one in sys.modules.items() if _is_below(one, root)}
-        own |= {name} & sys.modules.keys()  # a file may be called as a module of Python's is
-        self._hidden = hidden = {known: sys.modules.pop(known) for known in own}
-        try:
-            spec = spec_from_file_location(name, file)
-            assert spec is not None
-            assert spec.loader is not None
-            module = module_from_spec(spec)
-            sys.modules[name] = module
-            spec.loader.exec_module(module)
-        finally:
-            new = {known for known in sys.modules if known not in before or known in own}
-            self._modules = {
-                known: sys.modules[known] for known in new if _is_below(sys.modules[known], root)
-            }
-            for known, one in hidden.items():
-                sys.modules.setdefault(known, one)
+        linecache.checkcache(str(self._target))
+        spec = spec_from_file_location(self._module, self._target)
+        assert spec is not None
+        assert spec.loader is not None
+        module = sys.modules[self._module] = module_from_spec(spec)
+        spec.loader.exec_module(module)
         main: Callable[[], Any] = module.main
         return main
+
+    def _is_own(self, name: str, module: Any) -> bool:  # noqa: ANN401 - anything may stand there
+        """Return whether a module is the program's: of its package, or from its folder.
+
+        The folder alone says little: the virtual environment may be in there, too.
+        """
+        if name == self._module:
+            return True
+        in_package = isinstance(self._target, Path) and self._target.parent != self._root
+        if in_package and name.partition(".")[0] != self._module.partition(".")[0]:
+            return False
+        place = str(self._root / name.replace(".", "/"))
+        file = getattr(module, "__file__", None)
+        if isinstance(file, str):
+            return file.startswith((f"{place}.", f"{place}/"))
+        return place in getattr(module, "__path__", ())  # a package without `__init__.py`
 
     def _deliver(self, number: signal.Signals) -> None:
         """Do what the signal handlers of rclpy and of Python do."""
@@ -296,9 +310,10 @@ class SimulatedProgram:
     def _finish(self, error: BaseException | None) -> None:
         code = 0
         if isinstance(error, SystemExit):
-            code = error.code if isinstance(error.code, int) else int(error.code is not None)
-            if error.code is not None and not isinstance(error.code, int):
-                self.stderr = f"{error.code}\n"
+            if isinstance(error.code, int):  # a C `long`, or -1; the system keeps its last byte
+                code = (error.code if -(2**63) <= error.code < 2**63 else -1) & 0xFF
+            elif error.code is not None:
+                code, self.stderr = 1, f"{error.code}\n"
         elif error is not None:
             self.stderr = _traceback_of(error)
             code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
@@ -325,19 +340,34 @@ def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input
     if callable(target) and not isinstance(target, type):
         return target
     if isinstance(target, str | Path):
-        file = Path(target).expanduser().resolve()
-        if file.is_file():
-            return file
-        raise SessionError(
-            f"There is no file {str(target)!r}.",
-            "`ros.spawn` runs a program: a Python file with a function `main`.",
-            f"Look at the folder: `{file.parent}` "
-            + ("has no such file." if file.parent.is_dir() else "does not exist."),
-        )
+        return _checked_file(str(target))
     raise SessionError(
         f"{target!r} is no program.",
         "`ros.spawn` runs a Python file with a function `main`, or such a function.",
         'Write for example `ros.spawn("temperature_publisher.py")`; a class goes to `ros.add`.',
+    )
+
+
+def _checked_file(name: str) -> Path:
+    meaning = "`ros.spawn` runs a program: a Python file with a function `main`."
+    try:
+        file = Path(name).expanduser().resolve()
+        if file.is_file() and file.suffix == ".py":
+            return file
+        if file.exists():
+            kind = "a folder" if file.is_dir() else "no Python file: its name has no `.py`"
+            raise SessionError(
+                f"{name!r} is {kind}.", meaning, "Name the file itself, such as `my_node.py`."
+            )
+        there = "has no such file" if file.parent.is_dir() else "does not exist"
+    except (OSError, ValueError, RuntimeError):  # too long, a NUL character, a user without a home
+        raise SessionError(
+            f"{reprlib.repr(name)} cannot be the name of a file.",
+            meaning,
+            "Look for a name that is too long, or for a character that does not belong there.",
+        ) from None
+    raise SessionError(
+        f"There is no file {name!r}.", meaning, f"Look at the folder: `{file.parent}` {there}."
     )
 
 
@@ -347,11 +377,6 @@ def _root_of(file: Path) -> Path:
     while (folder / "__init__.py").is_file():
         folder = folder.parent
     return folder
-
-
-def _is_below(module: Any, root: Path) -> bool:  # noqa: ANN401 - anything may stand in sys.modules
-    file = getattr(module, "__file__", None)
-    return isinstance(file, str) and Path(file).is_relative_to(root)
 
 
 def _traceback_of(error: BaseException) -> str:
