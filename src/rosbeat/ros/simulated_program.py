@@ -28,6 +28,7 @@ from greenlet import GreenletExit
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import ProgramContext
@@ -74,7 +75,7 @@ class SimulatedProgram:
         self._handlers: dict[int, Any] = {
             signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL,
         }  # fmt: skip
-        self._replaced: set[int] = set()
+        self._caught: set[int] = set()  # the signals for which rclpy's handlers are installed
         self.argv = [self.name, *arguments]
         self._context: Context | None = None
         # Its own modules, and those of the kernel that are not to be seen while it runs.
@@ -186,9 +187,18 @@ class SimulatedProgram:
         if main is not None and main.spinning and self._is_idle():
             self._world.virtual.end_wait(main)
 
+    def install_handlers(self, options: SignalHandlerOptions | None) -> None:
+        """Let rclpy's handlers answer the signals that `rclpy.init` was told, which are all."""
+        chosen = options or SignalHandlerOptions.ALL
+        self._caught = {
+            number
+            for number in (signal.SIGINT, signal.SIGTERM)
+            if chosen in (SignalHandlerOptions.ALL, getattr(SignalHandlerOptions, number.name))
+        }
+
     def callback_ended(self) -> None:
         """Let `spin` return if the context was shut down while a callback waited."""
-        if self._context is not None and not self._context.ok():
+        if self._context is None or not self._context.ok():  # `rclpy.shutdown` forgets it
             self.shut_down()
 
     # How it works.
@@ -200,8 +210,7 @@ class SimulatedProgram:
         """Do what `signal.signal` does, for this program only."""
         before = self._handlers.get(number, signal.SIG_DFL)
         self._handlers[number] = handler
-        if self._context is not None and self._context.ok():
-            self._replaced.add(number)
+        self._caught.discard(number)  # it was the process's only one
         return before
 
     def _run(self) -> None:
@@ -260,36 +269,34 @@ class SimulatedProgram:
     def _deliver(self, number: signal.Signals) -> None:
         """Do what the signal handlers of rclpy and of Python do."""
         handler = self._handlers[number]
-        had_context = self._context is not None and self._context.ok()
-        if had_context and number not in self._replaced:
+        caught = number in self._caught and self._context is not None and self._context.ok()
+        if caught:
             Context.try_shutdown(self._context)  # without waking anybody yet
-        if handler is signal.SIG_DFL:
-            if not had_context:
-                self._end(-number)
-                return
+        if callable(handler):
+            virtual = self._world.virtual
+            virtual.start_main(lambda: self._handle(handler, number), self._process)
+        elif handler is signal.SIG_DFL and caught:
             self._external_shutdown()
-        elif callable(handler):
-            self._raise(self._interrupt_of(handler, number))
+        elif handler is signal.SIG_DFL:
+            self._end(-number)
 
-    def _interrupt_of(self, handler: Any, number: int) -> BaseException | None:  # noqa: ANN401
-        """Call the program's handler; return what it raises."""
+    def _handle(self, handler: Callable[..., Any], number: int) -> None:
+        """Call the program's handler, and raise what it raises where the program is."""
         self.enter()
         try:
             handler(number, None)
-        except KeyboardInterrupt as error:
-            self.interrupt = error.with_traceback(None)
-            return self.interrupt
+        except GreenletExit:
+            raise  # the program has ended while its handler slept
         except BaseException as error:
-            return error
+            raised = error.with_traceback(None)
+            if isinstance(error, KeyboardInterrupt):
+                self.interrupt = error
+            self._raise(raised)
         finally:
             self.leave()
-        return None
 
-    def _raise(self, error: BaseException | None) -> None:
-        """Raise an exception where the main thread of the program is, or wake its `spin`."""
-        if error is None:
-            self.shut_down()
-            return
+    def _raise(self, error: BaseException) -> None:
+        """Raise an exception where the main thread of the program is."""
         calls = [call for call in self._process.calls if call.wait is not None]
         single = self._process.threads == 1
         where = calls[-1] if single and calls else self._main

@@ -569,6 +569,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
                 main()
             finally:
                 self._forget_call(call)
+                process.program.callback_ended()  # it may have been a signal handler
                 if not call.broken:  # else whoever has ended it goes on
                     getcurrent().parent = self._next_driver()
 
