@@ -72,6 +72,7 @@ class SimulatedProgram:
         self._process = Process(program=self)
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
+        self._failure: SessionError | None = None
         self._handlers: dict[int, Any] = {
             signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL,
         }  # fmt: skip
@@ -196,6 +197,11 @@ class SimulatedProgram:
             if chosen in (SignalHandlerOptions.ALL, getattr(SignalHandlerOptions, number.name))
         }
 
+    def fail(self, error: SessionError) -> None:
+        """End the program with an error, from a thread of its own, as soon as `main` waits."""
+        self._failure = error
+        self._world.virtual.elsewhere.append(lambda: self._raise(error))
+
     def callback_ended(self) -> None:
         """Let `spin` return if the context was shut down while a callback waited."""
         if self._context is None or not self._context.ok():  # `rclpy.shutdown` forgets it
@@ -234,7 +240,7 @@ class SimulatedProgram:
         if isinstance(error, KeyboardInterrupt) and error is not self.interrupt:
             self._end(-signal.SIGINT)
             raise error  # a real one, meant for the cell
-        self._finish(error)
+        self._finish(self._failure or error)
 
     def _load(self) -> Callable[[], Any]:
         """Return `main` of the file, imported afresh, as the script of an entry point does."""
