@@ -86,7 +86,8 @@ class SimulatedProgram:
         self._outside: tuple[Any, ...] = ()
         if isinstance(self._target, Path):
             self._root = _root_of(self._target)
-            self._module = ".".join(self._target.relative_to(self._root).with_suffix("").parts)
+            parts = self._target.relative_to(self._root).with_suffix("").parts
+            self._module, self._package = ".".join(parts), parts[0] if len(parts) > 1 else ""
             self._names = {name for name, one in sys.modules.items() if self._is_own(name, one)}
 
     def __repr__(self) -> str:
@@ -173,11 +174,10 @@ class SimulatedProgram:
         )
         sys.path[:] = path
         if isinstance(self._target, Path):
-            # What it has imported since `enter` is at the end.
-            for name, module in list(sys.modules.items())[self._known :]:
-                if self._is_own(name, module):
-                    self._modules[name] = module
-            self._names.update(self._modules)
+            if len(sys.modules) > self._known:  # what it has imported since is at the end
+                new = list(sys.modules.items())[self._known :]
+                self._modules.update(one for one in new if self._is_own(*one))
+                self._names.update(self._modules)
             for name in self._modules:
                 sys.modules.pop(name, None)
             sys.modules.update(self._hidden)
@@ -203,7 +203,7 @@ class SimulatedProgram:
         self._world.virtual.elsewhere.append(lambda: self._raise(error))
 
     def callback_ended(self) -> None:
-        """Let `spin` return if the context was shut down while a callback waited."""
+        """Let `spin` return if the context was shut down meanwhile."""
         if self._context is None or not self._context.ok():  # `rclpy.shutdown` forgets it
             self.shut_down()
 
@@ -263,8 +263,7 @@ class SimulatedProgram:
         """
         if name == self._module:
             return True
-        in_package = isinstance(self._target, Path) and self._target.parent != self._root
-        if in_package and name.partition(".")[0] != self._module.partition(".")[0]:
+        if self._package and self._package != name.partition(".")[0]:
             return False
         place = str(self._root / name.replace(".", "/"))
         file = getattr(module, "__file__", None)
@@ -318,7 +317,10 @@ class SimulatedProgram:
         self._world.virtual.end_wait(main, ExternalShutdownException() if alone else None)
 
     def _is_idle(self) -> bool:
-        return all(call.spinning for call in self._process.calls)
+        """Return whether no callback of the program has begun and not returned."""
+        running = self._world.virtual.current
+        calls = [*self._process.calls, *([running] if running is not None else [])]
+        return all(call.spinning or call.process is not self._process for call in calls)
 
     def _finish(self, error: BaseException | None) -> None:
         code = 0

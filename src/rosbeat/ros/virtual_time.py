@@ -590,6 +590,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
                 main()
             finally:
                 self._forget_call(call)
+                self.current = None
                 process.program.callback_ended()  # it may have been a signal handler
                 if not call.broken:  # else whoever has ended it goes on
                     getcurrent().parent = self._next_driver()
@@ -979,6 +980,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if call.began_ns >= 0:
             self._end_suspended(call)
         call.process.count_down()
+        if call.process.program is not None:
+            call.process.program.callback_ended()
 
     def _end_suspended(self, call: Call) -> None:
         """Free the thread and the group of a callback that has waited and has returned."""
@@ -989,8 +992,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._changed = True
         process.refresh()
         self._catch_up(process)
-        if process.program is not None:
-            process.program.callback_ended()
 
     def _forget_call(self, call: Call) -> None:
         self._suspended.pop(call, None)
@@ -1044,6 +1045,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
             self.current = None
             if call.began_ns >= 0:
                 self._end_suspended(call)
+            if call.process.program is not None:
+                call.process.program.callback_ended()
 
     def _coroutine_ended(self, waiting: Waiting) -> None:
         self._coroutines.end(waiting)
