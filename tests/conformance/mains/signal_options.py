@@ -1,6 +1,7 @@
 """A program that tells rclpy which signals to handle."""
 
 import sys
+import time
 
 import rclpy
 from rclpy.node import Node
@@ -19,6 +20,7 @@ def main():
     try:
         rclpy.spin(Beat())
     except KeyboardInterrupt:
+        time.sleep(0.2)  # a thread of rclpy's may still be shutting the context down
         print("interrupted", rclpy.ok(), flush=True)
         raise
 
