@@ -368,6 +368,21 @@ def test_a_program_that_spins_in_a_thread_is_refused(ros, program, monkeypatch, 
     assert (fault.node, fault.kind) == ("program", "SessionError")
 
 
+def test_a_thread_of_a_program_cannot_run_the_session(ros, says, monkeypatch):
+    raised = []
+    monkeypatch.setattr(threading, "excepthook", lambda told: raised.append(told.exc_value))
+
+    def main():
+        rclpy.init()
+        rate = rclpy.create_node("rated").create_rate(1.0)
+        thread = threading.Thread(target=rate.sleep)
+        thread.start()
+        thread.join()
+
+    assert ros.spawn(main).returncode == 0
+    says(raised.pop(), "another thread")
+
+
 STUBBORN = """
 import signal
 import rclpy
