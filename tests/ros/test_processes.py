@@ -498,3 +498,45 @@ def busy_system():
 
 def test_every_run_is_the_same():
     assert len({digest(busy_system()) for _ in range(20)}) == 1
+
+
+class OwnError(BaseException):
+    """An exception that `except Exception` does not catch."""
+
+
+def raise_own_error():
+    raise OwnError
+
+
+async def raise_own_error_later():
+    raise OwnError
+
+
+@pytest.mark.parametrize("callback", [raise_own_error, raise_own_error_later])
+def test_any_exception_of_a_callback_ends_its_process_only(ros, callback):
+    class Raising(Node):
+        def __init__(self):
+            super().__init__("raising")
+            self.create_timer(1.0, callback)
+
+    ros.add(Raising)
+    ros.add(Beat)
+    ros.run(2)
+    assert len(ros.messages("beat")) == 4
+    (fault,) = ros.observation().faults
+    assert (fault.node, fault.kind, fault.time_ns) == ("/raising", "OwnError", 1_000_000_000)
+
+
+def test_any_exception_of_a_callback_leaves_the_spin_of_its_program(ros):
+    def main():
+        rclpy.init()
+        node = rclpy.create_node("raising")
+        node.create_timer(1.0, raise_own_error)
+        rclpy.spin(node)
+
+    raising = ros.spawn(main)
+    ros.add(Beat)
+    ros.run(2)
+    assert raising.returncode == 1
+    assert "OwnError" in raising.stderr
+    assert len(ros.messages("beat")) == 4

@@ -1,14 +1,17 @@
 """Programs with a `main`, run unchanged as simulated processes."""
 
+import importlib
 import signal
 import sys
+import threading
+import time
 from textwrap import dedent
 
 import pytest
 import rclpy
 
 from rosbeat import Session
-from rosbeat.errors import SessionError
+from rosbeat.errors import EndlessChainError, SessionError
 
 pytestmark = pytest.mark.ros
 
@@ -43,6 +46,7 @@ def program(tmp_path):
 
     def write(text, name="program.py"):
         file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(dedent(text), encoding="utf-8")
         return file
 
@@ -108,6 +112,56 @@ def test_a_module_is_imported_afresh_and_leaves_nothing_behind(ros, program):
     program("number = 2", "own_constants.py")
     assert ros.spawn(file).returncode == 0
     assert (set(sys.modules), sys.path, sys.argv, signal.signal) == before
+
+
+def test_modules_that_are_imported_late_are_its_own_too(ros, program, capsys):
+    program("number = 1", "own_number.py")
+    (program("", "part/x.py").parent / "counts.py").write_text("number = 1")
+    file = program("""
+        import time
+
+        def main():
+            import own_number, part.counts  # a package without `__init__.py`
+            own_number.number += 1
+            part.counts.number += 1
+            time.sleep(1)
+            import own_number as again
+            print(again.number, again is own_number, part.counts.number)
+    """)
+    before = set(sys.modules)
+    ros.spawn(file)
+    ros.spawn(file)
+    ros.run(2)
+    assert capsys.readouterr().out == "2 True 2\n" * 2
+    assert set(sys.modules) == before
+
+
+def test_packages_installed_below_its_folder_are_those_of_the_kernel(
+    ros, program, capsys, monkeypatch
+):
+    installed = program("number = 1", ".venv/site-packages/installed_library.py").parent
+    monkeypatch.syspath_prepend(installed)
+    library = importlib.import_module("installed_library")
+    library.number = 2
+    ros.spawn(
+        program("import installed_library as lib\ndef main():\n    print(lib.number)", "a.b.py")
+    )
+    assert capsys.readouterr().out == "2\n"
+    assert sys.modules.pop("installed_library") is library
+    assert "a.b" not in sys.modules
+
+
+# Measured with `python -c "import sys; sys.exit(...)"`.
+EXIT_CODES = {
+    "300": 44, "-1": 255, "256": 0, "2**32 + 5": 5, "-2**63": 0, "2**64": 255, "True": 1,
+    "'text'": 1, "3.5": 1,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("code", "expected"), EXIT_CODES.items())
+def test_exit_codes_are_cut_as_the_operating_system_does(ros, program, code, expected):
+    file = program(f"import sys\ndef main():\n    sys.exit({code})")
+    assert ros.spawn(file).returncode == expected
 
 
 def test_what_a_program_prints_and_returns(ros, program, capsys):
@@ -196,6 +250,200 @@ def test_a_handler_of_its_own(ros, program, capsys):
     assert sensor.stderr.endswith("KeyboardInterrupt\n")
 
 
+HANDLING = """
+import signal, time
+import rclpy
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node("handling")
+    node.create_timer(1.0, lambda: node.get_logger().info("tick"))
+
+    def handle(number, frame):
+        node.get_logger().info("begins")
+        time.sleep(2.5)
+        node.get_logger().info("ends")
+        {ending}
+
+    signal.signal(signal.SIGTERM, handle)
+    rclpy.spin(node)
+    return 4
+"""
+
+
+@pytest.mark.parametrize(
+    ("ending", "code"), [("rclpy.shutdown()", 4), ("sys.exit(5)", 1), ("pass", None)]
+)
+def test_a_handler_that_sleeps_takes_virtual_time(ros, program, ending, code):
+    handling = ros.spawn(program(HANDLING.replace("{ending}", ending)))
+    ros.run(1)
+    handling.terminate()
+    assert (ros.time, handling.returncode) == (1, None)
+    ros.run(2.5)
+    said = [(line.time, line.text) for line in ros.logs("handling")]
+    assert said[:3] == [(1, "tick"), (1, "begins"), (3.5, "ends")]
+    assert handling.returncode == code
+
+
+def test_a_program_that_ends_while_its_handler_sleeps(ros, program):
+    handling = ros.spawn(program(HANDLING.replace("{ending}", "pass")))
+    ros.run(1)
+    handling.terminate()
+    handling.kill()
+    ros.run(3)
+    assert [line.text for line in ros.logs("handling")] == ["tick", "begins"]
+
+
+def test_a_callback_that_waits_after_shutdown_ends_before_spin_does(ros, capsys):
+    def main():
+        def work():
+            rclpy.shutdown()
+            time.sleep(1)
+            print("worked")
+
+        rclpy.init()
+        node = rclpy.create_node("worker")
+        node.create_timer(1.0, work)
+        rclpy.spin(node)
+        print("spun")
+
+    ros.spawn(main)
+    ros.run(3)
+    assert capsys.readouterr().out == "worked\nspun\n"
+
+
+# Spinning in a thread, and spinning for ever.
+
+SPINS = {
+    "rate": """
+        threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
+        rate = node.create_rate(2)
+        while rclpy.ok():
+            rate.sleep()
+    """,
+    "executor": """
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        thread = threading.Thread(target=lambda: executor.spin())
+        thread.start()
+        thread.join()
+    """,
+    "once": """
+        thread = threading.Thread(target=lambda: rclpy.spin_once(node))
+        thread.start()
+        try:
+            time.sleep(5)
+        except Exception:
+            pass
+    """,
+}
+
+
+@pytest.mark.parametrize("spins", SPINS)
+def test_a_program_that_spins_in_a_thread_is_refused(ros, program, monkeypatch, capsys, spins):
+    # Python's own prints nothing when SystemExit ends a thread; that of pytest counts it.
+    monkeypatch.setattr(threading, "excepthook", threading.__excepthook__)
+    before = threading.enumerate()
+    head = """
+    import threading, time
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+
+    def main():
+        rclpy.init()
+        node = rclpy.create_node("threaded")
+        node.create_timer(0.5, lambda: print("never"))
+    """
+    threaded = ros.spawn(program(dedent(head) + dedent(SPINS[spins]).replace("\n", "\n    ")))
+    ros.run(1)
+    for thread in set(threading.enumerate()).difference(before):
+        thread.join()
+    assert not ros.is_live
+    assert threaded.returncode == 1
+    assert capsys.readouterr().err == threaded.stderr
+    assert "SessionError: program spins in a thread of its own." in threaded.stderr
+    assert "What it means:" in threaded.stderr
+    assert "What to try:" in threaded.stderr
+    (fault,) = ros.observation().faults
+    assert (fault.node, fault.kind) == ("program", "SessionError")
+
+
+def test_a_thread_of_a_program_cannot_run_the_session(ros, says, monkeypatch):
+    raised = []
+    monkeypatch.setattr(threading, "excepthook", lambda told: raised.append(told.exc_value))
+
+    def main():
+        rclpy.init()
+        rate = rclpy.create_node("rated").create_rate(1.0)
+        thread = threading.Thread(target=rate.sleep)
+        thread.start()
+        thread.join()
+
+    assert ros.spawn(main).returncode == 0
+    says(raised.pop(), "another thread")
+
+
+STUBBORN = """
+import signal
+import rclpy
+from rclpy.task import Future
+
+presses = iter([signal.SIGINT])
+
+def press_once():
+    for number in presses:
+        signal.raise_signal(number)
+
+def main():
+    rclpy.init()
+    node, done = rclpy.create_node("stubborn"), Future()
+    done.set_result(True)
+    node.create_timer(0.5, {callback})
+    while True:
+        try:
+            {spin}
+        except KeyboardInterrupt:
+            pass
+"""
+
+
+def spawn_and_run(ros, file):
+    ros.spawn(file)
+    ros.run(1)
+
+
+@pytest.mark.parametrize(
+    "spin",
+    ["rclpy.spin(node)", "rclpy.spin_once(node, timeout_sec=0)"],
+)
+def test_a_program_that_spins_for_ever_and_no_time_passes(ros, program, says, spin):
+    text = STUBBORN.replace("{spin}", spin).replace("{callback}", "rclpy.shutdown")
+    beside = ros.spawn(program(SENSOR.replace("{ending}", "shutdown"), "beside.py"))
+    file = program(text)
+    with pytest.raises(EndlessChainError) as caught:
+        spawn_and_run(ros, file)
+    says(caught.value, "no time passed")
+    ros.run(3)
+    assert [node.get_name() for node in ros.nodes] == ["sensor"]
+    assert beside.returncode is None
+
+
+@pytest.mark.parametrize(
+    "spin",
+    [
+        "rclpy.spin(node)",
+        "press_once(); rclpy.spin(node)",
+        "press_once(); rclpy.spin_until_future_complete(node, done)",
+    ],
+)
+def test_interrupt_reaches_the_cell_whatever_a_program_catches(ros, program, spin):
+    text = STUBBORN.replace("{spin}", spin)
+    stubborn = program(text.replace("{callback}", "lambda: signal.raise_signal(2)"))
+    for _ in range(2):
+        with pytest.raises(KeyboardInterrupt):
+            spawn_and_run(ros, stubborn)
+
+
 def test_closing_the_session_ends_a_program_that_sleeps(program, capsys):
     file = program("""
         import time
@@ -226,11 +474,21 @@ def test_closing_the_session_shuts_the_context_of_its_programs_down(program):
     assert not seen[0].ok()
 
 
-@pytest.mark.parametrize("target", ["no_such_file.py", 3, None, Session, ""])
+NO_FILES = ["no\0file.py", "x" * 5_000, "no_such_file.py", "~no_such_user/x.py", ".", ""]
+
+
+@pytest.mark.parametrize("target", [*NO_FILES, 3, None, Session])
 def test_what_is_no_program(ros, says, target):
     with pytest.raises(SessionError) as caught:
         ros.spawn(target)
     says(caught.value)
+
+
+@pytest.mark.parametrize("name", ["program.txt", "program"])
+def test_a_file_that_is_no_python_file(ros, program, says, name):
+    with pytest.raises(SessionError) as caught:
+        ros.spawn(program("def main():\n    pass", name))
+    says(caught.value, "no Python file")
 
 
 def test_arguments_are_texts_and_signals_are_known(ros, says, program):

@@ -3,6 +3,7 @@
 import time
 from time import sleep
 
+import numpy as np
 import pytest
 from rclpy.node import Node
 from std_msgs.msg import Float32
@@ -187,6 +188,35 @@ def test_waiting_for_a_future_sleeps_in_virtual_time_too(ros):
     assert future.done()
     assert ros.time == 30
     assert time.monotonic() - begin < 5
+
+
+class Index:
+    """A whole number of a library's own, as NumPy has some."""
+
+    def __index__(self):
+        return 2
+
+
+@pytest.mark.parametrize("span", [2, 2.0, np.int64(2), np.float64(2), Index()])
+def test_what_python_sleeps_for_takes_virtual_time(ros, span):
+    begin = time.monotonic()
+    sleeper = ros.spawn(lambda: time.sleep(span))
+    ros.run(1.9)
+    assert sleeper.returncode is None
+    ros.run(0.1)
+    assert sleeper.returncode == 0
+    assert time.monotonic() - begin < 1
+
+
+@pytest.mark.parametrize(
+    "span", [-1, -1e-12, float("nan"), float("inf"), 10**30, 1e10, "2", None, np.float32(2)]
+)
+def test_what_python_refuses_to_sleep_for_is_refused(ros, span):
+    with pytest.raises((ValueError, TypeError, OverflowError)) as real:
+        time.sleep(span)
+    refused = ros.spawn(lambda: time.sleep(span))
+    assert refused.returncode == 1
+    assert refused.stderr.endswith(f"{real.typename}: {real.value}\n")
 
 
 def test_an_interrupt_ends_a_sleep(ros, monkeypatch):

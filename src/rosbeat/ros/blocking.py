@@ -12,7 +12,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from math import isfinite
+from operator import index
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +24,8 @@ from rosbeat.ros.entities import Entry
 from rosbeat.ros.virtual_time import VirtualTimeExecutor
 
 _OWN = str(Path(__file__).parents[1])
+#: Seconds that `time.sleep` refuses: their nanoseconds are no C `long long`.
+_TOO_LONG = 2**63 / 1e9
 
 
 class VirtualWaits:
@@ -59,10 +61,14 @@ class VirtualWaits:
     def sleep(self, seconds: Any) -> None:  # noqa: ANN401 - unchecked
         """Sleep, as `time.sleep` does; in the code of a node, in virtual time."""
         own = sys._getframe(1).f_code.co_filename.startswith(_OWN)
-        if own or not self._virtual.in_callback or not _is_span(seconds):
-            self._sleep(seconds)  # which refuses what is no span of time
+        if own or not self._virtual.in_callback:
+            self._sleep(seconds)
+            return
+        span = seconds if isinstance(seconds, float) else index(seconds)  # as Python does it
+        if 0 <= span < _TOO_LONG:
+            self._virtual.sleep(span)
         else:
-            self._virtual.sleep(float(seconds))
+            self._sleep(seconds)  # which refuses it
 
     def wait_for_message(
         self,
@@ -119,10 +125,6 @@ def _in_place_of(
         for names, key, old, new in found:
             if names.get(key) is new:
                 names[key] = old
-
-
-def _is_span(seconds: object) -> bool:
-    return isinstance(seconds, int | float) and isfinite(seconds) and seconds >= 0
 
 
 def _namespaces(code: Iterable[object]) -> list[dict[str, Any]]:

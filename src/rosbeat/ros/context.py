@@ -110,29 +110,30 @@ class ProgramContext(Context):
 
     Attributes:
         watcher: The session.
+        program: As above.
         home: The context in which nodes are made.
     """
 
     def __init__(self, world: World, program: SimulatedProgram) -> None:
         super().__init__()
-        self.watcher, self._program = world, program
+        self.watcher, self.program = world, program
         self.home: Context = world.context
 
     @property
     def ros_arguments(self) -> list[str]:
         """Return what stands behind `--ros-args` on the command line, with that word."""
-        words = self._program.argv
+        words = self.program.argv
         return words[words.index("--ros-args") :] if "--ros-args" in words else []
 
     def shutdown(self) -> None:
         """Shut down, and let a `spin` of the program return."""
         super().shutdown()
-        self._program.shut_down()
+        self.program.shut_down()
 
     def try_shutdown(self) -> None:
         """Shut down if that was not done yet, and let a `spin` of the program return."""
         super().try_shutdown()
-        self._program.shut_down()
+        self.program.shut_down()
 
 
 def _open_context(context: Context | None) -> Context | None:
@@ -223,6 +224,8 @@ def install_learner_calls() -> None:
         target = context or rclpy.get_default_context()
         if isinstance(target, SessionContext | ProgramContext):
             target.init(args, domain_id=options.get("domain_id"))
+            if isinstance(target, ProgramContext):
+                target.program.install_handlers(options.get("signal_handler_options"))
             return
         if in_kernel():
             options.setdefault("signal_handler_options", rclpy.signals.SignalHandlerOptions.NO)

@@ -13,6 +13,7 @@ program's own context has no nodes.
 from __future__ import annotations
 
 import linecache
+import reprlib
 import signal
 import sys
 import traceback
@@ -27,6 +28,7 @@ from greenlet import GreenletExit
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import ProgramContext
@@ -70,16 +72,23 @@ class SimulatedProgram:
         self._process = Process(program=self)
         self._main: Call | None = None
         self.interrupt: KeyboardInterrupt | None = None
+        self._failure: SessionError | None = None
         self._handlers: dict[int, Any] = {
             signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL,
         }  # fmt: skip
-        self._replaced: set[int] = set()
+        self._caught: set[int] = set()  # the signals for which rclpy's handlers are installed
         self.argv = [self.name, *arguments]
         self._context: Context | None = None
-        # Its own modules, and those of the kernel that have their names.
+        # Its own modules, and those of the kernel that are not to be seen while it runs.
         self._modules: dict[str, ModuleType] = {}
         self._hidden: dict[str, ModuleType] = {}
+        self._known = 0
         self._outside: tuple[Any, ...] = ()
+        if isinstance(self._target, Path):
+            self._root = _root_of(self._target)
+            parts = self._target.relative_to(self._root).with_suffix("").parts
+            self._module, self._package = ".".join(parts), parts[0] if len(parts) > 1 else ""
+            self._names = {name for name, one in sys.modules.items() if self._is_own(name, one)}
 
     def __repr__(self) -> str:
         state = "running" if self.returncode is None else f"exit code {self.returncode}"
@@ -150,9 +159,11 @@ class SimulatedProgram:
         utilities.g_default_context = self._context
         sys.argv = self.argv
         signal.signal = self._set_handler  # type: ignore[assignment]
-        sys.modules.update(self._modules)
         if isinstance(self._target, Path):
-            sys.path.insert(0, str(_root_of(self._target)))
+            sys.path.insert(0, str(self._root))
+            self._hidden = {one: sys.modules.pop(one) for one in self._names if one in sys.modules}
+            sys.modules.update(self._modules)
+            self._known = len(sys.modules)
 
     def leave(self) -> None:
         """Put everything back; the program's own state is kept for the next time."""
@@ -162,10 +173,14 @@ class SimulatedProgram:
             self._outside
         )
         sys.path[:] = path
-        for name in self._modules:
-            sys.modules.pop(name, None)
-        for name, module in self._hidden.items():
-            sys.modules.setdefault(name, module)
+        if isinstance(self._target, Path):
+            if len(sys.modules) > self._known:  # what it has imported since is at the end
+                new = list(sys.modules.items())[self._known :]
+                self._modules.update(one for one in new if self._is_own(*one))
+                self._names.update(self._modules)
+            for name in self._modules:
+                sys.modules.pop(name, None)
+            sys.modules.update(self._hidden)
 
     def shut_down(self) -> None:
         """Let a `spin` of the program return: its context was shut down."""
@@ -173,9 +188,23 @@ class SimulatedProgram:
         if main is not None and main.spinning and self._is_idle():
             self._world.virtual.end_wait(main)
 
+    def install_handlers(self, options: SignalHandlerOptions | None) -> None:
+        """Let rclpy's handlers answer the signals that `rclpy.init` was told, which are all."""
+        chosen = options or SignalHandlerOptions.ALL
+        self._caught = {
+            number
+            for number in (signal.SIGINT, signal.SIGTERM)
+            if chosen in (SignalHandlerOptions.ALL, getattr(SignalHandlerOptions, number.name))
+        }
+
+    def fail(self, error: SessionError) -> None:
+        """End the program with an error, from a thread of its own, as soon as `main` waits."""
+        self._failure = error
+        self._world.virtual.elsewhere.append(lambda: self._raise(error))
+
     def callback_ended(self) -> None:
-        """Let `spin` return if the context was shut down while a callback waited."""
-        if self._context is not None and not self._context.ok():
+        """Let `spin` return if the context was shut down meanwhile."""
+        if self._context is None or not self._context.ok():  # `rclpy.shutdown` forgets it
             self.shut_down()
 
     # How it works.
@@ -187,8 +216,7 @@ class SimulatedProgram:
         """Do what `signal.signal` does, for this program only."""
         before = self._handlers.get(number, signal.SIG_DFL)
         self._handlers[number] = handler
-        if self._context is not None and self._context.ok():
-            self._replaced.add(number)
+        self._caught.discard(number)  # it was the process's only one
         return before
 
     def _run(self) -> None:
@@ -212,70 +240,68 @@ class SimulatedProgram:
         if isinstance(error, KeyboardInterrupt) and error is not self.interrupt:
             self._end(-signal.SIGINT)
             raise error  # a real one, meant for the cell
-        self._finish(error)
+        self._finish(self._failure or error)
 
     def _load(self) -> Callable[[], Any]:
         """Return `main` of the file, imported afresh, as the script of an entry point does."""
         if not isinstance(self._target, Path):
             found: Callable[[], Any] = self._target
             return found
-        file = self._target
-        linecache.checkcache(str(file))
-        root, before = _root_of(file), set(sys.modules)
-        name = ".".join(file.relative_to(root).with_suffix("").parts)
-        own = {known for known, one in sys.modules.items() if _is_below(one, root)}
-        own |= {name} & sys.modules.keys()  # a file may be called as a module of Python's is
-        self._hidden = hidden = {known: sys.modules.pop(known) for known in own}
-        try:
-            spec = spec_from_file_location(name, file)
-            assert spec is not None
-            assert spec.loader is not None
-            module = module_from_spec(spec)
-            sys.modules[name] = module
-            spec.loader.exec_module(module)
-        finally:
-            new = {known for known in sys.modules if known not in before or known in own}
-            self._modules = {
-                known: sys.modules[known] for known in new if _is_below(sys.modules[known], root)
-            }
-            for known, one in hidden.items():
-                sys.modules.setdefault(known, one)
+        linecache.checkcache(str(self._target))
+        spec = spec_from_file_location(self._module, self._target)
+        assert spec is not None
+        assert spec.loader is not None
+        module = sys.modules[self._module] = module_from_spec(spec)
+        spec.loader.exec_module(module)
         main: Callable[[], Any] = module.main
         return main
+
+    def _is_own(self, name: str, module: Any) -> bool:  # noqa: ANN401 - anything may stand there
+        """Return whether a module is the program's: of its package, or from its folder.
+
+        The folder alone says little: the virtual environment may be in there, too.
+        """
+        if name == self._module:
+            return True
+        if self._package and self._package != name.partition(".")[0]:
+            return False
+        place = str(self._root / name.replace(".", "/"))
+        file = getattr(module, "__file__", None)
+        if isinstance(file, str):
+            return file.startswith((f"{place}.", f"{place}/"))
+        return place in getattr(module, "__path__", ())  # a package without `__init__.py`
 
     def _deliver(self, number: signal.Signals) -> None:
         """Do what the signal handlers of rclpy and of Python do."""
         handler = self._handlers[number]
-        had_context = self._context is not None and self._context.ok()
-        if had_context and number not in self._replaced:
+        caught = number in self._caught and self._context is not None and self._context.ok()
+        if caught:
             Context.try_shutdown(self._context)  # without waking anybody yet
-        if handler is signal.SIG_DFL:
-            if not had_context:
-                self._end(-number)
-                return
+        if callable(handler):
+            virtual = self._world.virtual
+            virtual.start_main(lambda: self._handle(handler, number), self._process)
+        elif handler is signal.SIG_DFL and caught:
             self._external_shutdown()
-        elif callable(handler):
-            self._raise(self._interrupt_of(handler, number))
+        elif handler is signal.SIG_DFL:
+            self._end(-number)
 
-    def _interrupt_of(self, handler: Any, number: int) -> BaseException | None:  # noqa: ANN401
-        """Call the program's handler; return what it raises."""
+    def _handle(self, handler: Callable[..., Any], number: int) -> None:
+        """Call the program's handler, and raise what it raises where the program is."""
         self.enter()
         try:
             handler(number, None)
-        except KeyboardInterrupt as error:
-            self.interrupt = error.with_traceback(None)
-            return self.interrupt
+        except GreenletExit:
+            raise  # the program has ended while its handler slept
         except BaseException as error:
-            return error
+            raised = error.with_traceback(None)
+            if isinstance(error, KeyboardInterrupt):
+                self.interrupt = error
+            self._raise(raised)
         finally:
             self.leave()
-        return None
 
-    def _raise(self, error: BaseException | None) -> None:
-        """Raise an exception where the main thread of the program is, or wake its `spin`."""
-        if error is None:
-            self.shut_down()
-            return
+    def _raise(self, error: BaseException) -> None:
+        """Raise an exception where the main thread of the program is."""
         calls = [call for call in self._process.calls if call.wait is not None]
         single = self._process.threads == 1
         where = calls[-1] if single and calls else self._main
@@ -291,14 +317,18 @@ class SimulatedProgram:
         self._world.virtual.end_wait(main, ExternalShutdownException() if alone else None)
 
     def _is_idle(self) -> bool:
-        return all(call.spinning for call in self._process.calls)
+        """Return whether no callback of the program has begun and not returned."""
+        running = self._world.virtual.current
+        calls = [*self._process.calls, *([running] if running is not None else [])]
+        return all(call.spinning or call.process is not self._process for call in calls)
 
     def _finish(self, error: BaseException | None) -> None:
         code = 0
         if isinstance(error, SystemExit):
-            code = error.code if isinstance(error.code, int) else int(error.code is not None)
-            if error.code is not None and not isinstance(error.code, int):
-                self.stderr = f"{error.code}\n"
+            if isinstance(error.code, int):  # a C `long`, or -1; the system keeps its last byte
+                code = (error.code if -(2**63) <= error.code < 2**63 else -1) & 0xFF
+            elif error.code is not None:
+                code, self.stderr = 1, f"{error.code}\n"
         elif error is not None:
             self.stderr = _traceback_of(error)
             code = -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
@@ -325,19 +355,34 @@ def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input
     if callable(target) and not isinstance(target, type):
         return target
     if isinstance(target, str | Path):
-        file = Path(target).expanduser().resolve()
-        if file.is_file():
-            return file
-        raise SessionError(
-            f"There is no file {str(target)!r}.",
-            "`ros.spawn` runs a program: a Python file with a function `main`.",
-            f"Look at the folder: `{file.parent}` "
-            + ("has no such file." if file.parent.is_dir() else "does not exist."),
-        )
+        return _checked_file(str(target))
     raise SessionError(
         f"{target!r} is no program.",
         "`ros.spawn` runs a Python file with a function `main`, or such a function.",
         'Write for example `ros.spawn("temperature_publisher.py")`; a class goes to `ros.add`.',
+    )
+
+
+def _checked_file(name: str) -> Path:
+    meaning = "`ros.spawn` runs a program: a Python file with a function `main`."
+    try:
+        file = Path(name).expanduser().resolve()
+        if file.is_file() and file.suffix == ".py":
+            return file
+        if file.exists():
+            kind = "a folder" if file.is_dir() else "no Python file: its name has no `.py`"
+            raise SessionError(
+                f"{name!r} is {kind}.", meaning, "Name the file itself, such as `my_node.py`."
+            )
+        there = "has no such file" if file.parent.is_dir() else "does not exist"
+    except (OSError, ValueError, RuntimeError):  # too long, a NUL character, a user without a home
+        raise SessionError(
+            f"{reprlib.repr(name)} cannot be the name of a file.",
+            meaning,
+            "Look for a name that is too long, or for a character that does not belong there.",
+        ) from None
+    raise SessionError(
+        f"There is no file {name!r}.", meaning, f"Look at the folder: `{file.parent}` {there}."
     )
 
 
@@ -347,11 +392,6 @@ def _root_of(file: Path) -> Path:
     while (folder / "__init__.py").is_file():
         folder = folder.parent
     return folder
-
-
-def _is_below(module: Any, root: Path) -> bool:  # noqa: ANN401 - anything may stand in sys.modules
-    file = getattr(module, "__file__", None)
-    return isinstance(file, str) and Path(file).is_relative_to(root)
 
 
 def _traceback_of(error: BaseException) -> str:

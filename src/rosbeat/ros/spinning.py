@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
@@ -27,6 +27,9 @@ from rosbeat.ros.console import note
 from rosbeat.ros.context import Interrupts, show_briefly
 from rosbeat.ros.entities import NodeState
 from rosbeat.ros.recording import watcher_of
+
+if TYPE_CHECKING:
+    from rosbeat.ros.simulated_program import SimulatedProgram
 
 #: Seconds between two looks at whether the learner pressed Interrupt.
 PULSE = 0.1
@@ -53,7 +56,7 @@ def install() -> None:
 def _spin(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def spin(node: Node, executor: Executor | None = None) -> None:
-        world: Any = watcher_of(node)
+        world = _session_of(node)
         if world is None:
             _spin_until_interrupt(node, executor or _executor_for(node))
         elif _plays_program(world):
@@ -69,7 +72,7 @@ def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
     def spin_once(
         node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
     ) -> None:
-        world: Any = watcher_of(node)
+        world = _session_of(node)
         if world is None:
             wait = PULSE if timeout_sec is None else timeout_sec
             original(node, executor=executor, timeout_sec=wait)
@@ -94,7 +97,7 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
         executor: Executor | None = None,
         timeout_sec: float | None = None,
     ) -> None:
-        world: Any = watcher_of(node)
+        world = _session_of(node)
         if world is None:
             original(node, future, executor, timeout_sec)
         elif _is_simulated(world):
@@ -109,6 +112,31 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
                 world.wait_until(lambda: future.done() or future.cancelled(), timeout_sec)
 
     return spin_until_future_complete
+
+
+def _session_of(node: Node) -> Any:  # noqa: ANN401 - a World
+    """Return the session of a node, or None; refuse to spin a program's in another thread."""
+    world: Any = watcher_of(node)
+    state = world.state_of(node) if world is not None else None
+    _refuse_thread(world, state.process.program if state is not None else None)
+    return world
+
+
+def _refuse_thread(world: Any, program: SimulatedProgram | None) -> None:  # noqa: ANN401
+    """End a program that spins in another thread than the session's, and that thread."""
+    if program is None or world.live is not None or threading.get_ident() == world.virtual.thread:
+        return
+    try:
+        raise SessionError(
+            f"{program.name} spins in a thread of its own.",
+            "A session plays all programs in one thread, in virtual time, and threads of their own "
+            "count real time. In a terminal the program works.",
+            "Spin in `main`, and do the work of its loop in a timer's callback. Or start the "
+            "program in a terminal, with `ros2 run`.",
+        )
+    except SessionError as error:
+        program.fail(error)
+    sys.exit()  # which ends this thread and says nothing
 
 
 # Executors that a program makes itself.
@@ -159,6 +187,7 @@ def _executor_until(original: Callable[..., None], most: int | None = None) -> C
 def _world_of(executor: Executor) -> Any:  # noqa: ANN401 - a World
     """Return the session in whose code an executor spins, or None."""
     world = getattr(executor.context, "watcher", None)
+    _refuse_thread(world, getattr(executor.context, "program", None))
     return world if world is not None and _is_simulated(world) else None
 
 
@@ -192,6 +221,8 @@ def _play(world: Any, executor: Executor | None, states: list[NodeState]) -> Non
     if isinstance(executor, MultiThreadedExecutor):
         process.threads = executor._executor._max_workers
     try:
+        if not rclpy.ok():  # at once, and yet a loop around it must not keep Interrupt away
+            world.virtual.block("spin", world.virtual.now)
         while rclpy.ok():
             world.virtual.spin(states)
     finally:

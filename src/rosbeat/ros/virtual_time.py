@@ -42,7 +42,7 @@ from rosbeat.ros.errors import never_made
 from rosbeat.ros.processes import Call, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
 from rosbeat.ros.recording import CallbackLabel, Recorder
-from rosbeat.ros.wait_set import Coroutines, Host, Waiting, WaitSetExecutor
+from rosbeat.ros.wait_set import NOT_OF_CALLBACKS, Coroutines, Host, Waiting, WaitSetExecutor
 
 
 class Agenda:
@@ -117,7 +117,7 @@ LONGEST_CHAIN = 1_000
 #: Callbacks that may follow from one timer, more than `SUSPICIOUS` steps after it. A circle that
 #: doubles its messages at each step never gets deep, since there is ever more to do on the way.
 MOST_FOLLOWERS = 100_000
-#: Timers that may fire at one instant.
+#: Timers that may fire, and sleepers that may wake, at one instant.
 MOST_FIRINGS = 10_000
 #: Steps that coroutines and tasks may take at one instant.
 MOST_TURNS = 100_000
@@ -137,13 +137,13 @@ class ChainGuard:
 
     def __init__(self) -> None:
         self.depth = 0
-        self._firings = 0
+        self._firings = self._wakes = 0
         self._followers = 0
         self._trail: deque[str] = deque(maxlen=_TRAIL)
 
     def instant_ends(self) -> None:
         """Forget the counts of this instant: time passes, so what happened before is no circle."""
-        self._firings = self._followers = 0
+        self._firings = self._followers = self._wakes = 0
 
     def timer_fires(self, entry: Entry) -> None:
         """Begin a chain at a timer.
@@ -159,6 +159,27 @@ class ChainGuard:
                 f"A timer of {entry.state.name} fired {MOST_FIRINGS} times and no time passed.",
                 f"Its period is zero, so `{entry.label.name}` is always due and the clock stands.",
                 "Give create_timer a period above zero, in seconds.",
+            )
+
+    def wakes(self, call: Call) -> None:
+        """Check a call that goes on because its time has come.
+
+        Raises:
+            EndlessChainError: If calls go on without end at one instant (`spin_once` with a timeout
+                of zero in a loop).
+        """
+        self._wakes += 1
+        if self._wakes > MOST_FIRINGS:
+            self._wakes = 0
+            program = call.process.program
+            if program is not None:
+                program.kill()  # it would never let the others run
+            name = call.node or (program.name if program is not None else "A node")
+            raise EndlessChainError(
+                f"{call.name} of {name} waited {MOST_FIRINGS} times and no time passed.",
+                "It waits in a loop, and each wait ends at once: its timeout is zero, or ROS has "
+                "been shut down. On a real robot it would keep a processor core busy for ever.",
+                "Wait with a timeout above zero, and leave the loop when `rclpy.ok()` is False.",
             )
 
     def inspect(self, entry: Entry) -> None:
@@ -473,7 +494,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         Raises:
             SessionError: If it can never end.
         """
-        if met is not None and met():
+        if met is not None and met() and not (self.running and self._interrupts.pressed):
             return True
         here, call = getcurrent(), self.current
         if call is not None and (call.broken or self._closing):
@@ -489,7 +510,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         wait = Wait(call, here, reason, self.now, until, met, needs)
         self._suspend(call, wait, spinning)
         try:
-            if not wait.can_end():
+            if not (wait.can_end() or self.elsewhere):
                 self._host.deadlocked([wait])
             self._next_driver().switch()
         finally:
@@ -569,6 +590,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
                 main()
             finally:
                 self._forget_call(call)
+                self.current = None
+                process.program.callback_ended()  # it may have been a signal handler
                 if not call.broken:  # else whoever has ended it goes on
                     getcurrent().parent = self._next_driver()
 
@@ -656,10 +679,10 @@ class VirtualTimeExecutor(WaitSetExecutor):
         """Use the calling thread from now on; greenlets cannot change threads."""
         if threading.get_ident() == self.thread:
             return
-        if self.suspended:
-            call = self.suspended[0]
+        if self.running or self.suspended:
+            waits = "".join(f", where {one.name} of {one.node} waits" for one in self.suspended[:1])
             raise SessionError(
-                f"This session runs in another thread, where {call.name} of {call.node} waits.",
+                f"This session runs in another thread{waits}.",
                 "A callback that has begun goes on in the thread in which it has begun.",
                 "Call `ros.run` in that thread, or open a session for each thread.",
             )
@@ -726,7 +749,10 @@ class VirtualTimeExecutor(WaitSetExecutor):
         elif missed == at:
             self._ready.append((self.deadlines.pass_next(), 1))
         else:
-            self._woken.append(heappop(self._sleeping)[2])
+            wait = heappop(self._sleeping)[2]
+            self._woken.append(wait)
+            if wait.call is not None:
+                self._chain.wakes(wait.call)
         return True
 
     def _nothing_left(self) -> bool:
@@ -885,7 +911,9 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._entry, self.calling = entry, entry.label
         try:
             result = callback(*arguments)
-        except (Exception, SystemExit) as error:
+        except NOT_OF_CALLBACKS:
+            raise
+        except BaseException as error:
             self._interrupts.raise_if_pressed()
             self._raised(self._current(), entry.label.name, error)
         else:
@@ -910,12 +938,14 @@ class VirtualTimeExecutor(WaitSetExecutor):
             process.program.enter()
         try:
             result = callback(*arguments)
-        except (Exception, SystemExit) as error:
-            self._interrupts.raise_if_pressed()
-            self._raised(call, entry.label.name, error)
         except KeyboardInterrupt as error:
             if process.program is None or process.program.interrupt is not error:
                 raise
+            self._raised(call, entry.label.name, error)
+        except NOT_OF_CALLBACKS:
+            raise
+        except BaseException as error:
+            self._interrupts.raise_if_pressed()
             self._raised(call, entry.label.name, error)
         else:
             if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
@@ -950,6 +980,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if call.began_ns >= 0:
             self._end_suspended(call)
         call.process.count_down()
+        if call.process.program is not None:
+            call.process.program.callback_ended()
 
     def _end_suspended(self, call: Call) -> None:
         """Free the thread and the group of a callback that has waited and has returned."""
@@ -960,8 +992,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self._changed = True
         process.refresh()
         self._catch_up(process)
-        if process.program is not None:
-            process.program.callback_ended()
 
     def _forget_call(self, call: Call) -> None:
         self._suspended.pop(call, None)
@@ -1004,17 +1034,19 @@ class VirtualTimeExecutor(WaitSetExecutor):
         self.current, self.calling = call, label or self.calling
         try:
             waiting.task()
-        except SystemExit as error:
-            waiting.task.cancel()
-            self._raised(call, waiting.name, error)
-        except BaseException:
+        except NOT_OF_CALLBACKS:
             waiting.task.cancel()  # rclpy would take it for running, for ever
             self._coroutines.end(waiting)
             raise
+        except BaseException as error:
+            waiting.task.cancel()
+            self._raised(call, waiting.name, error)
         finally:
             self.current = None
             if call.began_ns >= 0:
                 self._end_suspended(call)
+            if call.process.program is not None:
+                call.process.program.callback_ended()
 
     def _coroutine_ended(self, waiting: Waiting) -> None:
         self._coroutines.end(waiting)

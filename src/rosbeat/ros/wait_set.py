@@ -12,6 +12,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from greenlet import GreenletExit
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler
 from rclpy.executors import Executor, SingleThreadedExecutor, TimeoutException
@@ -23,6 +24,7 @@ from rclpy.task import Task
 from rclpy.timer import Timer
 
 from rosbeat.ros.entities import Entry, NodeState, callback_name
+from rosbeat.ros.isolation import DeadlinePassed
 from rosbeat.ros.processes import Call, Process, Wait
 
 # Callbacks that wait by themselves: `async def` callbacks and tasks.
@@ -183,6 +185,10 @@ class Host(Protocol):
         """Prepare this thread for running nodes."""
 
 
+#: What ends more than the callback in which it is raised.
+NOT_OF_CALLBACKS = (KeyboardInterrupt, GreenletExit, DeadlinePassed)
+
+
 class WaitSetExecutor(SingleThreadedExecutor):
     """rclpy's executor, asked only for what cannot be taken directly.
 
@@ -257,7 +263,9 @@ class WaitSetExecutor(SingleThreadedExecutor):
         error: BaseException | None = None
         try:
             handler()
-        except SystemExit as stop:
+        except NOT_OF_CALLBACKS:
+            raise
+        except BaseException as stop:
             error = stop
             handler.cancel()
         finally:
