@@ -289,7 +289,7 @@ class SimulatedProgram:
         """Call the program's handler, and raise what it raises where the program is."""
         self.enter()
         try:
-            handler(number, None)
+            handler(int(number), None)  # a plain number, as the system hands it over
         except GreenletExit:
             raise  # the program has ended while its handler slept
         except BaseException as error:
