@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from inspect import iscoroutinefunction
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 from rclpy.subscription import Subscription
@@ -16,7 +16,8 @@ from rosbeat.ros.faults import asking
 
 if TYPE_CHECKING:
     from rosbeat.ros.processes import Process
-    from rosbeat.ros.recording import CallbackLabel
+    from rosbeat.ros.recording import CallbackLabel, PublisherTap
+    from rosbeat.ros.virtual_time import VirtualTimeExecutor
 
 
 def full_name(name: str, namespace: str) -> str:
@@ -44,12 +45,11 @@ class NodeState:
         number: Order of creation.
         name: Full name.
         node: The node, once its constructor has got far enough.
-        process: The simulated process in which it runs.
         spinning: Whether its callbacks are run: it was added, has no fault and is not paused.
         born_ns: When it was made, in nanoseconds since the session began.
         open: Whether its callbacks can run at once: it spins, and nothing in its process waits.
-        paused: It rests because the session was told to pause it.
-        ended: It raised in a callback or asked for shutdown, and does not come back.
+        paused: Whether the session was told to pause it.
+        ended: Whether it raised in a callback or asked for shutdown; it does not come back.
         logger: The logger handed to its code, made at the first call of `get_logger`.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
         taps: What listens to its publishers, in order of creation.
@@ -67,7 +67,7 @@ class NodeState:
     ended: bool = False
     logger: Any = None
     entries: list[Entry] = field(default_factory=list)
-    taps: list[Any] = field(default_factory=list)
+    taps: list[PublisherTap] = field(default_factory=list)
     actions: list[Any] = field(default_factory=list)
 
 
@@ -115,11 +115,9 @@ class Entry:
         self.deadline: int | None = None
 
 
-# Taking what has arrived, straight from rclpy's handles, without a wait set.
-#
-# Each function takes one thing from one entity and answers `(callback, arguments)`, or None if
-# there was nothing. rclpy's own executor does the same after it has rebuilt its wait set, which is
-# the part that costs time (measured: 1 ms for six nodes).
+# Taking what has arrived, straight from rclpy's handles: to rebuild a wait set for it, as rclpy's
+# executor does, takes 1 ms for six nodes. Each function takes one thing from one entity and returns
+# `(callback, arguments)`, or None if there was nothing.
 
 
 Work = tuple[Callable[..., Any], tuple[Any, ...]]
@@ -127,40 +125,26 @@ Work = tuple[Callable[..., Any], tuple[Any, ...]]
 _MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 
 
-class Sender(Protocol):
-    """Learns that something was sent, so that whoever waits for it can take it."""
-
-    def happened(self, kind: str, name: str, origin: NodeState) -> None:
-        """Note that a node sent something to the `kind` entities called `name`."""
-
-
-def take_message(entry: Entry, _: Sender) -> Work | None:
+def take_message(entry: Entry, _: object) -> Work | None:
     """Take one message from a subscription."""
-    # Not by `next_message` and `work_for`: two more calls would slow every message down.
     subscription, handle = entry.entity, entry.handle
     with handle:
         taken = handle.take_message(subscription.msg_type, subscription.raw)
     if taken is None:
         return None
+    # Not by `message_work`: one more call would slow every message down.
     arguments = taken[:1] if subscription._callback_type is _MESSAGE_ONLY else taken
     return subscription.callback, arguments
 
 
-def next_message(entry: Entry) -> Any:  # noqa: ANN401 - a message with its info, or None
-    """Take one message, and return it with its info, or None."""
-    subscription, handle = entry.entity, entry.handle
-    with handle:
-        return handle.take_message(subscription.msg_type, subscription.raw)
-
-
-def work_for(entry: Entry, taken: tuple[Any, ...]) -> Work:
+def message_work(entry: Entry, taken: tuple[Any, ...]) -> Work:
     """Return the callback of a subscription, and its arguments for a message and its info."""
     subscription = entry.entity
     only = subscription._callback_type is _MESSAGE_ONLY
     return subscription.callback, taken[:1] if only else taken
 
 
-def take_request(entry: Entry, sender: Sender) -> Work | None:
+def take_request(entry: Entry, executor: VirtualTimeExecutor) -> Work | None:
     """Take one request from a service's server."""
     service = entry.entity
     with service.handle:
@@ -168,26 +152,26 @@ def take_request(entry: Entry, sender: Sender) -> Work | None:
     if header is None:
         return None
     serve = _serve_later if iscoroutinefunction(service.callback) else _serve
-    return serve, (entry, request, header, sender)
+    return serve, (entry, request, header, executor)
 
 
-def _serve(entry: Entry, request: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
-    response = entry.entity.callback(request, entry.entity.srv_type.Response())
-    _answer(entry, response, header, sender)
+async def _serve_later(entry: Entry, *asked: Any) -> None:  # noqa: ANN401
+    response = await entry.entity.callback(asked[0], entry.entity.srv_type.Response())
+    _answer(entry, response, *asked[1:])
 
 
-async def _serve_later(entry: Entry, request: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
-    response = await entry.entity.callback(request, entry.entity.srv_type.Response())
-    _answer(entry, response, header, sender)
+def _serve(entry: Entry, *asked: Any) -> None:  # noqa: ANN401
+    response = entry.entity.callback(asked[0], entry.entity.srv_type.Response())
+    _answer(entry, response, *asked[1:])
 
 
-def _answer(entry: Entry, response: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
+def _answer(entry: Entry, response: Any, header: Any, executor: VirtualTimeExecutor) -> None:  # noqa: ANN401
     with asking("send_response", response):
         entry.entity.send_response(response, header)
-    sender.happened("client", entry.name, entry.state)
+    executor.happened("client", entry.name, entry.state)
 
 
-def take_answer(entry: Entry, executor: Sender) -> Work | None:
+def take_answer(entry: Entry, executor: VirtualTimeExecutor) -> Work | None:
     """Take one response to a client's request."""
     client = entry.entity
     with client.handle:

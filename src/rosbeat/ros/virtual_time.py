@@ -27,7 +27,7 @@ from collections.abc import Callable, Collection, Coroutine
 from heapq import heappop, heappush
 from inspect import iscoroutine, iscoroutinefunction
 from itertools import count
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from greenlet import GreenletExit, getcurrent, greenlet
 from rclpy.context import Context
@@ -42,7 +42,10 @@ from rosbeat.ros.errors import never_made
 from rosbeat.ros.processes import Call, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
 from rosbeat.ros.recording import CallbackLabel, Recorder
-from rosbeat.ros.wait_set import Coroutines, Host, Waiting, WaitSetExecutor
+from rosbeat.ros.wait_set import Coroutines, Waiting, WaitSetExecutor
+
+if TYPE_CHECKING:
+    from rosbeat.ros.world import World
 
 
 class Agenda:
@@ -228,7 +231,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
         thread: The thread in which the nodes run.
     """
 
-    def __init__(self, context: Context, recorder: Recorder, host: Host) -> None:
+    def __init__(self, context: Context, recorder: Recorder, host: World) -> None:
         self.now = 0
         self.is_live = False
         self.running = False

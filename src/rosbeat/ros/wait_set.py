@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Coroutine, Iterable
-from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler
@@ -23,7 +22,10 @@ from rclpy.task import Task
 from rclpy.timer import Timer
 
 from rosbeat.ros.entities import Entry, NodeState, callback_name
-from rosbeat.ros.processes import Call, Process, Wait
+from rosbeat.ros.processes import Call, Process
+
+if TYPE_CHECKING:
+    from rosbeat.ros.world import World
 
 # Callbacks that wait by themselves: `async def` callbacks and tasks.
 
@@ -155,34 +157,6 @@ class Coroutines:
 _TAKEN_DIRECTLY = (Subscription, Timer, Client, Service)
 
 
-class Host(Protocol):
-    """What the executor asks of its session."""
-
-    def states(self) -> list[NodeState]:
-        """Return all nodes, in order of creation."""
-
-    def state_of(self, node: Node) -> NodeState | None:
-        """Return what is known of a node."""
-
-    def spin_node(self, state: NodeState) -> None:
-        """Run this node's callbacks from now on."""
-
-    def pause_node(self, state: NodeState) -> None:
-        """Run none of this node's callbacks until `spin_node`."""
-
-    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
-        """Record that a callback of this entity is about to run."""
-
-    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
-        """Record an exception that left a callback, and end its process."""
-
-    def deadlocked(self, waits: list[Wait]) -> None:
-        """Record that callbacks wait for ever."""
-
-    def running(self) -> AbstractContextManager[None]:
-        """Prepare this thread for running nodes."""
-
-
 class WaitSetExecutor(SingleThreadedExecutor):
     """rclpy's executor, asked only for what cannot be taken directly.
 
@@ -195,7 +169,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
     """
 
     current: Any
-    _host: Host
+    _host: World
     # rclpy's `__del__` asks for it, also if an interrupt has come before it was made.
     _sigint_gc: Any = None
 

@@ -32,7 +32,7 @@ from rosbeat.ros.graph import ExternalMessages, GraphObserver, snapshot, with_ot
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
 from rosbeat.ros.processes import Call, Process, Wait
-from rosbeat.ros.qos_events import Limits, event_source, topic_of, wait_for_stored
+from rosbeat.ros.qos_events import Limits, event_name, topic_of, wait_for_stored
 from rosbeat.ros.randomness import SeededRandom
 from rosbeat.ros.recording import (
     Memory,
@@ -41,8 +41,6 @@ from rosbeat.ros.recording import (
     SessionLogger,
     repair_message_classes,
     tap_client,
-    tap_rate,
-    tap_timer,
     type_name,
 )
 from rosbeat.ros.virtual_time import VirtualTimeExecutor
@@ -224,7 +222,7 @@ class World:
         if kind == "publisher":
             self._tap_publisher(state, entity)
         elif kind == "rate":
-            tap_rate(entity, partial(self._sleep, self._entries[entity._timer]))
+            entity.sleep = partial(self._sleep, self._entries[entity._timer], entity.sleep)
         else:
             self._watch(state, kind, entity)
 
@@ -308,7 +306,9 @@ class World:
         # An action tells by itself, as soon as it knows what it was.
         elif state is not None and not action_of(entity, state):
             kind = waitable_kind(entity)
-            source = event_source(entity, topic_of(entity, node)) if kind == "event" else ""
+            source = ""
+            if kind == "event":
+                source = f"{event_name(entity)} of {topic_of(entity, node)}"
             self.heard(state, kind, waitable_name(entity), source)
 
     def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
@@ -549,9 +549,9 @@ class World:
         return self.wait_until(client.service_is_ready, timeout_sec)
 
     def _watch_timer(self, entry: Entry) -> None:
-        clock = entry.entity.clock
-        if isinstance(clock, SessionClock):
-            tap_timer(entry.entity, clock.move, partial(self._timer_reset, entry))
+        timer = entry.entity
+        if isinstance(timer.clock, SessionClock):
+            timer.reset = partial(self._reset_timer, entry, timer.reset)
             return
         entry.kind = "wall timer"
         note(
@@ -559,14 +559,16 @@ class World:
             "fires only while the session is live."
         )
 
-    def _timer_reset(self, entry: Entry) -> None:
+    def _reset_timer(self, entry: Entry, original: Callable[[], None]) -> None:
+        entry.entity.clock.move()
+        original()
         if self.live is None:
             self.virtual.timer_reset(entry)
 
     def _watch_subscription(self, entry: Entry) -> None:
         entry.born = self.recorder.mark()
         taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
-        wait_for_stored(taps, entry)
+        wait_for_stored(taps, entry.entity.qos_profile)
         if self.counts_limits:
             self.limits.subscription_made(entry)
         if self.external_messages is not None:
@@ -583,7 +585,6 @@ class World:
         record = partial(self._record_in_virtual_time, channel.number, happened)
         published = partial(self._published, channel.number, record, get_ident())
         tap = PublisherTap(publisher, memory, published)
-        tap.channel = channel
         state.taps.append(tap)
         if self.counts_limits:
             self.limits.publisher_made(state, publisher, tap)
