@@ -17,7 +17,7 @@ from rclpy.event_handler import (
 )
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
 
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS
 from rosbeat.ros.entities import Entry, NodeState, Work, callback_name, message_work
@@ -48,6 +48,12 @@ def limit_ns(limit: Duration) -> int:
     """Return a deadline or a lifespan in nanoseconds; 0 if there is none, as ROS writes that."""
     found: int = limit.nanoseconds
     return found if found < _FOREVER else 0
+
+
+def fit(offered: QoSProfile, asked: QoSProfile) -> bool:
+    """Return whether the middleware connects a publisher and a subscription of these profiles."""
+    compatible, _ = qos_check_compatible(offered, asked)
+    return bool(compatible != QoSCompatibility.ERROR)
 
 
 def make_stretched(

@@ -12,7 +12,7 @@ import sys
 from array import array
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, partial, wraps
 from importlib import import_module
 from importlib.util import module_from_spec
@@ -33,10 +33,8 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import (
     DurabilityPolicy,
-    QoSCompatibility,
     QoSProfile,
     ReliabilityPolicy,
-    qos_check_compatible,
 )
 from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.utilities import get_default_context
@@ -44,7 +42,7 @@ from rclpy.utilities import get_default_context
 from rosbeat.errors import NoSessionError, SessionError
 from rosbeat.records import CallbackRecord, Fault, LogRecord, Sample
 from rosbeat.ros.faults import asking, is_message_class
-from rosbeat.ros.qos_events import as_written, is_alive, limit_ns, make_stretched
+from rosbeat.ros.qos_events import as_written, fit, is_alive, limit_ns, make_stretched
 
 if TYPE_CHECKING:
     from rosbeat.ros.world import World
@@ -113,7 +111,7 @@ class Memory:
     """
 
     def __init__(self, message_type: type) -> None:
-        self._type = message_type
+        self._type, self.type_name = message_type, type_name(message_type)
         fields = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]
         flat = bool(fields) and _ARRIVING.keys() >= set(fields.values())
         self._fields = [(name, _ARRIVING[kind]) for name, kind in fields.items() if flat]
@@ -143,7 +141,6 @@ class Channel:
 
     number: int
     topic: str
-    type_name: str
     node: str
     memory: Memory
 
@@ -178,15 +175,10 @@ class Recorder:
     _callback_times: array[int] = field(default_factory=lambda: array("q"))
     _callback_labels: array[int] = field(default_factory=lambda: array("I"))
 
-    def channel(self, topic: str, type_name: str, node: str, memory: Memory) -> Channel:
+    def channel(self, topic: str, node: str, memory: Memory) -> Channel:
         """Register a publisher."""
-        made = Channel(len(self._channels), topic, type_name, node, memory)
+        made = Channel(len(self._channels), topic, node, memory)
         self._channels.append(made)
-        return made
-
-    def rename(self, channel: Channel, node: str) -> Channel:
-        """Correct the name of the publishing node, also for what has been recorded."""
-        made = self._channels[channel.number] = replace(channel, node=node)
         return made
 
     def label(self, node: str, kind: str, name: str, source: str) -> CallbackLabel:
@@ -215,7 +207,7 @@ class Recorder:
     def _sample(self, k: int, channel: Channel) -> Sample:
         data = channel.memory.plain(self._sample_copies[k])
         at = self._sample_times[k]
-        return Sample(at, channel.topic, channel.type_name, channel.node, data)
+        return Sample(at, channel.topic, channel.memory.type_name, channel.node, data)
 
     def callbacks(self) -> Iterator[CallbackRecord]:
         """Return runs of callbacks in order."""
@@ -364,7 +356,7 @@ class PublisherTap:
 
     def fits(self, subscription: Any) -> bool:  # noqa: ANN401 - rclpy is untyped
         """Return whether a subscription of this topic is connected to this publisher."""
-        return self._type is subscription.msg_type and self._offers(subscription.qos_profile)
+        return self._type is subscription.msg_type and fit(self._qos, subscription.qos_profile)
 
     @property
     def stores(self) -> bool:
@@ -376,7 +368,7 @@ class PublisherTap:
         asks = qos.durability in _ASK_FOR_STORED and qos.reliability in _ASK_AGAIN
         hands_over = self._qos.reliability != ReliabilityPolicy.BEST_EFFORT and self.count > 0
         is_possible = self.stores and asks and hands_over and is_alive(self._handle)
-        return is_possible and self._offers(qos)
+        return is_possible and fit(self._qos, qos)
 
     def has_delivered(self) -> bool:
         """Return whether all of its subscriptions have acknowledged all that they are to get."""
@@ -385,10 +377,6 @@ class PublisherTap:
                 return bool(self._handle.wait_for_all_acked(_AT_ONCE))
         except InvalidHandle:  # destroyed by another thread: nothing more will come
             return True
-
-    def _offers(self, qos: QoSProfile) -> bool:
-        compatible, _ = qos_check_compatible(self._qos, qos)
-        return bool(compatible != QoSCompatibility.ERROR)
 
 
 def tap_client(

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Coroutine, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import Executor, SingleThreadedExecutor, TimeoutException
 from rclpy.guard_condition import GuardCondition
 from rclpy.node import Node
@@ -170,13 +172,16 @@ class WaitSetExecutor(SingleThreadedExecutor):
 
     current: Any
     _host: World
-    # rclpy's `__del__` asks for it, also if an interrupt has come before it was made.
-    _sigint_gc: Any = None
 
     def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
         self._changed = True
         self._wait_set_nodes: list[Node] = []
         super().__init__(**options)
+
+    def __del__(self) -> None:
+        # An interrupt may have come while it was made, or it is collected after its parts.
+        with suppress(AttributeError, InvalidHandle):
+            super().__del__()
 
     def get_nodes(self) -> list[Node]:
         """Return the nodes whose processes have a thread for them, in order of creation.

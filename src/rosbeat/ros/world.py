@@ -41,7 +41,6 @@ from rosbeat.ros.recording import (
     SessionLogger,
     repair_message_classes,
     tap_client,
-    type_name,
 )
 from rosbeat.ros.virtual_time import VirtualTimeExecutor
 from rosbeat.ros.wait_set import waitable_kind, waitable_name
@@ -580,7 +579,7 @@ class World:
             quiet = partial(self.sent, "subscription", topic, state)
             state.taps.append(PublisherTap(publisher, memory, lambda _: quiet()))
             return
-        channel = self.recorder.channel(topic, type_name(publisher.msg_type), state.name, memory)
+        channel = self.recorder.channel(topic, state.name, memory)
         happened = self.virtual.sender("subscription", topic, state)
         record = partial(self._record_in_virtual_time, channel.number, happened)
         published = partial(self._published, channel.number, record, get_ident())
