@@ -8,12 +8,10 @@ ids in every run, and shows an exception in its work as any other.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from functools import partial, wraps
 from hashlib import sha256
 from inspect import signature
-from math import inf
 from typing import TYPE_CHECKING, Any
 
 from rclpy.action import ActionClient, ActionServer
@@ -45,25 +43,8 @@ _SENDING = ("send_goal_async", "_cancel_goal_async", "_get_result_async")
 _SEND_GOAL = "/_action/send_goal"
 
 
-def wait_by_the_wall(done: Callable[[], bool], seconds: float | None) -> bool:
-    """Wait until `done` is true while a session is live, at most so many seconds."""
-    limit = inf if seconds is None else time.monotonic() + seconds
-    while not done() and time.monotonic() < limit:
-        time.sleep(0.005)
-    return bool(done())
-
-
 class ActionEnd:
-    """One action server or client of a node.
-
-    Args:
-        world: The session's.
-        state: The node.
-        kind: `action server` or `action client`.
-        entity: rclpy's object.
-        name: The action's full name.
-        options: The arguments of its constructor.
-    """
+    """One action server or client of a node; `options` are the arguments of its constructor."""
 
     def __init__(
         self,
@@ -230,12 +211,13 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
         options = order.bind(entity, *given, **named)
         options.apply_defaults()
         node = options.arguments["node"]
-        watcher = watcher_of(node)
-        if watcher is not None:
+        world = watcher_of(node)
+        state = world.state_of(node) if world is not None else None
+        if world is not None and state is not None:
             name = node.resolve_service_name(options.arguments["action_name"] + _SEND_GOAL)
-            watcher.action_made(
-                node, kind, entity, name.removesuffix(_SEND_GOAL), options.arguments
-            )
+            name = name.removesuffix(_SEND_GOAL)
+            state.actions.append(ActionEnd(world, state, kind, entity, name, options.arguments))
+            world.action_ends.add(entity)
 
     return init
 

@@ -71,48 +71,40 @@ class NodeState:
     actions: list[Any] = field(default_factory=list)
 
 
+@dataclass(eq=False, slots=True)
 class Entry:
     """One timer, subscription, server or client, and what the executor needs of it.
 
     Attributes:
         number: Order of creation over the whole session.
-        state: The node it belongs to.
         kind: `timer`, `wall timer` (on another clock than the session's: it fires in live mode
             only), `subscription`, `service`, `client` or `event`.
-        entity: rclpy's object.
-        handle: Its handle, which is a property of it and so takes a call to get; None for an event.
+        entity: rclpy's object; its entities share no base class.
         name: Full topic or service name; empty for a timer.
         label: What its runs are recorded as.
-        label_number: The label's number.
         take: Takes one thing that has arrived; a timer has none. See `TAKERS`.
+        handle: The entity's, which is a property and so takes a call to get; None for an event.
         calls: How often its callback has run.
         born: Of a subscription: how many messages had been recorded when it was made.
         deadline: Where the agenda keeps a timer, in nanoseconds; None if it waits elsewhere.
     """
 
-    __slots__ = (
-        "born", "calls", "deadline", "entity", "handle", "kind", "label",
-        "label_number", "name", "number", "state", "take",
-    )  # fmt: skip
+    number: int
+    state: NodeState
+    kind: str
+    entity: Any
+    name: str
+    label: CallbackLabel
+    take: Callable[..., Any] | None = None
+    label_number: int = field(init=False)
+    handle: Any = field(init=False)
+    calls: int = 0
+    born: int = 0
+    deadline: int | None = None
 
-    def __init__(
-        self,
-        number: int,
-        state: NodeState,
-        kind: str,
-        entity: Any,  # noqa: ANN401 - rclpy's entities share no base class
-        name: str,
-        label: CallbackLabel,
-        take: Callable[..., Any] | None = None,
-    ) -> None:
-        self.number, self.state, self.kind = number, state, kind
-        self.entity, self.name, self.label = entity, name, label
-        self.label_number = label.number
-        self.handle: Any = getattr(entity, "handle", None)
-        self.take = take
-        self.calls = 0
-        self.born = 0
-        self.deadline: int | None = None
+    def __post_init__(self) -> None:
+        self.label_number = self.label.number
+        self.handle = getattr(self.entity, "handle", None)
 
 
 # Taking what has arrived, straight from rclpy's handles: to rebuild a wait set for it, as rclpy's

@@ -316,9 +316,9 @@ def _own_sockets() -> set[str]:
 
 # Waiting in a cell, with a deadline, for something that happens elsewhere.
 
-_POLL_EVERY = 0.05
+_POLL_EVERY = 0.02
 #: So many polls without a change: 0.2 s, on a machine that is not busy.
-_SAME_POLLS = 4
+_SAME_POLLS = 10
 
 
 def poll(done: Callable[[], object], deadline: float | None) -> bool:

@@ -15,6 +15,7 @@ import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass
 from io import TextIOBase
 from pathlib import Path
 from types import FrameType, TracebackType
@@ -67,15 +68,11 @@ class Deadline:
     deadline nor Interrupt ends a long call of C, such as `sum(range(10**12))`.
 
     Args:
-        seconds: How long the block may take, in seconds of wall time.
+        seconds: How long the block may take, in seconds of wall time; `passed` says if it took
+            longer.
         noting: Called once, at the moment when the time is up.
         nudge: Called ten times a second in another thread: it may wake what waits in C, which
             neither the deadline nor Interrupt reach there.
-
-    Attributes:
-        seconds: How long the block may take.
-        passed: Whether it took longer.
-        interrupted: Whether Interrupt was pressed in the block.
     """
 
     def __init__(
@@ -170,18 +167,16 @@ class Deadline:
         try:
             inside = list(self._inside(frame))
             # Not before and after the block: one that never begins never ends.
-            if inside and inside[0].f_code not in _NEVER:
-                self._raise_in(inside)
+            if not inside or inside[0].f_code in _NEVER:
+                return
+            self._note(inside)
+            if self._may_be_hit(inside):
+                self._raised += 1
+                if self._raised > 1:
+                    _setitimer(signal.ITIMER_REAL, _SWEEP[self._raised % len(_SWEEP)], _EVERY)
+                raise DeadlinePassed
         finally:
             self._raising = False
-
-    def _raise_in(self, inside: list[FrameType]) -> None:
-        self._note(inside)
-        if self._may_be_hit(inside):
-            self._raised += 1
-            if self._raised > 1:
-                _setitimer(signal.ITIMER_REAL, _SWEEP[self._raised % len(_SWEEP)], _EVERY)
-            raise DeadlinePassed
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         self.interrupted = True  # `__exit__` remembers
@@ -247,15 +242,12 @@ def run_in_generator(do: Callable[[], object]) -> None:
     next(generator())
 
 
-def _except_for(reserved: int, function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of `signal` that leaves the deadline's signal or timer alone."""
-    return lambda which, *rest: None if which == reserved else function(which, *rest)
-
-
-#: What stands in the place of functions of `signal` in a block.
+#: What stands in the place of functions of `signal` in a block: they leave the deadline's alone.
 _RESERVED: dict[str, Callable[..., Any]] = {
-    "signal": _except_for(signal.SIGALRM, _signal),
-    "setitimer": _except_for(signal.ITIMER_REAL, _setitimer),
+    "signal": lambda which, do: None if which == signal.SIGALRM else _signal(which, do),
+    "setitimer": lambda which, *rest: (
+        None if which == signal.ITIMER_REAL else _setitimer(which, *rest)
+    ),
     "alarm": lambda _: 0,
     "pthread_sigmask": lambda how, mask: _mask(how, set(mask) - {signal.SIGALRM}),
 }
@@ -264,26 +256,18 @@ _RESERVED: dict[str, Callable[..., Any]] = {
 # Where a learner's prints go while a check runs.
 
 
+@dataclass
 class Count:
-    """Counts what was printed.
+    """How many characters were printed, on both streams, by code that is not rosbeat's own."""
 
-    Attributes:
-        characters: By code that is not rosbeat's own, on both streams.
-    """
-
-    def __init__(self) -> None:
-        self.characters = 0
+    characters: int = 0
 
 
 class Sink(TextIOBase):
     """A stream that counts what is written and forgets it.
 
-    What threads print that were there before goes where it always goes: they are none of the
+    What threads print that were there before goes to the `real` stream: they are none of the
     learner's node.
-
-    Args:
-        real: The stream in whose place it stands.
-        count: What is added to.
     """
 
     encoding = "utf-8"
@@ -325,11 +309,8 @@ def unharmed() -> Iterator[Count]:
 
     That is: standard output and error, the current folder, the environment, Python's built-in
     names and those of `time`, `random` and rclpy's nodes, handlers of signals, hooks for exceptions
-    and traces, filters of warnings, limits. Meanwhile nothing is printed, nobody types (`input()`
-    raises), and `quit()` does not end the kernel.
-
-    Yields:
-        How much was printed.
+    and traces, filters of warnings, limits. Meanwhile what is printed is only counted, nobody types
+    (`input()` raises), and `quit()` does not end the kernel.
     """
     count = Count()
     with ExitStack() as stack:

@@ -39,11 +39,8 @@ class LiveExecutor(SingleThreadedExecutor):
     """rclpy's own single-threaded executor, supervised.
 
     rclpy re-raises what a callback raises, which would end the thread and silence every node. Here
-    the session is told, the node that raised is taken out, and the others go on.
-
-    Attributes:
-        current: The node whose callback is running, or None.
-        task: The task of that callback, or None.
+    the session is told, the node that raised is taken out, and the others go on. `current` is the
+    node whose callback is running, and `task` its task.
     """
 
     def __init__(self, context: Context, world: World) -> None:

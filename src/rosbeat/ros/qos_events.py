@@ -61,11 +61,7 @@ def make_stretched(
 ) -> Any:  # noqa: ANN401 - any entity
     """Make an entity for which the middleware counts nothing; its `qos_profile` reads as written.
 
-    Args:
-        make: The method of the node that makes it.
-        kind: What is made: `publisher`, `subscription` or anything else.
-        args: The arguments of `make`.
-        kwargs: Those with a name.
+    `kind` is `publisher`, `subscription` or anything else, and the arguments are those of `make`.
     """
     place = _PLACES.get(kind, len(args))
     given = args[place] if place < len(args) else kwargs.get("qos_profile")
@@ -320,10 +316,7 @@ class Limits:
     def _take_fresh(self, lifespan: int, born: int, entry: Entry, _: object) -> Work | None:
         """Take a message from a subscription, and drop those before it that have expired.
 
-        Args:
-            lifespan: The subscription's own, in nanoseconds; 0 without a limit.
-            born: When the subscription was made, in nanoseconds of the session.
-            entry: The subscription.
+        The subscription has a lifespan of its own, or 0, and was made at `born`, in nanoseconds.
         """
         handle, subscription, now = entry.handle, entry.entity, self._home.now()
         sent = self._sent.get(entry.name, [])

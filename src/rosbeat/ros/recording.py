@@ -21,7 +21,6 @@ from threading import Lock
 from types import CodeType, ModuleType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from rclpy.client import Client
 from rclpy.clock import Clock
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle, NotInitializedException
@@ -377,35 +376,6 @@ class PublisherTap:
                 return bool(self._handle.wait_for_all_acked(_AT_ONCE))
         except InvalidHandle:  # destroyed by another thread: nothing more will come
             return True
-
-
-def tap_client(
-    client: Client,
-    check: Callable[[], None],
-    asked: Callable[[], None],
-    wait_for: Callable[[Any, float | None], Any],
-) -> None:
-    """Replace `call_async` and `call` of a service client.
-
-    Args:
-        client: The client.
-        check: Called before `call` begins; raises where it would wait for ever.
-        asked: Called after each request.
-        wait_for: Runs the nodes until a future is done and returns its result, for `call`.
-    """
-    send = client.call_async
-
-    def call_async(request: Any) -> Any:  # noqa: ANN401
-        future = send(request)
-        asked()
-        return future
-
-    def call(request: Any, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
-        check()
-        return wait_for(call_async(request), timeout_sec)
-
-    client.call_async = call_async
-    client.call = call
 
 
 # The logger that a node of a session gets.

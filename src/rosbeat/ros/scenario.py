@@ -58,7 +58,7 @@ from rosbeat.ros.test_nodes import feeder as feeder
 class Step:
     """Do something `at` a time, in virtual seconds, after everything else that is due then.
 
-    `node` is the name of the node that it is done to; by default the learner's.
+    It is done to the node of the name `node`; by default the learner's.
     """
 
     at: float
@@ -163,11 +163,7 @@ _STATUS = {
 
 
 class Steps:
-    """Carries out steps at their times.
-
-    Args:
-        session: The session that they are done in.
-        steps: The steps, in any order.
+    """Carries out steps, given in any order, at their times.
 
     Attributes:
         subject: Full name of the learner's node.
@@ -196,12 +192,13 @@ class Steps:
         for step in sending:
             kind = message_class(step.type_name)
             if isinstance(step, Publish):
-                entity = node.create_publisher(kind, step.topic, profile(step.qos))
+                self._entities[id(step)] = node.create_publisher(
+                    kind, step.topic, profile(step.qos)
+                )
             elif isinstance(step, Call):
-                entity = service(kind, step.service)
+                self._entities[id(step)] = service(kind, step.service)
             else:
-                entity = action(kind, step.action)
-            self._entities[id(step)] = entity
+                self._entities[id(step)] = action(kind, step.action)
 
     def run_until(self, end_ns: int) -> None:
         """Run virtual time until `end_ns`, and carry out the steps on the way."""
@@ -223,19 +220,17 @@ class Steps:
     def _send(self, step: Sent) -> tuple[str, str]:
         entity: Any = self._entities.get(id(step))
         if isinstance(step, Publish):
-            name = step.topic
             for value in step.values:
                 entity.publish(message(step.type_name, value))
-        elif isinstance(step, Call):
-            name = step.service
+            return f"/{TESTER}", step.topic
+        if isinstance(step, Call):
             self._call(step, entity)
-        elif isinstance(step, SendGoal):
-            name = step.action
+            return f"/{TESTER}", step.service
+        if isinstance(step, SendGoal):
             self._send_goal(step, entity)
-        else:
-            name = step.sent.action
-            self._cancel(step.sent)
-        return f"/{TESTER}", name
+            return f"/{TESTER}", step.action
+        self._cancel(step.sent)
+        return f"/{TESTER}", step.sent.action
 
     def _call(self, step: Call, client: Any) -> None:  # noqa: ANN401 - of any service
         reply = self._replier(client.service_name)
@@ -360,10 +355,7 @@ class _Run:
     ) -> None:
         """Run everything; whatever is raised becomes a fault.
 
-        Args:
-            add: `_Run.add_node` or `_Run.add_system`.
-            answer: What the learner handed over.
-            others: The other nodes; see `observe`.
+        `add` is `_Run.add_node` or `_Run.add_system`, and adds the `answer`.
         """
         # What has to be put back stands outside of the deadline, which hits what it finds.
         with self._world.running([answer.make]), self._deadline:
@@ -373,7 +365,7 @@ class _Run:
         try:
             self._steps.prepare()
             for other in others:
-                self._add(other if isinstance(other, Maker) else Maker(other))
+                self._add(_maker(other))
             with self._starting():
                 add()
             self._world.console.begin(quiet=True)
@@ -437,12 +429,11 @@ class _Run:
             raise _NeverMade
 
     def _note_waiting(self) -> None:
-        """Note a callback that still waits when the run is over, if it has waited for long."""
+        """Note the first callback that has waited for long when the run is over."""
         for call in self._world.virtual.suspended:
             wait = call.wait
-            if wait is None or call.spinning:
-                continue
-            if call.began_ns <= self._end / 2 or (wait.until_ns or 0) >= 2 * self._end:
+            is_long = call.began_ns <= self._end / 2
+            if wait and not call.spinning and (is_long or (wait.until_ns or 0) >= 2 * self._end):
                 frame = wait.thread.gr_frame
                 self._late = self._late_fault(call.node, call.name, wait.reason, frame)
                 return
@@ -460,7 +451,7 @@ class _Run:
         return ("", "run") if calling is None else (calling.node, calling.name)
 
     def _note_expiry(self) -> None:
-        # Not `len`: the code that is running may have put something in its place.
+        # Not `len`: the code that is running may have replaced it.
         self._expired = self._callback(), self._world.recorder.faults.__len__()
 
     def _fault_of(self, error: BaseException) -> Fault:
@@ -535,7 +526,10 @@ def observe(
     steps: Iterable[Step] = (),
     deadline: float = DEADLINE,
 ) -> Observation:
-    """Run an answer among other nodes in virtual time.
+    """Run an answer among other nodes in virtual time, and return what happened.
+
+    An answer that cannot be made into a node, an endless chain, and a deadline that passed are
+    faults.
 
     Args:
         answer: What should be a node class, or a function that returns a node. Of a node the class
@@ -543,14 +537,10 @@ def observe(
         seconds: Virtual seconds to run.
         others: Nodes to run beside it. They are added first, so that what clashes with them is
             raised by the answer's own line. A `Maker` also says how a node is started.
-        start: How the answer is started: under which name, with which topics and parameters.
+        start: How the answer is started.
         seed: Seed of the random numbers that nodes draw.
         steps: What is done while it runs; each that was done is a callback of the kind `step`.
         deadline: Seconds of wall time after which it is broken off.
-
-    Returns:
-        What happened. An answer that cannot be made into a node, an endless chain, and a deadline
-        that passed are faults.
 
     Raises:
         KeyboardInterrupt: If Interrupt was pressed.
@@ -598,12 +588,7 @@ def _observe(
 
 
 def _makers(answer: Any) -> list[Maker]:  # noqa: ANN401 - whatever a learner hands over
-    """Return the nodes of a system, and how each is started.
-
-    Raises:
-        NoSystemError: If the answer is neither a list nor a function that returns one.
-        SessionError: If a node cannot be started as the list says.
-    """
+    """Return the nodes of a system; raise a NoSystemError if the answer is no list of nodes."""
     is_node = isinstance(answer, Node) or (isclass(answer) and issubclass(answer, Node))
     found = answer() if callable(answer) and not is_node else answer
     if found is None:
@@ -629,13 +614,13 @@ def _maker(one: Any) -> Maker:  # noqa: ANN401
         return Maker(one)
     if len(one) != 2 or not isinstance(one[1], Mapping):
         raise _no_system("A pair in the list is not of a class and a dict.")
-    options: dict[str, Any] = dict.fromkeys(("name", "namespace", "remappings", "parameters"))
-    for option, value in one[1].items():
-        if option not in options:
-            known = ", ".join(options)
-            raise _no_system(f"A node cannot be started with {option!r}; known are {known}.")
-        options[option] = value
-    return Maker(one[0], checked(**options))
+    known = ("name", "namespace", "remappings", "parameters")
+    for option in one[1]:
+        if option not in known:
+            raise _no_system(
+                f"A node cannot be started with {option!r}; known are {', '.join(known)}."
+            )
+    return Maker(one[0], checked(**one[1]))
 
 
 def _no_system(what: str) -> NoSystemError:

@@ -37,7 +37,6 @@ class Waiting:
     """A coroutine or task that has not ended.
 
     Attributes:
-        task: rclpy's task.
         process: Where it runs; None for one that was created outside of all nodes.
         state: The node that began it, if one did.
         name: What it is called in an error.
@@ -73,27 +72,17 @@ class Waiting:
 
     def place(self) -> object:
         """Return what it awaits, innermost: another object each time it has got further."""
-        inner = self.task._handler
-        while (deeper := _awaited_by(inner)) is not None:
-            inner = deeper
+        inner, deeper = None, self.task._handler
+        while deeper is not None:  # a coroutine, a generator, or neither
+            inner, deeper = deeper, getattr(deeper, "cr_await", None)
+            deeper = getattr(inner, "gi_yieldfrom", None) if deeper is None else deeper
         return inner
 
 
-def _awaited_by(waiting: Any) -> Any:  # noqa: ANN401 - a coroutine, a generator, or neither
-    awaited = getattr(waiting, "cr_await", None)
-    return getattr(waiting, "gi_yieldfrom", None) if awaited is None else awaited
-
-
 class Coroutines:
-    """All coroutines of one executor, in the order in which they began.
+    """The coroutines of one executor that have not ended, in the order in which they began.
 
     Of each process the newest goes on first, as in rclpy (`_wait_for_ready_callbacks`).
-
-    Args:
-        executor: The executor that future results are scheduled on.
-
-    Attributes:
-        waiting: Those that have not ended.
     """
 
     def __init__(self, executor: Executor) -> None:
@@ -122,8 +111,12 @@ class Coroutines:
         """
         for _ in range(2):
             while self._round:
-                if self._step_one(self._round.popleft(), run):
-                    return True
+                waiting = self._round.popleft()
+                if not waiting.ended and not waiting.rests:
+                    before = waiting.place()
+                    run(waiting)
+                    if waiting.ended or waiting.place() is not before:
+                        return True
             of_process: dict[int, list[Waiting]] = {}
             for waiting in self.waiting:
                 of_process.setdefault(id(waiting.process), []).append(waiting)
@@ -144,14 +137,6 @@ class Coroutines:
             waiting.task.cancel()
             self.end(waiting)
 
-    @staticmethod
-    def _step_one(waiting: Waiting, run: Callable[[Waiting], None]) -> bool:
-        if waiting.ended or waiting.rests:
-            return False
-        before = waiting.place()
-        run(waiting)
-        return waiting.ended or waiting.place() is not before
-
 
 # What cannot be taken directly: guard conditions and waitables, through rclpy's own wait set.
 
@@ -165,9 +150,6 @@ class WaitSetExecutor(SingleThreadedExecutor):
     One pass costs about a millisecond. It is made for nodes that have guard conditions or waitables
     (actions, say), and once for all nodes after entities were made or destroyed: publishers and
     subscriptions tell of a QoS that does not fit by waitables too, but only then.
-
-    Attributes:
-        current: The code of a node that is running, or None.
     """
 
     current: Any
@@ -252,16 +234,14 @@ class WaitSetExecutor(SingleThreadedExecutor):
         raise NotImplementedError
 
     def _nodes_for_wait_set(self) -> list[Node]:
-        if not self._changed:
-            return self._wait_set_nodes and self._those_that_spin()
-        self._changed = False
+        if not self._changed and not self._wait_set_nodes:
+            return []
         nodes = self.get_nodes()
+        if not self._changed:
+            return [node for node in self._wait_set_nodes if node in nodes]
+        self._changed = False
         self._wait_set_nodes = list(_with_waitables(self._host.states()))
         return nodes
-
-    def _those_that_spin(self) -> list[Node]:
-        spinning = self.get_nodes()
-        return [node for node in self._wait_set_nodes if node in spinning]
 
 
 def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from functools import partial
 from itertools import count
 from threading import get_ident
@@ -20,7 +20,7 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Fault, GraphSnapshot, LogRecord
-from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
+from rosbeat.ros.actions import action_of
 from rosbeat.ros.blocking import VirtualWaits
 from rosbeat.ros.clock import SessionClock, make_clock
 from rosbeat.ros.console import Console, deadlock_text, fault_text, note, work_text
@@ -28,7 +28,7 @@ from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
 from rosbeat.ros.errors import INSTEAD_OF_WAITING, check_name, deadlock, foreign_node, no_such_node
 from rosbeat.ros.faults import fault_of, line_of
-from rosbeat.ros.graph import ExternalMessages, GraphObserver, snapshot, with_other_processes
+from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
 from rosbeat.ros.processes import Call, Process, Wait
@@ -40,9 +40,8 @@ from rosbeat.ros.recording import (
     Recorder,
     SessionLogger,
     repair_message_classes,
-    tap_client,
 )
-from rosbeat.ros.virtual_time import VirtualTimeExecutor
+from rosbeat.ros.virtual_time import LONGEST_WAIT, VirtualTimeExecutor
 from rosbeat.ros.wait_set import waitable_kind, waitable_name
 
 
@@ -53,18 +52,12 @@ class World:
     it for nodes. It never refers to the `Session`, so that a session nobody holds any more is
     closed at once.
 
-    Args:
-        seed: Seed of the random numbers that the nodes draw.
-        domain_id: The ROS domain to join, or None for a private one.
-
     Attributes:
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
-        limits: The deadlines and lifespans that the session counts.
         graph_observer: Sees the other processes; None in a private domain, where there are none.
         external_messages: Records what comes from outside; None in a private domain.
         start: How the node that is being made is started.
-        panel: The instrument panel, or None.
         makers: What the session was handed to make each node, and how it was started.
         next_number: Returns the place of a new entity in the order of creation.
     """
@@ -74,7 +67,7 @@ class World:
         self._entries: dict[Any, Entry] = {}
         # A destroyed node cannot say its name, and a destroyed action stays in the graph.
         self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
-        self._action_ends: WeakSet[Any] = WeakSet()
+        self.action_ends: WeakSet[Any] = WeakSet()
         self._goals = count(1)
         self.next_number = count(1).__next__
         repair_message_classes()
@@ -225,19 +218,6 @@ class World:
         else:
             self._watch(state, kind, entity)
 
-    def action_made(
-        self,
-        node: Node,
-        kind: str,
-        entity: Any,  # noqa: ANN401
-        name: str,
-        options: dict[str, Any],
-    ) -> None:
-        """Note that an action server or client was made; see `ActionEnd` for the arguments."""
-        state = self._states[node]
-        state.actions.append(ActionEnd(self, state, kind, entity, name, options))
-        self._action_ends.add(entity)
-
     def node_ends(self, node: Node) -> None:
         """Forget a node that is about to be destroyed."""
         state = self._states.pop(node, None)
@@ -368,7 +348,7 @@ class World:
         """Wait until something is done, in a callback as in a cell."""
         if self.live is not None:
             self.refuse_in_callback(call)
-            return wait_by_the_wall(done, seconds)
+            return poll(done, None if seconds is None else time.monotonic() + seconds)
         if self.virtual.in_callback:
             needed = needs if self._is_in_current_process(needs) else None
             return self.virtual.block(reason, self.virtual.after(seconds), done, needs=needed)
@@ -406,20 +386,15 @@ class World:
 
     @contextmanager
     def running(self, code: Iterable[object] = ()) -> Iterator[None]:
-        """Prepare this thread for running nodes.
+        """Prepare this thread for running nodes, and classes and functions besides.
 
         Their context is rclpy's default, the random numbers they draw are the session's, and what
         waits takes virtual time.
-
-        Args:
-            code: Classes and functions that are about to run, besides those of the nodes.
         """
         before = self.context.install()
         try:
-            with ExitStack() as stack:
-                stack.enter_context(self._random.lent())
-                if self.live is None:
-                    stack.enter_context(self._waits.installed([*self._code(), *code]))
+            virtually = self._waits.installed([*self._code(), *code])
+            with self._random.lent(), virtually if self.live is None else nullcontext():
                 yield
         finally:
             self.context.uninstall(before)
@@ -437,8 +412,8 @@ class World:
         Without a limit it ends, too, when nothing can happen any more.
         """
         limit = self.virtual.after(seconds)
-        end = self.virtual.longest() if limit is None else limit
         with self.running():
+            end = self.virtual.now + LONGEST_WAIT if limit is None else limit
             self.virtual.run_until(end, done, ends_idle=limit is None)
         return bool(done())
 
@@ -502,7 +477,7 @@ class World:
         self.virtual.close()
         for state in reversed(self.states()):
             self.destroy(state)
-        for entity in list(self._action_ends):
+        for entity in list(self.action_ends):
             with suppress(Exception):  # destroyed already, or half-made
                 entity.destroy()
         if self.graph_observer is not None:
@@ -529,23 +504,30 @@ class World:
         elif kind == "subscription":
             self._watch_subscription(entry)
         elif kind == "client":
-            sent = partial(self.sent, "service", name, state)
-            tap_client(entity, partial(self._check_call, entry), sent,
-                       partial(self._wait_for_answer, entity))  # fmt: skip
-            waits = partial(self._wait_for_service, entity, entity.wait_for_service)
-            entity.wait_for_service = waits
+            self._watch_client(entry)
         self.virtual.watch(entry)
 
-    def _wait_for_service(
-        self,
-        client: Any,  # noqa: ANN401
-        original: Callable[..., bool],
-        timeout_sec: float | None = None,
-    ) -> bool:
-        """Let the nodes run while a cell waits; in the code of a node, rclpy's own way sleeps."""
-        if self.live is not None or self.virtual.in_callback:
-            return original(timeout_sec)
-        return self.wait_until(client.service_is_ready, timeout_sec)
+    def _watch_client(self, entry: Entry) -> None:
+        """Replace the methods of a client that send or wait."""
+        client = entry.entity
+        send, wait_for_service = client.call_async, client.wait_for_service
+
+        def call_async(request: Any) -> Any:  # noqa: ANN401
+            future = send(request)
+            self.sent("service", entry.name, entry.state)
+            return future
+
+        def call(request: Any, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
+            self._check_call(entry)
+            return self._wait_for_answer(client, call_async(request), timeout_sec)
+
+        def wait(timeout_sec: float | None = None) -> bool:
+            # In the code of a node rclpy's own way sleeps; in a cell the nodes have to run.
+            if self.live is not None or self.virtual.in_callback:
+                return bool(wait_for_service(timeout_sec))
+            return self.wait_until(client.service_is_ready, timeout_sec)
+
+        client.call_async, client.call, client.wait_for_service = call_async, call, wait
 
     def _watch_timer(self, entry: Entry) -> None:
         timer = entry.entity
@@ -637,11 +619,8 @@ class World:
     def _wait_for_answer(self, client: Any, future: Any, timeout_sec: float | None) -> Any:  # noqa: ANN401
         """Do what `client.call` does when it has sent its request (rclpy, `client.py`)."""
         in_callback = self.live is None and self.virtual.in_callback
-        if self.live is not None:
-            self.live.wait_for(future, timeout_sec)
-        else:
-            reason = f"an answer from {client.service_name}"
-            self.wait("client.call", reason, future.done, timeout_sec, client)
+        reason = f"an answer from {client.service_name}"
+        self.wait("client.call", reason, future.done, timeout_sec, client)
         if not future.done():
             client.remove_pending_request(future)
             if timeout_sec is None and not in_callback:
