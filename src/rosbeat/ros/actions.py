@@ -38,8 +38,6 @@ SERVICES = {
 }
 #: Its topics, and their types.
 TOPICS = {"feedback": "{}_FeedbackMessage", "status": "action_msgs/msg/GoalStatusArray"}
-#: The methods of a client that send requests, in the order of `SERVICES`.
-_SENDING = ("send_goal_async", "_cancel_goal_async", "_get_result_async")
 _SEND_GOAL = "/_action/send_goal"
 
 
@@ -62,8 +60,7 @@ class ActionEnd:
     @property
     def exists(self) -> bool:
         """Return whether it has not been destroyed by itself."""
-        node = self._state.node
-        return node is not None and any(one is self.entity for one in node.waitables)
+        return any(one is self.entity for one in self._state.node.waitables)
 
     def endpoints(self) -> list[Endpoint]:
         """Return the action itself, and the services and topics that it is made of."""
@@ -96,12 +93,11 @@ class ActionEnd:
         server._execute_goal = execute
         server._rosbeat_end = self
         server.execute = partial(self._serve, server.execute)
-        _tell(server, "_send_result_response", self._answered)
 
     async def _serve(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
         self._world.heard(self._state, self.kind, "serve", self.name)
         await execute(taken)
-        self._answered()
+        self.published("status")  # of goals that were accepted
 
     def _noting(self, callback: Callable[..., Any]) -> Callable[..., Any]:
         """Return a callback that records an exception, which rclpy would only log."""
@@ -116,11 +112,6 @@ class ActionEnd:
 
         return noted
 
-    def _answered(self) -> None:
-        self.published("status")  # of goals that were accepted
-        for part in SERVICES:
-            self._world.sent("client", f"{self.name}/_action/{part}", self._state)
-
     def published(self, topic: str) -> None:
         """Note that the server has published on one of the action's topics."""
         self._world.sent("subscription", f"{self.name}/_action/{topic}", self._state)
@@ -134,9 +125,6 @@ class ActionEnd:
         client.send_goal = self._send_goal
         client._get_result = lambda goal: self._result("get_result", client._get_result_async(goal))
         client._cancel_goal = lambda g: self._result("cancel_goal", client._cancel_goal_async(g))
-        for method, part in zip(_SENDING, SERVICES, strict=True):
-            service = f"{self.name}/_action/{part}"
-            _tell(client, method, partial(self._world.sent, "service", service, self._state))
         client.wait_for_server = self._wait_for_server
         client.execute = partial(self._hear, client.execute)
 
@@ -160,7 +148,12 @@ class ActionEnd:
     def _result(self, method: str, future: Any) -> Any:  # noqa: ANN401
         reason = f"an answer from the action {self.name}"
         if not self._world.wait(f"client.{method}", reason, future.done, None, self.entity):
-            raise _unanswered(self.name, method)
+            raise SessionError(
+                f"Nobody has answered {method} for the action {self.name}.",
+                "Either no node of this session offers that action, or its work does not end. "
+                "Outside a page the call would wait for ever.",
+                "Add the node that offers the action first, and compare the two names.",
+            )
         return future.result()
 
     def _wait_for_server(self, timeout_sec: float | None = None) -> bool:
@@ -174,28 +167,6 @@ class ActionEnd:
 def action_of(entity: Any, state: NodeState) -> ActionEnd | None:  # noqa: ANN401
     """Return the action server or client that an entity of rclpy's is, or None."""
     return next((end for end in state.actions if end.entity is entity), None)
-
-
-def _unanswered(action: str, method: str) -> SessionError:
-    return SessionError(
-        f"Nobody has answered {method} for the action {action}.",
-        "Either no node of this session offers that action, or its work does not end. Outside a "
-        "page the call would wait for ever.",
-        "Add the node that offers the action first, and compare the two names.",
-    )
-
-
-def _tell(entity: Any, method: str, told: Callable[[], None]) -> None:  # noqa: ANN401
-    """Let a method of one object also call `told` when it has returned."""
-    original = getattr(entity, method)
-
-    @wraps(original)
-    def call(*given: Any, **named: Any) -> Any:  # noqa: ANN401
-        result = original(*given, **named)
-        told()
-        return result
-
-    setattr(entity, method, call)
 
 
 # The hooks.

@@ -11,7 +11,6 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 from rclpy.task import Future
 
-from rosbeat.records import NANOSECONDS
 from rosbeat.ros.faults import asking
 
 if TYPE_CHECKING:
@@ -32,11 +31,6 @@ def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any
     return getattr(callback, "__name__", type(callback).__name__)
 
 
-def period_text(period_ns: int) -> str:
-    """Return a timer's period as a person writes it, such as `0.5 s`."""
-    return f"{period_ns / NANOSECONDS:g} s"
-
-
 @dataclass(eq=False)
 class NodeState:
     """One node of a session.
@@ -44,7 +38,6 @@ class NodeState:
     Attributes:
         number: Order of creation.
         name: Full name.
-        node: The node, once its constructor has got far enough.
         spinning: Whether its callbacks are run: it was added, has no fault and is not paused.
         born_ns: When it was made, in nanoseconds since the session began.
         open: Whether its callbacks can run at once: it spins, and nothing in its process waits.
@@ -58,7 +51,7 @@ class NodeState:
 
     number: int
     name: str
-    node: Node | None
+    node: Node
     process: Process
     spinning: bool = False
     born_ns: int = 0

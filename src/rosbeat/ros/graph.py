@@ -58,7 +58,7 @@ def qos_of(profile: QoSProfile) -> QoS:
 
 def snapshot(states: Iterable[NodeState]) -> GraphSnapshot:
     """Return the graph of these nodes as it is now, without destroyed entities."""
-    alive = [state for state in states if state.node is not None]
+    alive = list(states)
     # Live, one executor runs all nodes; each is taken for a process of its own there, too.
     processes = {id(state.process): state.process for state in alive}
     groups = (tuple(state.name for state in one.states) for one in processes.values())
@@ -71,27 +71,26 @@ def snapshot(states: Iterable[NodeState]) -> GraphSnapshot:
 
 
 def _endpoints(state: NodeState) -> Iterator[Endpoint]:
-    node: Any = state.node
+    node, name = state.node, state.name
+    topics = (
+        ("publisher", node.publishers, "get_subscription_count"),
+        ("subscription", node.subscriptions, "get_publisher_count"),
+    )
     # An entity can be destroyed on its own, and by another thread while this one looks.
-    for one in node.publishers:
-        with suppress(InvalidHandle):
-            yield _own_endpoint(state, one, "publisher", one.get_subscription_count())
-    for one in node.subscriptions:
-        with suppress(InvalidHandle):
-            yield _own_endpoint(state, one, "subscription", one.get_publisher_count())
+    for kind, entities, count_matched in topics:
+        for one in entities:
+            with suppress(InvalidHandle):
+                type_of, qos = type_name(one.msg_type), qos_of(one.qos_profile)
+                matched = getattr(one, count_matched)()
+                yield Endpoint(name, one.topic_name, type_of, kind, qos, matched)
     for kind, entities in (("server", node.services), ("client", node.clients)):
         for one in entities:
             with suppress(InvalidHandle):
                 type_of, qos = type_name(one.srv_type), qos_of(one.qos_profile)
-                yield Endpoint(state.name, one.service_name, type_of, kind, qos)
+                yield Endpoint(name, one.service_name, type_of, kind, qos)
     for action in state.actions:
         if action.exists:
             yield from action.endpoints()
-
-
-def _own_endpoint(state: NodeState, entity: Any, kind: str, matched: int) -> Endpoint:  # noqa: ANN401
-    type_of, qos = type_name(entity.msg_type), qos_of(entity.qos_profile)
-    return Endpoint(state.name, entity.topic_name, type_of, kind, qos, matched)
 
 
 def _timers(state: NodeState) -> Iterator[TimerRecord]:

@@ -16,6 +16,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
+from functools import partial
 from io import TextIOBase
 from pathlib import Path
 from types import FrameType, TracebackType
@@ -139,10 +140,8 @@ class Deadline:
         self._functions = {name: getattr(signal, name) for name in _RESERVED}
         vars(signal).update(_RESERVED)
         self._alarm_before = _signal(signal.SIGALRM, self._ring)
-        outer = getattr(self._alarm_before, "__self__", None)
-        self._outer = outer if isinstance(outer, Deadline) else None
-        first = min(self._until, self._outer._until if self._outer else self._until)
-        self._timer_before = _setitimer(signal.ITIMER_REAL, max(1e-6, first - _now()), _FIRST)
+        first = max(1e-6, self._until - _now())
+        self._timer_before = _setitimer(signal.ITIMER_REAL, first, _FIRST)
         self._interrupt_before = signal.getsignal(signal.SIGINT)
         if callable(self._interrupt_before):
             _signal(signal.SIGINT, self._interrupt)
@@ -159,8 +158,6 @@ class Deadline:
 
     def _ring(self, number: int, frame: FrameType | None) -> None:
         """Raise in the code that is running, if its time is up: the handler of `SIGALRM`."""
-        if self._outer is not None:
-            self._outer._ring(number, frame)
         if not self._open or self._raising or _now() < self._until:
             return
         self._raising = True  # the next alarm may come while this one is being answered
@@ -353,8 +350,7 @@ _SETTINGS: tuple[tuple[Callable[[], Any], Callable[[Any], object]], ...] = (
 def _settings() -> Iterator[Callable[[], object]]:
     for read, put in _SETTINGS:
         with suppress(FileNotFoundError):  # the current folder has been removed
-            before = read()
-            yield lambda put=put, before=before: put(before)  # type: ignore[misc] # one by one
+            yield partial(put, read())
 
 
 def _set_environment(before: dict[str, str]) -> None:

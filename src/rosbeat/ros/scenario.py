@@ -271,7 +271,7 @@ class Steps:
     def _change(self, step: Step) -> tuple[str, str]:
         name, text = step.node or self.subject, ""
         state = self._world.named("/" + name.lstrip("/"))
-        if state is None or state.node is None:
+        if state is None:
             return name, "no such node"
         if isinstance(step, Remove):
             self._world.destroy(state)
@@ -337,7 +337,17 @@ class _NeverMade(BaseException):
 class _Run:
     """Runs the learner's nodes, and records what goes wrong; see `observe`."""
 
-    def __init__(self, seconds: float, steps: Iterable[Step], seed: int, deadline: float) -> None:
+    def __init__(
+        self,
+        add: Callable[[_Run, Maker], None],
+        answer: Maker,
+        seconds: float,
+        others: Iterable[Other] = (),
+        steps: Iterable[Step] = (),
+        seed: int = 0,
+        deadline: float = DEADLINE,
+    ) -> None:
+        self._add_answer, self._answer, self._others = add, answer, others
         self._seed, self._end = seed, duration_ns(seconds)
         self._session = Session(seed=seed)
         self._world = self._session._world
@@ -350,24 +360,19 @@ class _Run:
         # What was running at the deadline, and how many faults there had been.
         self._expired: tuple[tuple[str, str], int] = ("", "run"), 0
 
-    def play(
-        self, add: Callable[[_Run, Maker], None], answer: Maker, others: Iterable[Other]
-    ) -> None:
-        """Run everything; whatever is raised becomes a fault.
-
-        `add` is `_Run.add_node` or `_Run.add_system`, and adds the `answer`.
-        """
+    def play(self) -> None:
+        """Run everything; whatever is raised becomes a fault."""
         # What has to be put back stands outside of the deadline, which hits what it finds.
-        with self._world.running([answer.make]), self._deadline:
-            run_in_generator(lambda: self._play(partial(add, self, answer), others))
+        with self._world.running([self._answer.make]), self._deadline:
+            run_in_generator(self._play)
 
-    def _play(self, add: Callable[[], None], others: Iterable[Other]) -> None:
+    def _play(self) -> None:
         try:
             self._steps.prepare()
-            for other in others:
+            for other in self._others:
                 self._add(_maker(other))
             with self._starting():
-                add()
+                self._add_answer(self, self._answer)
             self._world.console.begin(quiet=True)
             self._steps.run_until(self._end)
             self._note_waiting()
@@ -546,19 +551,16 @@ def observe(
         KeyboardInterrupt: If Interrupt was pressed.
         DomainsExhaustedError: If no private domain id is left on this machine.
     """
-    run = _Run(seconds, steps, seed, deadline)
-    return _observe(run, _Run.add_node, Maker(answer, start or Launch()), others)
+    maker = Maker(answer, start or Launch())
+    return _observe(_Run(_Run.add_node, maker, seconds, others, steps, seed, deadline))
 
 
 def observe_system(
     answer: Any,  # noqa: ANN401 - whatever a learner hands over
     seconds: float,
     *,
-    others: Iterable[Other] = (),
     parameters: Mapping[str, Any] | None = None,
-    steps: Iterable[Step] = (),
-    seed: int = 0,
-    deadline: float = DEADLINE,
+    **options: Any,  # noqa: ANN401
 ) -> Observation:
     """Run the nodes of an answer, as a launch file would start them; otherwise like `observe`.
 
@@ -567,18 +569,14 @@ def observe_system(
     `remappings` and `parameters`. Each is started with `parameters`, too. A node that cannot be
     made, or raises, ends alone. What is no list of nodes is a fault of the kind `NoSystemError`.
     """
-    run = _Run(seconds, steps, seed, deadline)
-    return _observe(
-        run, _Run.add_system, Maker(answer, Launch(parameters=parameters or {})), others
-    )
+    start = Launch(parameters=parameters or {})
+    return _observe(_Run(_Run.add_system, Maker(answer, start), seconds, **options))
 
 
-def _observe(
-    run: _Run, add: Callable[[_Run, Maker], None], answer: Maker, others: Iterable[Other]
-) -> Observation:
+def _observe(run: _Run) -> Observation:
     try:
         with unharmed() as printed:
-            run.play(add, answer, others)
+            run.play()
         # What the learner's code has changed is put back before anything else is done.
         with unharmed():
             return run.observation(printed.characters)

@@ -25,6 +25,7 @@ from rclpy.timer import Timer
 
 from rosbeat.ros.entities import Entry, NodeState, callback_name
 from rosbeat.ros.processes import Call, Process
+from rosbeat.ros.qos_events import event_name, topic_of
 
 if TYPE_CHECKING:
     from rosbeat.ros.world import World
@@ -250,15 +251,17 @@ def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
     return getattr(callback, "__name__", type(callback).__name__)
 
 
-def waitable_kind(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
-    """Return what kind of callback it has, as `CallbackRecord` names it."""
+def waitable_label(entity: Any, node: Node) -> tuple[str, str, str]:  # noqa: ANN401
+    """Return kind, name and source with which a run of its callback is recorded."""
     if isinstance(entity, EventHandler):
-        return "event"
-    return "guard condition" if isinstance(entity, GuardCondition) else "waitable"
+        source = f"{event_name(entity)} of {topic_of(entity, node)}"
+        return "event", waitable_name(entity), source
+    kind = "guard condition" if isinstance(entity, GuardCondition) else "waitable"
+    return kind, waitable_name(entity), ""
 
 
 def _with_waitables(states: Iterable[NodeState]) -> Iterable[Node]:
-    for node in (state.node for state in states if state.spinning and state.node):
+    for node in (state.node for state in states if state.spinning):
         ours = any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
         if ours or any(True for _ in node.guards):
             yield node

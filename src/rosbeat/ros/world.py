@@ -19,20 +19,20 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.errors import SessionError
-from rosbeat.records import INFRASTRUCTURE_TOPICS, Fault, GraphSnapshot, LogRecord
+from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
 from rosbeat.ros.actions import action_of
 from rosbeat.ros.blocking import VirtualWaits
 from rosbeat.ros.clock import SessionClock, make_clock
 from rosbeat.ros.console import Console, deadlock_text, fault_text, note, work_text
 from rosbeat.ros.context import SessionContext
-from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
+from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name
 from rosbeat.ros.errors import INSTEAD_OF_WAITING, check_name, deadlock, foreign_node, no_such_node
 from rosbeat.ros.faults import fault_of, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
 from rosbeat.ros.processes import Call, Process, Wait
-from rosbeat.ros.qos_events import Limits, event_name, topic_of, wait_for_stored
+from rosbeat.ros.qos_events import Limits, wait_for_stored
 from rosbeat.ros.randomness import SeededRandom
 from rosbeat.ros.recording import (
     Memory,
@@ -42,7 +42,7 @@ from rosbeat.ros.recording import (
     repair_message_classes,
 )
 from rosbeat.ros.virtual_time import LONGEST_WAIT, VirtualTimeExecutor
-from rosbeat.ros.wait_set import waitable_kind, waitable_name
+from rosbeat.ros.wait_set import waitable_label, waitable_name
 
 
 class World:
@@ -131,7 +131,7 @@ class World:
         """Run this node's callbacks from now on."""
         state.spinning, state.paused = True, False
         executor = self.live or self.virtual
-        state.node.executor = executor  # type: ignore[union-attr]
+        state.node.executor = executor
         executor.wake()
         self.virtual.resume(state)
 
@@ -152,8 +152,6 @@ class World:
 
     def destroy(self, state: NodeState) -> None:
         """Destroy a node, whole or half-made."""
-        if state.node is None:
-            return
         try:
             state.node.destroy_node()
         except Exception:
@@ -284,11 +282,7 @@ class World:
                 self.recorder.add_callback(self.now(), entry.label_number)
         # An action tells by itself, as soon as it knows what it was.
         elif state is not None and not action_of(entity, state):
-            kind = waitable_kind(entity)
-            source = ""
-            if kind == "event":
-                source = f"{event_name(entity)} of {topic_of(entity, node)}"
-            self.heard(state, kind, waitable_name(entity), source)
+            self.heard(state, *waitable_label(entity, state.node))
 
     def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
         """Record a callback of an action or another waitable that is about to run."""
@@ -446,14 +440,11 @@ class World:
         is_virtual = executor is self.virtual
         self.virtual.is_live = not is_virtual
         for state in self.states():
-            clock: SessionClock = state.node._clock  # type: ignore[union-attr]
-            if is_virtual:
-                clock.follow_session()
-            else:
-                clock.follow_wall()
+            clock: SessionClock = state.node._clock
+            clock.follow_session() if is_virtual else clock.follow_wall()
             show_sim_time(state.node, is_virtual)
             if state.spinning:
-                state.node.executor = executor  # type: ignore[union-attr]
+                state.node.executor = executor
             for timer in (one.entity for one in state.entries if one.kind.endswith("timer")):
                 # Each timer begins a new period: its deadline is a reading of the other clock.
                 with suppress(InvalidHandle):  # destroyed by its node
@@ -491,7 +482,7 @@ class World:
 
     def _watch(self, state: NodeState, kind: str, entity: Any) -> None:  # noqa: ANN401
         if kind == "timer":
-            name, source = "", period_text(entity.timer_period_ns)
+            name, source = "", f"{entity.timer_period_ns / NANOSECONDS:g} s"
         else:
             name = source = entity.topic_name if kind == "subscription" else entity.service_name
         called = "answer" if kind == "client" else callback_name(entity.callback)
@@ -561,40 +552,29 @@ class World:
             quiet = partial(self.sent, "subscription", topic, state)
             state.taps.append(PublisherTap(publisher, memory, lambda _: quiet()))
             return
-        channel = self.recorder.channel(topic, state.name, memory)
-        happened = self.virtual.sender("subscription", topic, state)
-        record = partial(self._record_in_virtual_time, channel.number, happened)
-        published = partial(self._published, channel.number, record, get_ident())
+        number = self.recorder.channel(topic, state.name, memory).number
+        recorder, virtual, thread = self.recorder, self.virtual, get_ident()
+        happened = virtual.sender("subscription", topic, state)
+
+        def record(copy: Any) -> None:  # noqa: ANN401
+            recorder.add_sample(number, virtual.now, copy)
+            happened()
+
+        def published(copy: Any) -> None:  # noqa: ANN401
+            if self.live is not None:
+                with recorder.lock:
+                    recorder.add_sample(number, self.now(), copy)
+            elif get_ident() == thread:
+                record(copy)
+            else:  # a thread of the node's own
+                virtual.elsewhere.append(partial(record, copy))
+
         tap = PublisherTap(publisher, memory, published)
         state.taps.append(tap)
         if self.counts_limits:
             self.limits.publisher_made(state, publisher, tap)
         if self.external_messages is not None:
             self.external_messages.watch_publisher(publisher)
-
-    def _published(
-        self,
-        channel: int,
-        record: Callable[[Any], None],
-        thread: int,
-        copy: Any,  # noqa: ANN401
-    ) -> None:
-        if self.live is not None:
-            with self.recorder.lock:
-                self.recorder.add_sample(channel, self.now(), copy)
-        elif get_ident() == thread:
-            record(copy)
-        else:  # a thread of the node's own
-            self.virtual.elsewhere.append(partial(record, copy))
-
-    def _record_in_virtual_time(
-        self,
-        channel: int,
-        happened: Callable[[], None],
-        copy: Any,  # noqa: ANN401
-    ) -> None:
-        self.recorder.add_sample(channel, self.virtual.now, copy)
-        happened()
 
     def _logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
         self.recorder.logs.append(LogRecord(self.now(), level, name, text, function, line))
