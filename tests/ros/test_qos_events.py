@@ -446,15 +446,6 @@ def test_a_subscription_that_keeps_up_loses_nothing(ros):
     assert expired(ros) == []
 
 
-def test_a_stored_message_that_is_too_old_begins_no_deadline(ros):
-    heart = ros.add(lambda: Heart(quality(0.3, lifespan=1.0, stored=True)))
-    heart.beat(1)
-    ros.run(2)
-    nurse = ros.add(lambda: Nurse(quality(0.3, stored=True)))
-    ros.run(2)
-    assert (nurse.heard, nurse.missed) == ([], [])
-
-
 def test_raw_messages_and_infos_are_handed_over_as_always(ros):
     heart = ros.add(lambda: Heart(quality()))
     got = []

@@ -42,8 +42,6 @@ _SWEEP = [k * 1e-6 for k in (1, 2, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256)]
 _PATIENCE = 0.6
 #: Seconds that code may go on after Interrupt, if it catches even that.
 _AFTER_INTERRUPT = 0.2
-#: Seconds between two calls of `nudge`.
-_NUDGE = 0.1
 
 _ROSBEAT = str(Path(__file__).parents[1])
 _OURS = (_ROSBEAT, str(Path(rclpy.__file__).parent))
@@ -72,26 +70,20 @@ class Deadline:
         seconds: How long the block may take, in seconds of wall time; `passed` says if it took
             longer.
         noting: Called once, at the moment when the time is up.
-        nudge: Called ten times a second in another thread: it may wake what waits in C, which
-            neither the deadline nor Interrupt reach there.
     """
 
     def __init__(
         self,
         seconds: float,
         noting: Callable[[], object] = bool,
-        nudge: Callable[[], object] | None = None,
     ) -> None:
         self.seconds = seconds
         self.passed = self.interrupted = False
         self._where: tuple[str, int, dict[str, Any]] | None = None
-        self._noting, self._nudge = noting, nudge
+        self._noting = noting
         self._open = self._raising = False
         self._raised, self._spared_until = 0, 0.0
         self._in_main = threading.current_thread() is threading.main_thread()
-        # A lock and no Event, which needs names that a learner may replace.
-        self._running = threading.Lock()
-        self._nudging = threading.Thread(target=self._keep_nudging, daemon=True)
 
     def __enter__(self) -> Deadline:
         self._base = sys._getframe(1)
@@ -99,9 +91,6 @@ class Deadline:
         self._until = self._began + self.seconds
         if self._in_main:
             self._take_signals()
-        self._running.acquire()
-        if self._nudge is not None:
-            self._nudging.start()
         self._open = True
         return self
 
@@ -116,9 +105,6 @@ class Deadline:
         self._open = False
         if self._in_main:
             self._give_signals_back()
-        self._running.release()
-        if self._nudge is not None:
-            self._nudging.join()
         if self.interrupted and not isinstance(error, KeyboardInterrupt):
             raise KeyboardInterrupt from None
         return self.passed and isinstance(error, DeadlinePassed)  # else it is an outer one's
@@ -213,11 +199,6 @@ class Deadline:
         while frame is not None:
             yield frame
             frame = frame.f_back if frame is not self._base else None
-
-    def _keep_nudging(self) -> None:
-        while not self._running.acquire(timeout=_NUDGE):
-            with suppress(Exception):  # whatever the code in the block may have broken
-                self._nudge()  # type: ignore[misc] # there is one
 
 
 _NEVER = {Deadline.__enter__.__code__, Deadline.__exit__.__code__}

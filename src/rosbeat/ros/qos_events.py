@@ -278,7 +278,7 @@ class Limits:
         for tap in taps:
             if tap.fits(entry.entity):
                 tap.listen(heard)
-        if any(self._is_young(tap, lifespan) for tap in stored):
+        if stored:
             heard()
 
     def _deadline_of(self, state: NodeState, endpoint: Any) -> Callable[[], None] | None:  # noqa: ANN401
@@ -337,12 +337,6 @@ class Limits:
             recorder, label = self._home.recorder, entry.label
             expired = recorder.label(label.node, "expired", label.name, label.source)
             recorder.add_callback(now, expired.number)
-
-    def _is_young(self, tap: PublisherTap, lifespan: int) -> bool:
-        """Return whether the newest message that this publisher has stored has not expired."""
-        sent = reversed(self._sent.get(tap.topic, []))
-        age = next((self._home.now() - published for _, published, one in sent if one is tap), 0)
-        return all(not limit or age < limit for limit in (tap.lifespan_ns, lifespan))
 
 
 # Stored messages, which a transient-local publisher hands to a late-joining subscription.

@@ -352,7 +352,7 @@ class _Run:
         self._session = Session(seed=seed)
         self._world = self._session._world
         self._steps = Steps(self._session, steps)
-        self._deadline = Deadline(deadline, self._note_expiry, self._wake)
+        self._deadline = Deadline(deadline, self._note_expiry)
         self._faults: list[Fault] = []
         self._late: Fault | None = None  # of a callback or constructor that never came to an end
         self._slept = 0  # in the constructor
@@ -419,13 +419,6 @@ class _Run:
                 self._faults.append(self._fault_of(error))
 
     # What goes wrong.
-
-    def _wake(self) -> None:
-        """Wake executors that wait in C, where no exception reaches them."""
-        for state in self._world.states():
-            executor = getattr(state.node, "executor", None)
-            if executor is not None and executor is not self._world.virtual:
-                executor.wake()
 
     def _count_wait(self, span_ns: int, reason: str) -> None:
         self._slept += span_ns
@@ -502,7 +495,7 @@ class _Run:
     def close(self) -> None:
         """End the session, whatever the nodes do against it."""
         with_finalizer = [ref(one) for one in self._session.nodes if hasattr(type(one), "__del__")]
-        with Deadline(_TO_TIDY, nudge=self._wake):
+        with Deadline(_TO_TIDY):
             run_in_generator(self._destroy_nodes)
         self._session.close()
         del self._session, self._world, self._steps
