@@ -185,7 +185,14 @@ def unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTo
             "recorded when a node of the session gets it.",
             "Add a node that subscribes there, with `ros.add(...)`.",
         )
-    listeners = ", ".join(end.node for end in graph.on(name, "subscription"))
+    listening = graph.on(name, "subscription")
+    if any(end.matched > 0 for end in listening):
+        return UnknownTopicError(
+            f"No node of this session has published on {name}.",
+            "Another process publishes there. What it sends is not recorded, only delivered.",
+            "Log or keep the messages in the callback of a node that subscribes.",
+        )
+    listeners = ", ".join(end.node for end in listening)
     return UnknownTopicError(
         f"Nobody has published on {name}.",
         f"{f'{listeners} listens there, but no' if listeners else 'No'} node of this session has "

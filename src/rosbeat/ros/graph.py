@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import time
 from array import array
-from bisect import bisect_right
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Coroutine, Iterable, Iterator
 from contextlib import suppress
@@ -374,38 +373,38 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
 
 # Messages that other processes publish, recorded when a node of the session gets them.
 #
-# A message tells when it was published, and not by whom. So the session's own publishers note when
-# they published what; all else came from another process. Its node is known if only one node
-# outside publishes there.
+# A message tells when it was published and its number among the publisher's messages, and not by
+# whom. So the session's own publishers note when they published what; all else came from another
+# process. Its node is known if only one node outside publishes there.
 
 #: The publishing node, as long as it cannot be told.
 _UNKNOWN_PUBLISHER = "?"
 
 
-class OwnPublications:
-    """Notes when publishers of the session were at work on one topic."""
+class PublicationLog:
+    """Notes when a publisher of the session published each of its messages."""
 
-    def __init__(self) -> None:
-        self._begins, self._ends = array("q"), array("q")
-
-    def watch(self, publisher: Any) -> None:  # noqa: ANN401 - rclpy is untyped
-        """Put a `publish` that notes the time in the place of the publisher's."""
+    def __init__(self, publisher: Any) -> None:  # noqa: ANN401 - rclpy is untyped
+        self._begins, self._ends = begins, ends = array("q"), array("q")
         send = publisher.publish
 
         def publish(msg: Any) -> None:  # noqa: ANN401 - a message of any type, or its bytes
             # Noted before it goes out: another thread may take it before `publish` has returned.
-            self._begins.append(time.time_ns())
+            begins.append(time.time_ns())
             try:
                 send(msg)
-            finally:
-                self._ends.append(time.time_ns())
+            except BaseException:
+                begins.pop()
+                raise
+            ends.append(time.time_ns())
 
         publisher.publish = publish
 
-    def include(self, time_ns: int) -> bool:
-        """Return whether one of them was at work at a time of the wall clock."""
-        number = bisect_right(self._begins, time_ns) - 1
-        return number >= 0 and (number >= len(self._ends) or time_ns <= self._ends[number])
+    def has(self, number: int, time_ns: int) -> bool:
+        """Return whether the message of this number, from 1 on, was published at this time."""
+        if not 0 < number <= len(self._begins) or time_ns < self._begins[number - 1]:
+            return False
+        return number > len(self._ends) or time_ns <= self._ends[number - 1]
 
 
 class ExternalMessages:
@@ -413,7 +412,7 @@ class ExternalMessages:
 
     def __init__(self, observer: GraphObserver, recorder: Recorder, now: Callable[[], int]) -> None:
         self._observer, self._recorder, self._now = observer, recorder, now
-        self._own: defaultdict[str, OwnPublications] = defaultdict(OwnPublications)
+        self._own: defaultdict[str, list[PublicationLog]] = defaultdict(list)
         self._known: set[tuple[str, int, int]] = set()
         self._channels: dict[tuple[str, str], Channel] = {}
         self._last: dict[str, Channel] = {}
@@ -421,7 +420,7 @@ class ExternalMessages:
 
     def watch_publisher(self, publisher: Any) -> None:  # noqa: ANN401
         """Recognize what this publisher of the session sends."""
-        self._own[publisher.topic_name].watch(publisher)
+        self._own[publisher.topic_name].append(PublicationLog(publisher))
 
     def watch_subscription(self, subscription: Subscription) -> None:
         """Record what arrives here from other processes, before the callback runs."""
@@ -437,7 +436,8 @@ class ExternalMessages:
 
     def is_own(self, topic: str, info: dict[str, int]) -> bool:
         """Return whether a message that came on a topic was published by this session."""
-        return self._own[topic].include(info["source_timestamp"])
+        number, sent = info["publication_sequence_number"], info["source_timestamp"]
+        return any(own.has(number, sent) for own in self._own[topic])
 
     def _record(self, topic: str, message: Any, info: dict[str, int]) -> None:  # noqa: ANN401
         if self.is_own(topic, info):
