@@ -183,16 +183,6 @@ def test_an_ordinary_subscription_hears_feedback_and_status(ros, pair):
     assert states[-1].status_list[-1].status == SUCCEEDED
 
 
-def test_an_ordinary_client_can_send_a_goal(ros, pair):
-    node = ros.add(lambda: Node("hand"))
-    client = node.create_client(Fibonacci.Impl.SendGoalService, "heat/_action/send_goal")
-    request = Fibonacci.Impl.SendGoalService.Request()
-    request.goal.order = 2
-    assert client.call(request).accepted
-    ros.run(3)
-    assert pair[0].done == 1
-
-
 def test_send_goal_in_a_cell_runs_virtual_time(ros, pair):
     response = pair[1].client.send_goal(Fibonacci.Goal(order=2))
     assert list(response.result.sequence) == [1, 2]

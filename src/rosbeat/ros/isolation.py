@@ -15,6 +15,8 @@ import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass
+from functools import partial
 from io import TextIOBase
 from pathlib import Path
 from types import FrameType, TracebackType
@@ -40,8 +42,6 @@ _SWEEP = [k * 1e-6 for k in (1, 2, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256)]
 _PATIENCE = 0.6
 #: Seconds that code may go on after Interrupt, if it catches even that.
 _AFTER_INTERRUPT = 0.2
-#: Seconds between two calls of `nudge`.
-_NUDGE = 0.1
 
 _ROSBEAT = str(Path(__file__).parents[1])
 _OURS = (_ROSBEAT, str(Path(rclpy.__file__).parent))
@@ -67,33 +67,23 @@ class Deadline:
     deadline nor Interrupt ends a long call of C, such as `sum(range(10**12))`.
 
     Args:
-        seconds: How long the block may take, in seconds of wall time.
+        seconds: How long the block may take, in seconds of wall time; `passed` says if it took
+            longer.
         noting: Called once, at the moment when the time is up.
-        nudge: Called ten times a second in another thread: it may wake what waits in C, which
-            neither the deadline nor Interrupt reach there.
-
-    Attributes:
-        seconds: How long the block may take.
-        passed: Whether it took longer.
-        interrupted: Whether Interrupt was pressed in the block.
     """
 
     def __init__(
         self,
         seconds: float,
         noting: Callable[[], object] = bool,
-        nudge: Callable[[], object] | None = None,
     ) -> None:
         self.seconds = seconds
         self.passed = self.interrupted = False
         self._where: tuple[str, int, dict[str, Any]] | None = None
-        self._noting, self._nudge = noting, nudge
+        self._noting = noting
         self._open = self._raising = False
         self._raised, self._spared_until = 0, 0.0
         self._in_main = threading.current_thread() is threading.main_thread()
-        # A lock and no Event, which needs names that a learner may replace.
-        self._running = threading.Lock()
-        self._nudging = threading.Thread(target=self._keep_nudging, daemon=True)
 
     def __enter__(self) -> Deadline:
         self._base = sys._getframe(1)
@@ -101,9 +91,6 @@ class Deadline:
         self._until = self._began + self.seconds
         if self._in_main:
             self._take_signals()
-        self._running.acquire()
-        if self._nudge is not None:
-            self._nudging.start()
         self._open = True
         return self
 
@@ -118,9 +105,6 @@ class Deadline:
         self._open = False
         if self._in_main:
             self._give_signals_back()
-        self._running.release()
-        if self._nudge is not None:
-            self._nudging.join()
         if self.interrupted and not isinstance(error, KeyboardInterrupt):
             raise KeyboardInterrupt from None
         return self.passed and isinstance(error, DeadlinePassed)  # else it is an outer one's
@@ -142,10 +126,8 @@ class Deadline:
         self._functions = {name: getattr(signal, name) for name in _RESERVED}
         vars(signal).update(_RESERVED)
         self._alarm_before = _signal(signal.SIGALRM, self._ring)
-        outer = getattr(self._alarm_before, "__self__", None)
-        self._outer = outer if isinstance(outer, Deadline) else None
-        first = min(self._until, self._outer._until if self._outer else self._until)
-        self._timer_before = _setitimer(signal.ITIMER_REAL, max(1e-6, first - _now()), _FIRST)
+        first = max(1e-6, self._until - _now())
+        self._timer_before = _setitimer(signal.ITIMER_REAL, first, _FIRST)
         self._interrupt_before = signal.getsignal(signal.SIGINT)
         if callable(self._interrupt_before):
             _signal(signal.SIGINT, self._interrupt)
@@ -162,26 +144,22 @@ class Deadline:
 
     def _ring(self, number: int, frame: FrameType | None) -> None:
         """Raise in the code that is running, if its time is up: the handler of `SIGALRM`."""
-        if self._outer is not None:
-            self._outer._ring(number, frame)
         if not self._open or self._raising or _now() < self._until:
             return
         self._raising = True  # the next alarm may come while this one is being answered
         try:
             inside = list(self._inside(frame))
             # Not before and after the block: one that never begins never ends.
-            if inside and inside[0].f_code not in _NEVER:
-                self._raise_in(inside)
+            if not inside or inside[0].f_code in _NEVER:
+                return
+            self._note(inside)
+            if self._may_be_hit(inside):
+                self._raised += 1
+                if self._raised > 1:
+                    _setitimer(signal.ITIMER_REAL, _SWEEP[self._raised % len(_SWEEP)], _EVERY)
+                raise DeadlinePassed
         finally:
             self._raising = False
-
-    def _raise_in(self, inside: list[FrameType]) -> None:
-        self._note(inside)
-        if self._may_be_hit(inside):
-            self._raised += 1
-            if self._raised > 1:
-                _setitimer(signal.ITIMER_REAL, _SWEEP[self._raised % len(_SWEEP)], _EVERY)
-            raise DeadlinePassed
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         self.interrupted = True  # `__exit__` remembers
@@ -222,11 +200,6 @@ class Deadline:
             yield frame
             frame = frame.f_back if frame is not self._base else None
 
-    def _keep_nudging(self) -> None:
-        while not self._running.acquire(timeout=_NUDGE):
-            with suppress(Exception):  # whatever the code in the block may have broken
-                self._nudge()  # type: ignore[misc] # there is one
-
 
 _NEVER = {Deadline.__enter__.__code__, Deadline.__exit__.__code__}
 
@@ -247,15 +220,12 @@ def run_in_generator(do: Callable[[], object]) -> None:
     next(generator())
 
 
-def _except_for(reserved: int, function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of `signal` that leaves the deadline's signal or timer alone."""
-    return lambda which, *rest: None if which == reserved else function(which, *rest)
-
-
-#: What stands in the place of functions of `signal` in a block.
+#: What stands in the place of functions of `signal` in a block: they leave the deadline's alone.
 _RESERVED: dict[str, Callable[..., Any]] = {
-    "signal": _except_for(signal.SIGALRM, _signal),
-    "setitimer": _except_for(signal.ITIMER_REAL, _setitimer),
+    "signal": lambda which, do: None if which == signal.SIGALRM else _signal(which, do),
+    "setitimer": lambda which, *rest: (
+        None if which == signal.ITIMER_REAL else _setitimer(which, *rest)
+    ),
     "alarm": lambda _: 0,
     "pthread_sigmask": lambda how, mask: _mask(how, set(mask) - {signal.SIGALRM}),
 }
@@ -264,26 +234,18 @@ _RESERVED: dict[str, Callable[..., Any]] = {
 # Where a learner's prints go while a check runs.
 
 
+@dataclass
 class Count:
-    """Counts what was printed.
+    """How many characters were printed, on both streams, by code that is not rosbeat's own."""
 
-    Attributes:
-        characters: By code that is not rosbeat's own, on both streams.
-    """
-
-    def __init__(self) -> None:
-        self.characters = 0
+    characters: int = 0
 
 
 class Sink(TextIOBase):
     """A stream that counts what is written and forgets it.
 
-    What threads print that were there before goes where it always goes: they are none of the
+    What threads print that were there before goes to the `real` stream: they are none of the
     learner's node.
-
-    Args:
-        real: The stream in whose place it stands.
-        count: What is added to.
     """
 
     encoding = "utf-8"
@@ -325,11 +287,8 @@ def unharmed() -> Iterator[Count]:
 
     That is: standard output and error, the current folder, the environment, Python's built-in
     names and those of `time`, `random` and rclpy's nodes, handlers of signals, hooks for exceptions
-    and traces, filters of warnings, limits. Meanwhile nothing is printed, nobody types (`input()`
-    raises), and `quit()` does not end the kernel.
-
-    Yields:
-        How much was printed.
+    and traces, filters of warnings, limits. Meanwhile what is printed is only counted, nobody types
+    (`input()` raises), and `quit()` does not end the kernel.
     """
     count = Count()
     with ExitStack() as stack:
@@ -372,8 +331,7 @@ _SETTINGS: tuple[tuple[Callable[[], Any], Callable[[Any], object]], ...] = (
 def _settings() -> Iterator[Callable[[], object]]:
     for read, put in _SETTINGS:
         with suppress(FileNotFoundError):  # the current folder has been removed
-            before = read()
-            yield lambda put=put, before=before: put(before)  # type: ignore[misc] # one by one
+            yield partial(put, read())
 
 
 def _set_environment(before: dict[str, str]) -> None:

@@ -2,7 +2,7 @@
 
 A node's name, namespace, remappings and parameters are what a `Node(...)` action of a launch file
 sets, and `ros2 run` behind `--ros-args`. They reach the node the same way, as arguments that rcl
-reads, so an unmodified class is what is started (design.ros2.org, "ROS Command Line Arguments").
+reads, so that the class stays as it is.
 """
 
 from __future__ import annotations
@@ -44,11 +44,8 @@ class Start(TypedDict, total=False):
 class Launch:
     """How a node is started.
 
-    Attributes:
-        name: Its name, in the place of its own; empty to keep that.
-        namespace: The namespace before its name and its relative topics, such as `/greenhouse`.
-        remappings: New names of topics and services, by the names in its code.
-        parameters: Values of parameters that it declares, by their names.
+    `remappings` has new names of topics and services by those in its code. An empty `name` keeps
+    the node's own.
     """
 
     name: str = ""
@@ -77,23 +74,19 @@ class Launch:
 
 @dataclass(frozen=True)
 class Maker:
-    """What a session was handed to make a node of.
-
-    Attributes:
-        make: A node class, or a function that returns a node.
-        start: How the node is started.
-    """
+    """A node class or a function that returns a node, and how the node is started."""
 
     make: Callable[[], Any]
     start: Launch = Launch()
 
 
-def checked(name: object, namespace: object, remappings: object, parameters: object) -> Launch:
-    """Make a `Launch` of what a caller gave.
-
-    Raises:
-        SessionError: If a name is no text, or a value is none that a parameter can have.
-    """
+def checked(
+    name: object = None,
+    namespace: object = None,
+    remappings: object = None,
+    parameters: object = None,
+) -> Launch:
+    """Make a `Launch`; raise a SessionError for a name or value that cannot be one."""
     for what, one in (("name", name), ("namespace", namespace)):
         if one is not None and not (isinstance(one, str) and one.strip("/")):
             raise _refused(f"{what}={one!r}", "It has to be a name in quotation marks.")
@@ -212,10 +205,8 @@ def _construction_error(name: str, error: BaseException) -> NodeConstructionErro
 def show_sim_time(node: Node | None, active: bool) -> None:
     """Let a node's `use_sim_time` say whether its time is virtual.
 
-    The value is put in place directly, not with `set_parameters`: that would call the node's own
-    callback for parameter changes, which may count the change or refuse it, would publish it on
-    `/parameter_events`, and would subscribe the node to `/clock`, which makes every wait of the
-    live executor longer. The node's clock does not depend on it; see `SessionClock`.
+    Not with `set_parameters`: that would call the node's own callback for parameter changes,
+    publish the change, and subscribe the node to `/clock`. Its clock is a `SessionClock` anyway.
     """
     if node is not None and _SIM_TIME in node._parameters:
         node._parameters[_SIM_TIME] = Parameter(_SIM_TIME, value=active)

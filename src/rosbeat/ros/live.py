@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import time
-from collections.abc import Callable, Coroutine
 from contextlib import suppress
-from functools import partial
 from threading import Event, Thread, current_thread
 from typing import TYPE_CHECKING, Any
 
@@ -17,12 +15,9 @@ from rclpy.executors import (
     ExternalShutdownException,
     ShutdownException,
     SingleThreadedExecutor,
-    await_or_execute,
 )
 from rclpy.node import Node
 from rclpy.task import Future, Task
-
-from rosbeat.ros.entities import Entry, next_message, work_for
 
 if TYPE_CHECKING:
     from rosbeat.ros.world import World
@@ -44,11 +39,8 @@ class LiveExecutor(SingleThreadedExecutor):
     """rclpy's own single-threaded executor, supervised.
 
     rclpy re-raises what a callback raises, which would end the thread and silence every node. Here
-    the session is told, the node that raised is taken out, and the others go on.
-
-    Attributes:
-        current: The node whose callback is running, or None.
-        task: The task of that callback, or None.
+    the session is told, the node that raised is taken out, and the others go on. `current` is the
+    node whose callback is running, and `task` its task.
     """
 
     def __init__(self, context: Context, world: World) -> None:
@@ -66,24 +58,7 @@ class LiveExecutor(SingleThreadedExecutor):
 
     def start(self) -> None:
         """Begin to run callbacks."""
-        for state in self._world.states():
-            for entry in state.entries if state.spinning else ():
-                self._run_taken_messages(entry)
         self._thread.start()
-
-    def _run_taken_messages(self, entry: Entry) -> None:
-        """Make tasks of messages that are in no queue any more; see `qos_events.TakenEarly`."""
-
-        def take(_: object) -> Callable[[], Coroutine[Any, Any, None]] | None:
-            taken = next_message(entry)
-            if taken is None:
-                return None
-            callback, arguments = work_for(entry, taken)
-            return partial(await_or_execute, callback, *arguments)
-
-        if entry.kind == "subscription" and entry.handle is not entry.entity.handle:
-            for _ in range(len(entry.handle)):
-                self._make_handler(entry.entity, entry.state.node, take)
 
     def is_this_thread(self) -> bool:
         """Return whether the caller is a callback of this executor."""

@@ -26,11 +26,9 @@ class PlayedTopic(NamedTuple):
 
 
 class PlayedStep(NamedTuple):
-    """What to publish in one callback.
+    """What to publish in one callback, in nanoseconds after the node was made.
 
-    Attributes:
-        time_ns: When, in nanoseconds after the node was made.
-        messages: Pairs of topic, counted from 0, and serialized message.
+    `messages` has pairs of topic, counted from 0, and serialized message.
     """
 
     time_ns: int
@@ -40,12 +38,8 @@ class PlayedStep(NamedTuple):
 def player(name: str, topics: Sequence[PlayedTopic], steps: Sequence[PlayedStep]) -> NodeFactory:
     """Return a class of node that publishes prepared messages at prepared times.
 
-    All that one step causes is over before the next one begins, also at the same instant.
-
-    Args:
-        name: The node's name.
-        topics: The topics.
-        steps: What to publish, in order of time.
+    All that one of the `steps`, which are in order of time, causes is over before the next one
+    begins, also at the same instant.
 
     Raises:
         BagError: If no installed package has a topic's type.

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Collection
+from dataclasses import dataclass
 from typing import Any
 
 from greenlet import greenlet
@@ -21,20 +22,16 @@ from rosbeat.ros.recording import CallbackLabel
 _RANK = {"event": 0, "timer": 1, "subscription": 2, "client": 3, "service": 4}
 
 
+@dataclass(eq=False, slots=True)
 class Spin:
     """One call of a `spin` function: while it lasts, callbacks of its process run.
 
-    Args:
-        states: The nodes that it spins; None for all nodes of the process.
-        left: How many callbacks may still begin; None for any number.
+    It spins `states`, or all nodes of the process, and `left` more callbacks may begin, or any
+    number.
     """
 
-    __slots__ = ("left", "states")
-
-    def __init__(
-        self, states: Collection[NodeState] | None = None, left: int | None = None
-    ) -> None:
-        self.states, self.left = states, left
+    states: Collection[NodeState] | None = None
+    left: int | None = None
 
 
 class Process:
@@ -46,7 +43,6 @@ class Process:
             as the `main` of most programs does.
 
     Attributes:
-        states: Its nodes, in order of creation.
         spins: The calls of `spin` that are open, the innermost last. Callbacks run only meanwhile.
         calls: Callbacks that have begun and wait for something, in the order in which they began.
         pending: What is ready and could not run at once: timers that are due, and entities whose
@@ -139,16 +135,13 @@ def _place(entry: Entry) -> tuple[int, int, int]:
     return entry.state.number, _RANK[entry.kind], entry.number
 
 
+@dataclass(eq=False, slots=True)
 class Call:
     """Code of a node that is at work: a callback, a constructor, or the `main` of a program.
 
-    Args:
-        process: Where it runs.
+    Attributes:
         state: The node whose callback it is; None for a constructor or a `main`.
         entry: The entity whose callback it is, if it is one's.
-        label: What it is recorded as.
-
-    Attributes:
         began_ns: When it began to wait for the first time; -1 if it never has.
         spinning: Whether it waits in a `spin`, so that its thread runs other callbacks.
         wait: What it waits for now.
@@ -156,23 +149,15 @@ class Call:
         broken: How often it was told to end, from outside; it must not wait again.
     """
 
-    __slots__ = (
-        "began_ns", "broken", "entry", "holds_group", "label", "process", "spinning", "state",
-        "wait",
-    )  # fmt: skip
-
-    def __init__(
-        self,
-        process: Process,
-        state: NodeState | None = None,
-        entry: Entry | None = None,
-        label: CallbackLabel | None = None,
-    ) -> None:
-        self.process, self.state, self.entry, self.label = process, state, entry, label
-        self.began_ns = -1
-        self.spinning = self.holds_group = False
-        self.broken = 0
-        self.wait: Wait | None = None
+    process: Process
+    state: NodeState | None = None
+    entry: Entry | None = None
+    label: CallbackLabel | None = None
+    began_ns: int = -1
+    spinning: bool = False
+    wait: Wait | None = None
+    holds_group: bool = False
+    broken: int = 0
 
     @property
     def node(self) -> str:
@@ -188,43 +173,31 @@ class Call:
         return "main" if self.process.program else "__init__"
 
 
+@dataclass(eq=False, slots=True)
 class Wait:
     """What a call waits for.
 
-    Args:
-        call: Who waits.
+    Attributes:
         thread: The greenlet that goes on when the wait is over.
         reason: What for, in words: `sleep`, or `an answer from /add`.
         began_ns: Since when, in nanoseconds of virtual time.
         until_ns: Until when at most; None without a limit.
         met: Returns whether it has come true; None if only time or `end_wait` ends it.
         needs: The entity of the same process whose callback has to run first, if there is one.
-
-    Attributes:
-        over: Whether it has ended.
         error: What is raised in the call when it goes on.
         reported: Whether it was reported as a deadlock.
     """
 
-    __slots__ = (
-        "began_ns", "call", "error", "met", "needs", "over", "reason", "reported", "thread",
-        "until_ns",
-    )  # fmt: skip
-
-    def __init__(
-        self,
-        call: Call | None,
-        thread: greenlet,
-        reason: str,
-        began_ns: int,
-        until_ns: int | None = None,
-        met: Callable[[], object] | None = None,
-        needs: Any = None,  # noqa: ANN401 - any entity of rclpy
-    ) -> None:
-        self.call, self.thread, self.reason = call, thread, reason
-        self.began_ns, self.until_ns, self.met, self.needs = began_ns, until_ns, met, needs
-        self.over = self.reported = False
-        self.error: BaseException | None = None
+    call: Call | None
+    thread: greenlet
+    reason: str
+    began_ns: int
+    until_ns: int | None = None
+    met: Callable[[], object] | None = None
+    needs: Any = None
+    over: bool = False
+    error: BaseException | None = None
+    reported: bool = False
 
     def is_for_good(self) -> bool:
         """Return whether nothing but an event of the simulation can end it.
@@ -251,10 +224,7 @@ class Wait:
         if self.call.spinning:
             return True
         busy = [call for call in process.calls if not call.spinning]
-        return len(busy) < process.threads or any(not _is_for_good(call) for call in busy)
-
-
-def _is_for_good(call: Call) -> bool:
-    """Return whether a call waits for its own process, without a limit."""
-    wait = call.wait
-    return wait is not None and wait.until_ns is None and wait.needs is not None
+        waits = [call.wait for call in busy]
+        # Of those that wait without a limit for this very process none will free a thread.
+        stuck = [one for one in waits if one and one.until_ns is None and one.needs is not None]
+        return len(busy) < process.threads or len(stuck) < len(busy)

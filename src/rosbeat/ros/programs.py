@@ -67,11 +67,7 @@ def private_domain() -> Iterator[int]:
 class Program:
     """Runs a program in a `with` block, and kills its process group at the end.
 
-    Args:
-        command: The program and its arguments.
-        env: Its environment.
-        cwd: The folder to run it in.
-        name: Its name in the record; by default the last word of the command.
+    Its `name` in the record is by default the last word of the command.
 
     Raises:
         OSError: If it cannot be started.
@@ -109,11 +105,7 @@ class Program:
         return self._process.poll() is None
 
     def wait(self, until: Callable[[str], object], seconds: float) -> bool:
-        """Wait at most so many seconds until `until(output)` is true, or the program has ended.
-
-        Returns:
-            Whether it is true.
-        """
+        """Wait until `until(output)` is true, or the program or the time has ended; return it."""
         poll(lambda: until(self.output) or not self.running, time.monotonic() + seconds)
         if not until(self.output) and not self.running:
             self._reader.join(GRACE)

@@ -53,11 +53,7 @@ def _straighten() -> None:
 
 
 class SeededRandom:
-    """The random state of one session.
-
-    Args:
-        seed: The seed, 0 or more. NumPy takes it modulo 2**32.
-    """
+    """The random state of one session; NumPy takes its seed modulo 2**32."""
 
     def __init__(self, seed: int) -> None:
         self._seed = seed
@@ -86,26 +82,18 @@ class SeededRandom:
         outer, numpy = _SHARED.getstate(), _numpy_random()
         outer_numpy = numpy.get_state() if numpy else None
         _SHARED.setstate(self._state)
-        if numpy:
-            self._enter_numpy(numpy)
+        if numpy and self._numpy_state is None:
+            numpy.seed(self._seed % 2**32)
+        elif numpy:
+            numpy.set_state(self._numpy_state)
         try:
             yield
         finally:
             _straighten()
             self._state = _SHARED.getstate()
             _SHARED.setstate(outer)
-            self._leave_numpy(outer_numpy)
-
-    def _enter_numpy(self, numpy: Any) -> None:  # noqa: ANN401
-        if self._numpy_state is None:
-            numpy.seed(self._seed % 2**32)
-        else:
-            numpy.set_state(self._numpy_state)
-
-    def _leave_numpy(self, outer: Any) -> None:  # noqa: ANN401
-        # NumPy may have been imported meanwhile; then there is no outer state to put back.
-        numpy = _numpy_random()
-        if numpy:
-            self._numpy_state = numpy.get_state()
-            if outer is not None:
-                numpy.set_state(outer)
+            # NumPy may have been imported meanwhile; then there is no outer state to put back.
+            numpy = _numpy_random()
+            self._numpy_state = numpy.get_state() if numpy else None
+            if outer_numpy is not None:
+                numpy.set_state(outer_numpy)

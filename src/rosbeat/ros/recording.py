@@ -12,18 +12,16 @@ import sys
 from array import array
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, partial, wraps
 from importlib import import_module
 from importlib.util import module_from_spec
 from operator import attrgetter
 from threading import Lock
-from types import CodeType, FrameType, ModuleType
-from typing import TYPE_CHECKING, Any, Protocol
+from types import CodeType, ModuleType
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from rclpy.client import Client
 from rclpy.clock import Clock
-from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle, NotInitializedException
 from rclpy.impl import rcutils_logger
@@ -34,46 +32,34 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import (
     DurabilityPolicy,
-    HistoryPolicy,
-    QoSCompatibility,
     QoSProfile,
     ReliabilityPolicy,
-    qos_check_compatible,
 )
 from rclpy.serialization import deserialize_message, serialize_message
-from rclpy.timer import Rate, Timer
+from rclpy.utilities import get_default_context
 
 from rosbeat.errors import NoSessionError, SessionError
 from rosbeat.records import CallbackRecord, Fault, LogRecord, Sample
 from rosbeat.ros.faults import asking, is_message_class
-from rosbeat.ros.qos_events import as_written, is_alive, limit_ns, stretched
+from rosbeat.ros.qos_events import as_written, fit, is_alive, limit_ns, make_stretched
 
 if TYPE_CHECKING:
-    from rosbeat.ros.launch import Launch
+    from rosbeat.ros.world import World
 
 # Messages as plain data.
 #
 # A node may change a message object after publishing it, so what is recorded must be a copy. Of a
 # message whose fields are all numbers, bools and strings the copy is their values; of any other one
-# it is the serialized bytes. Serializing all of them would cost a quarter more for each message
-# (12.6 us and not 10.0, published in bursts, taken and recorded), and reading them back sixteen
-# times as much (4.5 us and not 0.3).
-
-
-def _as_float32(value: float) -> float:
-    return array("f", (value,))[0]
-
-
-def _as_c_string(value: str) -> str:
-    return value.partition("\0")[0]
+# it is the serialized bytes, which would cost all of them a quarter more (12.6 us and not 10.0,
+# published in bursts) and sixteen times as much to read back (4.5 us and not 0.3).
 
 
 #: How a field arrives, by its type; of all other types only the wire itself can tell.
 _ARRIVING: dict[str, Callable[[Any], Any]] = {
     "boolean": bool,
-    "float": _as_float32,
+    "float": lambda value: array("f", (value,))[0],
     "double": float,
-    "string": _as_c_string,
+    "string": lambda value: value.partition("\0")[0],  # as in C
     **{f"{sign}int{bits}": int for sign in ("", "u") for bits in (8, 16, 32, 64)},
 }
 
@@ -85,10 +71,7 @@ def type_name(message_type: type) -> str:
 
 
 def message_class(type_name: str) -> type:
-    """Return the Python class of a message type.
-
-    Args:
-        type_name: The type's ROS name, such as `std_msgs/msg/Float32`.
+    """Return the Python class of a message type, such as `std_msgs/msg/Float32`.
 
     Raises:
         ModuleNotFoundError, AttributeError: If no installed package has it.
@@ -99,11 +82,7 @@ def message_class(type_name: str) -> type:
 
 
 def load_type_support(types: Iterable[str]) -> None:
-    """Load the C part of message types, which rclpy does when the first publisher is made.
-
-    Args:
-        types: Names such as `std_msgs/msg/Float32`.
-    """
+    """Load the C part of message types, which rclpy does when the first publisher is made."""
     for name in types:
         meta: Any = type(message_class(name))
         meta.__import_type_support__()
@@ -126,16 +105,12 @@ def plain(value: Any) -> Any:  # noqa: ANN401 - a field may hold anything a mess
 class Memory:
     """Copies messages of one type and gives them back.
 
-    Args:
-        message_type: The message class.
-
-    Attributes:
-        take: Makes the copy of a message; the copy is opaque, small and immutable. The bytes of a
-            serialized message are a copy, too.
+    `take` makes the copy, which is small and immutable. The bytes of a serialized message are a
+    copy, too.
     """
 
     def __init__(self, message_type: type) -> None:
-        self._type = message_type
+        self._type, self.type_name = message_type, type_name(message_type)
         fields = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]
         flat = bool(fields) and _ARRIVING.keys() >= set(fields.values())
         self._fields = [(name, _ARRIVING[kind]) for name, kind in fields.items() if flat]
@@ -161,19 +136,10 @@ class Memory:
 
 @dataclass(frozen=True)
 class Channel:
-    """Where messages come from: one publisher of one node.
-
-    Attributes:
-        number: Place in the recorder's list of channels.
-        topic: Full topic name.
-        type_name: Message type, such as `std_msgs/msg/Float32`.
-        node: Full name of the publishing node.
-        memory: Copies its messages.
-    """
+    """Where messages come from: one publisher of one node; see `Sample` for the fields."""
 
     number: int
     topic: str
-    type_name: str
     node: str
     memory: Memory
 
@@ -195,11 +161,6 @@ class Recorder:
 
     Columns grow one after the other, so whoever appends from several threads holds `lock`: in live
     mode a node may publish from one thread while its callbacks run in another.
-
-    Attributes:
-        lock: For use in live mode.
-        logs: Log lines so far.
-        faults: Exceptions that left a callback so far.
     """
 
     logs: list[LogRecord] = field(default_factory=list)
@@ -213,15 +174,10 @@ class Recorder:
     _callback_times: array[int] = field(default_factory=lambda: array("q"))
     _callback_labels: array[int] = field(default_factory=lambda: array("I"))
 
-    def channel(self, topic: str, type_name: str, node: str, memory: Memory) -> Channel:
+    def channel(self, topic: str, node: str, memory: Memory) -> Channel:
         """Register a publisher."""
-        made = Channel(len(self._channels), topic, type_name, node, memory)
+        made = Channel(len(self._channels), topic, node, memory)
         self._channels.append(made)
-        return made
-
-    def rename(self, channel: Channel, node: str) -> Channel:
-        """Correct the name of the publishing node, also for what has been recorded."""
-        made = self._channels[channel.number] = replace(channel, node=node)
         return made
 
     def label(self, node: str, kind: str, name: str, source: str) -> CallbackLabel:
@@ -250,7 +206,7 @@ class Recorder:
     def _sample(self, k: int, channel: Channel) -> Sample:
         data = channel.memory.plain(self._sample_copies[k])
         at = self._sample_times[k]
-        return Sample(at, channel.topic, channel.type_name, channel.node, data)
+        return Sample(at, channel.topic, channel.memory.type_name, channel.node, data)
 
     def callbacks(self) -> Iterator[CallbackRecord]:
         """Return runs of callbacks in order."""
@@ -289,11 +245,6 @@ class Recorder:
         columns = zip(self._sample_channels, self._sample_times, strict=False)
         return [(k, nodes[n], at) for k, (n, at) in enumerate(columns) if n in nodes]
 
-    def sent(self, channel: Channel) -> list[int]:
-        """Return when each message of one publisher was published, in nanoseconds, in order."""
-        columns = zip(self._sample_channels, self._sample_times, strict=False)
-        return [at for number, at in columns if number == channel.number]
-
     def last_run(self, label: int) -> int:
         """Return when a callback ran last, in nanoseconds; -1 if never."""
         rows = zip(reversed(self._callback_labels), reversed(self._callback_times), strict=False)
@@ -312,27 +263,13 @@ class Recorder:
 # Message classes that a learner's code has written into.
 #
 # `msg = Float32` without brackets, and then `msg.data = 25.0`, replaces the field of the class
-# itself. From then on no message of that type can be made in the whole kernel: `Float32()` raises,
-# in every node. The class is repaired as soon as an exception shows that something is wrong, so
-# that a cell that is put right runs at once.
+# itself: from then on `Float32()` raises in every node of the kernel. The class is repaired as soon
+# as an exception shows that something is wrong, so that a cell that is put right runs at once.
 
 
 def repair_message_classes() -> list[str]:
-    """Give every message class that was written into its fields back.
-
-    Returns:
-        The names of the classes that were broken, such as `Float32`.
-    """
-    broken = list(_broken_classes())
-    for kind, fields in broken:
-        whole = getattr(_loaded_anew(sys.modules[kind.__module__]), kind.__name__)
-        for name in fields:
-            setattr(kind, name, vars(whole)[name])
-    return [kind.__name__ for kind, _ in broken]
-
-
-def _broken_classes() -> Iterator[tuple[type, list[str]]]:
-    """Return the classes with fields that are no properties any more, and these fields."""
+    """Give message classes the fields back that were overwritten; return the classes' names."""
+    repaired = []
     # The generated modules are `std_msgs.msg._float32` and the like.
     modules = [module for name, module in list(sys.modules.items()) if ".msg._" in name]
     for kind in (kind for module in modules for kind in _classes_of(module)):
@@ -340,7 +277,13 @@ def _broken_classes() -> Iterator[tuple[type, list[str]]]:
         fields = space["_fields_and_field_types"]
         broken = [name for name in fields if type(space.get(name)) is not property]
         if broken:
-            yield kind, broken
+            spec: Any = sys.modules[kind.__module__].__spec__
+            fresh = module_from_spec(spec)
+            spec.loader.exec_module(fresh)
+            for name in broken:
+                setattr(kind, name, vars(getattr(fresh, kind.__name__))[name])
+            repaired.append(kind.__name__)
+    return repaired
 
 
 @cache
@@ -349,15 +292,6 @@ def _classes_of(module: ModuleType) -> tuple[type, ...]:
     return tuple(
         kind for kind in kinds if is_message_class(kind) and kind.__module__ == module.__name__
     )
-
-
-def _loaded_anew(module: ModuleType) -> ModuleType:
-    spec = module.__spec__
-    assert spec is not None
-    assert spec.loader is not None
-    fresh = module_from_spec(spec)
-    spec.loader.exec_module(fresh)
-    return fresh
 
 
 # Listening to what a node sends, at its own publishers and clients.
@@ -374,7 +308,7 @@ _AT_ONCE = Duration()._duration_handle
 
 
 class PublisherTap:
-    """Listen to one publisher.
+    """Listens to one publisher.
 
     Args:
         publisher: The publisher; its `publish` is replaced by one that also tells `heard`.
@@ -382,16 +316,13 @@ class PublisherTap:
         heard: Called with the copy after each message that was really published.
 
     Attributes:
-        topic: Full topic name.
-        count: Messages published so far.
-        channel: Where its messages are recorded; None if they are not.
+        count: How many messages were published.
         lifespan_ns: How long it stores a message; 0 without a limit.
     """
 
     def __init__(self, publisher: Publisher, memory: Memory, heard: Callable[[Any], None]) -> None:
         self.topic: str = publisher.topic_name
         self.count = 0
-        self.channel: Channel | None = None
         self._handle = publisher.handle
         self._qos: QoSProfile = publisher.qos_profile
         self._type = publisher.msg_type
@@ -424,23 +355,19 @@ class PublisherTap:
 
     def fits(self, subscription: Any) -> bool:  # noqa: ANN401 - rclpy is untyped
         """Return whether a subscription of this topic is connected to this publisher."""
-        return self._type is subscription.msg_type and self._offers(subscription.qos_profile)
+        return self._type is subscription.msg_type and fit(self._qos, subscription.qos_profile)
 
     @property
-    def stored(self) -> int:
-        """Return how many messages are stored at most: some may have expired."""
-        depth: int = self._qos.depth
-        limited = self._qos.history == HistoryPolicy.KEEP_LAST
-        return min(self.count, max(1, depth)) if limited else self.count
+    def stores(self) -> bool:
+        """Return whether it stores messages for late-joining subscriptions."""
+        return bool(self._qos.durability != DurabilityPolicy.VOLATILE)
 
     def stores_for(self, qos: QoSProfile) -> bool:
         """Return whether a new subscription of this QoS gets stored messages from here."""
-        own = self._qos
-        stores = self.count and own.durability != DurabilityPolicy.VOLATILE
         asks = qos.durability in _ASK_FOR_STORED and qos.reliability in _ASK_AGAIN
-        if not (stores and asks) or own.reliability == ReliabilityPolicy.BEST_EFFORT:
-            return False
-        return is_alive(self._handle) and self._offers(qos)
+        hands_over = self._qos.reliability != ReliabilityPolicy.BEST_EFFORT and self.count > 0
+        is_possible = self.stores and asks and hands_over and is_alive(self._handle)
+        return is_possible and fit(self._qos, qos)
 
     def has_delivered(self) -> bool:
         """Return whether all of its subscriptions have acknowledged all that they are to get."""
@@ -450,66 +377,12 @@ class PublisherTap:
         except InvalidHandle:  # destroyed by another thread: nothing more will come
             return True
 
-    def _offers(self, qos: QoSProfile) -> bool:
-        compatible, _ = qos_check_compatible(self._qos, qos)
-        return bool(compatible != QoSCompatibility.ERROR)
-
-
-def tap_timer(timer: Timer, before: Callable[[], None], moved: Callable[[], None]) -> None:
-    """Call `before` and `moved` around each `reset` of a timer, which changes its deadline."""
-    original = timer.reset
-
-    def reset() -> None:
-        before()
-        original()
-        moved()
-
-    timer.reset = reset
-
-
-def tap_rate(rate: Rate, sleep: Callable[[Callable[[], None]], None]) -> None:
-    """Let `sleep` decide how one rate sleeps; it is given rate's own way."""
-    original = rate.sleep
-    rate.sleep = lambda: sleep(original)
-
-
-def tap_client(
-    client: Client,
-    check: Callable[[], None],
-    asked: Callable[[], None],
-    wait_for: Callable[[Any, float | None], Any],
-) -> None:
-    """Listen to one service client.
-
-    Args:
-        client: The client; its `call_async` and `call` are replaced.
-        check: Called before `call` begins; raises where it would wait for ever.
-        asked: Called after each request.
-        wait_for: Runs the nodes until a future is done and returns its result; used by `call`,
-            which would otherwise wait for an answer that nobody is running to give.
-    """
-    send = client.call_async
-
-    def call_async(request: Any) -> Any:  # noqa: ANN401
-        future = send(request)
-        asked()
-        return future
-
-    def call(request: Any, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
-        check()
-        return wait_for(call_async(request), timeout_sec)
-
-    client.call_async = call_async
-    client.call = call
-
 
 # The logger that a node of a session gets.
 #
-# rclpy hands each log line to rcl, which prints it and publishes it on `/rosout`. rcl keeps one
-# `/rosout` publisher for each logger name *in the whole process*: a second node of the same name,
-# in whatever session, logs through the first one's publisher, and falls silent when that is
-# destroyed (rcl, logging_rosout.c). A session that listened on `/rosout` would hear its neighbours,
-# so lines are taken one step earlier, from the node's own logger, and go on to `/rosout` as ever.
+# A session that listened on `/rosout` would hear its neighbours: rcl keeps one publisher there for
+# each logger name *in the whole process* (logging_rosout.c). So lines are taken one step earlier,
+# from the node's own logger, and go on to `/rosout` as ever.
 
 
 #: level, logger name, text, function, line
@@ -528,12 +401,7 @@ class SessionLogger(RcutilsLogger):
     The first call from each place goes through rclpy, which checks it and remembers the place.
     Later calls from there with the same level and no filter are handed to rcl directly: rclpy would
     look its caller up in the source files each time, which takes twenty times as long as all the
-    rest (230 of 240 microseconds).
-
-    Args:
-        name: The logger's name.
-        listener: Called with every line that was really logged.
-        clock: The session's clock; `throttle_duration_sec` counts its seconds.
+    rest (230 of 240 microseconds). `throttle_duration_sec` counts seconds of `clock`.
     """
 
     def __init__(self, name: str, listener: Listener, clock: Clock) -> None:
@@ -552,12 +420,10 @@ class SessionLogger(RcutilsLogger):
         return made
 
     def log(self, message: str, severity: LoggingSeverity, **options: Any) -> bool:  # noqa: ANN401
-        """Log a line; see `rclpy`.
-
-        Returns:
-            Whether it was logged.
-        """
-        frame = _caller()
+        """Log a line, as rclpy does; return whether it was logged."""
+        frame = sys._getframe(1)
+        while frame.f_back and frame.f_code.co_filename in _OWN_FILES:
+            frame = frame.f_back
         place = (frame.f_code, frame.f_lasti)
         function, line = frame.f_code.co_name, frame.f_lineno
         if options or self._places.get(place) != severity:
@@ -578,20 +444,15 @@ class SessionLogger(RcutilsLogger):
         return True
 
 
-def _caller() -> FrameType:
-    frame = sys._getframe(2)
-    while frame.f_back and frame.f_code.co_filename in _OWN_FILES:
-        frame = frame.f_back
-    return frame
-
-
 # How a session learns of nodes, without the nodes being changed.
 #
-# rclpy offers no place to be told that a node, a publisher or a timer was made. The methods of
-# `Node` that make them are therefore wrapped once, when this module is first imported. A wrapper
-# looks at the node's own context: if that belongs to a session, the session's watcher is told; if
-# not, the original runs and nothing else happens.
+# rclpy tells nobody that a node, a publisher or a timer was made. So the methods of `Node` that
+# make them are wrapped once, when this module is first imported. A wrapper looks at the node's own
+# context: if that belongs to a session, the session is told; if not, the original runs alone.
 
+
+#: What the hooks tell: the session's `World`.
+Watcher: TypeAlias = "World"
 
 ENTITY_METHODS = {
     "create_publisher": "publisher",
@@ -601,50 +462,6 @@ ENTITY_METHODS = {
     "create_client": "client",
     "create_rate": "rate",
 }
-
-
-class Watcher(Protocol):
-    """What the hooks tell a session."""
-
-    start: Launch
-
-    @property
-    def counts_limits(self) -> bool:
-        """Return whether the session counts deadlines and lifespans, not the middleware."""
-
-    def node_begins(self, name: str, namespace: str) -> None:
-        """Make room: a node of this name is about to be made."""
-
-    def node_made(self, node: Node) -> None:
-        """Take over a node whose `Node.__init__` has returned."""
-
-    def entity_begins(self, node: Node) -> None:
-        """Prepare a node that is about to make an entity."""
-
-    def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
-        """Watch an entity that the node has made."""
-
-    def action_made(
-        self,
-        node: Node,
-        kind: str,
-        entity: Any,  # noqa: ANN401
-        name: str,
-        options: dict[str, Any],
-    ) -> None:
-        """Watch an action server or client that the node has made; see `actions`."""
-
-    def node_ends(self, node: Node) -> None:
-        """Forget a node that is about to be destroyed."""
-
-    def logger_of(self, node: Node, original: Any) -> Any:  # noqa: ANN401
-        """Return the logger that the node's code gets."""
-
-    def explain_init(self) -> None:
-        """Answer a learner who called `rclpy.init()`."""
-
-    def explain_shutdown(self) -> None:
-        """Answer a learner who called `rclpy.shutdown()`."""
 
 
 class Unwatched:
@@ -662,7 +479,7 @@ def watcher_of(node: Node) -> Watcher | None:
 def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
     def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401
-        context: Any = kwargs.get("context") or _default_context()
+        context: Any = kwargs.get("context") or get_default_context()
         watcher = getattr(context, "watcher", None)
         name = kwargs.get("node_name", args[0] if args else None)
         with asking("Node.__init__", node, *args, **kwargs):
@@ -702,12 +519,6 @@ def in_kernel() -> bool:
     return "ipykernel.kernelapp" in sys.modules
 
 
-def _default_context() -> Context:
-    from rclpy.utilities import get_default_context
-
-    return get_default_context()
-
-
 def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]:
     @wraps(original)
     def create(node: Node, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
@@ -718,8 +529,7 @@ def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]
             _refuse_a_message(original.__name__, kwargs.get("msg_type", args[0] if args else None))
             watcher.entity_begins(node)
             if watcher.counts_limits:
-                with stretched(kind, args, kwargs) as (longer, named):
-                    entity = original(node, *longer, **named)
+                entity = make_stretched(partial(original, node), kind, args, kwargs)
             else:
                 entity = original(node, *args, **kwargs)
         watcher.entity_made(node, kind, entity)

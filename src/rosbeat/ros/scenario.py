@@ -58,7 +58,7 @@ from rosbeat.ros.test_nodes import feeder as feeder
 class Step:
     """Do something `at` a time, in virtual seconds, after everything else that is due then.
 
-    `node` is the name of the node that it is done to; by default the learner's.
+    It is done to the node of the name `node`; by default the learner's.
     """
 
     at: float
@@ -163,11 +163,7 @@ _STATUS = {
 
 
 class Steps:
-    """Carries out steps at their times.
-
-    Args:
-        session: The session that they are done in.
-        steps: The steps, in any order.
+    """Carries out steps, given in any order, at their times.
 
     Attributes:
         subject: Full name of the learner's node.
@@ -196,12 +192,13 @@ class Steps:
         for step in sending:
             kind = message_class(step.type_name)
             if isinstance(step, Publish):
-                entity = node.create_publisher(kind, step.topic, profile(step.qos))
+                self._entities[id(step)] = node.create_publisher(
+                    kind, step.topic, profile(step.qos)
+                )
             elif isinstance(step, Call):
-                entity = service(kind, step.service)
+                self._entities[id(step)] = service(kind, step.service)
             else:
-                entity = action(kind, step.action)
-            self._entities[id(step)] = entity
+                self._entities[id(step)] = action(kind, step.action)
 
     def run_until(self, end_ns: int) -> None:
         """Run virtual time until `end_ns`, and carry out the steps on the way."""
@@ -223,19 +220,17 @@ class Steps:
     def _send(self, step: Sent) -> tuple[str, str]:
         entity: Any = self._entities.get(id(step))
         if isinstance(step, Publish):
-            name = step.topic
             for value in step.values:
                 entity.publish(message(step.type_name, value))
-        elif isinstance(step, Call):
-            name = step.service
+            return f"/{TESTER}", step.topic
+        if isinstance(step, Call):
             self._call(step, entity)
-        elif isinstance(step, SendGoal):
-            name = step.action
+            return f"/{TESTER}", step.service
+        if isinstance(step, SendGoal):
             self._send_goal(step, entity)
-        else:
-            name = step.sent.action
-            self._cancel(step.sent)
-        return f"/{TESTER}", name
+            return f"/{TESTER}", step.action
+        self._cancel(step.sent)
+        return f"/{TESTER}", step.sent.action
 
     def _call(self, step: Call, client: Any) -> None:  # noqa: ANN401 - of any service
         reply = self._replier(client.service_name)
@@ -276,7 +271,7 @@ class Steps:
     def _change(self, step: Step) -> tuple[str, str]:
         name, text = step.node or self.subject, ""
         state = self._world.named("/" + name.lstrip("/"))
-        if state is None or state.node is None:
+        if state is None:
             return name, "no such node"
         if isinstance(step, Remove):
             self._world.destroy(state)
@@ -342,12 +337,22 @@ class _NeverMade(BaseException):
 class _Run:
     """Runs the learner's nodes, and records what goes wrong; see `observe`."""
 
-    def __init__(self, seconds: float, steps: Iterable[Step], seed: int, deadline: float) -> None:
+    def __init__(
+        self,
+        add: Callable[[_Run, Maker], None],
+        answer: Maker,
+        seconds: float,
+        others: Iterable[Other] = (),
+        steps: Iterable[Step] = (),
+        seed: int = 0,
+        deadline: float = DEADLINE,
+    ) -> None:
+        self._add_answer, self._answer, self._others = add, answer, others
         self._seed, self._end = seed, duration_ns(seconds)
         self._session = Session(seed=seed)
         self._world = self._session._world
         self._steps = Steps(self._session, steps)
-        self._deadline = Deadline(deadline, self._note_expiry, self._wake)
+        self._deadline = Deadline(deadline, self._note_expiry)
         self._faults: list[Fault] = []
         self._late: Fault | None = None  # of a callback or constructor that never came to an end
         self._slept = 0  # in the constructor
@@ -355,27 +360,19 @@ class _Run:
         # What was running at the deadline, and how many faults there had been.
         self._expired: tuple[tuple[str, str], int] = ("", "run"), 0
 
-    def play(
-        self, add: Callable[[_Run, Maker], None], answer: Maker, others: Iterable[Other]
-    ) -> None:
-        """Run everything; whatever is raised becomes a fault.
-
-        Args:
-            add: `_Run.add_node` or `_Run.add_system`.
-            answer: What the learner handed over.
-            others: The other nodes; see `observe`.
-        """
+    def play(self) -> None:
+        """Run everything; whatever is raised becomes a fault."""
         # What has to be put back stands outside of the deadline, which hits what it finds.
-        with self._world.running([answer.make]), self._deadline:
-            run_in_generator(lambda: self._play(partial(add, self, answer), others))
+        with self._world.running([self._answer.make]), self._deadline:
+            run_in_generator(self._play)
 
-    def _play(self, add: Callable[[], None], others: Iterable[Other]) -> None:
+    def _play(self) -> None:
         try:
             self._steps.prepare()
-            for other in others:
-                self._add(other if isinstance(other, Maker) else Maker(other))
+            for other in self._others:
+                self._add(_maker(other))
             with self._starting():
-                add()
+                self._add_answer(self, self._answer)
             self._world.console.begin(quiet=True)
             self._steps.run_until(self._end)
             self._note_waiting()
@@ -423,13 +420,6 @@ class _Run:
 
     # What goes wrong.
 
-    def _wake(self) -> None:
-        """Wake executors that wait in C, where no exception reaches them."""
-        for state in self._world.states():
-            executor = getattr(state.node, "executor", None)
-            if executor is not None and executor is not self._world.virtual:
-                executor.wake()
-
     def _count_wait(self, span_ns: int, reason: str) -> None:
         self._slept += span_ns
         if self._slept > self._end:
@@ -437,12 +427,11 @@ class _Run:
             raise _NeverMade
 
     def _note_waiting(self) -> None:
-        """Note a callback that still waits when the run is over, if it has waited for long."""
+        """Note the first callback that has waited for long when the run is over."""
         for call in self._world.virtual.suspended:
             wait = call.wait
-            if wait is None or call.spinning:
-                continue
-            if call.began_ns <= self._end / 2 or (wait.until_ns or 0) >= 2 * self._end:
+            is_long = call.began_ns <= self._end / 2
+            if wait and not call.spinning and (is_long or (wait.until_ns or 0) >= 2 * self._end):
                 frame = wait.thread.gr_frame
                 self._late = self._late_fault(call.node, call.name, wait.reason, frame)
                 return
@@ -460,7 +449,7 @@ class _Run:
         return ("", "run") if calling is None else (calling.node, calling.name)
 
     def _note_expiry(self) -> None:
-        # Not `len`: the code that is running may have put something in its place.
+        # Not `len`: the code that is running may have replaced it.
         self._expired = self._callback(), self._world.recorder.faults.__len__()
 
     def _fault_of(self, error: BaseException) -> Fault:
@@ -506,7 +495,7 @@ class _Run:
     def close(self) -> None:
         """End the session, whatever the nodes do against it."""
         with_finalizer = [ref(one) for one in self._session.nodes if hasattr(type(one), "__del__")]
-        with Deadline(_TO_TIDY, nudge=self._wake):
+        with Deadline(_TO_TIDY):
             run_in_generator(self._destroy_nodes)
         self._session.close()
         del self._session, self._world, self._steps
@@ -535,7 +524,10 @@ def observe(
     steps: Iterable[Step] = (),
     deadline: float = DEADLINE,
 ) -> Observation:
-    """Run an answer among other nodes in virtual time.
+    """Run an answer among other nodes in virtual time, and return what happened.
+
+    An answer that cannot be made into a node, an endless chain, and a deadline that passed are
+    faults.
 
     Args:
         answer: What should be a node class, or a function that returns a node. Of a node the class
@@ -543,32 +535,25 @@ def observe(
         seconds: Virtual seconds to run.
         others: Nodes to run beside it. They are added first, so that what clashes with them is
             raised by the answer's own line. A `Maker` also says how a node is started.
-        start: How the answer is started: under which name, with which topics and parameters.
+        start: How the answer is started.
         seed: Seed of the random numbers that nodes draw.
         steps: What is done while it runs; each that was done is a callback of the kind `step`.
         deadline: Seconds of wall time after which it is broken off.
-
-    Returns:
-        What happened. An answer that cannot be made into a node, an endless chain, and a deadline
-        that passed are faults.
 
     Raises:
         KeyboardInterrupt: If Interrupt was pressed.
         DomainsExhaustedError: If no private domain id is left on this machine.
     """
-    run = _Run(seconds, steps, seed, deadline)
-    return _observe(run, _Run.add_node, Maker(answer, start or Launch()), others)
+    maker = Maker(answer, start or Launch())
+    return _observe(_Run(_Run.add_node, maker, seconds, others, steps, seed, deadline))
 
 
 def observe_system(
     answer: Any,  # noqa: ANN401 - whatever a learner hands over
     seconds: float,
     *,
-    others: Iterable[Other] = (),
     parameters: Mapping[str, Any] | None = None,
-    steps: Iterable[Step] = (),
-    seed: int = 0,
-    deadline: float = DEADLINE,
+    **options: Any,  # noqa: ANN401
 ) -> Observation:
     """Run the nodes of an answer, as a launch file would start them; otherwise like `observe`.
 
@@ -577,18 +562,14 @@ def observe_system(
     `remappings` and `parameters`. Each is started with `parameters`, too. A node that cannot be
     made, or raises, ends alone. What is no list of nodes is a fault of the kind `NoSystemError`.
     """
-    run = _Run(seconds, steps, seed, deadline)
-    return _observe(
-        run, _Run.add_system, Maker(answer, Launch(parameters=parameters or {})), others
-    )
+    start = Launch(parameters=parameters or {})
+    return _observe(_Run(_Run.add_system, Maker(answer, start), seconds, **options))
 
 
-def _observe(
-    run: _Run, add: Callable[[_Run, Maker], None], answer: Maker, others: Iterable[Other]
-) -> Observation:
+def _observe(run: _Run) -> Observation:
     try:
         with unharmed() as printed:
-            run.play(add, answer, others)
+            run.play()
         # What the learner's code has changed is put back before anything else is done.
         with unharmed():
             return run.observation(printed.characters)
@@ -598,12 +579,7 @@ def _observe(
 
 
 def _makers(answer: Any) -> list[Maker]:  # noqa: ANN401 - whatever a learner hands over
-    """Return the nodes of a system, and how each is started.
-
-    Raises:
-        NoSystemError: If the answer is neither a list nor a function that returns one.
-        SessionError: If a node cannot be started as the list says.
-    """
+    """Return the nodes of a system; raise a NoSystemError if the answer is no list of nodes."""
     is_node = isinstance(answer, Node) or (isclass(answer) and issubclass(answer, Node))
     found = answer() if callable(answer) and not is_node else answer
     if found is None:
@@ -629,13 +605,13 @@ def _maker(one: Any) -> Maker:  # noqa: ANN401
         return Maker(one)
     if len(one) != 2 or not isinstance(one[1], Mapping):
         raise _no_system("A pair in the list is not of a class and a dict.")
-    options: dict[str, Any] = dict.fromkeys(("name", "namespace", "remappings", "parameters"))
-    for option, value in one[1].items():
-        if option not in options:
-            known = ", ".join(options)
-            raise _no_system(f"A node cannot be started with {option!r}; known are {known}.")
-        options[option] = value
-    return Maker(one[0], checked(**options))
+    known = ("name", "namespace", "remappings", "parameters")
+    for option in one[1]:
+        if option not in known:
+            raise _no_system(
+                f"A node cannot be started with {option!r}; known are {', '.join(known)}."
+            )
+    return Maker(one[0], checked(**one[1]))
 
 
 def _no_system(what: str) -> NoSystemError:

@@ -22,12 +22,7 @@ BARE = {"start_parameter_services": False}
 
 
 def message(type_name: str, value: Any) -> Any:  # noqa: ANN401 - a message of any type
-    """Return a message that holds a value.
-
-    Args:
-        type_name: The type's ROS name.
-        value: The value of its field `data`, or a dict from field name to value.
-    """
+    """Return a message whose field `data` is a value, or whose fields are those of a dict."""
     fields = value if isinstance(value, dict) else {"data": value}
     return message_class(type_name)(**fields)
 
@@ -77,7 +72,7 @@ def feeder(
         name: The node's name.
         topic: The topic.
         type_name: The message type, such as `std_msgs/msg/Float32`.
-        values: The values, in order; see `message`. None is a turn without a message.
+        values: See `message`; None is a turn without a message.
         period: Virtual seconds from one to the next, and before the first.
         burst: How many are published each time, at one instant.
         qos: The publisher's quality of service, or the depth of its queue.
@@ -99,14 +94,7 @@ def feeder(
 
 
 def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
-    """Return a function that makes a node that logs the field `data` of each message.
-
-    Args:
-        name: The node's name.
-        topic: The topic.
-        type_name: A message type with a field `data`, such as `std_msgs/msg/String`.
-        qos: The subscription's quality of service, or the depth of its queue.
-    """
+    """Return a function that makes a node that logs the field `data` of each message."""
 
     def prepare(node: Node) -> None:
         def _receive(message: Any) -> None:  # noqa: ANN401 - a message of any type

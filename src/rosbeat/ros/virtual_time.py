@@ -6,9 +6,8 @@ the next. At each instant one timer runs, then all that follows from it, until n
 do; then the next timer of that instant, in order of (deadline, creation).
 
 What follows is known without waiting: within one participant Fast DDS hands a message over inside
-`publish()`, so when `publish()` has returned, the subscriptions of that topic can take it. What was
-stored for late-joining subscriptions is there when the subscription has been made; see
-`qos_events.wait_for_stored`.
+`publish()`. What was stored for late-joining subscriptions is there when the subscription has been
+made; see `qos_events.wait_for_stored`.
 
 A callback that waits (`time.sleep`, a service call, a `spin` of its own) suspends its process only.
 All callbacks run in greenlets: the one that happens to run the loop of the simulation calls them
@@ -27,7 +26,7 @@ from collections.abc import Callable, Collection, Coroutine
 from heapq import heappop, heappush
 from inspect import iscoroutine, iscoroutinefunction
 from itertools import count
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from greenlet import GreenletExit, getcurrent, greenlet
 from rclpy.context import Context
@@ -42,7 +41,10 @@ from rosbeat.ros.errors import never_made
 from rosbeat.ros.processes import Call, Process, Spin, Wait, is_free
 from rosbeat.ros.qos_events import Deadlines
 from rosbeat.ros.recording import CallbackLabel, Recorder
-from rosbeat.ros.wait_set import NOT_OF_CALLBACKS, Coroutines, Host, Waiting, WaitSetExecutor
+from rosbeat.ros.wait_set import NOT_OF_CALLBACKS, Coroutines, Waiting, WaitSetExecutor
+
+if TYPE_CHECKING:
+    from rosbeat.ros.world import World
 
 
 class Agenda:
@@ -127,12 +129,9 @@ _TRAIL = 24
 
 
 class ChainGuard:
-    """Counts how far each callback is from the timer that began it all.
+    """Counts how far each callback is from the timer that began it all: its `depth`.
 
     A burst of messages is wide but not deep, so it is never mistaken for a circle.
-
-    Attributes:
-        depth: Steps from the timer to the callback that is running; 0 for the timer itself.
     """
 
     def __init__(self) -> None:
@@ -146,11 +145,7 @@ class ChainGuard:
         self._firings = self._followers = self._wakes = 0
 
     def timer_fires(self, entry: Entry) -> None:
-        """Begin a chain at a timer.
-
-        Raises:
-            EndlessChainError: If timers fire without end at one instant (a period of zero).
-        """
+        """Begin a chain at a timer; raise an EndlessChainError if its period is zero."""
         self.depth = self._followers = 0
         self._firings += 1
         if self._firings > MOST_FIRINGS:
@@ -183,36 +178,25 @@ class ChainGuard:
             )
 
     def inspect(self, entry: Entry) -> None:
-        """Check a callback that is about to run more than `SUSPICIOUS` steps after a timer.
+        """Raise an EndlessChainError if a callback's chain is longer or wider than any that ends.
 
-        Raises:
-            EndlessChainError: If the chain is longer or wider than any that ends.
+        It is asked only more than `SUSPICIOUS` steps after a timer.
         """
         self._followers += 1
         if max(self.depth, self._followers) > LONGEST_CHAIN - _TRAIL:
             # Names are worth their time only now.
             self._trail.append(f"{entry.state.name} ({entry.label.source})")
             if self.depth > LONGEST_CHAIN or self._followers > MOST_FOLLOWERS:
-                raise self._refusal()
-
-    def turns_without_end(self, names: list[str]) -> EndlessChainError:
-        """Return the error for coroutines and tasks that keep one another busy for ever."""
-        return EndlessChainError(
-            f"Callbacks wait for each other without end: {', '.join(names)}.",
-            "Each gets further whenever another has run, and no time passes meanwhile.",
-            "Break the circle: begin each piece of work from a timer.",
-        )
-
-    def _refusal(self) -> EndlessChainError:
-        names = list(dict.fromkeys(self._trail))
-        self.depth = self._followers = 0
-        self._trail.clear()
-        return EndlessChainError(
-            f"Messages go round without end: {' -> '.join([*names, names[0]])}.",
-            "Each callback causes the next one, and no time passes between them, so the clock "
-            "stands still. On a real robot these nodes would keep a processor core busy for ever.",
-            "Break the circle: publish from a timer, or only if something has changed.",
-        )
+                names = list(dict.fromkeys(self._trail))
+                self.depth = self._followers = 0
+                self._trail.clear()
+                raise EndlessChainError(
+                    f"Messages go round without end: {' -> '.join([*names, names[0]])}.",
+                    "Each callback causes the next one, and no time passes between them, so the "
+                    "clock stands still. On a real robot these nodes would keep a processor core "
+                    "busy for ever.",
+                    "Break the circle: publish from a timer, or only if something has changed.",
+                )
 
 
 # The simulation.
@@ -232,24 +216,18 @@ class VirtualTimeExecutor(WaitSetExecutor):
     Timers, subscriptions, services and clients are taken directly; see `WaitSetExecutor` for the
     rest.
 
-    Args:
-        context: The session's context.
-        recorder: Told of every callback.
-        host: The session.
-
     Attributes:
         now: Virtual time in nanoseconds.
         is_live: Whether the session is live, so that the wall clock counts.
         running: Whether `run_until` is at work.
         calling: The callback that is running, or ran last; None before the first.
         elsewhere: What threads of the nodes' own have published since the last step.
-        deadlines: How long publishers and subscriptions may stay without a message.
         constructor_waits: Called with nanoseconds and the reason when a constructor waits, in the
             place of the wait; None to let virtual time pass. Only scenarios set it.
         thread: The thread in which the nodes run.
     """
 
-    def __init__(self, context: Context, recorder: Recorder, host: Host) -> None:
+    def __init__(self, context: Context, recorder: Recorder, host: World) -> None:
         self.now = 0
         self.is_live = False
         self.running = False
@@ -363,12 +341,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def sender(self, kind: str, name: str, origin: NodeState | None = None) -> Callable[[], None]:
         """Return a function to call whenever something is sent to the `kind` entities of a name.
 
-        What is sent is a message, a request or an answer; whoever waits for it will take it.
-
-        Args:
-            kind: `subscription`, `service` or `client`.
-            name: The topic or the service.
-            origin: Who sends. Its own process takes nothing before its executor has looked anew.
+        What is sent is a message, a request or an answer, and `kind` is `subscription`, `service`
+        or `client`. The process of the `origin` takes it only when its executor has looked anew.
         """
         listeners = self._listeners.setdefault((kind, name), [])
         ready, chain = self._ready, self._chain
@@ -409,14 +383,10 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def run_until(
         self, end: int, done: Callable[[], object] | None = None, *, ends_idle: bool = False
     ) -> None:
-        """Advance virtual time.
+        """Advance virtual time to `end`, in nanoseconds; waiting callbacks go on in the next run.
 
-        Callbacks that wait at the end go on in the next run.
-
-        Args:
-            end: Until when, in nanoseconds.
-            done: The run ends as soon as this is true.
-            ends_idle: It ends, too, as soon as nothing will happen any more; time stays then.
+        The run ends as soon as `done` is true; with `ends_idle`, too, as soon as nothing will
+        happen any more. Time stays then.
 
         Raises:
             EndlessChainError: If callbacks cause one another for ever while no time passes.
@@ -464,10 +434,6 @@ class VirtualTimeExecutor(WaitSetExecutor):
         """Return the time after so many seconds, in nanoseconds; None for none or below zero."""
         return None if seconds is None or seconds < 0 else self.now + round(seconds * 1e9)
 
-    def longest(self) -> int:
-        """Return until when a cell waits that sets no limit, in nanoseconds."""
-        return self.now + LONGEST_WAIT
-
     def block(
         self,
         reason: str,
@@ -479,17 +445,11 @@ class VirtualTimeExecutor(WaitSetExecutor):
     ) -> bool:
         """Suspend the code of a node that calls this, until a time or until something is true.
 
-        In a cell, or in a constructor that a cell calls, it runs the other nodes until then.
-
-        Args:
-            reason: What it waits for, in words.
-            until: When it goes on at the latest, in nanoseconds; None for no limit.
-            met: Returns whether it has come true.
-            needs: The entity of the caller's process whose callback has to run first, if any.
-            spinning: Whether the thread of the caller runs other callbacks of its process.
+        In a cell, or in a constructor that a cell calls, it runs the other nodes until then. See
+        `Wait` for the arguments.
 
         Returns:
-            Whether it came true; False if the time was up first.
+            Whether `met` came true; False if the time was up first.
 
         Raises:
             SessionError: If it can never end.
@@ -527,14 +487,9 @@ class VirtualTimeExecutor(WaitSetExecutor):
         most: int | None = None,
         needs: Any = None,  # noqa: ANN401 - any entity of rclpy
     ) -> None:
-        """Run callbacks of the caller's process, as one of rclpy's `spin` functions does.
+        """Run callbacks of these nodes, as one of rclpy's `spin` functions does.
 
-        Args:
-            states: The nodes that are spun.
-            until: When it ends at the latest, in nanoseconds; None for no limit.
-            met: It ends as soon as this is true.
-            most: How many callbacks run at most; None for any number.
-            needs: The entity whose callback has to run before `met` can come true, if it is known.
+        It ends after `most` callbacks, if given, and otherwise as `block` does.
 
         Raises:
             Exception: What a callback raises.
@@ -610,7 +565,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def _block_main(self, reason: str, until: int | None, met: Callable[[], object] | None) -> bool:
         """Run the others until then; the greenlet that waits for the run cannot be suspended."""
         call, label = self.current, self.calling
-        latest = self.longest() if until is None else until
+        latest = self.now + LONGEST_WAIT if until is None else until
         if self.constructor_waits is not None:
             self.run_until(self.now, met)
             if met is None or not met():
@@ -727,8 +682,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def _advance_to_next(self) -> bool:
         """Jump to what comes next: timers, then QoS deadlines, then sleepers of an instant.
 
-        Returns:
-            Whether anything comes before the end of the run.
+        Return whether anything comes before the end of the run.
         """
         at = timer = self._agenda.next_deadline(self.now)
         missed = None
@@ -834,7 +788,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
                 return
             turns += 1
             if turns > MOST_TURNS:
-                raise chain.turns_without_end(self._suspects())
+                raise self._turns_without_end()
 
     def _run_one_behind(self) -> bool:
         """Run one callback of a process that could not run it before; return whether one did."""
@@ -1057,9 +1011,14 @@ class VirtualTimeExecutor(WaitSetExecutor):
         if waiting.process is not None:
             self._catch_up(waiting.process)
 
-    def _suspects(self) -> list[str]:
+    def _turns_without_end(self) -> EndlessChainError:
         names = [f"{w.state.name} ({w.name})" for w in self._coroutines.waiting if w.state]
-        return list(dict.fromkeys(names)) or [s.name for s in self._host.states() if s.spinning]
+        names = list(dict.fromkeys(names)) or [s.name for s in self._host.states() if s.spinning]
+        return EndlessChainError(
+            f"Callbacks wait for each other without end: {', '.join(names)}.",
+            "Each gets further whenever another has run, and no time passes meanwhile.",
+            "Break the circle: begin each piece of work from a timer.",
+        )
 
 
 def _throw(thread: greenlet, error: BaseException) -> None:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Coroutine, Iterable
-from contextlib import AbstractContextManager
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from greenlet import GreenletExit
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import Executor, SingleThreadedExecutor, TimeoutException
 from rclpy.guard_condition import GuardCondition
 from rclpy.node import Node
@@ -25,7 +26,11 @@ from rclpy.timer import Timer
 
 from rosbeat.ros.entities import Entry, NodeState, callback_name
 from rosbeat.ros.isolation import DeadlinePassed
-from rosbeat.ros.processes import Call, Process, Wait
+from rosbeat.ros.processes import Call, Process
+from rosbeat.ros.qos_events import event_name, topic_of
+
+if TYPE_CHECKING:
+    from rosbeat.ros.world import World
 
 # Callbacks that wait by themselves: `async def` callbacks and tasks.
 
@@ -35,7 +40,6 @@ class Waiting:
     """A coroutine or task that has not ended.
 
     Attributes:
-        task: rclpy's task.
         process: Where it runs; None for one that was created outside of all nodes.
         state: The node that began it, if one did.
         name: What it is called in an error.
@@ -71,27 +75,17 @@ class Waiting:
 
     def place(self) -> object:
         """Return what it awaits, innermost: another object each time it has got further."""
-        inner = self.task._handler
-        while (deeper := _awaited_by(inner)) is not None:
-            inner = deeper
+        inner, deeper = None, self.task._handler
+        while deeper is not None:  # a coroutine, a generator, or neither
+            inner, deeper = deeper, getattr(deeper, "cr_await", None)
+            deeper = getattr(inner, "gi_yieldfrom", None) if deeper is None else deeper
         return inner
 
 
-def _awaited_by(waiting: Any) -> Any:  # noqa: ANN401 - a coroutine, a generator, or neither
-    awaited = getattr(waiting, "cr_await", None)
-    return getattr(waiting, "gi_yieldfrom", None) if awaited is None else awaited
-
-
 class Coroutines:
-    """All coroutines of one executor, in the order in which they began.
+    """The coroutines of one executor that have not ended, in the order in which they began.
 
     Of each process the newest goes on first, as in rclpy (`_wait_for_ready_callbacks`).
-
-    Args:
-        executor: The executor that future results are scheduled on.
-
-    Attributes:
-        waiting: Those that have not ended.
     """
 
     def __init__(self, executor: Executor) -> None:
@@ -120,8 +114,12 @@ class Coroutines:
         """
         for _ in range(2):
             while self._round:
-                if self._step_one(self._round.popleft(), run):
-                    return True
+                waiting = self._round.popleft()
+                if not waiting.ended and not waiting.rests:
+                    before = waiting.place()
+                    run(waiting)
+                    if waiting.ended or waiting.place() is not before:
+                        return True
             of_process: dict[int, list[Waiting]] = {}
             for waiting in self.waiting:
                 of_process.setdefault(id(waiting.process), []).append(waiting)
@@ -142,47 +140,11 @@ class Coroutines:
             waiting.task.cancel()
             self.end(waiting)
 
-    @staticmethod
-    def _step_one(waiting: Waiting, run: Callable[[Waiting], None]) -> bool:
-        if waiting.ended or waiting.rests:
-            return False
-        before = waiting.place()
-        run(waiting)
-        return waiting.ended or waiting.place() is not before
-
 
 # What cannot be taken directly: guard conditions and waitables, through rclpy's own wait set.
 
 
 _TAKEN_DIRECTLY = (Subscription, Timer, Client, Service)
-
-
-class Host(Protocol):
-    """What the executor asks of its session."""
-
-    def states(self) -> list[NodeState]:
-        """Return all nodes, in order of creation."""
-
-    def state_of(self, node: Node) -> NodeState | None:
-        """Return what is known of a node."""
-
-    def spin_node(self, state: NodeState) -> None:
-        """Run this node's callbacks from now on."""
-
-    def pause_node(self, state: NodeState) -> None:
-        """Run none of this node's callbacks until `spin_node`."""
-
-    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
-        """Record that a callback of this entity is about to run."""
-
-    def callback_raised(self, state: NodeState | None, name: str, error: BaseException) -> None:
-        """Record an exception that left a callback, and end its process."""
-
-    def deadlocked(self, waits: list[Wait]) -> None:
-        """Record that callbacks wait for ever."""
-
-    def running(self) -> AbstractContextManager[None]:
-        """Prepare this thread for running nodes."""
 
 
 #: What ends more than the callback in which it is raised.
@@ -195,20 +157,20 @@ class WaitSetExecutor(SingleThreadedExecutor):
     One pass costs about a millisecond. It is made for nodes that have guard conditions or waitables
     (actions, say), and once for all nodes after entities were made or destroyed: publishers and
     subscriptions tell of a QoS that does not fit by waitables too, but only then.
-
-    Attributes:
-        current: The code of a node that is running, or None.
     """
 
     current: Any
-    _host: Host
-    # rclpy's `__del__` asks for it, also if an interrupt has come before it was made.
-    _sigint_gc: Any = None
+    _host: World
 
     def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own
         self._changed = True
         self._wait_set_nodes: list[Node] = []
         super().__init__(**options)
+
+    def __del__(self) -> None:
+        # An interrupt may have come while it was made, or it is collected after its parts.
+        with suppress(AttributeError, InvalidHandle):
+            super().__del__()
 
     def get_nodes(self) -> list[Node]:
         """Return the nodes whose processes have a thread for them, in order of creation.
@@ -281,16 +243,14 @@ class WaitSetExecutor(SingleThreadedExecutor):
         raise NotImplementedError
 
     def _nodes_for_wait_set(self) -> list[Node]:
-        if not self._changed:
-            return self._wait_set_nodes and self._those_that_spin()
-        self._changed = False
+        if not self._changed and not self._wait_set_nodes:
+            return []
         nodes = self.get_nodes()
+        if not self._changed:
+            return [node for node in self._wait_set_nodes if node in nodes]
+        self._changed = False
         self._wait_set_nodes = list(_with_waitables(self._host.states()))
         return nodes
-
-    def _those_that_spin(self) -> list[Node]:
-        spinning = self.get_nodes()
-        return [node for node in self._wait_set_nodes if node in spinning]
 
 
 def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
@@ -299,15 +259,17 @@ def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
     return getattr(callback, "__name__", type(callback).__name__)
 
 
-def waitable_kind(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
-    """Return what kind of callback it has, as `CallbackRecord` names it."""
+def waitable_label(entity: Any, node: Node) -> tuple[str, str, str]:  # noqa: ANN401
+    """Return kind, name and source with which a run of its callback is recorded."""
     if isinstance(entity, EventHandler):
-        return "event"
-    return "guard condition" if isinstance(entity, GuardCondition) else "waitable"
+        source = f"{event_name(entity)} of {topic_of(entity, node)}"
+        return "event", waitable_name(entity), source
+    kind = "guard condition" if isinstance(entity, GuardCondition) else "waitable"
+    return kind, waitable_name(entity), ""
 
 
 def _with_waitables(states: Iterable[NodeState]) -> Iterable[Node]:
-    for node in (state.node for state in states if state.spinning and state.node):
+    for node in (state.node for state in states if state.spinning):
         ours = any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
         if ours or any(True for _ in node.guards):
             yield node

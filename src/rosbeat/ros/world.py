@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from functools import partial
 from itertools import count
 from threading import get_ident
@@ -19,20 +19,20 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.errors import SessionError
-from rosbeat.records import INFRASTRUCTURE_TOPICS, Fault, GraphSnapshot, LogRecord
-from rosbeat.ros.actions import ActionEnd, action_of, wait_by_the_wall
+from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
+from rosbeat.ros.actions import action_of
 from rosbeat.ros.blocking import VirtualWaits
 from rosbeat.ros.clock import SessionClock, make_clock
 from rosbeat.ros.console import Console, deadlock_text, fault_text, note, work_text
 from rosbeat.ros.context import SessionContext
-from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name, period_text
+from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name
 from rosbeat.ros.errors import INSTEAD_OF_WAITING, check_name, deadlock, foreign_node, no_such_node
 from rosbeat.ros.faults import fault_of, line_of
-from rosbeat.ros.graph import ExternalMessages, GraphObserver, snapshot, with_other_processes
+from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
 from rosbeat.ros.processes import Call, Process, Wait
-from rosbeat.ros.qos_events import Limits, event_source, topic_of, wait_for_stored
+from rosbeat.ros.qos_events import Limits, wait_for_stored
 from rosbeat.ros.randomness import SeededRandom
 from rosbeat.ros.recording import (
     Memory,
@@ -40,13 +40,9 @@ from rosbeat.ros.recording import (
     Recorder,
     SessionLogger,
     repair_message_classes,
-    tap_client,
-    tap_rate,
-    tap_timer,
-    type_name,
 )
-from rosbeat.ros.virtual_time import VirtualTimeExecutor
-from rosbeat.ros.wait_set import waitable_kind, waitable_name
+from rosbeat.ros.virtual_time import LONGEST_WAIT, VirtualTimeExecutor
+from rosbeat.ros.wait_set import waitable_label, waitable_name
 
 
 class World:
@@ -56,18 +52,12 @@ class World:
     it for nodes. It never refers to the `Session`, so that a session nobody holds any more is
     closed at once.
 
-    Args:
-        seed: Seed of the random numbers that the nodes draw.
-        domain_id: The ROS domain to join, or None for a private one.
-
     Attributes:
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
-        limits: The deadlines and lifespans that the session counts.
         graph_observer: Sees the other processes; None in a private domain, where there are none.
         external_messages: Records what comes from outside; None in a private domain.
         start: How the node that is being made is started.
-        panel: The instrument panel, or None.
         makers: What the session was handed to make each node, and how it was started.
         next_number: Returns the place of a new entity in the order of creation.
     """
@@ -77,7 +67,7 @@ class World:
         self._entries: dict[Any, Entry] = {}
         # A destroyed node cannot say its name, and a destroyed action stays in the graph.
         self._names: WeakKeyDictionary[Node, str] = WeakKeyDictionary()
-        self._action_ends: WeakSet[Any] = WeakSet()
+        self.action_ends: WeakSet[Any] = WeakSet()
         self._goals = count(1)
         self.next_number = count(1).__next__
         repair_message_classes()
@@ -141,7 +131,7 @@ class World:
         """Run this node's callbacks from now on."""
         state.spinning, state.paused = True, False
         executor = self.live or self.virtual
-        state.node.executor = executor  # type: ignore[union-attr]
+        state.node.executor = executor
         executor.wake()
         self.virtual.resume(state)
 
@@ -162,8 +152,6 @@ class World:
 
     def destroy(self, state: NodeState) -> None:
         """Destroy a node, whole or half-made."""
-        if state.node is None:
-            return
         try:
             state.node.destroy_node()
         except Exception:
@@ -224,22 +212,9 @@ class World:
         if kind == "publisher":
             self._tap_publisher(state, entity)
         elif kind == "rate":
-            tap_rate(entity, partial(self._sleep, self._entries[entity._timer]))
+            entity.sleep = partial(self._sleep, self._entries[entity._timer], entity.sleep)
         else:
             self._watch(state, kind, entity)
-
-    def action_made(
-        self,
-        node: Node,
-        kind: str,
-        entity: Any,  # noqa: ANN401
-        name: str,
-        options: dict[str, Any],
-    ) -> None:
-        """Note that an action server or client was made; see `ActionEnd` for the arguments."""
-        state = self._states[node]
-        state.actions.append(ActionEnd(self, state, kind, entity, name, options))
-        self._action_ends.add(entity)
 
     def node_ends(self, node: Node) -> None:
         """Forget a node that is about to be destroyed."""
@@ -307,9 +282,7 @@ class World:
                 self.recorder.add_callback(self.now(), entry.label_number)
         # An action tells by itself, as soon as it knows what it was.
         elif state is not None and not action_of(entity, state):
-            kind = waitable_kind(entity)
-            source = event_source(entity, topic_of(entity, node)) if kind == "event" else ""
-            self.heard(state, kind, waitable_name(entity), source)
+            self.heard(state, *waitable_label(entity, state.node))
 
     def heard(self, state: NodeState, kind: str, name: str, source: str) -> None:
         """Record a callback of an action or another waitable that is about to run."""
@@ -369,7 +342,7 @@ class World:
         """Wait until something is done, in a callback as in a cell."""
         if self.live is not None:
             self.refuse_in_callback(call)
-            return wait_by_the_wall(done, seconds)
+            return poll(done, None if seconds is None else time.monotonic() + seconds)
         if self.virtual.in_callback:
             needed = needs if self._is_in_current_process(needs) else None
             return self.virtual.block(reason, self.virtual.after(seconds), done, needs=needed)
@@ -407,20 +380,15 @@ class World:
 
     @contextmanager
     def running(self, code: Iterable[object] = ()) -> Iterator[None]:
-        """Prepare this thread for running nodes.
+        """Prepare this thread for running nodes, and classes and functions besides.
 
         Their context is rclpy's default, the random numbers they draw are the session's, and what
         waits takes virtual time.
-
-        Args:
-            code: Classes and functions that are about to run, besides those of the nodes.
         """
         before = self.context.install()
         try:
-            with ExitStack() as stack:
-                stack.enter_context(self._random.lent())
-                if self.live is None:
-                    stack.enter_context(self._waits.installed([*self._code(), *code]))
+            virtually = self._waits.installed([*self._code(), *code])
+            with self._random.lent(), virtually if self.live is None else nullcontext():
                 yield
         finally:
             self.context.uninstall(before)
@@ -438,8 +406,8 @@ class World:
         Without a limit it ends, too, when nothing can happen any more.
         """
         limit = self.virtual.after(seconds)
-        end = self.virtual.longest() if limit is None else limit
         with self.running():
+            end = self.virtual.now + LONGEST_WAIT if limit is None else limit
             self.virtual.run_until(end, done, ends_idle=limit is None)
         return bool(done())
 
@@ -472,14 +440,11 @@ class World:
         is_virtual = executor is self.virtual
         self.virtual.is_live = not is_virtual
         for state in self.states():
-            clock: SessionClock = state.node._clock  # type: ignore[union-attr]
-            if is_virtual:
-                clock.follow_session()
-            else:
-                clock.follow_wall()
+            clock: SessionClock = state.node._clock
+            clock.follow_session() if is_virtual else clock.follow_wall()
             show_sim_time(state.node, is_virtual)
             if state.spinning:
-                state.node.executor = executor  # type: ignore[union-attr]
+                state.node.executor = executor
             for timer in (one.entity for one in state.entries if one.kind.endswith("timer")):
                 # Each timer begins a new period: its deadline is a reading of the other clock.
                 with suppress(InvalidHandle):  # destroyed by its node
@@ -503,7 +468,7 @@ class World:
         self.virtual.close()
         for state in reversed(self.states()):
             self.destroy(state)
-        for entity in list(self._action_ends):
+        for entity in list(self.action_ends):
             with suppress(Exception):  # destroyed already, or half-made
                 entity.destroy()
         if self.graph_observer is not None:
@@ -517,7 +482,7 @@ class World:
 
     def _watch(self, state: NodeState, kind: str, entity: Any) -> None:  # noqa: ANN401
         if kind == "timer":
-            name, source = "", period_text(entity.timer_period_ns)
+            name, source = "", f"{entity.timer_period_ns / NANOSECONDS:g} s"
         else:
             name = source = entity.topic_name if kind == "subscription" else entity.service_name
         called = "answer" if kind == "client" else callback_name(entity.callback)
@@ -530,28 +495,35 @@ class World:
         elif kind == "subscription":
             self._watch_subscription(entry)
         elif kind == "client":
-            sent = partial(self.sent, "service", name, state)
-            tap_client(entity, partial(self._check_call, entry), sent,
-                       partial(self._wait_for_answer, entity))  # fmt: skip
-            waits = partial(self._wait_for_service, entity, entity.wait_for_service)
-            entity.wait_for_service = waits
+            self._watch_client(entry)
         self.virtual.watch(entry)
 
-    def _wait_for_service(
-        self,
-        client: Any,  # noqa: ANN401
-        original: Callable[..., bool],
-        timeout_sec: float | None = None,
-    ) -> bool:
-        """Let the nodes run while a cell waits; in the code of a node, rclpy's own way sleeps."""
-        if self.live is not None or self.virtual.in_callback:
-            return original(timeout_sec)
-        return self.wait_until(client.service_is_ready, timeout_sec)
+    def _watch_client(self, entry: Entry) -> None:
+        """Replace the methods of a client that send or wait."""
+        client = entry.entity
+        send, wait_for_service = client.call_async, client.wait_for_service
+
+        def call_async(request: Any) -> Any:  # noqa: ANN401
+            future = send(request)
+            self.sent("service", entry.name, entry.state)
+            return future
+
+        def call(request: Any, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
+            self._check_call(entry)
+            return self._wait_for_answer(client, call_async(request), timeout_sec)
+
+        def wait(timeout_sec: float | None = None) -> bool:
+            # In the code of a node rclpy's own way sleeps; in a cell the nodes have to run.
+            if self.live is not None or self.virtual.in_callback:
+                return bool(wait_for_service(timeout_sec))
+            return self.wait_until(client.service_is_ready, timeout_sec)
+
+        client.call_async, client.call, client.wait_for_service = call_async, call, wait
 
     def _watch_timer(self, entry: Entry) -> None:
-        clock = entry.entity.clock
-        if isinstance(clock, SessionClock):
-            tap_timer(entry.entity, clock.move, partial(self._timer_reset, entry))
+        timer = entry.entity
+        if isinstance(timer.clock, SessionClock):
+            timer.reset = partial(self._reset_timer, entry, timer.reset)
             return
         entry.kind = "wall timer"
         note(
@@ -559,14 +531,16 @@ class World:
             "fires only while the session is live."
         )
 
-    def _timer_reset(self, entry: Entry) -> None:
+    def _reset_timer(self, entry: Entry, original: Callable[[], None]) -> None:
+        entry.entity.clock.move()
+        original()
         if self.live is None:
             self.virtual.timer_reset(entry)
 
     def _watch_subscription(self, entry: Entry) -> None:
         entry.born = self.recorder.mark()
         taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
-        wait_for_stored(taps, entry)
+        wait_for_stored(taps, entry.entity.qos_profile)
         if self.counts_limits:
             self.limits.subscription_made(entry)
         if self.external_messages is not None:
@@ -578,41 +552,29 @@ class World:
             quiet = partial(self.sent, "subscription", topic, state)
             state.taps.append(PublisherTap(publisher, memory, lambda _: quiet()))
             return
-        channel = self.recorder.channel(topic, type_name(publisher.msg_type), state.name, memory)
-        happened = self.virtual.sender("subscription", topic, state)
-        record = partial(self._record_in_virtual_time, channel.number, happened)
-        published = partial(self._published, channel.number, record, get_ident())
+        number = self.recorder.channel(topic, state.name, memory).number
+        recorder, virtual, thread = self.recorder, self.virtual, get_ident()
+        happened = virtual.sender("subscription", topic, state)
+
+        def record(copy: Any) -> None:  # noqa: ANN401
+            recorder.add_sample(number, virtual.now, copy)
+            happened()
+
+        def published(copy: Any) -> None:  # noqa: ANN401
+            if self.live is not None:
+                with recorder.lock:
+                    recorder.add_sample(number, self.now(), copy)
+            elif get_ident() == thread:
+                record(copy)
+            else:  # a thread of the node's own
+                virtual.elsewhere.append(partial(record, copy))
+
         tap = PublisherTap(publisher, memory, published)
-        tap.channel = channel
         state.taps.append(tap)
         if self.counts_limits:
             self.limits.publisher_made(state, publisher, tap)
         if self.external_messages is not None:
             self.external_messages.watch_publisher(publisher)
-
-    def _published(
-        self,
-        channel: int,
-        record: Callable[[Any], None],
-        thread: int,
-        copy: Any,  # noqa: ANN401
-    ) -> None:
-        if self.live is not None:
-            with self.recorder.lock:
-                self.recorder.add_sample(channel, self.now(), copy)
-        elif get_ident() == thread:
-            record(copy)
-        else:  # a thread of the node's own
-            self.virtual.elsewhere.append(partial(record, copy))
-
-    def _record_in_virtual_time(
-        self,
-        channel: int,
-        happened: Callable[[], None],
-        copy: Any,  # noqa: ANN401
-    ) -> None:
-        self.recorder.add_sample(channel, self.virtual.now, copy)
-        happened()
 
     def _logged(self, level: str, name: str, text: str, function: str, line: int) -> None:
         self.recorder.logs.append(LogRecord(self.now(), level, name, text, function, line))
@@ -637,11 +599,8 @@ class World:
     def _wait_for_answer(self, client: Any, future: Any, timeout_sec: float | None) -> Any:  # noqa: ANN401
         """Do what `client.call` does when it has sent its request (rclpy, `client.py`)."""
         in_callback = self.live is None and self.virtual.in_callback
-        if self.live is not None:
-            self.live.wait_for(future, timeout_sec)
-        else:
-            reason = f"an answer from {client.service_name}"
-            self.wait("client.call", reason, future.done, timeout_sec, client)
+        reason = f"an answer from {client.service_name}"
+        self.wait("client.call", reason, future.done, timeout_sec, client)
         if not future.done():
             client.remove_pending_request(future)
             if timeout_sec is None and not in_callback:
