@@ -309,7 +309,7 @@ BAD = {
     "ros imports panel": (wrong_directions, "rosbeat.ros.a", "from rosbeat.panel import panel"),
     "ros imports sentences": (
         *(wrong_directions, "rosbeat.ros.a"),
-        "from rosbeat.diagnosis.explanation import explain",
+        "from rosbeat.diagnosis.silence import explain",
     ),
     "inside a function": (wrong_directions, "rosbeat.records", "def f():\n import rosbeat.viz"),
     "for types": (

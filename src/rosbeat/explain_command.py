@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
-from rosbeat.diagnosis.explanation import Explanation, explain
+from rosbeat.diagnosis.silence import Explanation, explain
 from rosbeat.diagnosis.situation import StaleBuild
 from rosbeat.errors import CommandError, SessionError
 from rosbeat.ros.errors import duration_ns

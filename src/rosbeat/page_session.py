@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rosbeat.diagnosis.explanation import Explanation
-from rosbeat.diagnosis.explanation import explain as explain_scene
+from rosbeat.diagnosis.silence import Explanation
+from rosbeat.diagnosis.silence import explain as explain_scene
 from rosbeat.ros import session
 from rosbeat.ros.context import show_briefly
 from rosbeat.ros.errors import duration_ns

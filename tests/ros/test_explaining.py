@@ -10,7 +10,7 @@ from std_msgs.msg import Int32
 
 from nodes import Doer, Listener, Talker
 from rosbeat import Session
-from rosbeat.diagnosis.explanation import Explanation
+from rosbeat.diagnosis.silence import Explanation
 from rosbeat.errors import ClosedSessionError, DurationError, SessionError
 
 pytestmark = pytest.mark.ros

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from rosbeat.clinic.cases import Ill
 from rosbeat.clinic.charts import Chart, chart
 from rosbeat.clinic.plans import Plan, Wiring
-from rosbeat.diagnosis.explanation_parts import NODE
+from rosbeat.diagnosis.silence import NODE
 from rosbeat.records import Observation
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rosbeat.clinic.charts import Chart, Member, Talk
-from rosbeat.diagnosis.explanation_parts import count, listing, seconds
+from rosbeat.diagnosis.silence import count, listing, seconds
 
 #: Silent for more than so many times its usual gap, a publisher has stopped.
 _GAPS = 3.0

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator
 
 from rosbeat.clinic.charts import Chart, Hearing
 from rosbeat.clinic.plans import Wiring
-from rosbeat.diagnosis.explanation_parts import listing
 from rosbeat.diagnosis.qos import incompatible
+from rosbeat.diagnosis.silence import listing
 from rosbeat.records import Endpoint
 
 _OTHER = {"publisher": "subscription", "subscription": "publisher"}

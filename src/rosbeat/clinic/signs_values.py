@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from rosbeat.clinic.charts import Chart, Talk
 from rosbeat.clinic.plans import OVER, STEP
-from rosbeat.diagnosis.explanation_parts import listing
+from rosbeat.diagnosis.silence import listing
 
 #: A room that nothing holds does not go so far over its limits; another unit goes farther.
 _FAR = 2 * OVER

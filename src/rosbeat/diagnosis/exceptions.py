@@ -31,7 +31,7 @@ def _always(_: Fault, __: Found) -> bool:
 
 @dataclass(frozen=True)
 class Row:
-    """A rule that goes by an exception's class and text.
+    """Recognise a mistake by an exception's class and text.
 
     Attributes:
         mistake: The mistake's id.

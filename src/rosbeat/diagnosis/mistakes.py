@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Mistake:
-    """A mistake that has a name.
+    """Name a kind of mistake.
 
     Attributes:
         id: Its name in records and tests, such as `topic-misspelled`.
@@ -26,14 +26,14 @@ class Mistake:
 
     @property
     def heading(self) -> str:
-        """Its title as a sentence begins, unless that begins with code: `super().__init__ ...`."""
+        """Return its title with a capital, unless it begins with code: `super().__init__ ...`."""
         first = self.title.split()[0]
         return self.title[:1].upper() + self.title[1:] if first.isalpha() else self.title
 
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """A mistake that was recognised.
+    """Hold a mistake that was recognised.
 
     Attributes:
         mistake: Its id, from `MISTAKES`.
@@ -48,7 +48,7 @@ class Diagnosis:
 
 @dataclass(frozen=True)
 class Meaning:
-    """An error that was recognised, in the words of this course.
+    """Hold what an error means, in the words of this course.
 
     Attributes:
         mistake: Its id, from `mistakes.MISTAKES`.

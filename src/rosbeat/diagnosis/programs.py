@@ -64,7 +64,7 @@ def diagnose_output(text: str) -> Diagnosis | None:
 
 
 def meaning_of_output(text: str) -> Meaning | None:
-    """What a program's output means, if it shows a known mistake; else None."""
+    """Return what a program's output means, if it shows a known mistake; else None."""
     fault = fault_in(text)
     if fault is None:
         return _registered_twice(text)
@@ -72,7 +72,7 @@ def meaning_of_output(text: str) -> Meaning | None:
 
 
 def fault_in(text: str) -> Fault | None:
-    """The record of the last exception that a program's output shows, or None.
+    """Return the record of the last exception that a program's output shows, or None.
 
     The line is the learner's own; the callback is the function that it is in.
     """
@@ -100,7 +100,7 @@ def _frames(lines: list[str]) -> Iterator[_Frame]:
 
 
 def _rest(lines: list[str]) -> Iterator[str]:
-    """The lines of a message that go on under the first: they are indented."""
+    """Return the lines of a message that go on under the first: they are indented."""
     for line in lines:
         if not line.startswith(" "):
             return

@@ -18,7 +18,7 @@ BLOCKED, SILENT = "blocked", "no answer"
 
 @dataclass(frozen=True)
 class Beat:
-    """The heartbeat of one endpoint on the topic.
+    """Hold what one endpoint on the topic has done.
 
     Attributes:
         node: Full name of its node.
@@ -42,13 +42,13 @@ class Beat:
 
     @property
     def seconds(self) -> float:
-        """For how long it was watched, in seconds."""
+        """Return for how long it was watched, in seconds."""
         return self.watched_ns / NANOSECONDS
 
 
 @dataclass(frozen=True)
 class Condition:
-    """How a node does.
+    """Hold how a node does.
 
     Attributes:
         node: Full name of the node.
@@ -67,7 +67,7 @@ class Condition:
 
 @dataclass(frozen=True)
 class Former:
-    """Somebody who has published on the topic and is no longer there.
+    """Name a node that has published on the topic and is no longer there.
 
     Attributes:
         node: Full name of the node; `?` if it was in another process and is not known.
@@ -82,7 +82,7 @@ class Former:
 
 @dataclass(frozen=True)
 class OtherDomain:
-    """Another ROS domain on this machine in which somebody takes part.
+    """Describe another ROS domain of this machine that has participants.
 
     Attributes:
         domain_id: Its id.
@@ -99,7 +99,7 @@ class OtherDomain:
 
 @dataclass(frozen=True)
 class StaleBuild:
-    """A program of the workspace that names the topic, and was edited since the last build.
+    """Name a program of the workspace that names the topic, and was edited since the last build.
 
     Attributes:
         package: The package.
@@ -116,7 +116,7 @@ class StaleBuild:
 
 @dataclass(frozen=True)
 class Scene:
-    """What was seen around a topic.
+    """Hold what was seen around a topic.
 
     Attributes:
         graph: The graph.
@@ -147,19 +147,19 @@ class Scene:
     stale_builds: tuple[StaleBuild, ...] = ()
 
     def beat(self, end: Endpoint) -> Beat:
-        """The heartbeat of an endpoint; one that knows nothing if there is none."""
+        """Return what an endpoint has done; a record that knows nothing if there is none."""
         for beat in self.beats:
             if (beat.node, beat.kind) == (end.node, end.kind):
                 return beat
         return Beat(end.node, end.kind)
 
     def condition(self, node: str) -> Condition:
-        """How a node does; running if nothing else is known."""
+        """Return how a node does; running if nothing else is known."""
         return next((one for one in self.conditions if one.node == node), Condition(node))
 
 
 def rate_of(times_ns: Sequence[int]) -> float:
-    """Messages a second, from their times in nanoseconds, ascending; 0 if it cannot be known."""
+    """Return messages a second, from their ascending times in nanoseconds; 0 if unknown."""
     if len(times_ns) < 2 or times_ns[-1] <= times_ns[0]:
         return 0.0
     return (len(times_ns) - 1) * NANOSECONDS / (times_ns[-1] - times_ns[0])

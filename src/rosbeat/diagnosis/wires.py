@@ -10,9 +10,9 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from rosbeat.diagnosis.exceptions import diagnose_fault
-from rosbeat.diagnosis.explanation_names import difference, nearest
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
+from rosbeat.diagnosis.silence import difference, nearest
 from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Observation
 
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from rosbeat.diagnosis.explanation_names import difference, nearest
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.silence import difference, nearest
 from rosbeat.diagnosis.wires import Wire, why_not_published
 from rosbeat.exercises.exercise import failed_by, passed
 from rosbeat.exercises.heating_run import GOALS, START, TYPE, Goal

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosbeat.diagnosis.explanation_names import difference, nearest
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.silence import difference, nearest
 from rosbeat.exercises import adjusting, heating
 from rosbeat.exercises.adjusting import Answer, Limits, phases
 from rosbeat.exercises.exercise import Exercise, failed_by, passed

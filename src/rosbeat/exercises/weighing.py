@@ -8,8 +8,8 @@ from difflib import get_close_matches
 from rosbeat.clinic import signs
 from rosbeat.clinic.charts import Chart
 from rosbeat.clinic.names import KNOWN
-from rosbeat.diagnosis.explanation_parts import listing
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.silence import listing
 from rosbeat.exercises.claims import Claim
 
 _INSTRUMENTS = (

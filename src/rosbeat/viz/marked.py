@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from rosbeat.diagnosis.explanation import Explanation
-from rosbeat.diagnosis.explanation_parts import LINK, NEAR, NODE, TOPIC, TWINS, Mark
+from rosbeat.diagnosis.silence import LINK, NEAR, NODE, TOPIC, TWINS, Explanation, Mark
 from rosbeat.viz.wiring import Edge, Wiring, node_key, topic_key, wiring
 
 _FAULT = "marked"

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from rosbeat.diagnosis.explanation import Explanation
+from rosbeat.diagnosis.silence import Explanation
 from rosbeat.errors import PictureError
 from rosbeat.records import GraphSnapshot
 from rosbeat.viz import arrows, frames, sources, theme

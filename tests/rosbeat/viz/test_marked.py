@@ -3,7 +3,7 @@
 import pytest
 from matplotlib.patches import Ellipse, FancyBboxPatch, PathPatch, Polygon
 
-from rosbeat.diagnosis.explanation import explain
+from rosbeat.diagnosis.silence import explain
 from rosbeat.diagnosis.situation import Beat, Condition, Scene
 from rosbeat.records import Endpoint, GraphSnapshot, QoS
 from rosbeat.viz import theme

@@ -5,8 +5,8 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass
 
-from rosbeat.diagnosis.explanation_names import difference, nearest
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.silence import difference, nearest
 from rosbeat.records import Observation, Sample
 
 #: The agreed outputs and their types.

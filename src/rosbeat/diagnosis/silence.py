@@ -1,0 +1,1008 @@
+"""Say why nothing arrives on a topic, from what was seen to an explanation. Pure functions."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from difflib import SequenceMatcher
+from html import escape
+from textwrap import fill
+
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.qos import incompatible, rule, words
+from rosbeat.diagnosis.situation import (
+    BLOCKED,
+    ENDED,
+    NOT_ADDED,
+    PAUSED,
+    RUNNING,
+    SILENT,
+    Beat,
+    Condition,
+    OtherDomain,
+    Scene,
+    StaleBuild,
+)
+from rosbeat.records import NANOSECONDS, Endpoint, GraphSnapshot, QoS, is_hidden
+
+# Which topic was probably meant.
+
+#: How like two names have to be, from 0 to 1. At 0.8 `temprature` and `temperatures` are like
+#: `temperature`, and `humidity`, `status` or `temp` are not.
+_LIKE = 0.8
+
+
+def nearest(name: str, others: Iterable[str]) -> str:
+    """Return the name that is most like `name`, or an empty text if none is like it.
+
+    Capitals do not count. Two names that end alike are alike too, whatever stands before: a
+    namespace is easily forgotten.
+
+    Args:
+        name: A full name, such as `/temperature`.
+        others: Full names; `name` itself does not count.
+    """
+    rated = [(_likeness(name, other), other) for other in sorted(set(others) - {name})]
+    best = max(rated, default=(0.0, ""), key=lambda pair: pair[0])
+    return best[1] if best[0] >= _LIKE else ""
+
+
+def difference(one: str, other: str) -> str:
+    """Say in what two names that are alike differ, as the end of a sentence."""
+    if one.lower() == other.lower():
+        return "they differ in capital letters"
+    if _tail(one) == _tail(other):
+        return "they differ in what stands before the last slash"
+    if one.strip("/_").replace("_", "") == other.strip("/_").replace("_", ""):
+        return "they differ in underscores"
+    return f"they differ in {_letters(one, other)}"
+
+
+def _likeness(one: str, other: str) -> float:
+    low, other_low = one.lower().strip("/"), other.lower().strip("/")
+    alike = SequenceMatcher(None, low, other_low, autojunk=False).ratio()
+    return max(alike, 0.9 if _tail(low) == _tail(other_low) else 0.0)
+
+
+def _tail(name: str) -> str:
+    return name.rpartition("/")[2]
+
+
+def _letters(one: str, other: str) -> str:
+    """Return how many letters differ: each that is missing, too much or another one counts."""
+    steps = SequenceMatcher(None, one, other, autojunk=False).get_opcodes()
+    apart = [(one[a:b], other[c:d]) for kind, a, b, c, d in steps if kind != "equal"]
+    number = sum(max(len(here), len(there)) for here, there in apart)
+    # A digit, an underscore and a slash are no letters.
+    noun = "letter" if all((here + there).isalpha() for here, there in apart) else "character"
+    return f"one {noun}" if number == 1 else f"{number} {noun}s"
+
+
+# What an explanation is put together from: a finding, marks in the graph, and words.
+
+#: Kinds of marks.
+LINK, NODE, TWINS, NEAR, TOPIC = "link", "node", "twins", "near", "topic"
+
+
+@dataclass(frozen=True)
+class Mark:
+    """Mark a place in the graph where a cause is.
+
+    Attributes:
+        kind: `link`, between a node and a topic, where nothing passes; `node`, which does not run;
+            `twins`, several nodes of one name; `near`, two topics whose names are almost the same;
+            `topic`, which nobody uses.
+        subject: Full name of the node; of the first topic, of a near miss.
+        other: Full name of the topic; of the second topic, of a near miss; empty for a node.
+        words: What is the matter there, a few words, in lines.
+        side: Of a link: `publisher` or `subscription`, what the node is on that topic.
+    """
+
+    kind: str
+    subject: str
+    other: str = ""
+    words: tuple[str, ...] = ()
+    side: str = ""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Hold one cause.
+
+    Attributes:
+        diagnosis: The mistake, with evidence and hint.
+        headline: What is the matter, one sentence without its end.
+        marks: Where in the graph.
+    """
+
+    diagnosis: Diagnosis
+    headline: str
+    marks: tuple[Mark, ...] = ()
+
+
+def finding(
+    mistake: str, headline: str, evidence: str, hint: str, marks: Iterable[Mark] = ()
+) -> Finding:
+    """Put a finding together."""
+    return Finding(Diagnosis(mistake, evidence, hint), headline, tuple(marks))
+
+
+def link(end: Endpoint, *words: str) -> Mark:
+    """Mark the link between an endpoint's node and its topic."""
+    return Mark(LINK, end.node, end.name, words, end.kind)
+
+
+def listing(names: Iterable[str], last: str = "and") -> str:
+    """Names as a sentence has them, each once: `a`, `a and b`, `a, b and c`."""
+    items = list(dict.fromkeys(names))
+    if len(items) < 2:
+        return "".join(items)
+    return f"{', '.join(items[:-1])} {last} {items[-1]}"
+
+
+def nodes_of(ends: Iterable[Endpoint]) -> str:
+    """Return the nodes of some endpoints, as a sentence has them."""
+    return listing(end.node for end in ends)
+
+
+def count(number: int, noun: str) -> str:
+    """Return a number with its noun: `1 message`, `no messages`."""
+    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
+
+
+def verb(ends: Iterable[Endpoint], one: str, many: str) -> str:
+    """Return the form of a verb that fits the number of nodes."""
+    return one if len({end.node for end in ends}) == 1 else many
+
+
+def short_type(name: str) -> str:
+    """Return a type as the page's code calls it: `Float32`."""
+    return name.rsplit("/", 1)[-1]
+
+
+def rate_words(rate_hz: float) -> str:
+    """Return a rate as a person says it: `1 message a second`, `a message every 2 s`."""
+    if rate_hz < 0.95:
+        return f"a message every {_two_digits(1 / rate_hz)} s"
+    rate = _two_digits(rate_hz)
+    return f"{rate} message{'' if rate == '1' else 's'} a second"
+
+
+def comes(rate_hz: float, one: str, many: str) -> str:
+    """Return a rate with its verb: `1 message a second comes`, `4 messages a second come`."""
+    words = rate_words(rate_hz)
+    return f"{words} {many if ' messages ' in words else one}"
+
+
+def qos_words(qos: QoS) -> str:
+    """Return what matters of a quality of service."""
+    said = [qos.reliability, qos.durability, *([f"depth {qos.depth}"] if qos.depth else [])]
+    for name, limit in (("deadline", qos.deadline_ns), ("lifespan", qos.lifespan_ns)):
+        said += [f"{name} {limit / NANOSECONDS:g} s"] if limit else []
+    return ", ".join(said)
+
+
+def seconds(value: float) -> str:
+    """Return a time in seconds: `3 s`, `0.25 s`."""
+    return f"{value:.3g} s" if value < 100 else f"{value:.0f} s"
+
+
+def _two_digits(value: float) -> str:
+    # A clock that is measured is never exact: 0.9987 a second is one a second.
+    return f"{float(f'{value:.2g}'):g}"
+
+
+# Why two sides of a topic are not connected: one is missing, or they do not fit.
+
+_OTHER = {"publisher": "subscription", "subscription": "publisher"}
+_DOES = {
+    "publisher": ("publishes on", "publish on"),
+    "subscription": ("subscribes to", "subscribe to"),
+}
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Hold the two sides of a topic.
+
+    Attributes:
+        topic: Its full name.
+        publishers: Who publishes.
+        subscriptions: Who subscribes.
+    """
+
+    topic: str
+    publishers: tuple[Endpoint, ...]
+    subscriptions: tuple[Endpoint, ...]
+
+    @property
+    def pairs(self) -> Iterator[tuple[Endpoint, Endpoint]]:
+        """Return every publisher with every subscription."""
+        return ((one, other) for other in self.subscriptions for one in self.publishers)
+
+    @property
+    def missing(self) -> str:
+        """Return the side that nobody is on, `both`, or empty."""
+        if not self.publishers:
+            return "publisher" if self.subscriptions else "both"
+        # A publisher that is matched is heard by somebody who is not shown, as `ros2 topic echo`.
+        heard = self.subscriptions or any(end.matched > 0 for end in self.publishers)
+        return "" if heard else "subscription"
+
+
+def sides_of(topic: str, graph: GraphSnapshot) -> Sides:
+    """Return the two sides of a topic."""
+    return Sides(topic, graph.on(topic, "publisher"), graph.on(topic, "subscription"))
+
+
+def links(sides: Sides, scene: Scene) -> Iterator[Finding]:
+    """Find everything that keeps the sides of a topic apart."""
+    yield from _types(sides)
+    yield from _qualities(sides)
+    yield from _unconnected(sides)
+    if sides.missing:
+        yield _misspelled(sides, scene.graph) or _nobody(sides, scene)
+
+
+# They do not fit.
+
+
+def _types(sides: Sides) -> Iterator[Finding]:
+    for end in sides.subscriptions:
+        others = sides.publishers
+        if not others or any(one.type_name == end.type_name for one in others):
+            continue
+        sent, asked = _two_types(others[0].type_name, end.type_name)
+        yield finding(
+            "type-mismatch",
+            f"two message types on {sides.topic}",
+            f"{nodes_of(others)} {verb(others, 'publishes', 'publish')} {sent}, and {end.node} "
+            f"subscribes to {asked}. ROS connects them only if the type is the same.",
+            "Decide on one type, and name it in `create_publisher` and in `create_subscription`.",
+            [link(end, f"sends {sent}", f"asks for {asked}")],
+        )
+
+
+def _two_types(one: str, other: str) -> tuple[str, str]:
+    if short_type(one) == short_type(other):
+        return one, other
+    return short_type(one), short_type(other)
+
+
+def _qualities(sides: Sides) -> Iterator[Finding]:
+    for end in sides.subscriptions:
+        clashing = [one for one in _same_type(end, sides.publishers) if _clash(one, end)]
+        for one in clashing:
+            all_do = len(clashing) == len(sides.publishers)
+            yield _quality(one, end, end if all_do else one)
+
+
+def _same_type(end: Endpoint, others: Iterable[Endpoint]) -> list[Endpoint]:
+    return [one for one in others if one.type_name == end.type_name]
+
+
+def _clash(publisher: Endpoint, subscription: Endpoint) -> tuple[str, ...]:
+    return incompatible(publisher.qos, subscription.qos)
+
+
+def _quality(publisher: Endpoint, subscription: Endpoint, marked: Endpoint) -> Finding:
+    policies = _clash(publisher, subscription)
+    offers = listing(words(publisher.qos, one) for one in policies)
+    asks = listing(words(subscription.qos, one) for one in policies)
+    rules = "; ".join(f"{one}: {rule(one)}" for one in policies)
+    return finding(
+        "qos-mismatch",
+        f"{listing(policies)} of {publisher.node} and {subscription.node} do not fit"
+        if len(policies) > 1
+        else f"the {policies[0]} of {publisher.node} and {subscription.node} does not fit",
+        f"{publisher.node} offers {offers}, and {subscription.node} asks for {asks}. The rule of "
+        f"{rules}.",
+        "The publisher has to offer at least what the subscription asks for. Give both sides the "
+        "same QoS.",
+        [link(marked, f"offers {offers}", f"asks for {asks}")],
+    )
+
+
+def _unconnected(sides: Sides) -> Iterator[Finding]:
+    for end in sides.subscriptions:
+        fitting = [one for one in _same_type(end, sides.publishers) if not _clash(one, end)]
+        if not fitting or end.matched != 0:
+            continue
+        yield finding(
+            UNKNOWN,
+            f"{nodes_of(fitting)} and {end.node} are not connected",
+            f"{fitting[0].node} offers {qos_words(fitting[0].qos)}, {end.node} asks for "
+            f"{qos_words(end.qos)}, and the type is the same. Nothing of that stands in the way, "
+            "and the middleware has not connected them.",
+            "If they have only just begun, ask again in a moment. If not, look at the deadline, "
+            "the lifespan and the liveliness in the QoS of both sides.",
+            [link(end, "not connected")],
+        )
+
+
+# One side is missing.
+
+
+def _misspelled(sides: Sides, graph: GraphSnapshot) -> Finding | None:
+    if sides.missing == "both":
+        return None
+    wanted = sides.missing
+    here = sides.publishers or sides.subscriptions
+    name = nearest(sides.topic, _one_sided(wanted, graph))
+    if not name:
+        return None
+    there = graph.on(name, wanted)
+    pair = (sides.topic, name) if wanted == "subscription" else (name, sides.topic)
+    how = difference(sides.topic, name)
+    return finding(
+        "topic-misspelled",
+        f"{pair[0]} and {pair[1]} are two topics",
+        f"{nodes_of(here)} {verb(here, *_DOES[_OTHER[wanted]])} {sides.topic}, and "
+        f"{nodes_of(there)} {verb(there, *_DOES[wanted])} {name}; {how}. To ROS these are two "
+        "names.",
+        "Compare the two names letter by letter, and write the same one on both sides.",
+        [Mark(NEAR, *pair, ("almost the", "same name"))],
+    )
+
+
+def _one_sided(kind: str, graph: GraphSnapshot) -> Iterator[str]:
+    """Return topics with somebody on this side and nobody on the other."""
+    for name in visible_topics(graph):
+        if sides_of(name, graph).missing == _OTHER[kind]:
+            yield name
+
+
+def visible_topics(graph: GraphSnapshot) -> list[str]:
+    """Return the topics that a learner has made, sorted."""
+    return [name for name in graph.topics() if not is_hidden(name)]
+
+
+def _nobody(sides: Sides, scene: Scene) -> Finding:
+    if sides.missing == "both":
+        return _unknown(sides.topic, scene)
+    if sides.missing == "publisher":
+        return _no_publisher(sides, scene)
+    return finding(
+        "no-subscription",
+        f"nobody subscribes to {sides.topic}",
+        f"{nodes_of(sides.publishers)} {verb(sides.publishers, 'publishes', 'publish')} there, and "
+        "no node listens: what is published goes nowhere.",
+        f"Start the node that listens{_how_to_start(scene)}, and compare the topic's name in its "
+        "`create_subscription`.",
+    )
+
+
+def _no_publisher(sides: Sides, scene: Scene) -> Finding:
+    listeners = sides.subscriptions
+    start = f"tart the node that publishes{_how_to_start(scene)}, and compare the topic's name in"
+    # Others listen to the near one, so it may well be another topic: a question, and no verdict.
+    near = nearest(sides.topic, _with_publishers(scene.graph))
+    asked = (
+        f"Is {near} meant, where somebody publishes? {difference(sides.topic, near).capitalize()}. "
+        f"If not, s"
+        if near
+        else "S"
+    )
+    return finding(
+        "no-publisher",
+        f"nobody publishes on {sides.topic}",
+        f"{nodes_of(listeners)} {verb(listeners, 'listens', 'listen')} there, and no node "
+        f"publishes{_before(scene)}. {_published_topics(scene.graph)}",
+        f"{asked}{start} its `create_publisher`.",
+        [Mark(NEAR, near, sides.topic, ("almost the", "same name"))] if near else [],
+    )
+
+
+def _before(scene: Scene) -> str:
+    """Say who published there before."""
+    if not scene.former:
+        return ""
+    last = scene.former[-1]
+    who = "another process" if last.node == "?" else last.node
+    return f" now; {who} did until {last.last_ns / 1e9:.6g} s, and is no longer there"
+
+
+def _published_topics(graph: GraphSnapshot) -> str:
+    return f"Topics that are published: {listing(_with_publishers(graph)) or 'none'}."
+
+
+def _with_publishers(graph: GraphSnapshot) -> list[str]:
+    return [name for name in visible_topics(graph) if graph.on(name, "publisher")]
+
+
+def _unknown(topic: str, scene: Scene) -> Finding:
+    names = visible_topics(scene.graph)
+    near = nearest(topic, names)
+    marks = [Mark(NEAR, near, topic, ("almost the", "same name"))] if near else []
+    hint = (
+        f"Did you mean {near}? Ask about that one."
+        if near
+        else f"Start a node that uses it{_how_to_start(scene)}, or ask about one that is there."
+    )
+    return finding(
+        "topic-unknown",
+        f"nobody uses {topic}",
+        f"No node publishes on it{_before(scene)}, and none subscribes. "
+        f"Topics that are used: {listing(names) or 'none'}.",
+        hint,
+        [Mark(TOPIC, topic, words=("nobody uses", "this name")), *marks],
+    )
+
+
+def _how_to_start(scene: Scene) -> str:
+    if scene.domain_id < 0:
+        return ", with `ros.add(...)`"
+    if scene.own:
+        return ", with `ros.add(...)` or in a terminal"
+    return " in a terminal, with `ros2 run`"
+
+
+# Why a node that is on a topic does not do its part.
+
+#: Who has been quiet for so many of its own intervals has stopped.
+_INTERVALS = 5
+#: So many messages may be on their way while a session is live.
+_ON_THE_WAY = 2
+
+
+def nodes(sides: Sides, scene: Scene) -> Iterator[Finding]:
+    """Find every node that does not do its part."""
+    ends = (*sides.publishers, *sides.subscriptions)
+    for condition in _conditions(ends, scene):
+        found = _of(condition, scene)
+        if found:
+            yield found
+    yield from _twins(ends, scene)
+    held_up = any(one.state == BLOCKED and one.node in scene.own for one in scene.conditions)
+    if held_up and not scene.virtual:
+        return  # nobody else can do anything either
+    if _stands_still(sides, scene):
+        yield _no_time(sides, scene)
+        return
+    for end in sides.publishers:
+        yield from _publisher(end, scene)
+    for end in sides.subscriptions:
+        yield from _subscription(end, scene)
+
+
+def _conditions(ends: tuple[Endpoint, ...], scene: Scene) -> list[Condition]:
+    """Return those of the nodes on the topic, and of whoever holds up all others."""
+    here = {end.node for end in ends}
+    speaks = {end.node for end in ends if end.kind == "publisher" and _is_heard(end, scene)}
+    return [
+        one
+        for one in scene.conditions
+        if (one.state == BLOCKED and not scene.virtual)
+        or (one.node in here and not (one.state == SILENT and one.node in speaks))
+    ]
+
+
+def _is_heard(end: Endpoint, scene: Scene) -> bool:
+    # A program may well publish in a loop of its own and never spin.
+    return scene.beat(end).count > 0
+
+
+def _of(condition: Condition, scene: Scene) -> Finding | None:
+    say = {
+        ENDED: _ended,
+        BLOCKED: _blocked,
+        PAUSED: _paused,
+        NOT_ADDED: _not_added,
+        SILENT: _no_answer,
+    }.get(condition.state)
+    return say(condition, scene) if say else None
+
+
+def _ended(condition: Condition, _: Scene) -> Finding:
+    fault, node = condition.fault, condition.node
+    evidence = f"{node} called rclpy.shutdown(), which ends it."
+    hint = "Take that call out of the callback, and add the node again."
+    if fault:
+        where = f" Line {fault.line}: `{fault.code}`." if fault.line else ""
+        evidence = (
+            f"At {fault.time:.6g} s {fault.callback} raised {fault.kind}: {_first_line(fault.text)}"
+            f".{where} An exception that leaves a callback ends its node."
+        )
+        hint = "Mend that line, then run the cell that adds the node again."
+    mark = Mark(NODE, node, words=("has ended",))
+    return finding("node-ended", f"{node} has ended", evidence, hint, [mark])
+
+
+def _first_line(text: str) -> str:
+    return text.split(", at ")[0].split("\n")[0].rstrip(".")
+
+
+def _blocked(condition: Condition, scene: Scene) -> Finding:
+    node = condition.node
+    alone = node in scene.own and not scene.virtual
+    others = ", and no other node of the session runs meanwhile" if alone else ""
+    return finding(
+        "callback-blocks",
+        f"a callback of {node} does not return",
+        f"{condition.callback} has begun and not ended. Until it does, no other callback of {node} "
+        f"runs{others}.",
+        "A callback does one thing and returns: no endless loop, no `time.sleep`, no waiting for "
+        "an answer. What comes again and again is a timer's work.",
+        [Mark(NODE, node, words=("callback does", "not return"))],
+    )
+
+
+def _paused(condition: Condition, _: Scene) -> Finding:
+    node = condition.node
+    return finding(
+        "not-spun",
+        f"nobody runs the callbacks of {node}",
+        f"{node} is paused: its messages wait in its queues, and its timers do not fire.",
+        f'Let it go on with `ros.resume("{node.lstrip("/")}")`.',
+        [Mark(NODE, node, words=("paused",))],
+    )
+
+
+def _not_added(condition: Condition, _: Scene) -> Finding:
+    node = condition.node
+    return finding(
+        "not-spun",
+        f"nobody runs the callbacks of {node}",
+        f"{node} was made, and never handed to the session: it is in the graph, and none of its "
+        "callbacks is ever called.",
+        "Hand it over with `ros.add(...)`. In a program, `rclpy.spin(node)` does that.",
+        [Mark(NODE, node, words=("not spun",))],
+    )
+
+
+def _no_answer(condition: Condition, _: Scene) -> Finding:
+    node = condition.node
+    return finding(
+        "not-spun",
+        f"{node} does not answer",
+        f"{node} is in the graph, and did not answer a question that every running node answers. "
+        "Its process runs none of its callbacks: it does not spin, or one callback does not "
+        "return.",
+        "Look for `rclpy.spin(node)` in its `main`, then for an endless loop or `time.sleep` in a "
+        "callback.",
+        [Mark(NODE, node, words=("does not", "answer"))],
+    )
+
+
+def _twins(ends: tuple[Endpoint, ...], scene: Scene) -> Iterator[Finding]:
+    known = Counter(scene.graph.nodes)
+    here = Counter((end.node, end.kind) for end in ends)
+    for (node, kind), number in here.items():
+        # Two endpoints of one name may also belong to one node.
+        if number < 2 or known[node] < 2:
+            continue
+        speak = kind == "publisher"
+        effect = "each publishes, so more arrives than you expect" if speak else "each hears all"
+        yield finding(
+            "run-twice",
+            f"{known[node]} nodes are called {node}",
+            f"The graph has {known[node]} nodes of that name; {effect}.",
+            "End the one that you no longer need: a terminal that still runs it (Ctrl+C), or "
+            "another page. If you want both, give one another name.",
+            [Mark(TWINS, node, words=(f"{known[node]} of this name",))],
+        )
+
+
+# What publishers and subscriptions did.
+
+
+def _stands_still(sides: Sides, scene: Scene) -> bool:
+    """Return whether nothing came because nobody has let time pass since."""
+    if not scene.virtual or not sides.publishers:
+        return False
+    new = (
+        end.node in scene.own
+        and not scene.beat(end).count
+        and not scene.beat(end).watched_ns
+        and _runs(end, scene)
+        for end in sides.publishers
+    )
+    return all(new) or (scene.waiting and any(_waits(end, scene) for end in sides.subscriptions))
+
+
+def _waits(end: Endpoint, scene: Scene) -> bool:
+    beat = scene.beat(end)
+    return beat.count == 0 and beat.since > 0 and _runs(end, scene)
+
+
+def _runs(end: Endpoint, scene: Scene) -> bool:
+    return scene.condition(end.node).state == RUNNING
+
+
+def _no_time(sides: Sides, scene: Scene) -> Finding:
+    return finding(
+        "not-spun",
+        "no time has passed since the nodes were added",
+        f"Virtual time stands at {scene.now_ns / NANOSECONDS:.6g} s, and moves only while "
+        "`ros.run` is at work. No timer has fired since, and no callback has run.",
+        "Let the nodes run: `ros.run(seconds=10)`.",
+        [link(end, "nothing yet") for end in sides.publishers],
+    )
+
+
+def _publisher(end: Endpoint, scene: Scene) -> Iterator[Finding]:
+    if not _runs(end, scene):
+        return
+    beat = scene.beat(end)
+    if beat.count == 0:
+        yield _never(end, scene)
+    elif beat.rate_hz and end.node in scene.own:
+        quiet = (scene.now_ns - beat.last_ns) / NANOSECONDS
+        if quiet * beat.rate_hz > _INTERVALS:
+            yield _gone_quiet(end, beat.count, beat.last_ns, quiet)
+
+
+def _never(end: Endpoint, scene: Scene) -> Finding:
+    watched = scene.beat(end).seconds
+    why, hint = _timers(end.node, watched, scene) if end.node in scene.own else ("", _LONGER)
+    return finding(
+        "never-published",
+        f"{end.node} has not published anything",
+        f"{end.node} has a publisher on {end.name}, and in {seconds(watched)} no message "
+        f"came from it.{why}",
+        hint,
+        [link(end, "no message", "so far")],
+    )
+
+
+_LOOK = (
+    "Look whether `publish` is called on this publisher, and by what: usually the callback of a "
+    "timer."
+)
+_LONGER = (
+    "If it publishes only now and then, listen longer: `--seconds 30` in a terminal, `seconds=30` "
+    f"on a page. {_LOOK}"
+)
+
+
+def _timers(node: str, watched: float, scene: Scene) -> tuple[str, str]:
+    timers = [one for one in scene.graph.timers if one.node == node]
+    if not timers:
+        return " It has no timer that could call `publish`.", _LOOK
+    fired = [one for one in timers if one.calls]
+    if fired:
+        names = ", ".join(f"{one.callback} ran {count(one.calls, 'time')}" for one in fired)
+        return f" Its timer works: {names}.", (
+            "Look whether that callback comes as far as `publish`, and on which publisher it calls "
+            "it."
+        )
+    first = min(timers, key=lambda one: one.period_ns)
+    period = first.period_ns / NANOSECONDS
+    said = f" Its timer has a period of {seconds(period)} and has not fired."
+    if period > watched:
+        return said, f"Wait longer than {seconds(period)}, or choose a shorter period."
+    return said, "Look whether something cancels the timer."
+
+
+def _gone_quiet(end: Endpoint, number: int, last_ns: int, quiet: float) -> Finding:
+    return finding(
+        "gone-quiet",
+        f"{end.node} has stopped publishing",
+        f"It published {count(number, 'message')}, the last at {last_ns / NANOSECONDS:.6g} s, and "
+        f"nothing in the {seconds(quiet)} since.",
+        "Look at what its callback does after that message: a condition that is no longer true, or "
+        "a timer that was cancelled.",
+        [link(end, "silent since", f"{last_ns / NANOSECONDS:.6g} s")],
+    )
+
+
+def _subscription(end: Endpoint, scene: Scene) -> Iterator[Finding]:
+    beat = scene.beat(end)
+    if beat.count != 0 or end.matched == 0 or not _runs(end, scene):
+        return
+    if beat.since > (0 if scene.virtual else _ON_THE_WAY):
+        yield finding(
+            UNKNOWN,
+            "this is new to me",
+            f"{count(beat.since, 'message')} were published while {end.node} was subscribed and "
+            "connected, and its callback has not run.",
+            "Look at the callback that you gave to `create_subscription`, and at its callback "
+            "group.",
+            [link(end, "nothing", "arrives")],
+        )
+    elif beat.missed:
+        yield _too_early(end, beat.missed)
+
+
+def _too_early(end: Endpoint, missed: int) -> Finding:
+    said = "The only message was" if missed == 1 else f"All {missed} messages were"
+    return finding(
+        "first-messages-lost",
+        f"what was published came before {end.node} listened",
+        f"{said} published before {end.node} subscribed, and none since. A topic keeps nothing for "
+        "those who come later.",
+        "Begin to publish when the other side is there (`get_subscription_count()`), or again and "
+        "again with a timer; or give both sides the durability TRANSIENT_LOCAL.",
+        [link(end, "came", "too late")],
+    )
+
+
+# Causes outside of the graph: another ROS domain, and a build that is older than its source.
+
+
+def elsewhere(sides: Sides, scene: Scene) -> Iterator[Finding]:
+    """Find what is missing here in other domains."""
+    for domain in scene.other_domains:
+        publishers = domain.publishers if not sides.publishers else ()
+        subscriptions = domain.subscriptions if not sides.subscriptions else ()
+        if sides.missing and (publishers or subscriptions):
+            yield _other_domain(sides.topic, scene.domain_id, domain, publishers, subscriptions)
+
+
+def _other_domain(
+    topic: str,
+    here: int,
+    domain: OtherDomain,
+    publishers: tuple[str, ...],
+    subscriptions: tuple[str, ...],
+) -> Finding:
+    said = [
+        f"{listing(names)} {does} {topic}"
+        for names, does in ((publishers, "publishes on"), (subscriptions, "subscribes to"))
+        if names
+    ]
+    own = f"; this is domain {here}" if here >= 0 else ""
+    return finding(
+        "other-domain",
+        f"ROS domain {domain.domain_id} has what is missing here",
+        f"In ROS domain {domain.domain_id}, {listing(said)}{own}. Nodes in different domains never "
+        "hear each other.",
+        "Compare `echo $ROS_DOMAIN_ID` in both terminals. Both need the same number, set before "
+        "the nodes start; a page joins with `Session(domain_id=...)`.",
+    )
+
+
+def private_domains(scene: Scene) -> str:
+    """Return what to know of domains that were not looked into, as a sentence, or an empty text."""
+    ids = [str(one.domain_id) for one in scene.other_domains if one.private]
+    if not ids:
+        return ""
+    word = "domain" if len(ids) == 1 else "domains"
+    return (
+        f"Somebody also speaks in ROS {word} {listing(ids)}, as the sessions of pages do: each has "
+        "a domain to itself, unless it is opened with `Session(domain_id=...)`."
+    )
+
+
+def stale(scene: Scene) -> Iterator[Finding]:
+    """Find programs that were edited and not built again."""
+    for build in scene.stale_builds:
+        yield _not_rebuilt(build) if build.built else _not_built(build)
+
+
+def _not_rebuilt(build: StaleBuild) -> Finding:
+    return finding(
+        "not-rebuilt",
+        f"{build.executable} was edited and not built again",
+        f"{build.module} names this topic, and differs from the copy that `ros2 run "
+        f"{build.package} {build.executable}` starts.",
+        "Run `colcon build` in the workspace, then end the node and start it again.",
+    )
+
+
+def _not_built(build: StaleBuild) -> Finding:
+    return finding(
+        "not-built",
+        f"{build.package} is not built yet",
+        f"{build.module} names this topic, and the package {build.package} was never built, so "
+        "nothing of it can run.",
+        "In the workspace: `colcon build`, then `source install/setup.bash`, then `ros2 run "
+        f"{build.package} {build.executable}`.",
+    )
+
+
+# What was seen on a topic, sentence by sentence.
+
+
+def report(sides: Sides, scene: Scene) -> tuple[str, ...]:
+    """Say who is on a topic and what each has done."""
+    return tuple(filter(None, _sentences(sides, scene)))
+
+
+def _sentences(sides: Sides, scene: Scene) -> Iterator[str]:
+    for end in sides.publishers:
+        beat = scene.beat(end)
+        yield f"{end.node} publishes {_what(end)}{_published_by(beat)}."
+    for end in sides.subscriptions:
+        beat = scene.beat(end)
+        yield f"{end.node} subscribes to {_what(end)}{_heard(beat)}."
+    if scene.arriving_hz:
+        yield f"Altogether {comes(scene.arriving_hz, 'comes', 'come')} from other processes."
+    if sides.missing:
+        yield private_domains(scene)
+
+
+def _what(end: Endpoint) -> str:
+    return f"{short_type(end.type_name)} ({qos_words(end.qos)})"
+
+
+def _published_by(beat: Beat) -> str:
+    if beat.count < 0:
+        return ""
+    if beat.count == 0:
+        return f": nothing in {seconds(beat.seconds)}"
+    rate = f", {rate_words(beat.rate_hz)}" if beat.rate_hz else ""
+    last = f", the last at {_at(beat.last_ns)}" if beat.last_ns >= 0 else ""
+    return f": {count(beat.count, 'message')}{rate}{last}"
+
+
+def _heard(beat: Beat) -> str:
+    if beat.count < 0:
+        return ""
+    missed = f"; {count(beat.missed, 'message')} had been published before" if beat.missed else ""
+    last = f", the last at {_at(beat.last_ns)}" if beat.count and beat.last_ns >= 0 else ""
+    ran = f"ran {count(beat.count, 'time')}" if beat.count else "has not run"
+    return f": its callback {ran}{last}{missed}"
+
+
+def _at(time_ns: int) -> str:
+    return f"{time_ns / NANOSECONDS:.6g} s"
+
+
+def arrival(sides: Sides, scene: Scene, rate_hz: float) -> str:
+    """Say what arrives and where, if all is well."""
+    listeners = nodes_of(sides.subscriptions) or "somebody who is not shown here"
+    if rate_hz:
+        return f"{comes(rate_hz, 'arrives', 'arrive')} at {listeners}"
+    number = sum(scene.beat(end).count for end in sides.publishers if scene.beat(end).count > 0)
+    return f"{count(number, 'message')} arrived at {listing([listeners])} so far"
+
+
+# The explanation.
+
+#: The verdict if nothing is wrong.
+WELL = "all-is-well"
+
+#: The likelier a cause explains the others, the earlier it is named.
+_ORDER = (
+    *("node-ended", "callback-blocks", "not-spun", "type-mismatch", "qos-mismatch"),
+    *("topic-misspelled", "other-domain", "not-rebuilt", "not-built", "topic-unknown"),
+    *("no-publisher", "never-published", "gone-quiet", "first-messages-lost", "run-twice"),
+    *("no-subscription", UNKNOWN),
+)
+_WIDTH = 100
+_GOOD, _BAD = "#00785a", "#b34700"
+
+
+@dataclass(frozen=True, repr=False)
+class Explanation:
+    """Say why nothing arrives on a topic, or that all is well, at the end of a cell.
+
+    Attributes:
+        topic: Full name of the topic.
+        verdict: `all-is-well`, or the id of the likeliest mistake; `new-to-me` if none is known.
+        diagnoses: Every cause that was found, the likeliest first.
+        headlines: Each cause in a few words, in the same order.
+        rate_hz: Messages a second on the topic; 0 if nothing comes, or too little to tell.
+        sentences: What was seen, sentence by sentence.
+        graph: The graph.
+        marks: The places in the graph where something is the matter.
+    """
+
+    topic: str
+    verdict: str
+    diagnoses: tuple[Diagnosis, ...] = ()
+    headlines: tuple[str, ...] = ()
+    rate_hz: float = 0.0
+    sentences: tuple[str, ...] = ()
+    graph: GraphSnapshot = field(default_factory=GraphSnapshot)
+    marks: tuple[Mark, ...] = ()
+
+    @property
+    def is_well(self) -> bool:
+        """Return whether nothing is wrong."""
+        return self.verdict == WELL
+
+    @property
+    def title(self) -> str:
+        """Return what is the matter, one sentence."""
+        headline = self.headlines[0]
+        said = headline if self.topic in headline else f"{self.topic}: {headline}"
+        return f"{said[:1].upper()}{said[1:]}."
+
+    def __str__(self) -> str:
+        rows = [f"{self._sign} {self.title}"]
+        for number, one in enumerate(self.diagnoses):
+            if number:
+                rows.append(f"{self._sign} Also: {self.headlines[number]}.")
+            rows += [_row("Seen:", one.evidence), _row("Hint:", one.hint)]
+        rows += [_row("-", sentence) for sentence in self.sentences]
+        return "\n".join(rows)
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        # No background and no text colour of its own: both are the reader's theme.
+        colour = _GOOD if self.is_well else _BAD
+        style = f"border-left:4px solid {colour};padding:0.3em 0.8em;margin:0.3em 0"
+        causes = "".join(map(self._html_of, range(len(self.diagnoses))))
+        seen = "".join(f"<li>{escape(one)}</li>" for one in self.sentences)
+        head = f"<strong>{self._sign} {escape(self.title)}</strong>"
+        return f'<div style="{style}">{head}{causes}<ul style="margin:0.3em 0">{seen}</ul></div>'
+
+    @property
+    def _sign(self) -> str:
+        return "\N{CHECK MARK}" if self.is_well else "\N{BALLOT X}"
+
+    def _html_of(self, number: int) -> str:
+        one = self.diagnoses[number]
+        also = f"<strong>Also: {escape(self.headlines[number])}.</strong> " if number else ""
+        return f"<div>{also}{escape(one.evidence)}<br><em>Hint:</em> {escape(one.hint)}</div>"
+
+
+def explain(topic: str, scene: Scene) -> Explanation:
+    """Say why nothing arrives on a topic, or that all is well.
+
+    Args:
+        topic: Its full name, such as `/temperature`.
+        scene: What was seen.
+
+    Returns:
+        The explanation; the same for the same scene, every time.
+    """
+    sides = sides_of(topic, scene.graph)
+    found = _ordered(_findings(sides, scene))
+    sentences = report(sides, scene)
+    rate = _rate(sides, scene)
+    if not found:
+        good = (f"all is well on {topic}: {arrival(sides, scene, rate)}",)
+        remarks = tuple(f"Note: {one.headline}." for one in stale(scene))
+        return Explanation(topic, WELL, (), good, rate, (*sentences, *remarks), scene.graph)
+    return Explanation(
+        topic,
+        found[0].diagnosis.mistake,
+        tuple(one.diagnosis for one in found),
+        tuple(one.headline for one in found),
+        rate,
+        sentences,
+        scene.graph,
+        tuple(dict.fromkeys(mark for one in found for mark in one.marks)),
+    )
+
+
+def _findings(sides: Sides, scene: Scene) -> list[Finding]:
+    found = [*links(sides, scene), *nodes(sides, scene)]
+    found += elsewhere(sides, scene)
+    if not found and not _anything_came(sides, scene):
+        found.append(_new(sides, scene))
+    return [*found, *stale(scene)] if found else []
+
+
+def _anything_came(sides: Sides, scene: Scene) -> bool:
+    return any(scene.beat(end).count > 0 for end in sides.publishers) or scene.arriving_hz > 0
+
+
+def _new(sides: Sides, scene: Scene) -> Finding:
+    return finding(
+        UNKNOWN,
+        "this is new to me",
+        "Both sides are there and fit, and whether messages come could not be seen.",
+        "Listen yourself, in a terminal: "
+        f"`ros2 topic echo {sides.topic}`. If that knows no such message type, run `source "
+        "install/setup.bash` in the workspace first.",
+        [link(end, "nothing seen") for end in sides.publishers],
+    )
+
+
+def _ordered(found: list[Finding]) -> list[Finding]:
+    rank = {name: number for number, name in enumerate(_ORDER)}
+    return sorted(found, key=lambda one: rank.get(one.diagnosis.mistake, len(rank)))
+
+
+def _rate(sides: Sides, scene: Scene) -> float:
+    rates = {end.node: scene.beat(end).rate_hz for end in sides.publishers}
+    return scene.arriving_hz + sum(rates.values())
+
+
+def _row(mark: str, text: str) -> str:
+    begin = f"  {mark} "
+    rest = " " * len(begin)
+    return fill(
+        text,
+        _WIDTH,
+        initial_indent=begin,
+        subsequent_indent=rest,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
