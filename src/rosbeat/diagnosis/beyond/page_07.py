@@ -18,10 +18,12 @@ MISTAKES: tuple[Mistake, ...] = (
     Mistake("parameter-late", "a parameter that counts one reading too late"),
     Mistake("parameter-refused", "a parameter that refuses a good value"),
     Mistake("parameters-swapped", "two parameters in each other's place"),
+    Mistake("decimals-lost", "a decimal number made a whole one"),
     # Log lines as messages.
     Mistake("level-too-low", "a log line counted that is no warning"),
     Mistake("level-missed", "a level left out that is worse than a warning"),
     Mistake("text-for-name", "a log line's text in the place of its node's name"),
     Mistake("own-name", "the listener's own name in the place of the speaker's"),
     Mistake("said-once", "a name that is said only the first time"),
+    Mistake("one-name-only", "warnings of one node only"),
 )
