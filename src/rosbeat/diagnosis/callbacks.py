@@ -84,7 +84,7 @@ def called_at_once(fault: Fault) -> Meaning | None:
     asked = asked_of(fault)
     if asked and asked.given and asked.given[0].kind == CALLED:
         return _called(asked.given[0].name)
-    found = matched(fault, r"(\w+)\(\) missing 1 required positional argument", "TypeError")
+    found = matched(fault, r"(\w+)\(\) missing \d required positional argument", "TypeError")
     name = found[1] if found else ""
     if not found and matched(fault, r"name 'msg' is not defined", "NameError"):
         handed = re.search(r"\.(\w+)\(msg\)", fault.code)
@@ -110,7 +110,10 @@ def is_argument(code: str, name: str) -> bool:
     call = rf"\.{re.escape(name)}\([^()]*\)"
     at_once = r"(?:(?!\blambda\b).)*"  # what stands in a lambda is called later
     return (
-        re.search(rf"create_\w+\({at_once}{call}|^\w+{call},$|^callback=\w+{call}", code)
+        re.search(
+            rf"(create_\w+|add_\w+_callback)\({at_once}{call}|^\w+{call},$|^callback=\w+{call}",
+            code,
+        )
         is not None
     )
 

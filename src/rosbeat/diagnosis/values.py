@@ -144,7 +144,7 @@ def method_wants_more(fault: Fault) -> Meaning | None:
 def constructor_wants_more(fault: Fault) -> Meaning | None:
     """`def __init__(self, name):`: whoever runs the node cannot know what to give."""
     found = matched(fault, r"__init__\(\) missing \d .*?arguments?: (.+)", "TypeError")
-    if not found or fault.line or "Node.__init__" in fault.text:
+    if not found or fault.line or matched(fault, r"\b(Lifecycle)?Node\.__init__"):
         return None
     return Meaning(
         "constructor-parameters",

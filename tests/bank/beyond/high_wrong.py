@@ -36,7 +36,7 @@ ANSWERS = (
     ),
     _wrong("no service", "no-service", (_MAKE, "pass")),
     _wrong("a client", "no-service", (_MAKE, 'self.create_client(BasicTypes, "set_high")')),
-    _wrong("the callback called", "argument-missing", ("self.set_high)", "self.set_high())")),
+    _wrong("the callback called", "callback-called", ("self.set_high)", "self.set_high())")),
     _wrong("a message type", "wrong-argument", ("service(BasicTypes", "service(Float32")),
     _wrong(
         "the request's type", "wrong-argument", ("service(BasicTypes", "service(BasicTypes.Request")

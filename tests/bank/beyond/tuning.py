@@ -261,6 +261,11 @@ WRONG = (
             (_LOW, "pass"), ('"temperature"', '"temprature"')),
 )  # fmt: skip
 
+_NAMED = edited(
+    BASE, ("class TunableMonitor(", "class MonitorNode("), ("(self):", "(self, node_name):"),
+    (_SUPER, "super().__init__(node_name)"),
+)  # fmt: skip
+
 #: Written from the page alone.
 FRESH = (
     right("07b", "a dataclass of limits", """
@@ -451,6 +456,24 @@ FRESH = (
            (_READ, "low, high = self.low, self.high"),
            ("    def listen", f"    def read(self):\n        self.low = {_GET_LOW}\n"
                               f"        self.high = {_GET_HIGH}\n\n    def listen")),
+    _wrong("a parameter callback that is called", "callback-called",
+           (_LISTEN,
+            f"{_LISTEN}\n        self.add_on_set_parameters_callback(self.changed())"),
+           ("    def listen", "    def changed(self, parameters):\n        pass\n\n    def listen")),
+    wrong("07b", "a class that ends in Node and wants a name", "constructor-parameters", _NAMED),
+    wrong("07b", "an heir of it that gives no name", "node-name-missing", _NAMED + """
+class TunableMonitor(MonitorNode):
+    def __init__(self):
+        super().__init__()
+"""),
+    right("07b", "an heir of it that gives a name", _NAMED + """
+class TunableMonitor(MonitorNode):
+    def __init__(self):
+        super().__init__("monitor")
+"""),
+    _wrong("numbers of another type on its ear", "type-mismatch",
+           ("(Float32, ", "(Float64, "),
+           ("class T", "from std_msgs.msg import Float64\n\nclass T")),
     _wrong("whole limits", "decimals-lost",
            (_GET_LOW, f"int({_GET_LOW})"), (_GET_HIGH, f"int({_GET_HIGH})")),
     _wrong("a rounded upper limit", "decimals-lost", (_GET_HIGH, f"round({_GET_HIGH})")),
