@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard
@@ -100,7 +100,6 @@ def _questions(house: Greenhouse) -> tuple[_Question, ...]:
     unsent = {topic for topic in own if not senders[topic]}
     types = {end.name: end.type_name for end in graph.endpoints}
     rates = {topic: _rate(house.run, topic) for topic in own}
-    levels = {_full(log.name): log.level for log in house.run.logs}
     depths = {
         (end.kind, end.node): end.qos.depth for end in graph.endpoints if end.name == "/moisture"
     }
@@ -135,16 +134,16 @@ def _questions(house: Greenhouse) -> tuple[_Question, ...]:
             "That queue has another depth.",
             "Terminals are not told. The graph of the session is: look for depth in ros.graph()."),
         _Question(
-            "topic without a listener", "topic", unheard, _used(listeners, unsent, "listens to"),
-            "Some node listens to it.", sides),
+            "topic without a listener", "topic", unheard, _used(listeners, unsent, "listen to"),
+            "", sides),
         _Question(
-            "topic without a publisher", "topic", unsent, _used(senders, unheard, "publishes on"),
-            "Some node publishes on it.", sides),
+            "topic without a publisher", "topic", unsent, _used(senders, unheard, "publish on"),
+            "", sides),
         _Question(
             "node that warns", "node",
             {_full(log.name) for log in house.run.logs if log.level == "WARN"},
-            {node: ("finding-wrong", f"It logs, but no warning; its last line is of level {level}.")
-             for node, level in levels.items()},
+            {_full(log.name): ("finding-wrong", "It logs, but it never warns.")
+             for log in house.run.logs},
             "It never logs a line.",
             "Log lines come over /rosout; the field level of a warning is 30."),
         _Question(
@@ -165,15 +164,12 @@ def _rate(run: Observation, topic: str) -> float:
 
 def _used(nodes: Mapping[str, list[str]], confused: set[str], does: str) -> dict[Any, Any]:
     """Return what is true of topics that have the side which a question says is missing."""
-    found = {
-        topic: (
-            "sides-confused" if topic in confused else "finding-wrong",
-            f"{' and '.join(there)} {does} it.",
-        )
-        for topic, there in nodes.items()
-    }
     brought = "Every node brings this topic along; the greenhouse itself does not use it."
-    return found | dict.fromkeys(INFRASTRUCTURE_TOPICS, ("finding-wrong", brought))
+    return {
+        topic: ("sides-confused" if topic in confused else "finding-wrong",
+                f"Nodes that {does} it: {', '.join(there)}.")
+        for topic, there in nodes.items()
+    } | dict.fromkeys(INFRASTRUCTURE_TOPICS, ("finding-wrong", brought))  # fmt: skip
 
 
 def judge_findings(said: Report, greenhouse: Greenhouse | None = None) -> Outcome:
@@ -373,27 +369,15 @@ def _every(period: int, late: int) -> Callable[[int], float]:
     return lambda number: (number - late) - (number - late) % period
 
 
-_CUTS: tuple[Callable[[float], float], ...] = (int, round)
-
-
-def _rounded(cut: Callable[[float], float], which: str) -> _Rule:
-    """Return a rule for which `value`, `low` or `high`, or several of them, are rounded."""
-    return lambda *given: _status(
-        *(cut(one) if name in which else one
-          for name, one in zip(("value", "low", "high"), given, strict=True))
-    )  # fmt: skip
-
-
 _right = _monitor()
-_ASK_AGAIN = "Where is the value asked for: once, or each time that a reading comes?"
 _EACH_READING = "Publish one status for each reading, when it comes, "
 _SUSPECT_MONITORS = (
-    Suspect("parameter-frozen", f"Both limits stay as they were at the start. {_ASK_AGAIN}",
-            _monitor(frozen=("low", "high"))),
-    Suspect("parameter-frozen", f"`low` stays as it was at the start. {_ASK_AGAIN}",
-            _monitor(frozen=("low",))),
-    Suspect("parameter-frozen", f"`high` stays as it was at the start. {_ASK_AGAIN}",
-            _monitor(frozen=("high",))),
+    *(
+        Suspect("parameter-frozen", f"What is set for {' and '.join(names)} never counts. Where "
+                "is the value asked for: once, or each time that a reading comes?",
+                _monitor(frozen=names))
+        for names in (("low", "high"), ("low",), ("high",))
+    ),
     Suspect("parameter-late", "A new value counts one reading too late. Ask for the value first, "
             "and then decide.", _monitor(asked_at=_every(1, late=1))),
     *(
@@ -416,8 +400,16 @@ _SUSPECT_MONITORS = (
     ),
     *(
         Suspect("decimals-lost", "The reading and both limits are decimal numbers: where does "
-                "one of them lose its decimals?", _monitor(_rounded(cut, which)))
-        for cut, which in product(_CUTS, ("value", "low", "high", "low high"))
+                "one of them lose its decimals?", _monitor(rule))
+        for rule in (
+            lambda v, low, high: _status(int(v), low, high),
+            lambda v, low, high: _status(round(v), low, high),
+            lambda v, low, high: _status(v, int(low), int(high)),
+            lambda v, low, high: _status(v, round(low), round(high)),
+            lambda v, low, high: _status(v, int(low), high),
+            lambda v, low, high: _status(v, round(low), high),
+            lambda v, low, high: _status(v, low, int(high)),
+        )
     ),
     Suspect("wrong-state", "High never appears. Is its condition reached, and what comes after?",
             _monitor(lambda value, low, high: _status(value, low, value))),
@@ -533,15 +525,8 @@ _LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 _DEBUG, _INFO, _WARN, _ERROR, _FATAL = _LEVELS
 
 
-@dataclass(frozen=True)
-class Line:
-    """One log line that is fed in.
-
-    Attributes:
-        level: Its level, as a number.
-        name: The name of the logger.
-        msg: Its text.
-    """
+class Line(NamedTuple):
+    """One log line that is fed in, with the fields of a `Log`."""
 
     level: int
     name: str
@@ -573,7 +558,7 @@ def _observe_log_watcher(answer: Any) -> Observation:  # noqa: ANN401
             second,
             topic=_ROSOUT.topic,
             type_name=_ROSOUT.type_name,
-            values=({"level": line.level, "name": line.name, "msg": line.msg},),
+            values=(line._asdict(),),
             qos=QoS(durability="TRANSIENT_LOCAL", depth=1000),  # as every node's own publisher
         )
         for second, line in enumerate(LINES, 1)
@@ -655,12 +640,11 @@ _SUSPECT_LINES = (
             lambda lines: {at + 1: said for at, said in _warnings(lines).items()}),
 )  # fmt: skip
 
-#: The lines that count, by their second, each with the full name of the node that listens.
-_Watched = Mapping[float, tuple[Line, str]]
 
-
-def _texts_of(text: Callable[[Line, str], str]) -> Callable[[_Watched], Track]:
-    """Return the model of a watcher by what it publishes of a line and its own name."""
+def _texts_of(
+    text: Callable[[Line, str], str],
+) -> Callable[[Mapping[float, tuple[Line, str]]], Track]:
+    """Return the model of a watcher by the text that it makes of a line and its own full name."""
     return lambda fed: {at: (text(*one).strip(),) for at, one in fed.items()}
 
 
@@ -742,12 +726,9 @@ def _wrong_texts(said: Mapping[float, tuple[str, ...]], node: str) -> Diagnosis 
 MODELS: tuple[tuple[Any, Callable[[Any], Track], tuple[Suspect, ...]], ...] = (
     (READINGS, _right, _SUSPECT_MONITORS),
     (LINES, _warnings, _SUSPECT_LINES),
-    (
-        {at: (LINES[int(at) - 1], "/log_watcher") for at in _warnings(LINES)},
-        _names,
-        _SUSPECT_TEXTS,
-    ),
+    ({1.0 * n: (line, "/watcher") for n, line in enumerate(LINES)}, _names, _SUSPECT_TEXTS),
 )
+
 _LOG_WATCHER = Exercise(
     "07c",
     _observe_log_watcher,

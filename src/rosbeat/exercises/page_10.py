@@ -10,10 +10,9 @@ the form of a diagnosis, and that may be anything.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosbeat.diagnosis.explanation_parts import listing
 from rosbeat.diagnosis.mistakes import Diagnosis
@@ -32,14 +31,8 @@ _KEY = "ward"
 # The dict of diagnoses: from a patient's number to a pair, or to a list of pairs.
 
 
-@dataclass(frozen=True)
-class Claim:
-    """One diagnosis.
-
-    Attributes:
-        mistake: The id of the fault.
-        place: The node or topic where it is said to be.
-    """
+class Claim(NamedTuple):
+    """One diagnosis: the id of a fault, and the node or topic where it is said to be."""
 
     mistake: str
     place: str
@@ -49,13 +42,9 @@ def _claims(entry: Any) -> list[Claim] | None:  # noqa: ANN401 - plain data
     """Return the diagnoses of one patient without blanks; None if they cannot be read."""
     if not isinstance(entry, list):
         return None
-    is_one = len(entry) == 2 and all(isinstance(part, str) for part in entry)
-    pairs = [entry] if is_one else entry
-    for pair in pairs:
-        if not (isinstance(pair, list) and len(pair) == 2):
-            return None
-        if not all(isinstance(part, str) for part in pair):
-            return None
+    pairs = [entry] if [*map(type, entry)] == [str, str] else entry
+    if not all(isinstance(pair, list) and [*map(type, pair)] == [str, str] for pair in pairs):
+        return None
     claims = [Claim(mistake.strip(), place.strip()) for mistake, place in pairs]
     return [one for one in claims if one.mistake and BLANK not in (one.mistake, one.place)]
 

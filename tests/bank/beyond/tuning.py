@@ -459,7 +459,8 @@ FRESH = (
     _wrong("a parameter callback that is called", "callback-called",
            (_LISTEN,
             f"{_LISTEN}\n        self.add_on_set_parameters_callback(self.changed())"),
-           ("    def listen", "    def changed(self, parameters):\n        pass\n\n    def listen")),
+           ("    def listen",
+            "    def changed(self, parameters):\n        pass\n\n    def listen")),
     wrong("07b", "a class that ends in Node and wants a name", "constructor-parameters", _NAMED),
     wrong("07b", "an heir of it that gives no name", "node-name-missing", _NAMED + """
 class TunableMonitor(MonitorNode):
