@@ -9,7 +9,7 @@ from functools import lru_cache
 from itertools import product
 from typing import Any, NamedTuple
 
-from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard
 from rosbeat.exercises.exercise import (
     BLANK,
@@ -384,7 +384,7 @@ _SUSPECT_MONITORS = (
         Suspect("parameter-late", f"It looks as if the limits were asked for every {period} "
                 "seconds. A new value counts from the next reading on.",
                 _monitor(asked_at=_every(period, late)))
-        for period, late in product((2, 3, 5, 10), (0, 1))
+        for period, late in product((3, 5, 10), (0, 1))
     ),
     Suspect("parameters-swapped", "High appears above the lower limit, and Low below the upper "
             "one. Which of the two values belongs to which name, and to which comparison?",
@@ -415,8 +415,17 @@ _SUSPECT_MONITORS = (
             _monitor(lambda value, low, high: _status(value, low, value))),
     Suspect("wrong-state", "Low never appears. Is its condition reached, and what comes after?",
             _monitor(lambda value, low, high: _status(value, value, high))),
-    Suspect("wrong-state", "High and Low have changed places: compare the comparisons.",
-            _monitor(lambda *given: {"High": "Low", "Low": "High"}.get(_status(*given), "Normal"))),
+    *(
+        Suspect("wrong-state", "Which limit belongs to which word, and on which side of it?",
+                _monitor(rule))
+        for rule in (
+            lambda v, low, high: "High" if v < high else "Low" if v > low else "Normal",
+            lambda v, low, high: "Low" if v > high else "High" if v < low else "Normal",
+            lambda v, low, high: "High" if v > high else "Low",
+            lambda v, low, high: _status(v, high, high),
+            lambda v, low, high: _status(v, low, low),
+        )
+    ),
     Suspect("wrong-state", "Each status is that of the reading before. Decide, and then publish.",
             lambda fed: {at: _right(fed).get(at - 1, ("Normal",)) for at in _right(fed)}),
     Suspect("wrong-rate", f"{_EACH_READING}whether it has changed or not.",
@@ -538,9 +547,9 @@ LINES = (
     Line(_INFO, "gardener", "The window is shut"),
     Line(_WARN, "lamp", "I do not know how bright it is"),
     Line(_DEBUG, "weather", "warning: only a test"),
-    Line(_ERROR, "soil_probe", "The cable is loose"),
-    Line(_INFO, "window", "No error, no WARN, nothing"),
     Line(_WARN, "lamp", "I do not know how bright it is"),
+    Line(_INFO, "window", "No error, no WARN, nothing"),
+    Line(_ERROR, "soil_probe", "The cable is loose"),
     Line(_FATAL, "pump", "No water"),
     Line(_DEBUG, "lamp", "12 readings"),
     Line(_WARN, "greenhouse.fan", "It is getting loud"),
@@ -627,6 +636,7 @@ _SUSPECT_LINES = (
             _once(lambda line: line.name),
             _once(lambda line: line.name, memory=1),
             _once(lambda line: line.msg),
+            _once(lambda line: line.msg, memory=1),
             _once(lambda line: line.level),
             _once(lambda line: (line.name, line.level)),
         )
@@ -698,8 +708,10 @@ def _wrong_lines(said: Mapping[float, tuple[str, ...]]) -> Diagnosis | None:
     line = at[parted.at]
     what = repr(said[parted.at][0]) if parted.done else "Nothing"
     evidence = f"{what} was published for a line of level {_LEVELS[line.level]}: {line.msg!r}."
-    extra = Diagnosis("level-too-low", evidence, _BY_NUMBER) if parted.done else None
-    return named(evidence, fitting(LINES, done, _SUSPECT_LINES), extra)
+    other = Diagnosis(UNKNOWN, evidence, "What does your method do with this line, step by step?")
+    if parted.done:
+        other = Diagnosis("level-too-low", evidence, _BY_NUMBER)
+    return named(evidence, fitting(LINES, done, _SUSPECT_LINES), other)
 
 
 def _wrong_texts(said: Mapping[float, tuple[str, ...]], node: str) -> Diagnosis | None:

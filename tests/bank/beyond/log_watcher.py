@@ -295,6 +295,14 @@ FRESH = (
            (_SUPER, f"{_SUPER}\n        self.known = set()"),
            (_SEND, f"if msg.msg not in self.known:\n                self.known.add(msg.msg)\n"
                    f"                {_SEND}")),
+    _wrong("not the same line twice in a row", "said-once",
+           (_SUPER, f'{_SUPER}\n        self.last = ""'),
+           (_IF, f"{_IF}\n            if msg.msg == self.last:\n                return\n"
+                 "            self.last = msg.msg")),
+    _wrong("every second one", "new-to-me",
+           (_SUPER, f"{_SUPER}\n        self.count = 0"),
+           (_IF, f"{_IF}\n            self.count += 1\n            if self.count % 2:\n"
+                 "                return")),
     _wrong("all names so far", "stray-characters",
            (_SUPER, f"{_SUPER}\n        self.all = []"),
            (_SEND, "self.all.append(msg.name)\n"

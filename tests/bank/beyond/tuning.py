@@ -500,6 +500,20 @@ class TunableMonitor(MonitorNode):
                      "        self.create_timer(0.5, self.tell)"),
            (_SEND, "self.status = status\n\n    def tell(self):\n"
                    "        self.statuses.publish(String(data=self.status))")),
+    _wrong("each change forgets the other one", "wrong-state",
+           ("class T", "from rcl_interfaces.msg import SetParametersResult\n\nclass T"),
+           (_LISTEN, f"{_LISTEN}\n        self.changed([])\n"
+                     "        self.add_on_set_parameters_callback(self.changed)"),
+           (_READ, 'low, high = self.limits["low"], self.limits["high"]'),
+           ("    def listen", '    def changed(self, all):\n        self.limits = {"low": 20.0, '
+                              '"high": 26.0} | {one.name: one.value for one in all}\n'
+                              "        return SetParametersResult(successful=True)\n\n"
+                              "    def listen")),
+    _wrong("the upper limit for both", "wrong-state", (_GET_LOW, _GET_HIGH)),
+    _wrong("Low unless High", "wrong-state",
+           (_DECIDE, 'status = "High" if msg.data > high else "Low"')),
+    _wrong("the words of page 04", "wrong-word",
+           (_DECIDE, _DECIDE.replace("High", "Warm").replace("Low", "Frost"))),
     _wrong("a blank in a word", "wrong-word", (_DECIDE, _DECIDE.replace('"High"', '"Too high"'))),
 )  # fmt: skip
 
