@@ -52,7 +52,11 @@ def test_an_unknown_topic_and_its_nearest(ros, says):
     ros.run(1)
     with pytest.raises(UnknownTopicError) as caught:
         ros.messages("temprature")
-    says(caught.value, "/listener listens there", "Did you mean /temperature?")
+    says(caught.value, "/listener listens there", "Did you mean /temperature? If not, add")
+    ros.add(partial(Listener, topic="temperature"), name="other")
+    with pytest.raises(UnknownTopicError) as caught:
+        ros.messages("temprature")
+    says(caught.value, "Add the publishing node first")  # /temperature has both sides
     with pytest.raises(UnknownTopicError) as caught:
         ros.messages("zebra")
     says(caught.value, "Published topics: /temperature")

@@ -291,7 +291,8 @@ def is_argument(code: str, name: str) -> bool:
     """
     call = rf"\.{re.escape(name)}\([^()]*\)"
     at_once = r"(?:(?!\blambda\b).)*"  # what stands in a lambda is called later
-    handed = rf"create_\w+\({at_once}{call}|^\w+{call},$|^callback=\w+{call}"
+    made = r"(create_\w+|add_\w+_callback)\("
+    handed = rf"{made}{at_once}{call}|^\w+{call},$|^callback=\w+{call}"
     return re.search(handed, code) is not None
 
 

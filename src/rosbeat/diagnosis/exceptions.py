@@ -150,7 +150,10 @@ def _no_node(fault: Fault) -> Meaning | None:
 
 def _name_missing(fault: Fault) -> Meaning | None:
     """Recognise `super().__init__()` without a name (row 11)."""
-    if not matched(fault, r"^Node\.__init__\(\) missing 1 .*'node_name'", "TypeError"):
+    found = matched(fault, r"\b(\w*)Node\.__init__\(\) missing 1 .*'node_name'", "TypeError")
+    # An `AlarmNode` is a class of the learner's, and only its heirs leave the name out.
+    own = found and found[1] not in ("", "Lifecycle") and "super()" not in fault.code
+    if not found or own:
         return None
     call = fault.asked
     if call and call.given and call.given[0].kind == "str":
@@ -271,6 +274,13 @@ _NODE_RULES: tuple[Rule, ...] = (
         "An f-string has an f before its quotes; in a plain text braces stay braces.",
     ),
     _invalid_name,
+    Row(
+        "type-mismatch",
+        "",
+        r"existing \w+ topic name .* incompatible type",  # a service is made of two topics
+        "The service exists already, with another type.",
+        "A service and its clients have to name the same type. Which one do the others use?",
+    ),
     Row(
         "type-mismatch",
         "",
@@ -1227,7 +1237,7 @@ _VALUE_RULES: tuple[Rule, ...] = (
     Row(
         "constructor-parameters",
         "TypeError",
-        r"^(?!Node\.).*__init__\(\) missing \d .*?arguments?: (.+)",
+        r"^(?!.*\b(?:Lifecycle)?Node\.__init__).*__init__\(\) missing \d .*?arguments?: (.+)",
         "The constructor wants {1}, and the class is called without arguments.",
         "Whoever runs your node cannot know what to give it: let the constructor take self alone.",
         lambda fault, _: not fault.line,

@@ -262,6 +262,8 @@ _OF_PAGES = (
     Mistake("text-for-name", "a log line's text in the place of its node's name"),
     Mistake("own-name", "the listener's own name in the place of the speaker's"),
     Mistake("said-once", "a name that is said only the first time"),
+    Mistake("decimals-lost", "a decimal number made a whole one"),
+    Mistake("one-name-only", "warnings of one node only"),
     # Those of page 08.
     Mistake("not-kept", "a last word that is not kept for those who come late"),
     Mistake("old-words-too", "more kept for those who come late than asked for"),

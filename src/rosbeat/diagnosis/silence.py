@@ -262,6 +262,24 @@ def _types(sides: Sides) -> Iterator[Finding]:
             "Decide on one type, and name it in `create_publisher` and in `create_subscription`.",
             [link(end, f"sends {sent}", f"asks for {asked}")],
         )
+    yield from _other_senders(sides)
+
+
+def _other_senders(sides: Sides) -> Iterator[Finding]:
+    """Find publishers of a type that nobody asks for, beside one that is heard."""
+    heard = {one.type_name for one in sides.subscriptions}
+    others = [one for one in sides.publishers if one.type_name not in heard]
+    for end in others if len(others) < len(sides.publishers) and heard else []:
+        sent, asked = _two_types(end.type_name, sides.subscriptions[0].type_name)
+        yield finding(
+            "type-mismatch",
+            f"two message types on {sides.topic}",
+            f"{end.node} publishes {sent}, and {nodes_of(sides.subscriptions)} "
+            f"{verb(sides.subscriptions, *_DOES['subscription'])} {asked}. ROS connects them only "
+            "if the type is the same.",
+            "Decide on one type, and name it in `create_publisher` and in `create_subscription`.",
+            [link(end, f"sends {sent}", f"asks for {asked}")],
+        )
 
 
 def _two_types(one: str, other: str) -> tuple[str, str]:

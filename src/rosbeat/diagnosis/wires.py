@@ -6,6 +6,7 @@ is in the graph of the observation, and that says why.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -13,7 +14,7 @@ from rosbeat.diagnosis.exceptions import diagnose_fault
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
 from rosbeat.diagnosis.silence import difference, nearest
-from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Observation
+from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Fault, Observation
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,36 @@ def _raised(observation: Observation) -> Diagnosis | None:
     """The first exception of the node, if its mistake is known."""
     # A node that could not be made has no name.
     own = [one for one in observation.faults if one.node in ("", _subject(observation))]
-    return diagnose_fault(own[0]) if own else None
+    return why_raised(observation, own[0]) if own else None
+
+
+def why_raised(observation: Observation, fault: Fault) -> Diagnosis | None:
+    """Name the mistake behind an exception; of two types on a topic, say both.
+
+    Args:
+        observation: What was seen, with the nodes beside the one that raised.
+        fault: The exception.
+    """
+    found, asked = diagnose_fault(fault), fault.asked
+    if found is None or found.mistake != "type-mismatch" or not asked or not asked.given:
+        return found
+    # The exception names the topic only sometimes, and the learner's line nearly always.
+    words = set(re.findall(r"\w+", f"{fault.code} {fault.text}"))
+    sides = ("publisher", "subscription")
+    there = {
+        (end.name, end.type_name)
+        for end in observation.graph.endpoints
+        if end.kind in sides and end.name.rpartition("/")[2] in words and end.node != fault.node
+    }
+    if len(there) != 1:
+        return found
+    ((topic, type_name),) = there
+    own = asked.given[0].name
+    return Diagnosis(
+        found.mistake,
+        f"{found.evidence} {topic} carries {type_name} here, and your node asks for {own}.",
+        "One topic carries one type, and both sides have to name the same one.",
+    )
 
 
 # Another topic, another type.

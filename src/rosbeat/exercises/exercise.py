@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
-from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, line_of
+from rosbeat.diagnosis.exceptions import first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.wires import why_raised
 from rosbeat.records import Fault, Observation, Outcome
 
 # What an exercise is.
@@ -105,12 +106,13 @@ def before_judging(exercise: str, observation: Observation) -> Outcome | None:
     if any(is_blank(fault) for fault in observation.faults):
         return not_attempted(exercise)
     if observation.faults:
-        return _raised(exercise, observation.faults[0])
+        return _raised(exercise, observation)
     return None
 
 
-def _raised(exercise: str, fault: Fault) -> Outcome:
-    known = diagnose_fault(fault)
+def _raised(exercise: str, observation: Observation) -> Outcome:
+    fault = observation.faults[0]
+    known = why_raised(observation, fault)
     if known is not None:
         return failed_by(exercise, known)
     if fault.callback in ("add", "run"):  # the session itself refused; its sentence is complete

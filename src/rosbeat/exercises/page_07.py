@@ -2,52 +2,757 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections import deque
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+from typing import Any, NamedTuple
 
-from rosbeat.exercises import log_watching, tuning
-from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.findings import judge_report
-from rosbeat.exercises.page_07_scenarios import SCENARIOS
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.wires import Wire, why_not_heard
+from rosbeat.exercises.exercise import (
+    BLANK,
+    Exercise,
+    failed,
+    failed_by,
+    not_attempted,
+    passed,
+)
+from rosbeat.exercises.model import (
+    Suspect,
+    Track,
+    before_reading,
+    fitting,
+    missing,
+    named,
+    on,
+    parting,
+)
+from rosbeat.exercises.scenarios import Report, feeder, observe, report
+from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Outcome, QoS
 
-EXERCISES: tuple[Exercise[Any], ...] = (
-    Exercise(
-        "07a",
-        SCENARIOS["07a"],
-        judge_report,
-        "a system of strangers",
-        3,
-        (
-            "Ask about one thing at a time, in the terminal `look`, and write down what you see.",
-            "ros2 topic info --verbose names both sides of a topic; ros2 topic hz counts; ros2 "
-            "param get reads; the field name of a log line says who speaks.",
-            "Terminals do not know the depth of a queue, but this kernel made the greenhouse: "
-            "for end in ros.graph().endpoints: print(end) shows it all.",
-        ),
-    ),
-    Exercise(
-        "07b",
-        SCENARIOS["07b"],
-        lambda seen: tuning.judge_tuning("07b", seen),
-        "limits to turn",
-        2,
-        (
-            "A parameter is declared in the constructor, with its name and its first value.",
-            "get_parameter gives the parameter; its value stands behind a dot.",
-            "What is asked for in the constructor is asked for once. The callback runs at each "
-            "reading.",
-        ),
-    ),
-    Exercise(
-        "07c",
-        SCENARIOS["07c"],
-        lambda seen: log_watching.judge_log_watcher("07c", seen),
-        "a log watcher",
-        3,
-        (
-            "It is an alarm like that of page 04, with another message type on its ear.",
-            "create_subscription takes Log, the topic, your method and a depth. The message has "
-            "the fields level, name and msg.",
-            "Levels are numbers, and worse is greater. Log.WARN is the number of a warning.",
-        ),
+# 07a: findings about a greenhouse that somebody else wrote.
+
+#: A measured rate may differ by this share.
+_TOLERANCE = 0.06
+_NUMBERS = ("number", "rate")
+
+
+@dataclass(frozen=True)
+class Greenhouse:
+    """A greenhouse to ask, as a run of it recorded it.
+
+    Attributes:
+        run: What its nodes did.
+        parameters: The value of each parameter of its nodes, by `/node name`.
+    """
+
+    run: Observation
+    parameters: Mapping[str, Any]
+
+
+@lru_cache(maxsize=1)
+def _greenhouse() -> Greenhouse:
+    """Run the greenhouse once, where none of a learner's code runs: it is the same each time."""
+    # Imported here, so that judges can be imported where ROS is not installed.
+    from rosbeat.ros import test_nodes
+
+    return Greenhouse(*test_nodes.observe_greenhouse())
+
+
+@dataclass(frozen=True)
+class _Question:
+    """One thing to find out about a greenhouse.
+
+    Attributes:
+        key: Its name in the dict of findings.
+        kind: `node`, `topic`, `type`, `number`, or `rate` for a number that was measured.
+        truth: The right values.
+        misread: Misunderstandings as models: the value that each one finds, its mistake and a
+            sentence about it.
+        otherwise: What is true of a value that no misunderstanding finds.
+        instrument: Where to look, without the answer.
+    """
+
+    key: str
+    kind: str
+    truth: Collection[Any]
+    misread: Mapping[Any, tuple[str, str]]
+    otherwise: str
+    instrument: str
+
+    def same(self, one: Any, other: Any) -> bool:  # noqa: ANN401 - numbers or texts
+        """Return whether two values are the same; only a measured one may be a little off."""
+        if self.kind == "rate":
+            return bool(abs(one - other) <= _TOLERANCE * other)
+        return bool(one == other)
+
+
+def _questions(house: Greenhouse) -> tuple[_Question, ...]:
+    graph, own = house.run.graph, house.run.graph.topics()
+    topics = {*own, *INFRASTRUCTURE_TOPICS}
+    senders, listeners = (
+        {topic: sorted({end.node for end in graph.on(topic, kind)}) for topic in topics}
+        for kind in ("publisher", "subscription")
+    )
+    unheard = {topic for topic in own if not listeners[topic]}
+    unsent = {topic for topic in own if not senders[topic]}
+    types = {end.name: end.type_name for end in graph.endpoints}
+    rates = {topic: _rate(house.run, topic) for topic in own}
+    depths = {
+        (end.kind, end.node): end.qos.depth for end in graph.endpoints if end.name == "/moisture"
+    }
+    sides = "ros2 topic info counts both sides. Ask about each topic, or look at all nodes."
+    return (
+        _Question(
+            "publisher of /moisture", "node", senders["/moisture"],
+            {node: ("sides-confused", f"{node} has a subscription there, and no publisher.")
+             for node in listeners["/moisture"]},
+            "That node has nothing to do with /moisture.",
+            "ros2 topic info --verbose lists both sides of a topic, one below the other."),
+        _Question(
+            "type of /moisture", "type", [types["/moisture"]],
+            {name: ("finding-wrong", f"That is the type of {topic}.")
+             for topic, name in types.items()},
+            "No topic of the greenhouse has that type.",
+            "ros2 topic list -t shows a topic's type in brackets."),
+        _Question(
+            "messages a second on /moisture", "rate", [rates["/moisture"]],
+            {1 / rates["/moisture"]: ("period-for-rate", "That is the time from one message to "
+                                      "the next; a rate counts the messages in one second.")}
+            | {rate: ("finding-wrong", f"That is the rate of {topic}.")
+               for topic, rate in rates.items()},
+            "The messages come at another rate.",
+            "ros2 topic hz measures it, if you wait for a second line."),
+        _Question(
+            "queue depth of /gardener for /moisture", "number",
+            [depths["subscription", "/gardener"]],
+            {depth: ("sides-confused", "That is the depth of the publisher's queue; the other "
+                     "side of the topic has a queue of its own.")
+             for (kind, _), depth in depths.items() if kind == "publisher"},
+            "That queue has another depth.",
+            "Terminals are not told. The graph of the session is: look for depth in ros.graph()."),
+        _Question(
+            "topic without a listener", "topic", unheard, _used(listeners, unsent, "listen to"),
+            "", sides),
+        _Question(
+            "topic without a publisher", "topic", unsent, _used(senders, unheard, "publish on"),
+            "", sides),
+        _Question(
+            "node that warns", "node",
+            {_full(log.name) for log in house.run.logs if log.level == "WARN"},
+            {_full(log.name): ("finding-wrong", "It logs, but it never warns.")
+             for log in house.run.logs},
+            "It never logs a line.",
+            "Log lines come over /rosout; the field level of a warning is 30."),
+        _Question(
+            "dry_below of /gardener", "number", [house.parameters["/gardener dry_below"]],
+            {value: ("finding-wrong", f"That is the value of `{name}`.")
+             for name, value in house.parameters.items()},
+            "It has another value.",
+            "ros2 param get takes the node and the parameter. If you have set it yourself: what "
+            "was it when the greenhouse was started?"),
+    )  # fmt: skip
+
+
+def _rate(run: Observation, topic: str) -> float:
+    times = [one.time for one in run.samples if one.topic == topic]
+    spread = times[-1] - times[0] if times else 0.0
+    return (len(times) - 1) / spread if spread else 0.0
+
+
+def _used(nodes: Mapping[str, list[str]], confused: set[str], does: str) -> dict[Any, Any]:
+    """Return what is true of topics that have the side which a question says is missing."""
+    brought = "Every node brings this topic along; the greenhouse itself does not use it."
+    return {
+        topic: ("sides-confused" if topic in confused else "finding-wrong",
+                f"Nodes that {does} it: {', '.join(there)}.")
+        for topic, there in nodes.items()
+    } | dict.fromkeys(INFRASTRUCTURE_TOPICS, ("finding-wrong", brought))  # fmt: skip
+
+
+def judge_findings(said: Report, greenhouse: Greenhouse | None = None) -> Outcome:
+    """Compare what somebody found out with a greenhouse.
+
+    Args:
+        said: What the learner's function returned.
+        greenhouse: The greenhouse; by default that of the page, which runs here.
+    """
+    early = before_reading("07a", said, 'check("07a", findings)')
+    if early:
+        return early
+    findings, house = said.value, greenhouse or _greenhouse()
+    if not isinstance(findings, dict):
+        evidence = f"The function returned a {said.type_name} instead of the dict."
+        return failed("07a", evidence, "Leave the dict with its keys as it was.", "other-kind")
+    questions = _questions(house)
+    wrong = [found for one in questions if (found := _compared(house, one, findings))]
+    if wrong:
+        more = f" And {len(wrong) - 1} more to look at again." if len(wrong) > 1 else ""
+        return failed("07a", wrong[0].evidence + more, wrong[0].hint, wrong[0].mistake)
+    count, blank = len(questions), [one.key for one in questions if _is_blank(findings[one.key])]
+    if not blank:
+        return passed("07a", f"All {count} findings agree with what the greenhouse does.")
+    if len(blank) == count:
+        return not_attempted("07a")
+    right = f"{count - len(blank)} of {count} are found, and right."
+    return not_attempted("07a", f"{right} Still open: {', '.join(blank)}.")
+
+
+def _is_blank(given: object) -> bool:
+    return isinstance(given, str) and given.strip() in (BLANK, "")
+
+
+def _compared(house: Greenhouse, question: _Question, said: dict[str, Any]) -> Diagnosis | None:
+    """Return what is wrong with one finding, or None; a blank is not wrong."""
+    if question.key not in said:
+        return Diagnosis(
+            "finding-missing",
+            f"The returned dict has no key '{question.key}'.",
+            "Leave the keys of the dict as they were; only the values change.",
+        )
+    given = said[question.key]
+    value = _of_kind(given, question.kind)
+    right = value is not None and any(question.same(value, one) for one in question.truth)
+    if _is_blank(given) or right:
+        return None
+    known = (found for one, found in question.misread.items() if question.same(value, one))
+    mistake, evidence = _malformed(house, question.kind, value) or next(
+        known, ("finding-wrong", question.otherwise)
+    )
+    evidence = f"For '{question.key}' you wrote {given!r}. {evidence}"
+    return Diagnosis(mistake, evidence, question.instrument)
+
+
+def _of_kind(given: Any, kind: str) -> Any:  # noqa: ANN401 - a number or a text
+    """Return a value as it is compared; None if it is of another kind."""
+    if isinstance(given, bool) or (kind not in _NUMBERS and not isinstance(given, str)):
+        return None
+    if kind not in _NUMBERS:
+        return given.strip().replace(".", "/") if kind == "type" else _full(given)
+    try:
+        return float(given)
+    except (TypeError, ValueError):
+        return None
+
+
+def _full(name: str) -> str:
+    """Return a name with its slash: `lamp` and `/lamp` are the same, and so is a logger's."""
+    return "/" + name.strip().lstrip("/").replace(".", "/")
+
+
+def _malformed(house: Greenhouse, kind: str, value: Any) -> tuple[str, str] | None:  # noqa: ANN401
+    """Say what is wrong with the form of a value: not by models, because any text may come."""
+    if value is None:
+        wanted = "a bare number" if kind in _NUMBERS else "a text in quotes"
+        return "other-kind", f"The answer to this question is {wanted}."
+    if kind == "type" and value.count("/") < 2:
+        return "name-incomplete", "A type's full name has three parts: package, `msg`, name."
+    if kind == "type" and value.strip("[]") != value:
+        return "stray-characters", "The name is the text inside the brackets, without them."
+    if kind not in ("node", "topic"):
+        return None
+    graph = house.run.graph
+    topics = {*graph.topics(), *INFRASTRUCTURE_TOPICS}
+    if value in (graph.nodes if kind == "node" else topics):
+        return None
+    if value in topics or value in graph.nodes:
+        other = "topic" if kind == "node" else "node"
+        return "other-kind", f"That is a {other}, and the question is about a {kind}."
+    said = f"The greenhouse has no {kind} of this name. Copy names letter by letter."
+    return "not-in-graph", said
+
+
+_FINDINGS = Exercise(
+    "07a",
+    report,
+    judge_findings,
+    "a system of strangers",
+    3,
+    (
+        "Ask about one thing at a time, in the terminal `look`, and write down what you see.",
+        "ros2 topic info --verbose names both sides of a topic; ros2 topic hz counts; ros2 "
+        "param get reads; the field name of a log line names the node that logged it.",
+        "Terminals do not know the depth of a queue, but this kernel made the greenhouse: "
+        "for end in ros.graph().endpoints: print(end) shows it all.",
     ),
 )
+
+# What the nodes of 07b and 07c published.
+
+
+def _silence(observation: Observation, heard: Wire, said: Wire) -> Diagnosis | None:
+    """Say why a node did not listen to one topic, or published nothing on the other."""
+    # A step that publishes, or sets a parameter, is a callback of another kind.
+    sources = [one.source for one in observation.callbacks if one.kind == "subscription"]
+    silent = Diagnosis(
+        "never-published",
+        f"Messages came on {heard.topic}, and nothing was published on {said.topic}.",
+        "Does the callback come to the line that publishes?",
+    )
+    unheard = None if heard.topic in sources else why_not_heard(observation, heard)
+    return unheard or missing(observation, said, otherwise=silent)
+
+
+def _texts(observation: Observation, wire: Wire) -> dict[float, tuple[str, ...]]:
+    """Return the texts on a topic by the second at which they were published."""
+    found: dict[float, tuple[str, ...]] = {}
+    for one in on(observation, wire):
+        found[one.time] = (*found.get(one.time, ()), str(one.value).strip())
+    return found
+
+
+# 07b: limits that change while the node runs.
+
+_TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
+_STATUS = Wire("/status", "std_msgs/msg/String")
+#: The values before anything is set.
+_DEFAULTS = {"low": 20.0, "high": 26.0}
+#: What is set, half a second before the reading of this number; two limits are no whole numbers.
+CHANGES = ((9, {"high": 24.5}), (13, {"low": 21.5}), (17, {"low": 10.0, "high": 30.0}))
+#: One reading a second. Those before the first change, and at each limit a reading.
+READINGS = (
+    *(23.0, 26.0, 26.25, 20.0, 19.75, 25.5, 20.5, 25.0),
+    *(25.0, 24.5, 24.75, 21.0),
+    *(21.0, 21.5, 23.0, 21.25),
+    *(28.0, 15.0, 30.0, 30.25, 10.0, 9.75),
+)
+
+
+def _observe_tuning(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+    from rosbeat.ros.scenario import SetParameter
+
+    sensor = feeder("temperature_sensor", _TEMPERATURE.topic, _TEMPERATURE.type_name, READINGS)
+    steps = [
+        SetParameter(second - 0.5, name=name, value=value)
+        for second, values in CHANGES
+        for name, value in values.items()
+    ]
+    return observe(answer, len(READINGS) + 0.5, others=[sensor], steps=steps)
+
+
+#: Returns the status of a reading, from the reading and the limits `low` and `high`.
+_Rule = Callable[[float, float, float], str]
+
+
+def _status(value: float, low: float, high: float) -> str:
+    return "High" if value > high else "Low" if value < low else "Normal"
+
+
+def _limits(
+    at: float, start: Mapping[str, float] = _DEFAULTS, frozen: Collection[str] = ()
+) -> dict[str, float]:
+    """Return the limits at a time, of which the frozen ones stay as they were at the start."""
+    found = dict(start)
+    for second, values in CHANGES:
+        if second - 0.5 <= at:
+            found |= {name: value for name, value in values.items() if name not in frozen}
+    return found
+
+
+def _monitor(
+    rule: _Rule = _status,
+    start: Mapping[str, float] = _DEFAULTS,
+    frozen: Collection[str] = (),
+    asked_at: Callable[[int], float] = float,
+) -> Callable[[Iterable[float]], dict[float, tuple[str, ...]]]:
+    """Return the model of a monitor, by default a right one; `asked_at` is when it asks."""
+    return lambda readings: {
+        float(number): (rule(value, *_limits(asked_at(number), start, frozen).values()),)
+        for number, value in enumerate(readings, 1)
+    }
+
+
+def _every(period: int, late: int) -> Callable[[int], float]:
+    """Return when limits were asked for last; a timer asks before a reading comes, or after it."""
+    return lambda number: (number - late) - (number - late) % period
+
+
+_right = _monitor()
+_EACH_READING = "Publish one status for each reading, when it comes, "
+_SUSPECT_MONITORS = (
+    *(
+        Suspect("parameter-frozen", f"What is set for {' and '.join(names)} never counts. Where "
+                "is the value asked for: once, or each time that a reading comes?",
+                _monitor(frozen=names))
+        for names in (("low", "high"), ("low",), ("high",))
+    ),
+    Suspect("parameter-late", "A new value counts one reading too late. Ask for the value first, "
+            "and then decide.", _monitor(asked_at=_every(1, late=1))),
+    *(
+        Suspect("parameter-late", f"It looks as if the limits were asked for every {period} "
+                "seconds. A new value counts from the next reading on.",
+                _monitor(asked_at=_every(period, late)))
+        for period, late in product((3, 5, 10), (0, 1))
+    ),
+    Suspect("parameters-swapped", "High appears above the lower limit, and Low below the upper "
+            "one. Which of the two values belongs to which name, and to which comparison?",
+            _monitor(lambda value, low, high: _status(value, high, low))),
+    *(
+        Suspect("boundary", "A reading exactly at a limit is Normal: > and < leave the limit "
+                "itself out.", _monitor(rule))
+        for rule in (
+            lambda v, low, high: "High" if v >= high else _status(v, low, high),
+            lambda v, low, high: "Low" if v <= low else _status(v, low, high),
+            lambda v, low, high: "High" if v >= high else "Low" if v <= low else "Normal",
+        )
+    ),
+    *(
+        Suspect("decimals-lost", "The reading and both limits are decimal numbers: where does "
+                "one of them lose its decimals?", _monitor(rule))
+        for rule in (
+            lambda v, low, high: _status(int(v), low, high),
+            lambda v, low, high: _status(round(v), low, high),
+            lambda v, low, high: _status(v, int(low), int(high)),
+            lambda v, low, high: _status(v, round(low), round(high)),
+            lambda v, low, high: _status(v, int(low), high),
+            lambda v, low, high: _status(v, round(low), high),
+            lambda v, low, high: _status(v, low, int(high)),
+        )
+    ),
+    Suspect("wrong-state", "High never appears. Is its condition reached, and what comes after?",
+            _monitor(lambda value, low, high: _status(value, low, value))),
+    Suspect("wrong-state", "Low never appears. Is its condition reached, and what comes after?",
+            _monitor(lambda value, low, high: _status(value, value, high))),
+    *(
+        Suspect("wrong-state", "Which limit belongs to which word, and on which side of it?",
+                _monitor(rule))
+        for rule in (
+            lambda v, low, high: "High" if v < high else "Low" if v > low else "Normal",
+            lambda v, low, high: "Low" if v > high else "High" if v < low else "Normal",
+            lambda v, low, high: "High" if v > high else "Low",
+            lambda v, low, high: _status(v, high, high),
+            lambda v, low, high: _status(v, low, low),
+        )
+    ),
+    Suspect("wrong-state", "Each status is that of the reading before. Decide, and then publish.",
+            lambda fed: {at: _right(fed).get(at - 1, ("Normal",)) for at in _right(fed)}),
+    Suspect("wrong-rate", f"{_EACH_READING}whether it has changed or not.",
+            lambda fed: {at: now for at, now in _right(fed).items()
+                         if now != _right(fed).get(at - 1)}),
+    Suspect("wrong-rate", f"{_EACH_READING}also while it is Normal.",
+            lambda fed: {at: now for at, now in _right(fed).items() if now != ("Normal",)}),
+    Suspect("wrong-rate", f"{_EACH_READING}and only once.",
+            lambda fed: {at: now * 2 for at, now in _right(fed).items()}),
+    # Of all defaults between two readings one is enough: their statuses are the same.
+    *(
+        Suspect("other-default", "`low` begins at 20.0, and `high` at 26.0.",
+                _monitor(start={"low": low, "high": high}))
+        for low, high in product((0.0, *sorted({*READINGS}), 99.0), repeat=2)
+        if {"low": low, "high": high} != _DEFAULTS
+    ),
+)  # fmt: skip
+
+
+def _judge_tuning(observation: Observation) -> Outcome:
+    wrong = (
+        _silence(observation, _TEMPERATURE, _STATUS)
+        or _refused(observation)
+        or _mistuned(_texts(observation, _STATUS))
+    )
+    if wrong:
+        return failed_by("07b", wrong)
+    changes = sum(len(values) for _, values in CHANGES)
+    return passed("07b", f"{len(READINGS)} readings, {changes} changes of a parameter, no slip.")
+
+
+#: Reasons of rclpy, and what they mean; they say more than a model could.
+_REFUSALS = {
+    "not declared": ("parameter-undeclared", "Which call in the constructor makes a parameter? "
+                     "Its name has to be this one, letter by letter."),
+    "Callback returned an invalid type": (
+        "result-of-another-kind", "A parameter callback has to return a SetParametersResult, on "
+        "every path. What does yours return?"),
+    "Wrong parameter type": (
+        "parameter-type", "A decimal number was set. The first value that declare_parameter gets "
+        "decides about the type: 3 is a whole number, 3.0 is a decimal one."),
+    "": ("parameter-refused", "Each of these numbers is a good limit. Which line of your node "
+         "refuses it, and when?"),
+}  # fmt: skip
+
+
+def _refused(observation: Observation) -> Diagnosis | None:
+    """Say why a parameter could not be set."""
+    steps = [one.source for one in observation.callbacks if one.name == "SetParameter"]
+    refused = next((one for one in steps if not one.endswith(": accepted")), "")
+    if not refused:
+        return None
+    name, _, why = refused.partition(": ")
+    said = why.partition(", ")[2].rstrip(".") or "without a reason"
+    mistake, hint = next(found for reason, found in _REFUSALS.items() if reason in why)
+    return Diagnosis(mistake, f"`ros2 param set` was refused for {name}: {said}.", hint)
+
+
+def _mistuned(done: Track) -> Diagnosis | None:
+    parted = parting(done, _right(READINGS))
+    if parted is None:
+        return None
+    gave, right = (" and ".join(one) or "no status" for one in (parted.done, parted.right))
+    evidence = f"At {parted.at:g} s your node published {gave}, and no reading came then."
+    if parted.right:
+        low, high = _limits(parted.at).values()
+        evidence = (
+            f"With `low` at {low:g} and `high` at {high:g}, a reading of "
+            f"{READINGS[int(parted.at) - 1]:g} gave {gave} instead of {right}."
+        )
+    known = fitting(READINGS, done, _SUSPECT_MONITORS)
+    return named(evidence, known, _unlike_any_monitor(done, evidence))
+
+
+def _unlike_any_monitor(done: Track, evidence: str) -> Diagnosis:
+    """Say what is wrong with statuses that no suspect publishes: any text may come, at any time."""
+    said = [word for words in done.values() for word in words]
+    if len(said) != len(READINGS) or len(done) != len(READINGS):
+        count = f"{len(READINGS)} readings arrived, and {len(said)} statuses were published."
+        return Diagnosis("wrong-rate", f"{count} {evidence}", f"{_EACH_READING}and only then.")
+    if not {"High", "Low", "Normal"}.issuperset(said):
+        hint = "The words are High, Low and Normal, and nothing else."
+        return Diagnosis("wrong-word", evidence, hint)
+    return Diagnosis("wrong-state", evidence, "Which of your conditions is true there?")
+
+
+_TUNING = Exercise(
+    "07b",
+    _observe_tuning,
+    _judge_tuning,
+    "limits to turn",
+    2,
+    (
+        "A parameter is declared in the constructor, with its name and its first value.",
+        "get_parameter returns the parameter; its attribute `value` holds the number.",
+        "The constructor runs once, so what it asks for is asked for once. The callback runs at "
+        "each reading.",
+    ),
+)
+
+# 07c: a node that listens to log lines.
+
+_ROSOUT = Wire("/rosout", "rcl_interfaces/msg/Log")
+_WARNINGS = Wire("/warnings", "std_msgs/msg/String")
+_LEVELS = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
+_DEBUG, _INFO, _WARN, _ERROR, _FATAL = _LEVELS
+
+
+class Line(NamedTuple):
+    """One log line that is fed in, with the fields of a `Log`."""
+
+    level: int
+    name: str
+    msg: str
+
+
+#: One a second. Texts hold `warning` and `error` where there is none; names and a text come twice.
+LINES = (
+    Line(_INFO, "gardener", "The window is shut"),
+    Line(_WARN, "lamp", "I do not know how bright it is"),
+    Line(_DEBUG, "weather", "warning: only a test"),
+    Line(_WARN, "lamp", "I do not know how bright it is"),
+    Line(_INFO, "window", "No error, no WARN, nothing"),
+    Line(_ERROR, "soil_probe", "The cable is loose"),
+    Line(_FATAL, "pump", "No water"),
+    Line(_DEBUG, "lamp", "12 readings"),
+    Line(_WARN, "greenhouse.fan", "It is getting loud"),
+    Line(_ERROR, "lamp", "The bulb is broken"),
+    Line(_WARN, "lamp", "It is dark now"),
+    Line(_INFO, "lamp", "A new bulb"),
+)
+
+
+def _observe_log_watcher(answer: Any) -> Observation:  # noqa: ANN401
+    from rosbeat.ros.scenario import Publish
+
+    steps = [
+        Publish(
+            second,
+            topic=_ROSOUT.topic,
+            type_name=_ROSOUT.type_name,
+            values=(line._asdict(),),
+            qos=QoS(durability="TRANSIENT_LOCAL", depth=1000),  # as every node's own publisher
+        )
+        for second, line in enumerate(LINES, 1)
+    ]
+    return observe(answer, len(LINES) + 0.5, steps=steps)
+
+
+# Which lines count and what is published for them are two questions, each with its own suspects;
+# so of an answer with a mistake in both the first one is named.
+
+
+def _lines(counts: Callable[[Line], bool]) -> Callable[[Iterable[Line]], Track]:
+    """Return the model of a watcher for which some lines count."""
+    return lambda lines: {float(n): (True,) for n, line in enumerate(lines, 1) if counts(line)}
+
+
+def _is_warning(line: Line) -> bool:
+    return line.level >= _WARN
+
+
+def _among(values: Collection[Any], key: str = "level") -> Callable[[Iterable[Line]], Track]:
+    return _lines(lambda line: _is_warning(line) and getattr(line, key) in values)
+
+
+def _once(key: Callable[[Line], Any], memory: int = 99) -> Callable[[Iterable[Line]], Track]:
+    """Return the model of a watcher that leaves out what it has in its memory."""
+
+    def model(lines: Iterable[Line]) -> Track:
+        known = deque[Any](maxlen=memory)
+        found = {}
+        for at, line in enumerate(lines, 1):
+            if _is_warning(line) and key(line) not in known:
+                found[float(at)] = (True,)
+                known.append(key(line))
+        return found
+
+    return model
+
+
+_warnings = _lines(_is_warning)
+_BY_NUMBER = (
+    "The number in the message is the level, whatever the text says. Compare it with the number "
+    "of a warning."
+)
+_AT_ONCE = "Publish in the callback of /rosout."
+_SUSPECT_LINES = (
+    *(
+        Suspect("level-too-low", _BY_NUMBER, _lines(counts))
+        for counts in (
+            lambda line: True,
+            lambda line: line.level >= _INFO,
+            lambda line: line.level <= _WARN,
+            lambda line: line.level < _WARN,
+            lambda line: "warn" in line.msg.lower() or "error" in line.msg.lower(),
+        )
+    ),
+    Suspect("boundary", "A warning itself counts, and so does what is worse.",
+            _among((_ERROR, _FATAL))),
+    *(
+        Suspect("level-missed", "What is worse than a warning counts, too.", _among(levels))
+        for levels in ((_WARN,), (_WARN, _ERROR), (_WARN, _FATAL))
+    ),
+    *(
+        Suspect("said-once", "Each line counts, also of a node named before.", model)
+        for model in (
+            _once(lambda line: line.name),
+            _once(lambda line: line.name, memory=1),
+            _once(lambda line: line.msg),
+            _once(lambda line: line.msg, memory=1),
+            _once(lambda line: line.level),
+            _once(lambda line: (line.name, line.level)),
+        )
+    ),
+    *(
+        Suspect("one-name-only", "The level decides, whichever node logs the line.",
+                _among((name,), "name"))
+        for name in sorted({line.name for line in LINES if _is_warning(line)})
+    ),
+    Suspect("alert-too-many", f"Each name comes a second late. {_AT_ONCE}",
+            lambda lines: {at + 1: said for at, said in _warnings(lines).items()}),
+)  # fmt: skip
+
+
+def _texts_of(
+    text: Callable[[Line, str], str],
+) -> Callable[[Mapping[float, tuple[Line, str]]], Track]:
+    """Return the model of a watcher by the text that it makes of a line and its own full name."""
+    return lambda fed: {at: (text(*one).strip(),) for at, one in fed.items()}
+
+
+_names = _texts_of(lambda line, node: line.name)
+_FIELD = "Which field of the message holds the name? ros2 interface show lists them all."
+_SUSPECT_TEXTS = (
+    Suspect("text-for-name", "That is the text of the line. Which field names the node?",
+            _texts_of(lambda line, node: line.msg)),
+    *(
+        Suspect("own-name", "That is the node that listens. The message holds the name of the "
+                "node that logged the line.", _texts_of(text))
+        for text in (lambda line, node: node, lambda line, node: node[1:].replace("/", "."))
+    ),
+    *(
+        Suspect("wrong-values", f"That is the level. {_FIELD}", _texts_of(text))
+        for text in (lambda line, node: str(line.level), lambda line, node: _LEVELS[line.level])
+    ),
+    *(
+        Suspect("wrong-values", "A name may have several parts: publish the field as it is.",
+                _texts_of(text))
+        for text in (
+            lambda line, node: line.name.split(".")[0],
+            lambda line, node: line.name.split(".")[-1],
+            lambda line, node: line.name.replace(".", "/"),
+        )
+    ),
+)  # fmt: skip
+
+
+def _judge_log_watcher(observation: Observation) -> Outcome:
+    wrong = _silence(observation, _ROSOUT, _WARNINGS)
+    said = _texts(observation, _WARNINGS)
+    wrong = wrong or _wrong_lines(said) or _wrong_texts(said, observation.subject)
+    if wrong:
+        return failed_by("07c", wrong)
+    count = len(_warnings(LINES))
+    return passed("07c", f"{len(LINES)} log lines, {count} warnings or worse, each one named.")
+
+
+def _wrong_lines(said: Mapping[float, tuple[str, ...]]) -> Diagnosis | None:
+    """Say which line was named and does not count, or the other way round."""
+    done: Track = dict.fromkeys(said, (True,))
+    parted = parting(done, _warnings(LINES))
+    if parted is None:
+        return None
+    at = {float(second): line for second, line in enumerate(LINES, 1)}
+    if not at.keys() >= said.keys() and not fitting(LINES, done, _SUSPECT_LINES):
+        stray = min(said.keys() - at.keys())  # no model: a timer may publish at any time
+        evidence = f"A name was published at {stray:g} s, and no log line came then."
+        return Diagnosis("alert-too-many", evidence, _AT_ONCE)
+    line = at[parted.at]
+    what = repr(said[parted.at][0]) if parted.done else "Nothing"
+    evidence = f"{what} was published for a line of level {_LEVELS[line.level]}: {line.msg!r}."
+    other = Diagnosis(UNKNOWN, evidence, "What does your method do with this line, step by step?")
+    if parted.done:
+        other = Diagnosis("level-too-low", evidence, _BY_NUMBER)
+    return named(evidence, fitting(LINES, done, _SUSPECT_LINES), other)
+
+
+def _wrong_texts(said: Mapping[float, tuple[str, ...]], node: str) -> Diagnosis | None:
+    """Say what is wrong with the texts for the right lines."""
+    fed = {at: (LINES[int(at) - 1], node) for at in said}
+    done: Track = {at: texts[:1] for at, texts in said.items()}
+    parted = parting(done, _names(fed))
+    if parted:
+        text, name = parted.done[0], parted.right[0]
+        evidence = f"For a line of {name}, {text!r} was published."
+        other = Diagnosis("wrong-values", evidence, _FIELD)  # no model: a text may be anything
+        if name in text:
+            hint = "Publish the name, and nothing around it."
+            other = Diagnosis("stray-characters", evidence, hint)
+        return named(evidence, fitting(fed, done, _SUSPECT_TEXTS), other)
+    count = sum(map(len, said.values()))
+    if count == len(said):
+        return None
+    evidence = f"{count} names were published for {len(said)} lines."
+    return Diagnosis("alert-too-many", evidence, "One name for each line is enough.")
+
+
+#: What the models of 07b and 07c are fed, the right one, and the suspects; for tests.
+MODELS: tuple[tuple[Any, Callable[[Any], Track], tuple[Suspect, ...]], ...] = (
+    (READINGS, _right, _SUSPECT_MONITORS),
+    (LINES, _warnings, _SUSPECT_LINES),
+    ({1.0 * n: (line, "/watcher") for n, line in enumerate(LINES)}, _names, _SUSPECT_TEXTS),
+)
+
+_LOG_WATCHER = Exercise(
+    "07c",
+    _observe_log_watcher,
+    _judge_log_watcher,
+    "a log watcher",
+    3,
+    (
+        "It is an alarm like that of page 04, with a subscription for another message type.",
+        "create_subscription takes Log, the topic, your method and a depth. The message has "
+        "the fields level, name and msg.",
+        "Levels are numbers, and worse is greater. Log.WARN is the number of a warning.",
+    ),
+)
+
+EXERCISES: tuple[Exercise[Any], ...] = (_FINDINGS, _TUNING, _LOG_WATCHER)

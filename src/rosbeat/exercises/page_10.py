@@ -1,20 +1,198 @@
-"""Page 10, find the fault."""
+"""Page 10, find the fault: diagnoses of a ward's patients, compared with their charts.
+
+The scenario only calls the learner's function, so no patient's fault is known where it runs. The
+judge examines the patients, where none of a learner's code runs; `rosbeat.clinic` is imported in
+its functions only. The suspects of this page are the clinic's own: its signs are models of what
+each fault shows, and what contradicts a diagnosis comes from them. What is left to judge here is
+the form of a diagnosis, and that may be anything.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from difflib import get_close_matches
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.page_10_scenarios import SCENARIOS
-from rosbeat.exercises.rounds import judge
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.silence import listing
+from rosbeat.exercises.exercise import BLANK, Exercise, failed, failed_by, not_attempted, passed
+from rosbeat.exercises.model import before_reading
+from rosbeat.exercises.scenarios import Report, report
+from rosbeat.records import Outcome
 
-_SILENT, _HEARD, _PAIRS = range(1, 5), range(5, 9), range(9, 12)
+if TYPE_CHECKING:
+    from rosbeat.clinic.charts import Chart
+
+#: The ward of the page; a dict of diagnoses may name another one.
+WARD = 7
+_KEY = "ward"
+
+# The dict of diagnoses: from a patient's number to a pair, or to a list of pairs.
+
+
+class Claim(NamedTuple):
+    """One diagnosis: the id of a fault, and the node or topic where it is said to be."""
+
+    mistake: str
+    place: str
+
+
+def _claims(entry: Any) -> list[Claim] | None:  # noqa: ANN401 - plain data
+    """Return the diagnoses of one patient without blanks; None if they cannot be read."""
+    if not isinstance(entry, list):
+        return None
+    pairs = [entry] if [*map(type, entry)] == [str, str] else entry
+    if not all(isinstance(pair, list) and [*map(type, pair)] == [str, str] for pair in pairs):
+        return None
+    claims = [Claim(mistake.strip(), place.strip()) for mistake, place in pairs]
+    return [one for one in claims if one.mistake and BLANK not in (one.mistake, one.place)]
+
+
+def _unreadable(value: Any, patients: Sequence[int]) -> Diagnosis | None:  # noqa: ANN401
+    """Say why a result holds no diagnoses; None if it can be read."""
+    evidence = _misfit(value, patients)
+    if not evidence:
+        return None
+    form = '`1: ("callback-blocks", "/a_node")`'
+    hint = f"Return a dict: the patient's number, then diagnosis and place, as in {form}."
+    return Diagnosis("no-diagnoses", evidence, hint)
+
+
+def _misfit(value: Any, patients: Sequence[int]) -> str:  # noqa: ANN401
+    if not isinstance(value, dict):
+        return f"The function returned a {type(value).__name__} instead of a dict."
+    ward = value.get(_KEY, WARD)
+    if type(ward) is not int or not 0 <= ward < 2**32:
+        return f"There is no ward {ward!r}: its number is a whole one, from 0 up."
+    for key, entry in value.items():
+        if key != _KEY and key not in map(str, patients):
+            asked = f"patients {patients[0]} to {patients[-1]}"
+            return f"The dict has the key {key}, and this exercise is about {asked}."
+        if key != _KEY and _claims(entry) is None:
+            return f"The value for patient {key} is not a pair of two texts, or a list of pairs."
+    return ""
+
+
+# A diagnosis and a chart.
+
+
+@lru_cache(maxsize=64)
+def _chart(seed: int, number: int) -> Chart:
+    """Examine a patient once: it is the same each time."""
+    from rosbeat.clinic.ward import Ward
+
+    return Ward(seed).chart(number)
+
+
+def weigh(chart: Chart, claims: Sequence[Claim]) -> Diagnosis | None:
+    """Return what is wrong with the diagnoses of one patient, never what is right; or None.
+
+    Args:
+        chart: The patient.
+        claims: The diagnoses that were given, in any order.
+    """
+    if not claims:
+        return Diagnosis(
+            "no-diagnosis-yet",
+            "no diagnosis yet.",
+            "Begin with its owner's words. Then go along the order, from the sensor on: is it "
+            "published, matched, taken, and is the value right?",
+        )
+    wrong = (_nameless(chart, one) or _refuted(chart, one) for one in claims)
+    return next(filter(None, wrong), None) or _half(chart, claims)
+
+
+def _place(chart: Chart, name: str) -> str:
+    """Return a place's full name; its slash may be left out, and so may a node's namespace."""
+    full = "/" + name.lstrip("/")
+    if full in (*chart.nodes, *chart.topics):
+        return full
+    found = [node for node in chart.nodes if node.endswith(full)]
+    return found[0] if len(found) == 1 else ""
+
+
+def _nameless(chart: Chart, claim: Claim) -> Diagnosis | None:
+    """Say if there is no such diagnosis, or no such place."""
+    from rosbeat.clinic.names import KNOWN
+
+    if claim.mistake not in KNOWN and claim.place in KNOWN:
+        evidence = f"{claim.mistake!r} comes first, and {claim.place!r} second."
+        return Diagnosis("arguments-swapped", evidence, "First the diagnosis, then the place.")
+    if claim.mistake not in KNOWN:
+        evidence = f"the clinic knows no diagnosis {claim.mistake!r}."
+        hint = "`clinic.names()` lists all that may be given: copy one, letter by letter."
+        return Diagnosis("no-such-diagnosis", evidence, hint)
+    if _place(chart, claim.place):
+        return None
+    near = get_close_matches(claim.place, [*chart.nodes, *chart.topics], 1)
+    hint = f"Did you mean {near[0]}?" if near else "The graph shows its nodes and topics."
+    return Diagnosis("no-such-place", f"it has no node or topic {claim.place!r}.", hint)
+
+
+def _refuted(chart: Chart, claim: Claim) -> Diagnosis | None:
+    """Say what contradicts a diagnosis."""
+    from rosbeat.clinic import signs
+
+    place = _place(chart, claim.place)
+    places = [one.places for one in chart.truths if one.mistake == claim.mistake]
+    if any(place in there for there in places):
+        return None
+    yet = signs.against(chart, claim.mistake, place)
+    evidence = f"you say {claim.mistake} at {place}; yet {yet}."
+    if places:
+        hint = "Such a fault is there. Follow the messages: where do they still come, where not?"
+        return Diagnosis("other-place", evidence, hint)
+    hint = "Which instrument would show it, if it were so? Use it, and compare with the order."
+    return Diagnosis("contradicted", evidence, hint)
+
+
+def _half(chart: Chart, claims: Sequence[Claim]) -> Diagnosis | None:
+    known = {claim.mistake for claim in claims}
+    if len(known) >= len(chart.truths):
+        return None
+    return Diagnosis(
+        "half-a-diagnosis",
+        f"{listing(sorted(known))} is right, and it is not the only fault.",
+        "Imagine that this fault is mended. Would the owner be content? Look at the rest of "
+        "the system with the same instruments.",
+    )
+
+
+# All patients of an exercise.
+
+
+def _judge(exercise: str, patients: Sequence[int], seen: Report) -> Outcome:
+    early = before_reading(exercise, seen, f'check("{exercise}", diagnoses)')
+    if early:
+        return early
+    value = seen.value
+    unreadable = _unreadable(value, patients)
+    if unreadable:
+        return failed_by(exercise, unreadable)
+    claims = {number: _claims(value.get(str(number), [])) or [] for number in patients}
+    if not any(claims.values()):
+        return not_attempted(exercise, "No patient has a diagnosis yet.")
+    ward = value.get(_KEY, WARD)
+    weighed = {number: weigh(_chart(ward, number), claims[number]) for number in patients}
+    right = [str(number) for number, found in weighed.items() if not found]
+    wrong = {number: found for number, found in weighed.items() if found}
+    head = f"Patient{'s' * (len(right) > 1)} {listing(right)}"
+    if not wrong:
+        return passed(exercise, f"{head} are diagnosed.")
+    # Nobody has to have seen all patients before the first one is judged.
+    told = [(n, found) for n, found in wrong.items() if claims[n]] or [*wrong.items()][:1]
+    evidence = [f"Patient {number}: {found.evidence}" for number, found in told]
+    if right:
+        evidence.insert(0, f"{head} {'are' if len(right) > 1 else 'is'} right.")
+    return failed(exercise, " ".join(evidence), told[0][1].hint, told[0][1].mistake)
+
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "10a",
-        SCENARIOS["10a"],
-        judge("10a", _SILENT),
+        report,
+        partial(_judge, "10a", range(1, 5)),
         "four patients, and something is silent",
         2,
         (
@@ -31,8 +209,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "10b",
-        SCENARIOS["10b"],
-        judge("10b", _HEARD),
+        report,
+        partial(_judge, "10b", range(5, 9)),
         "four patients, and nothing is silent",
         3,
         (
@@ -49,8 +227,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "10c",
-        SCENARIOS["10c"],
-        judge("10c", _PAIRS),
+        report,
+        partial(_judge, "10c", range(9, 12)),
         "three patients with two faults each",
         4,
         (

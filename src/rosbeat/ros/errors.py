@@ -193,11 +193,17 @@ def unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTo
             "Log or keep the messages in the callback of a node that subscribes.",
         )
     listeners = ", ".join(end.node for end in listening)
+    add = "Add the publishing node first, with `ros.add(...)`."
+    # A near name that has listeners of its own is another topic, and no misspelling of this one.
+    near = [one for one in sorted(known) if not (listening and graph.on(one, "subscription"))]
+    to_try = nearest(name, near, add)
+    if listening and to_try != add:
+        to_try += f" If not, add the node that publishes on {name}."
     return UnknownTopicError(
         f"Nobody has published on {name}.",
         f"{f'{listeners} listens there, but no' if listeners else 'No'} node of this session has "
         f"a publisher of that name. Published topics: {', '.join(sorted(known)) or 'none yet'}.",
-        nearest(name, sorted(known), "Add the publishing node first, with `ros.add(...)`."),
+        to_try,
     )
 
 

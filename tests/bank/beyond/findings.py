@@ -167,4 +167,98 @@ WRONG = (
             (_PUBLISHER, _TYPE + " "), (_WARNS, "35.5")),
 )  # fmt: skip
 
-ANSWERS = (*RIGHT, *WRONG)
+#: Written from the page alone.
+FRESH = (
+    right("07a", "an object that is called", """
+        class Findings:
+            def __init__(self, **words):
+                self.words = words
+
+            def __call__(self):
+                return {key.replace("__", " /").replace("_", " "): value
+                        for key, value in self.words.items()} | {
+                    "messages a second on /moisture": round(4.98),
+                    "queue depth of /gardener for /moisture": len("abc"),
+                    "dry_below of /gardener": int("35"),
+                }
+
+        findings = Findings(
+            publisher_of__moisture="soil_probe", type_of__moisture="std_msgs/msg/Int32",
+            topic_without_a_listener="lights", topic_without_a_publisher="light",
+            node_that_warns="lamp",
+        )
+    """, handed="findings"),
+    right("07a", "enumerations", """
+        from enum import IntEnum, StrEnum
+
+        class Who(StrEnum):
+            SENDS = "/soil_probe"
+            WARNS = "/lamp"
+
+        class Number(IntEnum):
+            RATE = 5
+            DEPTH = 3
+            DRY = 35
+
+        def findings():
+            return {
+                "publisher of /moisture": Who.SENDS,
+                "type of /moisture": "/".join(("std_msgs", "msg", "Int32")),
+                "messages a second on /moisture": Number.RATE,
+                "queue depth of /gardener for /moisture": Number.DEPTH,
+                "topic without a listener": "/lights",
+                "topic without a publisher": "/lights"[:-1],
+                "node that warns": Who.WARNS,
+                "dry_below of /gardener": Number.DRY,
+            }
+    """),
+    right("07a", "numbers of numpy", """
+        import numpy as np
+
+        def findings():
+            times = np.arange(0.2, 10.0, 0.2)
+            return {
+                "publisher of /moisture": "/soil_probe",
+                "type of /moisture": "std_msgs/msg/Int32",
+                "messages a second on /moisture": 1 / np.diff(times).mean(),
+                "queue depth of /gardener for /moisture": 3,
+                "topic without a listener": "/lights",
+                "topic without a publisher": "/light",
+                "node that warns": "/lamp",
+                "dry_below of /gardener": np.float64(35),
+            }
+    """),
+    right("07a", "a partial function", edited(
+        BASE, ("def findings():", "from functools import partial\n\ndef notes(dry):"),
+        (_DRY, "dry"),
+        ("    }\n", "    }\n\nfindings = partial(notes, dry=35)\n")), handed="findings"),
+    right("07a", "an ordered dict, and keys to spare", """
+        from collections import OrderedDict
+
+        def findings():
+            found = OrderedDict(question="what is there?")
+            for line in (
+                "publisher of /moisture = /soil_probe", "type of /moisture = std_msgs/msg/Int32",
+                "messages a second on /moisture = 4.95",
+                "queue depth of /gardener for /moisture = 3", "topic without a listener = /lights",
+                "topic without a publisher = /light", "node that warns = /lamp",
+                "dry_below of /gardener = 35",
+            ):
+                key, _, value = line.partition(" = ")
+                found[key] = value
+            return found
+    """),
+    _wrong("a type in brackets", "stray-characters", (_TYPE, '"[std_msgs/msg/Int32]"')),
+    _wrong("a type in capitals", "finding-wrong", (_TYPE, '"std_msgs/msg/INT32"')),
+    _wrong("a class for a type", "not-plain", (_TYPE, "Float32")),
+    _wrong("both sides at once", "not-in-graph", (_PUBLISHER, '"/soil_probe, /gardener"')),
+    _wrong("a line of hz", "other-kind", _rate('"average rate: 5.000"')),
+    _wrong("the topic of log lines", "other-kind", (_WARNS, '"/rosout"')),
+    _wrong("a wish to know", "raised", ("def findings():", "def findings(ros):")),
+    _wrong("a generator", "not-plain", ("return {", "yield {")),
+    _wrong("a text of all", "other-kind", ("return {", "return str({"), ("    }\n", "    })\n")),
+    _wrong("a key with a capital", "finding-missing", ('"node that', '"Node that')),
+    _either("one topic for both", ("sides-confused",), (_UNHEARD, '"/light"')),
+)  # fmt: skip
+
+ANSWERS = (*RIGHT, *WRONG, *FRESH)

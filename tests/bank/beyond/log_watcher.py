@@ -191,4 +191,150 @@ WRONG = (
             ('"/rosout"', '"/rosut"'), ('"warnings"', '"warning"')),
 )  # fmt: skip
 
-ANSWERS = (*RIGHT, *WRONG)
+#: Written from the page alone.
+FRESH = (
+    right("07c", "an object that is called, and a range", """
+        class Teller:
+            def __init__(self, publisher):
+                self.publisher = publisher
+
+            def __call__(self, line):
+                if line.level in range(Log.WARN, Log.FATAL + 1):
+                    self.publisher.publish(String(data=line.name))
+
+        class LogWatcher(Node):
+            def __init__(self):
+                super().__init__("watcher", namespace="/tools")
+                publisher = self.create_publisher(String, "/warnings", 10)
+                self.create_subscription(Log, "/rosout", Teller(publisher), 100)
+    """),
+    right("07c", "inheritance and a hook", """
+        class Watcher(Node):
+            source, kind = "/rosout", Log
+
+            def __init__(self, name):
+                super().__init__(name)
+                self.subscription = self.create_subscription(
+                    self.kind, self.source, self._heard, 10)
+                self.publisher = self.create_publisher(String, "warnings", 10)
+
+            def _heard(self, msg):
+                for text in filter(None, (self.answer(msg),)):
+                    self.publisher.publish(String(data=text))
+
+            def answer(self, msg):
+                raise NotImplementedError
+
+        class LogWatcher(Watcher):
+            def __init__(self):
+                super().__init__("watcher")
+
+            def answer(self, msg):
+                return msg.name if not msg.level < Log.WARN else None
+    """),
+    right("07c", "partial, numpy and a walrus", """
+        from functools import partial
+
+        import numpy as np
+
+        LEVELS = np.array([Log.WARN, Log.ERROR, Log.FATAL])
+
+        def hear(node, msg):
+            if np.isin(msg.level, LEVELS) and (name := msg.name):
+                node.out.publish(String(data=name))
+
+        class LogWatcher(Node):
+            def __init__(self):
+                super().__init__("watcher")
+                self.out = self.create_publisher(String, "warnings", 10)
+                self.create_subscription(Log, "/rosout", partial(hear, self), 10)
+    """),
+    right("07c", "a dict of levels and a counter", """
+        from collections import Counter
+
+        class LogWatcher(Node):
+            WORDS = dict(zip((10, 20, 30, 40, 50), ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")))
+
+            def __init__(self):
+                super().__init__("watcher")
+                self.seen = Counter()
+                self.out = self.create_publisher(String, "warnings", 10)
+                self.create_subscription(Log, "/rosout", self.hear, 10)
+
+            def hear(self, msg):
+                word = self.WORDS[msg.level]
+                self.seen[word] += 1
+                if word[0] in "WEF":
+                    self.out.publish(String(data=str(msg.name)))
+    """),
+    right("07c", "a queue and a guard condition", """
+        class LogWatcher(Node):
+            def __init__(self):
+                super().__init__("watcher")
+                self.names = []
+                self.out = self.create_publisher(String, "warnings", 10)
+                self.bell = self.create_guard_condition(self.tell)
+                self.create_subscription(Log, "/rosout", self.hear, 10)
+
+            def hear(self, msg):
+                if msg.level >= Log.WARN:
+                    self.names.append(msg.name)
+                    self.bell.trigger()
+
+            def tell(self):
+                while self.names:
+                    self.out.publish(String(data=self.names.pop(0)))
+    """),
+    _right("a bit of each level", (_IF, "if msg.level // 10 >= 3:")),
+    _right("a publisher made when it is needed", (_MAKE, "self.names = None"),
+           (_IF, f"if self.names is None:\n            {_MAKE}\n        {_IF}")),
+    _wrong("a level compared by its bits", "level-too-low", (_IF, "if msg.level & Log.WARN:")),
+    _wrong("up to ERROR", "level-missed", (_IF, "if Log.WARN <= msg.level <= Log.ERROR:")),
+    _wrong("identical with a warning", "level-missed", (_IF, "if msg.level is Log.WARN:")),
+    _wrong("each text once", "said-once",
+           (_SUPER, f"{_SUPER}\n        self.known = set()"),
+           (_SEND, f"if msg.msg not in self.known:\n                self.known.add(msg.msg)\n"
+                   f"                {_SEND}")),
+    _wrong("not the same line twice in a row", "said-once",
+           (_SUPER, f'{_SUPER}\n        self.last = ""'),
+           (_IF, f"{_IF}\n            if msg.msg == self.last:\n                return\n"
+                 "            self.last = msg.msg")),
+    _wrong("every second one", "new-to-me",
+           (_SUPER, f"{_SUPER}\n        self.count = 0"),
+           (_IF, f"{_IF}\n            self.count += 1\n            if self.count % 2:\n"
+                 "                return")),
+    _wrong("all names so far", "stray-characters",
+           (_SUPER, f"{_SUPER}\n        self.all = []"),
+           (_SEND, "self.all.append(msg.name)\n"
+                   '            self.names.publish(String(data=", ".join(self.all)))')),
+    _wrong("a number before it", "stray-characters",
+           (_SUPER, f"{_SUPER}\n        self.count = 0"),
+           (_SEND, "self.count += 1\n"
+                   '            self.names.publish(String(data=f"{self.count} {msg.name}"))')),
+    _wrong("in brackets", "stray-characters", ("data=msg.name", 'data=f"[{msg.name}]"')),
+    _wrong("the name before", "wrong-values",
+           (_SUPER, f'{_SUPER}\n        self.last = ""'),
+           (_SEND, "self.names.publish(String(data=self.last))\n"
+                   "            self.last = msg.name")),
+    _wrong("the first part of the name", "wrong-values",
+           ("data=msg.name", 'data=msg.name.split(".")[0]')),
+    _wrong("slashes for dots", "wrong-values",
+           ("data=msg.name", 'data=msg.name.replace(".", "/")')),
+    _wrong("every level of its own once", "said-once",
+           (_SUPER, f"{_SUPER}\n        self.known = set()"),
+           (_SEND, f"if msg.level not in self.known:\n                self.known.add(msg.level)\n"
+                   f"                {_SEND}")),
+    _wrong("a timer of one second tells", "alert-too-many",
+           (_SUPER, f"{_SUPER}\n        self.found = []\n"
+                    "        self.create_timer(1.0, self.tell)"),
+           (_SEND, "self.found.append(msg.name)\n\n    def tell(self):\n"
+                   "        for name in self.found:\n"
+                   "            self.names.publish(String(data=name))\n        self.found = []")),
+    _wrong("the lamp only", "one-name-only",
+           (_IF, 'if msg.level >= Log.WARN and msg.name == "lamp":')),
+    _wrong("a String without its field", "field-without-name", ("data=msg.name", "msg.name")),
+    _wrong("a method without self", "callback-parameters", ("(self, msg)", "(msg)"),
+           ("self.names.publish", "names.publish")),
+)  # fmt: skip
+
+ANSWERS = (*RIGHT, *WRONG, *FRESH)

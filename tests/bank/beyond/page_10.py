@@ -315,4 +315,148 @@ _PAIRS = (
             (_PROBE, '("/rack_probe", "wrong-unit")'), (', ("node-ended", "/comb_logger")', "")),
 )  # fmt: skip
 
-ANSWERS: tuple[Answer, ...] = (*_SILENT, *_HEARD, *_PAIRS)
+#: Written from the page alone.
+_FRESH = (
+    right("10a", "named tuples", """
+        from typing import NamedTuple
+
+        class Diagnosis(NamedTuple):
+            what: str
+            where: str
+
+        def diagnoses():
+            return {
+                1: Diagnosis("topic-misspelled", "/hall_notebook"),
+                2: Diagnosis(where="/cellar_rules", what="first-messages-lost"),
+                3: Diagnosis("node-ended", "shelf_sensor"),
+                4: Diagnosis("not-spun", "/booth_probe"),
+            }
+    """),
+    right("10a", "dataclasses, in any order", """
+        from dataclasses import astuple, dataclass
+
+        @dataclass(order=True)
+        class Note:
+            number: int
+            what: str
+            where: str
+
+        NOTES = [
+            Note(4, "not-spun", "/booth_probe"), Note(2, "first-messages-lost", "/cellar_rule"),
+            Note(1, "topic-misspelled", "/hall_Temperature"),
+            Note(3, "node-ended", "/shelf_sensor"),
+        ]
+
+        def diagnoses():
+            return {number: pair for number, *pair in map(astuple, sorted(NOTES)[::-1])}
+    """),
+    right("10a", "a text that is read", """
+        TEXT = '''
+            1 topic-misspelled /hall_Temperature
+            2 first-messages-lost /cellar_plate
+            3 node-ended /shelf_sensor
+            4 not-spun /booth_probe
+        '''
+
+        def diagnoses():
+            found = {}
+            for line in TEXT.strip().splitlines():
+                number, what, where = line.split()
+                found[int(number)] = what, where
+            return found
+    """),
+    _right("10a", "a blank second pair", ('("not-spun", "/booth_probe")',
+                                          '[("not-spun", "/booth_probe"), ("____", "____")]')),
+    right("10b", "an object that is called", """
+        class Rounds(dict):
+            def __call__(self):
+                return dict(self)
+
+        rounds = Rounds()
+        rounds[5] = rounds["x"] = "wrong-unit", "/leaf_temperature"
+        del rounds["x"]
+        rounds.update({
+            6: ("wrong-topic", "/water_humidity"),
+            7: ("two-sources", "milk_old_sensor"),
+            8: ("no-clamp", "/pool_sensor"),
+        })
+    """, handed="rounds"),
+    right("10b", "enumerations and f-strings", """
+        from enum import StrEnum
+
+        class Cause(StrEnum):
+            UNIT = "wrong-unit"
+            TOPIC = "wrong-topic"
+            TWO = "two-sources"
+            CLAMP = "no-clamp"
+
+        def place(house, part):
+            return f"/{house}_{part}"
+
+        def diagnoses():
+            return {
+                5: (Cause.UNIT, place("leaf", "sensor")),
+                6: (Cause.TOPIC, place("water", "guard")),
+                7: (Cause.TWO, place("milk", "temperature")),
+                8: (Cause.CLAMP, place("pool", "sensor")),
+            }
+    """),
+    right("10c", "one loop for all", """
+        FLAT = (
+            "depth-too-small", "/rack_diary", "wrong-unit", "/rack_temperature",
+            "qos-mismatch", "/stall_monitor", "topic-misspelled", "/stall_logger",
+            "node-ended", "/comb_logger", "wrong-rate", "/comb_thermometer",
+        )
+
+        def diagnoses():
+            pairs = list(zip(FLAT[::2], FLAT[1::2]))
+            return {9 + n: pairs[2 * n : 2 * n + 2] for n in range(3)}
+    """),
+    right("10c", "another ward, from its instruments", """
+        from rosbeat import clinic
+
+        def diagnoses():
+            ward = clinic.Ward(8)
+            (stray,) = [one for one in ward.patient(9).ros.graph().topics() if "stauts" in one]
+            return {
+                "ward": 8,
+                9: [("topic-misspelled", stray), ("never-published", "/stage_guard")],
+                10: [("wrong-unit", "/rack_sensor"), ("depth-too-small", "/rack_diary")],
+                11: [("qos-mismatch", "/pool_lamp"), ("topic-misspelled", "/pool_logger")],
+            }
+    """),
+    _wrong("10a", "two patients exchanged", "no-such-place", ("3: (", "x: ("), ("4: (", "3: ("),
+           ("x: (", "4: (")),
+    _wrong("10a", "an id with an underscore", "no-such-diagnosis", ("not-spun", "not_spun")),
+    _wrong("10a", "an id in backticks", "no-such-diagnosis", ("not-spun", "`not-spun`")),
+    _wrong("10a", "node and topic", "no-such-place",
+           ('"/booth_probe"', '"/booth_probe, /booth_temperature"')),
+    _wrong("10a", "the topic that is silent", "other-place", ("booth_probe", "booth_temperature")),
+    _wrong("10a", "this ward's patients in another", "no-such-place", ("1: (", '"ward": 8, 1: (')),
+    _wrong("10a", "a text of JSON", "no-diagnoses",
+           ("return {", "import json\n    return json.dumps({"), ("    }\n", "    })\n")),
+    _wrong("10a", "a patient that has nothing", "no-diagnoses",
+           ('("not-spun", "/booth_probe")', "{}")),
+    _wrong("10a", "a number that is no whole one", "no-diagnoses", ("4: (", "4.5: (")),
+    _wrong("10b", "a wrong rate, and the right fault", "contradicted",
+           ('("two-sources", "/milk_temperature")',
+            '[("two-sources", "/milk_temperature"), ("wrong-rate", "/milk_thermometer")]')),
+    _wrong("10b", "the boundary at the guard", "contradicted",
+           ('"no-clamp", "/pool_sensor"', '"boundary", "/pool_watch"')),
+    _wrong("10b", "a wish to know", "raised", ("diagnoses():", "diagnoses(ward):")),
+    _wrong("10b", "the classes of the page", "not-plain", ('"/pool_sensor"', "Node")),
+    _wrong("10c", "places exchanged", "other-place",
+           ("rack_diary", "x"), ("rack_probe", "rack_diary"), ("/x", "/rack_probe")),
+    _wrong("10c", "one pair where two belong", "half-a-diagnosis",
+           ('[("wrong-rate", "/comb_thermometer"), ("node-ended", "/comb_logger")]',
+            '("wrong-rate", "/comb_thermometer")')),
+    _wrong("10c", "a text between the pairs", "no-diagnoses",
+           (f"{_DIARY}, ", f'{_DIARY}, "and", ')),
+    _wrong("10c", "four texts in one pair", "no-diagnoses",
+           (f"{_DIARY}, {_PROBE}",
+            '"depth-too-small", "/rack_diary", "wrong-unit", "/rack_probe"')),
+    _wrong("10c", "the monitor never gets a word", "contradicted",
+           ('"qos-mismatch", "/stall_status"', '"wrong-namespace", "/stall_status"')),
+)  # fmt: skip
+
+ANSWERS: tuple[Answer, ...] = (*_SILENT, *_HEARD, *_PAIRS, *_FRESH)

@@ -261,4 +261,260 @@ WRONG = (
             (_LOW, "pass"), ('"temperature"', '"temprature"')),
 )  # fmt: skip
 
-ANSWERS = (*RIGHT, *WRONG)
+_NAMED = edited(
+    BASE, ("class TunableMonitor(", "class MonitorNode("), ("(self):", "(self, node_name):"),
+    (_SUPER, "super().__init__(node_name)"),
+)  # fmt: skip
+
+#: Written from the page alone.
+FRESH = (
+    right("07b", "a dataclass of limits", """
+        from dataclasses import dataclass
+
+        @dataclass
+        class Limits:
+            low: float
+            high: float
+
+            def word(self, value: float) -> str:
+                return ("Low", "Normal", "High")[(value >= self.low) + (value > self.high)]
+
+        class TunableMonitor(Node):
+            def __init__(self):
+                super().__init__("monitor")
+                self.declare_parameters(namespace="", parameters=[("low", 20.0), ("high", 26.0)])
+                self.out = self.create_publisher(String, "status", 10)
+                self.create_subscription(Float32, "temperature", self.on_reading, 10)
+
+            @property
+            def limits(self) -> Limits:
+                return Limits(*(one.value for one in self.get_parameters(["low", "high"])))
+
+            def on_reading(self, reading: Float32) -> None:
+                self.out.publish(String(data=self.limits.word(reading.data)))
+    """),
+    right("07b", "numpy decides", """
+        import numpy as np
+
+        class TunableMonitor(Node):
+            def __init__(self):
+                super().__init__("monitor")
+                for name, first in {"low": 20.0, "high": 26.0}.items():
+                    self.declare_parameter(name, first)
+                out = self.create_publisher(String, "status", 10)
+
+                def listen(msg):
+                    low, high = (self.get_parameter(n).value for n in ("low", "high"))
+                    word = np.select([msg.data > high, msg.data < low], ["High", "Low"], "Normal")
+                    out.publish(String(data=f"{word}"))
+
+                self.create_subscription(Float32, "temperature", listen, 10)
+    """),
+    right("07b", "parameter events", """
+        from rclpy.parameter import parameter_value_to_python
+        from rclpy.parameter_event_handler import ParameterEventHandler
+
+        class TunableMonitor(Node):
+            def __init__(self):
+                super().__init__("monitor")
+                self.limits = {"low": 20.0, "high": 26.0}
+                self.events = ParameterEventHandler(self)
+                self.handles = []
+                for name, value in self.limits.items():
+                    self.declare_parameter(name, value)
+                    self.handles.append(self.events.add_parameter_callback(
+                        name, self.get_fully_qualified_name(), self.changed))
+                self.out = self.create_publisher(String, "status", 10)
+                self.create_subscription(Float32, "temperature", self.listen, 10)
+
+            def changed(self, parameter):
+                self.limits[parameter.name] = parameter_value_to_python(parameter.value)
+
+            def listen(self, msg):
+                if msg.data > self.limits["high"]:
+                    self.out.publish(String(data="High"))
+                    return
+                self.out.publish(String(data="Low" if msg.data < self.limits["low"] else "Normal"))
+    """),
+    right("07b", "a mixin, match and async", """
+        class Limited:
+            def limit(self, name):
+                return self.get_parameter(name).get_parameter_value().double_value
+
+        class TunableMonitor(Limited, Node):
+            def __init__(self):
+                Node.__init__(self, "monitor")
+                self.declare_parameter("low", value=20.0)
+                self.declare_parameter("high", value=26.0)
+                self._out = self.create_publisher(String, "/status", 1)
+                self._sub = self.create_subscription(
+                    callback=self._listen, topic="/temperature", msg_type=Float32, qos_profile=5)
+
+            async def _listen(self, msg):
+                match msg.data:
+                    case value if value > self.limit("high"):
+                        word = "High"
+                    case value if value < self.limit("low"):
+                        word = "Low"
+                    case _:
+                        word = "Normal"
+                self._out.publish(String(data=word))
+    """),
+    right("07b", "a helper object with the parameters", """
+        class Knob:
+            def __init__(self, node, name, first):
+                self.node, self.name = node, name
+                node.declare_parameter(name, first)
+
+            def __float__(self):
+                return float(self.node.get_parameter(self.name).value)
+
+        class TunableMonitor(Node):
+            def __init__(self):
+                super().__init__("monitor")
+                self.low, self.high = Knob(self, "low", 20.0), Knob(self, "high", 26.0)
+                self.out = self.create_publisher(String, "status", 10)
+                self.create_subscription(
+                    Float32, "temperature",
+                    lambda msg: self.out.publish(String(data=self.word(msg.data))), 10)
+
+            def word(self, value):
+                clipped = min(max(value, float(self.low)), float(self.high))
+                if clipped == value:
+                    return "Normal"
+                return "High" if clipped < value else "Low"
+    """),
+    right("07b", "it publishes the status again once a minute", """
+        class TunableMonitor(Node):
+            def __init__(self):
+                super().__init__("monitor")
+                self.declare_parameter("low", 20.0)
+                self.declare_parameter("high", 26.0)
+                self.out = self.create_publisher(String, "status", 10)
+                self.word = "Normal"
+                self.create_timer(60.0, self.say)
+                self.create_subscription(Float32, "temperature", self.listen, 10)
+
+            def say(self):
+                msg = String()
+                msg.data = self.word
+                self.out.publish(msg)
+
+            def listen(self, msg):
+                checks = {"High": msg.data > self.get_parameter("high").value,
+                          "Low": msg.data < self.get_parameter("low").value, "Normal": True}
+                self.word = next(word for word, is_true in checks.items() if is_true)
+                self.say()
+    """),
+    right("07b", "parameters checked before they are taken", """
+        from rcl_interfaces.msg import SetParametersResult
+
+        class TunableMonitor(Node):
+            def __init__(self):
+                super().__init__("monitor")
+                self.add_on_set_parameters_callback(self.validate)
+                self.declare_parameter("low", 20.0)
+                self.declare_parameter("high", 26.0)
+                self.out = self.create_publisher(String, "status", 10)
+                self.create_subscription(Float32, "temperature", self.listen, 10)
+
+            def validate(self, parameters):
+                bad = [one for one in parameters if one.name in ("low", "high")
+                       and not -100.0 < one.value < 100.0]
+                return SetParametersResult(successful=not bad, reason="too far" if bad else "")
+
+            def listen(self, msg):
+                low, high = map(self.value_of, ("low", "high"))
+                status = "Normal" if low <= msg.data <= high else ["Low", "High"][msg.data > high]
+                self.out.publish(String(data=status))
+
+            def value_of(self, name):
+                return self.get_parameter(name).value
+    """),
+    _wrong("a callback that gives nothing back", "result-of-another-kind",
+           (_LISTEN, f"{_LISTEN}\n        self.add_on_set_parameters_callback(self.changed)"),
+           ("    def listen", "    def changed(self, parameters):\n"
+                              "        for one in parameters:\n"
+                              "            setattr(self, one.name, one.value)\n\n    def listen")),
+    _wrong("a callback that gives True back", "result-of-another-kind",
+           (_LISTEN, f"{_LISTEN}\n        self.add_on_set_parameters_callback(lambda all: True)")),
+    _wrong("a callback that gives back a list of results", "result-of-another-kind",
+           ("class T", "from rcl_interfaces.msg import SetParametersResult\n\nclass T"),
+           (_LISTEN, f"{_LISTEN}\n        self.add_on_set_parameters_callback(\n"
+                     "            lambda all: [SetParametersResult(successful=True)] * len(all))")),
+    _wrong("a refusal that speaks of types", "parameter-refused",
+           ("class T", "from rcl_interfaces.msg import SetParametersResult\n\nclass T"),
+           (_LISTEN, f"{_LISTEN}\n        self.add_on_set_parameters_callback(\n"
+                     "            lambda changed: SetParametersResult(\n"
+                     "                successful=False, reason='typed too fast'))")),
+    _wrong("only lower limits are taken", "parameter-refused",
+           ("class T", "from rcl_interfaces.msg import SetParametersResult\n\nclass T"),
+           (_LISTEN, f"{_LISTEN}\n        self.add_on_set_parameters_callback(lambda all:\n"
+                     "            SetParametersResult(successful=all[0].name == 'low'))")),
+    _wrong("asked for every five seconds", "parameter-late",
+           (_LISTEN, f"{_LISTEN}\n        self.create_timer(5.0, self.read)\n        self.read()"),
+           (_READ, "low, high = self.low, self.high"),
+           ("    def listen", f"    def read(self):\n        self.low = {_GET_LOW}\n"
+                              f"        self.high = {_GET_HIGH}\n\n    def listen")),
+    _wrong("a parameter callback that is called", "callback-called",
+           (_LISTEN,
+            f"{_LISTEN}\n        self.add_on_set_parameters_callback(self.changed())"),
+           ("    def listen",
+            "    def changed(self, parameters):\n        pass\n\n    def listen")),
+    wrong("07b", "a class that ends in Node and wants a name", "constructor-parameters", _NAMED),
+    wrong("07b", "an heir of it that gives no name", "node-name-missing", _NAMED + """
+class TunableMonitor(MonitorNode):
+    def __init__(self):
+        super().__init__()
+"""),
+    right("07b", "an heir of it that gives a name", _NAMED + """
+class TunableMonitor(MonitorNode):
+    def __init__(self):
+        super().__init__("monitor")
+"""),
+    _wrong("numbers of another type on its ear", "type-mismatch",
+           ("(Float32, ", "(Float64, "),
+           ("class T", "from std_msgs.msg import Float64\n\nclass T")),
+    _wrong("whole limits", "decimals-lost",
+           (_GET_LOW, f"int({_GET_LOW})"), (_GET_HIGH, f"int({_GET_HIGH})")),
+    _wrong("a rounded upper limit", "decimals-lost", (_GET_HIGH, f"round({_GET_HIGH})")),
+    _wrong("whole readings", "decimals-lost",
+           (_DECIDE, f"value = int(msg.data)\n        {_DECIDE.replace('msg.data', 'value')}")),
+    _wrong("silent while all is normal", "wrong-rate",
+           (_SEND, f'if status != "Normal":\n            {_SEND}')),
+    _wrong("the status before last", "wrong-state",
+           (_SUPER, f'{_SUPER}\n        self.last = "Normal"'),
+           (_SEND, "self.statuses.publish(String(data=self.last))\n        self.last = status")),
+    _wrong("two ifs and one else", "wrong-state",
+           (_DECIDE, 'status = "High" if msg.data > high else "Normal"\n'
+                     '        status = "Low" if msg.data < low else "Normal"')),
+    _wrong("normal comes first", "wrong-state",
+           (_DECIDE, 'status = "Normal" if msg.data <= high else "High"\n'
+                     '        status = "Low" if status not in ("Normal", "High") else status')),
+    _wrong("between the limits, without them", "boundary",
+           (_DECIDE, 'status = "Normal" if low < msg.data < high else "Low"\n'
+                     '        status = "High" if msg.data >= high else status')),
+    _wrong("both defaults are others", "other-default", ("20.0)", "18.0)"), ("26.0)", "28.0)")),
+    _wrong("a timer speaks", "wrong-rate",
+           (_LISTEN, f'{_LISTEN}\n        self.status = "Normal"\n'
+                     "        self.create_timer(0.5, self.tell)"),
+           (_SEND, "self.status = status\n\n    def tell(self):\n"
+                   "        self.statuses.publish(String(data=self.status))")),
+    _wrong("each change forgets the other one", "wrong-state",
+           ("class T", "from rcl_interfaces.msg import SetParametersResult\n\nclass T"),
+           (_LISTEN, f"{_LISTEN}\n        self.changed([])\n"
+                     "        self.add_on_set_parameters_callback(self.changed)"),
+           (_READ, 'low, high = self.limits["low"], self.limits["high"]'),
+           ("    def listen", '    def changed(self, all):\n        self.limits = {"low": 20.0, '
+                              '"high": 26.0} | {one.name: one.value for one in all}\n'
+                              "        return SetParametersResult(successful=True)\n\n"
+                              "    def listen")),
+    _wrong("the upper limit for both", "wrong-state", (_GET_LOW, _GET_HIGH)),
+    _wrong("Low unless High", "wrong-state",
+           (_DECIDE, 'status = "High" if msg.data > high else "Low"')),
+    _wrong("the words of page 04", "wrong-word",
+           (_DECIDE, _DECIDE.replace("High", "Warm").replace("Low", "Frost"))),
+    _wrong("a blank in a word", "wrong-word", (_DECIDE, _DECIDE.replace('"High"', '"Too high"'))),
+)  # fmt: skip
+
+ANSWERS = (*RIGHT, *WRONG, *FRESH)

@@ -200,6 +200,14 @@ def test_two_types_of_one_name_are_told_apart():
     assert "publishes my_msgs/msg/Float32" in only(told)[0].evidence
 
 
+def test_another_type_beside_a_publisher_that_is_heard():
+    told = scene(pub(), pub("/other", kind=STRING, matched=0), sub(), beats=[spoke(), heard()])
+    diagnosis, _, (mark,) = only(told)
+    assert diagnosis.mistake == "type-mismatch"
+    assert "/other publishes String, and /monitor subscribes to Float32" in diagnosis.evidence
+    assert mark.words == ("sends String", "asks for Float32")
+
+
 @pytest.mark.parametrize(
     ("offered", "asked", "words", "policy"),
     [

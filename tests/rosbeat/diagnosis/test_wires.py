@@ -139,6 +139,20 @@ def test_an_exception_comes_first():
     assert why_not_published(others, WIRE).mistake == "no-timer"
 
 
+def test_two_types_on_a_topic_are_both_said():
+    text = "create_publisher() called for existing topic name rt/temperature with incompatible type"
+    asked = "create_publisher(message_type[String], str, int)"
+    fault = Fault(1, NODE, "__init__", "RCLError", text, 3, "make()", asked)
+    found = why_not_published(seen(end("subscription", node=ROOM), faults=(fault,)), WIRE)
+    assert found.mistake == "type-mismatch"
+    said = f"/temperature carries {FLOAT} here, and your node asks for String."
+    assert found.evidence.endswith(said)
+    other = end("subscription", "/room/temperature", ROOM, "std_msgs/msg/Int32")
+    two = why_not_published(seen(end("subscription", node=ROOM), other, faults=(fault,)), WIRE)
+    assert two.mistake == "type-mismatch"
+    assert "carries" not in two.evidence
+
+
 def test_without_a_subject_it_is_the_node_that_was_made_last():
     observation = replace(seen(end("publisher", node=ROOM)), subject="")
     assert why_not_published(observation, WIRE).mistake == "no-publisher"

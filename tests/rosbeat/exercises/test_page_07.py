@@ -1,0 +1,157 @@
+"""Page 07: models of right and of misunderstood, what scenarios feed, and findings."""
+
+import json
+from itertools import combinations
+
+import pytest
+from rcl_interfaces.msg import Log
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+from rosbeat import Session
+from rosbeat.exercises.model import agree
+from rosbeat.exercises.page_07 import CHANGES, LINES, MODELS, READINGS, Greenhouse, judge_findings
+from rosbeat.exercises.registry import EXERCISES
+from rosbeat.exercises.scenarios import Report
+from rosbeat.records import Endpoint, GraphSnapshot, LogRecord, Observation, QoS, Sample
+from rosbeat.scenarios.stranger import greenhouse
+
+
+@pytest.mark.parametrize(("fed", "right", "suspects"), MODELS, ids=["limits", "lines", "texts"])
+def test_what_is_fed_tells_every_mistake_from_right_and_from_every_other(fed, right, suspects):
+    done = [(one.mistake, one.model(fed)) for one in suspects]
+    assert [mistake for mistake, track in done if agree(track, right(fed))] == []
+    alike = [
+        (one, other)
+        for (one, track), (other, another) in combinations(done, 2)
+        if one != other and agree(track, another)
+    ]
+    assert alike == []
+
+
+# What scenarios feed is what the models are fed.
+
+
+@pytest.mark.ros
+def test_a_monitor_hears_each_reading_and_gets_each_change():
+    class Monitor(Node):
+        def __init__(self):
+            super().__init__("monitor")
+            self.declare_parameter("low", 0.0)
+            self.declare_parameter("high", 0.0)
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg):
+            low, high = (self.get_parameter(name).value for name in ("low", "high"))
+            self.get_logger().info(f"{msg.data} {low} {high}")
+
+    seen = EXERCISES["07b"].scenario(Monitor)
+    limits, expected, planned = {"low": 0.0, "high": 0.0}, [], dict(CHANGES)
+    for second, value in enumerate(READINGS, 1):
+        limits |= planned.get(second, {})
+        expected.append(f"{value} {limits['low']} {limits['high']}")
+    assert [log.text for log in seen.logs] == expected
+
+
+@pytest.mark.ros
+def test_a_watcher_hears_each_line_and_nothing_else():
+    heard = []
+
+    class Watcher(Node):
+        def __init__(self):
+            super().__init__("watcher")
+            self.create_subscription(Log, "/rosout", self.hear, 10)
+
+        def hear(self, msg):
+            heard.append((msg.level, msg.name, msg.msg))
+
+    assert not EXERCISES["07c"].scenario(Watcher).faults
+    assert heard == [(line.level, line.name, line.msg) for line in LINES]
+
+
+@pytest.mark.ros
+def test_the_greenhouse_moves_into_any_session():
+    with Session() as ros:
+        greenhouse(ros)
+        assert len(ros.nodes) == 5
+
+
+# Findings about another greenhouse than the page's: the judge knows none by heart.
+
+FLOAT, BOOL = "std_msgs/msg/Float32", "std_msgs/msg/Bool"
+
+
+def end(node, name, kind, type_name=FLOAT, depth=10):
+    return Endpoint(node, name, type_name, kind, QoS(depth=depth))
+
+
+GRAPH = GraphSnapshot(
+    ("/well", "/gardener", "/bell"),
+    (
+        end("/well", "/moisture", "publisher", BOOL, 7),
+        end("/gardener", "/moisture", "subscription", BOOL, 4),
+        end("/gardener", "/dust", "publisher"),
+        end("/bell", "/wind", "subscription"),
+        end("/bell", "/moisture", "subscription", BOOL, 9),
+    ),
+)
+SAMPLES = tuple(
+    Sample(n * 10**8, "/moisture", BOOL, "/well", {"data": True}) for n in range(1, 31)
+) + tuple(Sample(n * 10**9, "/dust", FLOAT, "/gardener", {"data": 1.0}) for n in range(1, 4))
+LOGS = (
+    LogRecord(1, "WARN", "well", "dry", "f", 1),
+    LogRecord(2, "INFO", "bell", "ding", "f", 1),
+)
+RUN = Observation(3 * 10**9, 0, SAMPLES, LOGS, graph=GRAPH)
+HOUSE = Greenhouse(RUN, {"/gardener dry_below": 0.5, "/bell pitch": 440})
+TRUTH = {
+    "publisher of /moisture": "/well",
+    "type of /moisture": BOOL,
+    "messages a second on /moisture": 10,
+    "queue depth of /gardener for /moisture": 4,
+    "topic without a listener": "/dust",
+    "topic without a publisher": "/wind",
+    "node that warns": "/well",
+    "dry_below of /gardener": 0.5,
+}
+KEYS = list(TRUTH)
+
+
+def judged(changes=()):
+    return judge_findings(Report(json.dumps({**TRUTH, **dict(changes)}), "", "dict"), HOUSE)
+
+
+def test_the_truth_comes_from_the_greenhouse_and_is_never_told():
+    assert judged().status == "passed"
+    for key, value in TRUTH.items():
+        for given in ("/bell", "/moisture", 3, "a/b/c", "x", "/lamp", 35):
+            outcome = judged({key: given})
+            assert outcome.status == "failed"
+            assert f"'{key}' you wrote {given!r}" in outcome.evidence
+            said = f"{outcome.evidence.replace(key, '')} {outcome.hint}".split()
+            assert str(value) not in said, outcome
+
+
+def test_what_is_found_elsewhere_is_named():
+    cases = {0: ("/gardener", "sides-confused"), 2: (0.1, "period-for-rate"),
+             3: (7, "sides-confused"), 4: ("/wind", "sides-confused"),
+             5: ("/dust", "sides-confused"), 7: (440, "finding-wrong")}  # fmt: skip
+    for at, (given, mistake) in cases.items():
+        assert judged({KEYS[at]: given}).mistake == mistake
+    assert "2 more" in judged({KEYS[0]: "/bell", KEYS[2]: 3, KEYS[4]: "/wind"}).evidence
+
+
+def test_blanks_are_told_apart_from_wrong_findings():
+    assert judged(dict.fromkeys(KEYS, "____")).status == "not attempted"
+    outcome = judged({KEYS[3]: "____", KEYS[6]: ""})
+    assert outcome.status == "not attempted"
+    assert outcome.evidence.startswith("6 of 8 are found")
+    assert outcome.evidence.endswith(f"Still open: {KEYS[3]}, {KEYS[6]}.")
+    assert judged({KEYS[3]: "____", KEYS[6]: "/bell"}).status == "failed"
+
+
+def test_measured_numbers_may_be_a_little_off_and_chosen_ones_may_not():
+    rate, depth, value = KEYS[2], KEYS[3], KEYS[7]
+    assert judged({rate: 9.7}).status == judged({rate: "10.2"}).status == "passed"
+    for off in ({rate: 9.0}, {depth: 4.1}, {value: 0.51}):
+        assert judged(off).status == "failed"

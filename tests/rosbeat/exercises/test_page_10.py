@@ -1,0 +1,130 @@
+"""Page 10: diagnoses are read, and compared with charts, where no learner's code runs."""
+
+import subprocess
+import sys
+from functools import cache
+
+import pytest
+
+from rosbeat.clinic.names import KNOWN
+from rosbeat.clinic.ward import Ward
+from rosbeat.exercises.check import check
+from rosbeat.exercises.evidence import from_json, to_json
+from rosbeat.exercises.hint import hint
+from rosbeat.exercises.page_10 import Claim, weigh
+from rosbeat.exercises.registry import EXERCISES
+
+pytestmark = pytest.mark.ros
+
+RIGHT = {
+    1: ("topic-misspelled", "/hall_Temperature"),
+    2: ("first-messages-lost", "/cellar_rule"),
+    3: ("node-ended", "/shelf_sensor"),
+    4: ("not-spun", "/booth_probe"),
+}
+BLANK = ("____", "____")
+CODE = """
+import sys
+from rosbeat.exercises.registry import scenario
+seen = scenario("10a")(lambda: {1: ("not-spun", "/a"), "ward": 8})
+assert seen.value == {"1": ["not-spun", "/a"], "ward": 8}
+sys.exit(any(name.startswith("rosbeat.clinic") for name in sys.modules))
+"""
+
+
+def seen(value):
+    return EXERCISES["10a"].scenario(lambda: value)
+
+
+def judged(value):
+    return EXERCISES["10a"].judged(seen(value))
+
+
+def test_the_clinic_is_not_loaded_where_an_answer_runs():
+    assert subprocess.run([sys.executable, "-c", CODE], check=False).returncode == 0
+
+
+# What can be read.
+
+
+@pytest.mark.parametrize("entry", [BLANK, [], [("____", "b")], ("a", "____"), ("", "")])
+def test_a_blank_is_no_diagnosis(entry):
+    assert judged({1: entry}).status == judged({}).status == "not attempted"
+    outcome = judged(RIGHT | {1: entry})
+    assert outcome.mistake == "no-diagnosis-yet"
+    assert outcome.evidence == "Patients 2, 3 and 4 are right. Patient 1: no diagnosis yet."
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        ([], "a list instead of a dict"),
+        ({"ward": "seven"}, "no ward 'seven'"),
+        ({"ward": -1}, "no ward -1"),
+        ({"ward": True}, "no ward True"),
+        ({9: ("a", "b")}, "the key 9, and this exercise is about patients 1 to 4"),
+        ({"first": ("a", "b")}, "the key first"),
+        *(({1: entry}, "patient 1 is not a pair") for entry in
+          ("a", ("a",), ("a", 3), [("a", "b"), "c"], [("a", "b", "c")], {"a": "b"}, None)),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_read_is_said(value, said):
+    outcome = judged(value)
+    assert outcome.mistake == "no-diagnoses"
+    assert said in outcome.evidence
+
+
+# What is right.
+
+
+@cache
+def chart(number):
+    return Ward(7).chart(number)
+
+
+@pytest.mark.parametrize("number", range(1, 12))
+def test_nothing_but_the_truth_is_accepted(number):
+    patient = chart(number)
+    right = {"half-a-diagnosis"} if len(patient.truths) == 2 else {None}
+    for name in KNOWN:
+        for place in (*patient.nodes, *patient.topics):
+            found = weigh(patient, [Claim(name, place)])
+            true = any(name == one.mistake and place in one.places for one in patient.truths)
+            assert ((found.mistake if found else None) in right) == true, (name, place, found)
+
+
+def test_a_place_may_be_written_without_its_slash_or_its_namespace():
+    patient = Ward(12).chart(4)
+    (truth,) = patient.truths
+    assert truth.mistake == "wrong-namespace"
+    for place in (*truth.places, *(one.lstrip("/") for one in truth.places)):
+        assert weigh(patient, [Claim(truth.mistake, place)]) is None
+    assert weigh(patient, [Claim(truth.mistake, "/")]).mistake == "no-such-place"
+
+
+def test_every_wrong_patient_is_told_what_speaks_against_it_and_not_what_is_right():
+    given = {1: ("qos-mismatch", "/hall_monitor"), 2: BLANK, 4: ("node-ended", "/booth_probe")}
+    outcome = judged(RIGHT | given)
+    assert outcome.mistake == "contradicted"
+    assert outcome.evidence.startswith(
+        "Patient 3 is right. Patient 1: you say qos-mismatch at /hall_monitor; yet /hall_monitor "
+        "is matched with 1 of 1 subscription on /hall_status and /hall_monitor is matched with 1 "
+        "of 1 publisher on /hall_temperature. Patient 4: you say node-ended at /booth_probe; yet "
+        "no exception"
+    )
+    assert "misspelled" not in outcome.evidence + outcome.hint
+
+
+def test_the_evidence_is_the_same_when_it_was_written_down():
+    report = seen(RIGHT | {3: ("gone-quiet", "/shelf_watch")})
+    assert from_json(to_json(report)) == report
+
+
+def test_hints_are_counted_and_cost_nothing():
+    assert check("10a", lambda: RIGHT).outcome.evidence.endswith("are diagnosed.")
+    for said in ("(With 1 hint.)", "(With 2 hints.)"):
+        hint("10a")
+        outcome = check("10a", lambda: RIGHT).outcome
+        assert outcome.evidence == f"Patients 1, 2, 3 and 4 are diagnosed. {said}"
+    assert (outcome.status, outcome.points) == ("passed", 2)
+    assert check("10a", lambda: {**RIGHT, 1: BLANK}).outcome.evidence.endswith("(With 2 hints.)")
