@@ -80,11 +80,11 @@ def called_with_others(fault: Fault) -> Meaning | None:
 
 
 def called_at_once(fault: Fault) -> Meaning | None:
-    """`create_subscription(..., self.listen(), 10)`: called, and without its message (row 9)."""
+    """`create_subscription(..., self.listen(), 10)`: called, and without its arguments (row 9)."""
     asked = asked_of(fault)
     if asked and asked.given and asked.given[0].kind == CALLED:
         return _called(asked.given[0].name)
-    found = matched(fault, r"(\w+)\(\) missing 1 required positional argument", "TypeError")
+    found = matched(fault, r"(\w+)\(\) missing \d required positional argument", "TypeError")
     name = found[1] if found else ""
     if not found and matched(fault, r"name 'msg' is not defined", "NameError"):
         handed = re.search(r"\.(\w+)\(msg\)", fault.code)

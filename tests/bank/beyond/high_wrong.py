@@ -36,7 +36,7 @@ ANSWERS = (
     ),
     _wrong("no service", "no-service", (_MAKE, "pass")),
     _wrong("a client", "no-service", (_MAKE, 'self.create_client(BasicTypes, "set_high")')),
-    _wrong("the callback called", "argument-missing", ("self.set_high)", "self.set_high())")),
+    _wrong("the callback called", "callback-called", ("self.set_high)", "self.set_high())")),
     _wrong("a message type", "wrong-argument", ("service(BasicTypes", "service(Float32")),
     _wrong(
         "the request's type", "wrong-argument", ("service(BasicTypes", "service(BasicTypes.Request")
@@ -99,11 +99,6 @@ ANSWERS = (
         (_WHY, f"{_WHY}\n            self.high = min(40.0, max(10.0, request.float32_value))"),
     ),
     _wrong("no reason", "reason-missing", (_WHY, "pass")),
-    _wrong(
-        "a reason in any case",
-        "reason-too-many",
-        (_IF, f'response.string_value = "10 to 40"\n        {_IF}'),
-    ),
     _wrong(
         "the answer is left empty",
         "response-not-filled",
