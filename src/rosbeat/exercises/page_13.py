@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
-from math import inf, isfinite
+from math import inf
 from typing import Any
 
 from rosbeat.diagnosis.explanation_names import difference, nearest
@@ -549,15 +549,22 @@ def _pump_believes(spans: _Spans, dry: float, react: float) -> Diagnosis | None:
 
 
 def _report_believes(seen: Observation, n: Mapping[str, float]) -> Diagnosis | None:
-    least, most = air(n).cold - 1, air(n).hot + 1
-    spoke = [at for at, one in enumerate(broken_day(n).temperature, 1) if one is not None]
+    every, least, most = n["report_seconds"], air(n).cold - 1, air(n).hot + 1
+    day = broken_day(n).temperature
+    possible = [one if one is not None and least <= one <= most else None for one in day]
     for time, value in _said(seen, "/report"):
         # A mean of no readings is left open.
-        if not any(time - n["report_seconds"] - 1 < at <= time for at in spoke):
+        if not _between(day, time - every - 1, time) or least <= value <= most:
             continue
-        if not isfinite(value) or not least <= value <= most:
-            evidence = f"The report at {_stamp(time)} said {value:g}; an impossible reading is in"
-            return Diagnosis("nonsense-believed", f"{evidence} it.", _CHECKED)
+        said = f"The report at {_stamp(time)} said {value:g}"
+        # A sum of the right readings, divided by something else, has believed nothing.
+        sums = [sum(_between(possible, time - a, time - b)) for a, b in _windows(every)]
+        if any(is_near(value * every, one) for one in sums):
+            evidence = f"{said}: fewer readings than usual were possible in the last {every:g} s."
+            hint = "By what does the mean divide: by the readings in it, or by a fixed number?"
+            return Diagnosis("wrong-window", evidence, hint)
+        evidence = f"{said}; an impossible reading is in it."
+        return Diagnosis("nonsense-believed", evidence, _CHECKED)
     return None
 
 
@@ -584,6 +591,11 @@ def _mean(values: Sequence[float]) -> float:
 def _between(values: Iterable[float | None], after: float, until: float) -> list[float]:
     """Return the readings after one time and up to another; one came each second."""
     return [one for at, one in enumerate(values, 1) if one is not None and after < at <= until]
+
+
+def _windows(every: float) -> tuple[tuple[float, float], ...]:
+    """Return how long ago a right window may begin and end: it has a second to spare."""
+    return ((every, 0), (every + 1, 0), (every + 1, 1), (every, 1))
 
 
 def _reporters(hint: str, value: Callable[[Day, float], float]) -> list[Suspect]:
@@ -630,9 +642,7 @@ def _judge_reports(trials: Trials) -> Diagnosis | None:
             hint = f"One report every {every:g} s, and the first after {every:g} s."
             return Diagnosis("wrong-rate", evidence, hint)
     for time, value in reports:
-        # A right window may begin and end a second earlier, and be a second longer.
-        windows = ((every, 0), (every + 1, 0), (every + 1, 1), (every, 1))
-        means = [_mean(_between(day.temperature, time - a, time - b)) for a, b in windows]
+        means = [_mean(_between(day.temperature, time - a, time - b)) for a, b in _windows(every)]
         if min(means) - _NEAR <= value <= max(means) + _NEAR:
             continue
         evidence = (
