@@ -29,7 +29,7 @@ from rosbeat.exercises.model import (
     parting,
 )
 from rosbeat.exercises.scenarios import feeder, observe
-from rosbeat.records import Observation, Outcome, Reply
+from rosbeat.records import Observation, Outcome
 
 _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 _STATUS = Wire("/status", "std_msgs/msg/String")
@@ -345,30 +345,25 @@ def _wrong_monitor(
         answers: Its answers to the others.
         whole: Suspects that react to all requests alike.
     """
-    rows = [
-        (request, answer, _done(request, answer, statuses))
-        for request, answer, statuses in zip(
-            requests, [_Answer(), *answers], _statuses(seen, requests), strict=True
-        )
-    ]
-    for request, answer, done in rows:
+    did = []
+    for request, answer, statuses in zip(
+        requests, [_Answer(), *answers], _statuses(seen, requests), strict=True
+    ):
+        track = dict(_reaction(request, answer.accepted, reason=bool(answer.reason.strip())))
+        did.append((request, answer, track | {Reaction.STATUSES: statuses}))
+    for request, answer, done in did:
         parted = parting(done, right_monitor(request), same)
         if parted is None:
             continue
-        for suspect in whole if request.values else ():
-            if all(agree(suspect.model(one), did, same) for one, _, did in rows[1:]):
-                return Diagnosis(suspect.mistake, _ALIKE[suspect.mistake], suspect.hint)
+        fit = [
+            suspect
+            for suspect in (whole if request.values else ())
+            if all(agree(suspect.model(one), track, same) for one, _, track in did[1:])
+        ]
         evidence = _reaction_evidence(request, answer, parted)
-        return named(evidence, fitting(request, done, MONITORS, same), _other(request, evidence))
+        fit = fit or fitting(request, done, MONITORS, same)
+        return named(evidence, fit, _other(request, evidence))
     return None
-
-
-def _done(request: Request, answer: _Answer, statuses: tuple[str, ...]) -> Track:
-    reason = bool(answer.reason.strip())
-    return {
-        **_reaction(request, answer.accepted, reason=reason),
-        Reaction.STATUSES: statuses,
-    }
 
 
 def _statuses(seen: Observation, requests: Sequence[Request]) -> Iterator[tuple[str, ...]]:
@@ -381,13 +376,6 @@ def _statuses(seen: Observation, requests: Sequence[Request]) -> Iterator[tuple[
         here = [said.get(second + place, []) for place in range(1, len(request.readings) + 1)]
         second += len(request.readings)
         yield tuple(one[0] if len(one) == 1 else "-" for one in here)
-
-
-_ALIKE = {
-    "response-not-filled": "Good values are used from then on, and every response says that they "
-    "were refused.",
-    "not-validated": "Every value was accepted, a high of 19 with a low of 20, too.",
-}
 
 
 def _reaction_evidence(request: Request, answer: _Answer, parted: Parting) -> str:
@@ -440,50 +428,47 @@ def _unheard_or_silent(seen: Observation) -> Diagnosis | None:
     return missing(seen, _STATUS, otherwise=otherwise)
 
 
-def _replies(seen: Observation, word: str, name: str) -> dict[int, Reply]:
-    return {one.number: one for one in seen.replies if (one.word, one.name) == (word, name)}
-
-
 def _judge_service(seen: Observation) -> Outcome:
     # What is given comes before what is asked for.
     found = _unheard_or_silent(seen) or _wrong_monitor(seen, BY_SERVICE[:1])
     found = found or _no_server(seen, "server", _SERVICE, _BASIC)
-    replies = _replies(seen, "response", _SERVICE)
+    replies = {
+        one.number: _Answer(one.data["bool_value"], one.data["string_value"])
+        for one in seen.replies
+        if (one.word, one.name) == ("response", _SERVICE)
+    }
     if not found and not replies:
         found = Diagnosis(
             "response-missing",
             f"{_SERVICE} was called {len(BY_SERVICE) - 1} times, and never answered.",
             "Does the callback come to its return?",
         )
-    answers = [
-        _Answer(one.data["bool_value"], one.data["string_value"]) if one else _Answer()
-        for one in map(replies.get, range(1, len(BY_SERVICE)))
-    ]
+    answers = [replies.get(number, _Answer()) for number in range(1, len(BY_SERVICE))]
     found = found or _wrong_monitor(seen, BY_SERVICE, answers, [NOT_FILLED])
     if found:
         return failed_by("12a", found)
-    refused = sum(not one.is_good for one in BY_SERVICE)
-    return passed(
-        "12a",
-        f"{len(answers)} calls: {len(answers) - refused} values kept, {refused} refused with a "
-        "reason, NaN among them.",
-    )
+    return passed("12a", _all_right("calls", "values kept,", BY_SERVICE))
 
 
 def _judge_parameters(seen: Observation) -> Outcome:
     found = _unheard_or_silent(seen) or _wrong_monitor(seen, BY_PARAMETER[:1])
-    replies = _replies(seen, "parameters", seen.subject)
-    data = [replies[number].data for number in sorted(replies)]
-    answers = [_Answer(one["successful"], one["reason"]) for one in data]
+    answers = [
+        _Answer(one.data["successful"], one.data["reason"])
+        for one in sorted(seen.replies, key=lambda one: one.number)
+        if (one.word, one.name) == ("parameters", seen.subject)
+    ]
     found = found or _refused_by_ros(answers)
     found = found or _wrong_monitor(seen, BY_PARAMETER, answers, [NOT_FILLED, NOT_VALIDATED])
     if found:
         return failed_by("12b", found)
-    refused = sum(not one.is_good for one in BY_PARAMETER)
-    return passed(
-        "12b",
-        f"{len(answers)} changes: {len(answers) - refused} made, two of them of both at once, and "
-        f"{refused} refused with a reason, NaN among them.",
+    kept = "made, two of them of both at once, and"
+    return passed("12b", _all_right("changes", kept, BY_PARAMETER))
+
+
+def _all_right(what: str, kept: str, requests: Sequence[Request]) -> str:
+    asked, refused = len(requests) - 1, sum(not one.is_good for one in requests)
+    return (
+        f"{asked} {what}: {asked - refused} {kept} {refused} refused with a reason, NaN among them."
     )
 
 
@@ -528,6 +513,11 @@ class Goal:
         """Return whether the thermostat has to accept it."""
         return 10 <= self.order <= 26
 
+    @property
+    def is_canceled(self) -> bool:
+        """Return whether it is canceled."""
+        return self.cancel_after is not None
+
 
 #: Reached, canceled, three out of reach, reached before it is sent, and one more.
 GOALS = (
@@ -539,7 +529,7 @@ GOALS = (
     Goal(22.5, 10),
     Goal(27.5, 26),
 )
-_FIRST, _CANCELED, _REACHED = GOALS[0], GOALS[1], GOALS[5]
+_FIRST, _REACHED = GOALS[0], GOALS[5]
 _START = 18
 _HEAT, _FIBONACCI = "/heat", "test_msgs/action/Fibonacci"
 
@@ -581,7 +571,7 @@ def right_thermostat(goal: Goal) -> Track:
         Work.SWITCHED_ON: ("yes",),
         Work.CANCEL: ("accepted",),
         Work.END: ("in time",),
-        Work.STATUS: ("CANCELED" if goal is _CANCELED else "SUCCEEDED",),
+        Work.STATUS: ("CANCELED" if goal.is_canceled else "SUCCEEDED",),
         Work.DEGREES: ("as read",),
         Work.FEEDBACK: ("each second",),
         Work.HEATER: ("off",),
@@ -602,14 +592,7 @@ def _at(
     return Suspect(mistake, hint, model)
 
 
-def _is_canceled(goal: Goal) -> bool:
-    return goal is _CANCELED
-
-
-def _is_uncanceled(goal: Goal) -> bool:
-    return goal is not _CANCELED
-
-
+_STOPPED, _RUNS_ON = (lambda goal: goal.is_canceled), (lambda goal: not goal.is_canceled)
 _RANGE = "Goals from 10 to 26 make sense. Compare in the callback that decides."
 _TWO_ENDS = "There are two ways for the work to end. Which call belongs to which?"
 _ALL_READ = "It holds every temperature that was read since the goal came, in order."
@@ -633,12 +616,12 @@ THERMOSTATS = (
     _at(
         "cancel-refused",
         "An action server refuses to cancel unless a callback of its own accepts.",
-        Work.CANCEL, "refused", _is_canceled,
+        Work.CANCEL, "refused", _STOPPED,
     ),
     _at(
         "never-ends",
         "What makes the condition of the loop false? Print it in each round.",
-        Work.END, "never", _is_uncanceled,
+        Work.END, "never", _RUNS_ON,
     ),
     _at(
         "wrong-state",
@@ -648,34 +631,34 @@ THERMOSTATS = (
     _at(
         "cancel-ignored",
         "Accepting a cancel is a promise: the work has to ask its goal handle in each round.",
-        Work.END, "too late", _is_canceled,
+        Work.END, "too late", _STOPPED,
     ),
     _at(
         "ends-too-soon", "Is anything left over from the goal before?",
-        Work.END, "too soon", _is_canceled,
+        Work.END, "too soon", _STOPPED,
     ),
     _at(
         "succeed-forgotten",
         "A goal whose end is not reported counts as given up.",
-        Work.STATUS, "ABORTED", _is_uncanceled,
+        Work.STATUS, "ABORTED", _RUNS_ON,
     ),
-    _at("wrong-state", _TWO_ENDS, Work.STATUS, "CANCELED", _is_uncanceled),
-    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "ABORTED", _is_canceled),
-    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "SUCCEEDED", _is_canceled),
+    _at("wrong-state", _TWO_ENDS, Work.STATUS, "CANCELED", _RUNS_ON),
+    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "ABORTED", _STOPPED),
+    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "SUCCEEDED", _STOPPED),
     _at("result-wrong", "The result has a field for the temperatures, as the feedback has.",
         Work.DEGREES, "none"),
     _at(
         "ends-too-soon", "It goes on as long as it is colder than the target, and no longer.",
-        Work.DEGREES, "too few", _is_uncanceled,
+        Work.DEGREES, "too few", _RUNS_ON,
     ),
     _at("boundary", "Exactly the target is warm enough.",
-        Work.DEGREES, "one too many", _is_uncanceled),
+        Work.DEGREES, "one too many", _RUNS_ON),
     _at("result-wrong", _ALL_READ, Work.DEGREES, "others"),
     _at("feedback-missing",
         "Publish feedback in each round of the loop, with what was read so far.",
-        Work.FEEDBACK, "missing", _is_uncanceled),
+        Work.FEEDBACK, "missing", _RUNS_ON),
     _at("wrong-values", "Feedback holds all temperatures so far, as the result does in the end.",
-        Work.FEEDBACK, "others", _is_uncanceled),
+        Work.FEEDBACK, "others", _RUNS_ON),
     _at("left-on", "Which line switches it off, and is it on each way out of the work?",
         Work.HEATER, "on"),
 )  # fmt: skip
@@ -706,7 +689,7 @@ class _Heating:
         start = next((value for at, value in reversed(room) if at < goal.at), _START)
         self._wanted = list(range(start + 1, goal.order + 1))
         self._right = (self._wanted, [start, *self._wanted])
-        if goal is _CANCELED:  # the last reading may have come just when the work ended
+        if goal.is_canceled:  # the last reading may have come just when the work ended
             length, read = (
                 len(self._degrees),
                 [value for at, value in room if at <= (self.end or 0)],
@@ -720,7 +703,7 @@ class _Heating:
         decision = (self.decision, f"{task} was {self.decision}.")
         if not self._goal.is_good:
             return {Work.DECISION: decision}
-        canceled, end = self._goal is _CANCELED, self._ended()
+        canceled, end = self._goal.is_canceled, self._ended()
         due = f"It should end when {'it is canceled' if canceled else 'the target is reached'}"
         due += f", at {self._canceled_at:g} s" if canceled else ""
         # A cancel that comes after the end cannot be accepted.
@@ -751,7 +734,7 @@ class _Heating:
         }
 
     def _ended(self) -> str:
-        if self._goal is _CANCELED:
+        if self._goal.is_canceled:
             after = (inf if self.end is None else self.end) - self._canceled_at
             return "too soon" if after < 0 else "too late" if after > 1 else "in time"
         if self.end is None:
@@ -764,7 +747,7 @@ class _Heating:
             return "none"
         if found in self._right:
             return "as read"
-        if self._goal is _CANCELED:
+        if self._goal.is_canceled:
             return "others"
         # A heater that was not on for long enough cannot have got so far.
         if found[-1] < self._goal.order and (self.end or 0) < self._goal.at + len(self._wanted):

@@ -70,6 +70,8 @@ _LATE = ("late_vent_display", "late_pump_display")
 _HOPELESS = ("DeadlinePassed", "NoSystemError", "SessionError")
 #: Slack for comparisons of times, in seconds.
 _EPS = 1e-6
+#: When an actuator was on, from and to.
+_Spans = Sequence[tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -187,6 +189,11 @@ def _switch(seen: Observation, topic: str) -> Switch:
 
 def _spans(seen: Observation, topic: str) -> list[tuple[float, float]]:
     return _switch(seen, topic).spans(seen.time)
+
+
+def _begins_in_time(spans: _Spans, due: float, react: float) -> bool:
+    """Return whether the first span begins when it is due, or soon after."""
+    return bool(spans) and due - _EPS <= spans[0][0] <= due + react + _EPS
 
 
 def _publishers(graph: GraphSnapshot, topic: str) -> list[str]:
@@ -350,16 +357,13 @@ def _judge_pump(trials: Trials) -> Diagnosis | None:
     )
 
 
-_Spans = Sequence[tuple[float, float]]
-
-
 def _wrong_start(
     spans: _Spans, marks: Mapping[str, float], n: Mapping[str, float]
 ) -> Diagnosis | None:
     limit, due, react = n["dry_below"], marks["dry"], n["react_seconds"]
-    first = spans[0][0] if spans else inf
-    if due - _EPS <= first <= due + react + _EPS:
+    if _begins_in_time(spans, due, react):
         return None
+    first = spans[0][0] if spans else inf
     if first > due:
         evidence = f"From {_stamp(due)} on it was dry, and by {_stamp(due + react)} no pump was"
         hint = "What has to hold before it starts? Print each of these."
@@ -521,7 +525,7 @@ def _judge_belief(trials: Trials) -> Diagnosis | None:
 
 
 def _vent_believes(spans: _Spans, hot: float, cool: float, react: float) -> Diagnosis | None:
-    if not spans or not hot - _EPS <= spans[0][0] <= hot + react + _EPS:
+    if not _begins_in_time(spans, hot, react):
         evidence = f"It was hot from {_stamp(hot)} on, and the vent did not open then."
         return Diagnosis("never-switched-on", evidence, "Let the vent work first.")
     closed, hint = spans[0][1], _CHECKED
@@ -538,12 +542,11 @@ def _vent_believes(spans: _Spans, hot: float, cool: float, react: float) -> Diag
 
 
 def _pump_believes(spans: _Spans, dry: float, react: float) -> Diagnosis | None:
-    begin = spans[0][0] if spans else inf
-    if begin < dry - _EPS:
-        evidence = f"The pump was started at {_stamp(begin)}, by an impossible reading."
-        return Diagnosis("nonsense-believed", evidence, _CHECKED)
-    if begin <= dry + react + _EPS:
+    if _begins_in_time(spans, dry, react):
         return None
+    if spans and spans[0][0] < dry:
+        evidence = f"The pump was started at {_stamp(spans[0][0])}, by an impossible reading."
+        return Diagnosis("nonsense-believed", evidence, _CHECKED)
     evidence = f"After some impossible humidities it was dry at {_stamp(dry)}, and no pump ran."
     return Diagnosis("never-switched-on", evidence, "The next possible reading counts again.")
 
@@ -805,12 +808,12 @@ def _judge_parameters(trials: Trials) -> Diagnosis | None:
         evidence = f"With other limits, a node was not made: {refused.kind}: {refused.text}"
         return Diagnosis("limit-fixed", evidence, "All three hold floats: 28.0 is one, 28 is none.")
     vent, pump = _spans(seen, "/vent"), _spans(seen, "/pump")
-    if len(vent) != 1 or not marks["warm"] <= vent[0][0] <= marks["warm"] + react + _EPS:
+    if len(vent) != 1 or not _begins_in_time(vent, marks["warm"], react):
         evidence = "The vent was started with other values of open_above and close_below. It went"
         evidence += " on with the old ones."
     elif not marks["cool"] <= vent[0][1] <= marks["cool"] + react + _EPS:
         evidence = "With another value of close_below the vent did not close as it should."
-    elif not pump or not marks["damp"] <= pump[0][0] <= marks["damp"] + react + _EPS:
+    elif not _begins_in_time(pump, marks["damp"], react):
         evidence = "The pump was started with another value of dry_below, and went on with "
         evidence += "the old one."
     else:

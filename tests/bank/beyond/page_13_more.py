@@ -135,7 +135,8 @@ _EGG_TIMERS = '''class Watch(Node):
     def tell(self, sensor, is_silent):
         if self.is_silent[sensor] != is_silent:
             self.is_silent[sensor] = is_silent
-            self.alarms.publish(String(data=f"{sensor.title()} {'silent' if is_silent else 'back'}!"))
+            word = "silent" if is_silent else "back"
+            self.alarms.publish(String(data=f"{sensor.title()} {word}!"))
 
 
 '''
@@ -159,7 +160,8 @@ _A_GREENHOUSE = (
     _greenhouse("divided by ten in any case", ((_MEAN, "sum(self.values) / 10"),),
                 "wrong-window", "R5"),
     _greenhouse("the mean since the start",
-                ((_EMPTY, _EMPTY.replace("        self.values = []\n", "")),), "wrong-window", "R6"),
+                ((_EMPTY, _EMPTY.replace("        self.values = []\n", "")),),
+                "wrong-window", "R6"),
     _greenhouse("one alarm for both sensors",
                 (('f"{topic} silent"', '"a sensor is silent"'),), "wrong-word", "R4"),
     _greenhouse("the vent's commands on another topic",
