@@ -178,7 +178,7 @@ def _rows(rows: list[Any]) -> Iterator[str]:
 
 
 def _spans(n: dict[str, float]) -> Iterator[str]:
-    """What the weather of the trials needs to tell a right answer from a wrong one."""
+    """Yield what keeps the weather of the trials from telling a right answer from a wrong one."""
     rules = {
         "`close_below` has to be at least 1 below `open_above`": n["close_below"] + 1
         <= n["open_above"],

@@ -8,7 +8,7 @@ open, and stands as `...` in its track.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from math import inf, isnan, nan
 from typing import Any
@@ -105,7 +105,7 @@ class Request:
     @property
     def asked(self) -> Limits:
         """Return the limits that an accepted request leads to."""
-        return Limits(**{"high": self.before.high, "low": self.before.low, **self.values})
+        return replace(self.before, **self.values)
 
     @property
     def after(self) -> Limits:
@@ -125,10 +125,8 @@ def _requests(
 ) -> tuple[Request, ...]:
     found = []
     for values, readings in asked:
-        request = Request(values, readings, limits, True)
-        request = Request(values, readings, limits, is_good(request.asked))
-        found.append(request)
-        limits = request.after
+        found.append(Request(values, readings, limits, is_good(replace(limits, **values))))
+        limits = found[-1].after
     return tuple(found)
 
 
@@ -203,7 +201,7 @@ def _observe_requests(
 
 
 class Reaction(IntEnum):
-    """What a monitor does about a request, in the order in which it is judged."""
+    """Name what a monitor does about a request, in the order in which it is judged."""
 
     ACCEPTED = 0
     STATUSES = 1
@@ -550,7 +548,7 @@ def observe_heating(answer: Any) -> Observation:  # noqa: ANN401 - whatever a le
 
 
 class Work(IntEnum):
-    """What a thermostat does about a goal, in the order in which it is judged."""
+    """Name what a thermostat does about a goal, in the order in which it is judged."""
 
     DECISION = 0
     SWITCHED_ON = 1
@@ -595,7 +593,7 @@ def _at(
 _STOPPED, _RUNS_ON = (lambda goal: goal.is_canceled), (lambda goal: not goal.is_canceled)
 _RANGE = "Goals from 10 to 26 make sense. Compare in the callback that decides."
 _TWO_ENDS = "There are two ways for the work to end. Which call belongs to which?"
-_ALL_READ = "It holds every temperature that was read since the goal came, in order."
+_ALL_READ = "A result holds every temperature that was read since the goal came, in order."
 THERMOSTATS = (
     _at("nonsense-accepted", _RANGE, Work.DECISION, "accepted", lambda goal: not goal.is_good),
     _at(
@@ -634,12 +632,12 @@ THERMOSTATS = (
         Work.END, "too late", _STOPPED,
     ),
     _at(
-        "ends-too-soon", "Is anything left over from the goal before?",
+        "ends-too-soon", "Is anything left over from the previous goal?",
         Work.END, "too soon", _STOPPED,
     ),
     _at(
         "succeed-forgotten",
-        "A goal whose end is not reported counts as given up.",
+        "ROS takes a goal for given up unless the work says how it ended. Which call says so?",
         Work.STATUS, "ABORTED", _RUNS_ON,
     ),
     _at("wrong-state", _TWO_ENDS, Work.STATUS, "CANCELED", _RUNS_ON),
@@ -648,7 +646,7 @@ THERMOSTATS = (
     _at("result-wrong", "The result has a field for the temperatures, as the feedback has.",
         Work.DEGREES, "none"),
     _at(
-        "ends-too-soon", "It goes on as long as it is colder than the target, and no longer.",
+        "ends-too-soon", "The work goes on as long as the room is colder than the target.",
         Work.DEGREES, "too few", _RUNS_ON,
     ),
     _at("boundary", "Exactly the target is warm enough.",
@@ -659,13 +657,13 @@ THERMOSTATS = (
         Work.FEEDBACK, "missing", _RUNS_ON),
     _at("wrong-values", "Feedback holds all temperatures so far, as the result does in the end.",
         Work.FEEDBACK, "others", _RUNS_ON),
-    _at("left-on", "Which line switches it off, and is it on each way out of the work?",
+    _at("left-on", "Which line switches the heater off? Every way out of the work has to pass it.",
         Work.HEATER, "on"),
 )  # fmt: skip
 
 
 class _Heating:
-    """What a client got for one goal, and what the heater did.
+    """Hold what a client got for one goal, and what the heater did.
 
     The tolerances are why this is no plain comparison with a simulated room: a result may begin
     with the temperature before the goal, feedback may skip its last second, and a canceled goal may
@@ -690,17 +688,19 @@ class _Heating:
         self._wanted = list(range(start + 1, goal.order + 1))
         self._right = (self._wanted, [start, *self._wanted])
         if goal.is_canceled:  # the last reading may have come just when the work ended
-            length, read = (
-                len(self._degrees),
-                [value for at, value in room if at <= (self.end or 0)],
-            )
+            length = len(self._degrees)
+            read = [value for at, value in room if at <= (self.end or 0)]
             self._right = (read[-length:], read[-length - 1 : -1])
 
     def points(self) -> dict[Work, tuple[Any, str]]:
         """Return what was done at each point, and a sentence about it; `...` if it may be any."""
         task = f"The goal {self._goal.order}, sent at {self._goal.at:g} s,"
+        right = right_thermostat(self._goal)
         ended = "did not end" if self.end is None else f"ended at {self.end:g} s"
-        decision = (self.decision, f"{task} was {self.decision}.")
+        decision = (
+            self.decision,
+            f"{task} was {self.decision}; it should be {right[Work.DECISION][0]}.",
+        )
         if not self._goal.is_good:
             return {Work.DECISION: decision}
         canceled, end = self._goal.is_canceled, self._ended()
@@ -720,7 +720,11 @@ class _Heating:
                 f"{task} was to be canceled at {self._canceled_at:g} s, and the node refused.",
             ),
             Work.END: (end, f"{task} {ended}. {due}."),
-            Work.STATUS: (self._status, f"{task} {ended}; the client saw {self._status}."),
+            Work.STATUS: (
+                self._status,
+                f"{task} {ended}. The client was told {self._status}, and not "
+                f"{right[Work.STATUS][0]}.",
+            ),
             Work.DEGREES: (
                 ... if free else self._read(),
                 f"The result of the goal {self._goal.order} holds {self._degrees[:8]}; it should "

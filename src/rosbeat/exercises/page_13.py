@@ -76,7 +76,7 @@ _Spans = Sequence[tuple[float, float]]
 
 @dataclass(frozen=True)
 class Trials:
-    """What a greenhouse did in every trial.
+    """Hold what a greenhouse did in every trial.
 
     Attributes:
         numbers: The numbers of the rubric, by name.
@@ -239,7 +239,7 @@ def _no_publisher(seen: Observation, topic: str) -> Diagnosis:
 
 
 @dataclass(frozen=True)
-class Held:
+class HeldTemperature:
     """A temperature that is held for some seconds.
 
     Attributes:
@@ -265,7 +265,7 @@ class Held:
         return self.closing < self.value < self.opening
 
 
-def _vent(is_open: Callable[[Held], bool]) -> Callable[[Held], Track]:
+def _vent(is_open: Callable[[HeldTemperature], bool]) -> Callable[[HeldTemperature], Track]:
     return lambda held: {0: (is_open(held),)}
 
 
@@ -289,11 +289,13 @@ VENTS = (
 )
 
 
-def helds(day: Day, numbers: Mapping[str, float]) -> list[tuple[int, int, Held]]:
+def held_temperatures(
+    day: Day, numbers: Mapping[str, float]
+) -> list[tuple[int, int, HeldTemperature]]:
     """Return when each temperature that tries the vent alone begins and ends, and what it is."""
     found, is_open = [], False
     for begins, ends, value in day.held:
-        held = Held(value, is_open, numbers["open_above"], numbers["close_below"])
+        held = HeldTemperature(value, is_open, numbers["open_above"], numbers["close_below"])
         found.append((begins, ends, held))
         is_open = held.right
     return found
@@ -302,7 +304,7 @@ def helds(day: Day, numbers: Mapping[str, float]) -> list[tuple[int, int, Held]]
 def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Diagnosis | None:
     """Name the mistake at the first temperature after which the vent is not as it should be."""
     vent, states = _switch(seen, "/vent"), ("closed", "open")
-    for begins, ends, held in helds(day, numbers):
+    for begins, ends, held in held_temperatures(day, numbers):
         for time in (begins + numbers["react_seconds"], ends - 0.01):  # as soon as due, and at last
             done = vent.at(time)
             if done == held.right:
@@ -576,7 +578,7 @@ def _report_believes(seen: Observation, n: Mapping[str, float]) -> Diagnosis | N
 
 @dataclass(frozen=True)
 class Reports:
-    """What reports are made of.
+    """Hold what reports are made of.
 
     Attributes:
         day: The readings.

@@ -36,7 +36,7 @@ from rosbeat.exercises.page_13 import (
     Reports,
     Switch,
     Trials,
-    helds,
+    held_temperatures,
     is_near,
     observe_greenhouse,
     observe_vent,
@@ -255,7 +255,7 @@ def assert_told_apart(suspects, right, fed, same):
 
 
 def test_the_plain_day_tells_vents_from_the_right_one_and_from_each_other():
-    fed = [held for _, _, held in helds(greenhouse.airing(USUAL), USUAL)]
+    fed = [held for _, _, held in held_temperatures(greenhouse.airing(USUAL), USUAL)]
     assert_told_apart(VENTS, lambda held: {0: (held.right,)}, fed, lambda one, other: one == other)
 
 
