@@ -43,10 +43,9 @@ match (msg.data > above, msg.data < below, self.is_open):
         return
 self.publisher_.publish(Bool(data=self.is_open))"""),
     _vent("numpy", "import numpy as np\n"
-          "wanted = bool(np.select([msg.data > above, msg.data < below], [True, False], "
-          "self.is_open))" + _TELL),
-    _vent("a digitized value", "from bisect import bisect_left\n"
-          "zone = (msg.data > above) - (msg.data < below)\n"
+          "moved = np.where(msg.data > above, True, self.is_open)\n"
+          "wanted = bool(np.where(msg.data < below, False, moved))" + _TELL),
+    _vent("a dict of zones", "zone = (msg.data > above) - (msg.data < below)\n"
           "wanted = {1: True, -1: False}.get(zone, self.is_open)" + _TELL),
     right("13a", "a dataclass, a property and a parent", """
         from dataclasses import dataclass
