@@ -5,11 +5,15 @@ from importlib.resources import files
 import pytest
 
 from bank.answer import edited
-from bank.beyond import greenhouse_right, greenhouse_wrong, page_13
+from bank.beyond import greenhouse_right, greenhouse_wrong, page_13, page_13_more
 from bank.running import outcome_of
 from bank.verdicts import assert_named, assert_sorted_out, assert_told, assert_wide, outcome
 
 pytestmark = pytest.mark.ros
+
+RIGHT = (*greenhouse_right.ANSWERS, *page_13_more.RIGHT)
+WRONG = (*greenhouse_wrong.ANSWERS, *page_13_more.WRONG)
+MISSES = greenhouse_wrong.MISSES | page_13_more.MISSES
 
 
 @pytest.mark.parametrize("answer", page_13.ANSWERS, ids=lambda answer: answer.id)
@@ -33,19 +37,19 @@ def missed(answer):
     return {part.id for part in outcome(answer).parts if not part.met}
 
 
-@pytest.mark.parametrize("answer", greenhouse_wrong.ANSWERS, ids=lambda answer: answer.name)
+@pytest.mark.parametrize("answer", WRONG, ids=lambda answer: answer.name)
 def test_exactly_these_requirements_are_missed(answer):
-    assert missed(answer) == greenhouse_wrong.MISSES[answer.name]
+    assert missed(answer) == MISSES[answer.name]
 
 
-@pytest.mark.parametrize("answer", greenhouse_right.ANSWERS, ids=lambda answer: answer.name)
+@pytest.mark.parametrize("answer", RIGHT, ids=lambda answer: answer.name)
 def test_a_right_greenhouse_misses_optional_requirements_only(answer):
     assert missed(answer) <= {"R10", "R11"}
     assert outcome(answer).points == outcome(answer).out_of - len(missed(answer))
 
 
 def test_the_optional_requirements_are_met_by_some_and_missed_by_others():
-    kinds = {frozenset(missed(answer)) for answer in greenhouse_right.ANSWERS}
+    kinds = {frozenset(missed(answer)) for answer in RIGHT}
     assert {frozenset(), frozenset({"R10", "R11"})} <= kinds
 
 

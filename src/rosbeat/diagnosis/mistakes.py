@@ -339,7 +339,6 @@ _OF_PAGES = (
     Mistake("response-wrong", "something else given back than the response"),
     Mistake("response-not-filled", "a response that says no although it was done"),
     Mistake("reason-missing", "a refusal without a reason"),
-    Mistake("reason-too-many", "a reason although nothing was refused"),
     Mistake("nonsense-accepted", "a value accepted that makes no sense"),
     Mistake("nan-accepted", "a NaN that passes because it compares with nothing"),
     Mistake("good-value-refused", "a good value refused"),

@@ -11,7 +11,7 @@ from typing import Any
 
 from rosbeat.exercises.bag_report_runs import BagReports
 from rosbeat.exercises.call_runs import Calls
-from rosbeat.exercises.greenhouse.trials import Trials
+from rosbeat.exercises.page_13 import Trials
 from rosbeat.exercises.replays import Replays
 from rosbeat.exercises.scenarios import Report, TypedIn, Workspace
 from rosbeat.exercises.system_run import SystemRun

@@ -1,149 +1,859 @@
-"""Page 12, beyond topics: a threshold behind a service, checked parameters, an action."""
+"""Page 12, beyond topics: a threshold behind a service, checked parameters, an action.
+
+The monitors of 12a and 12b are judged one request at a time, and the thermostat of 12c one goal at
+a time. A suspect is right up to the point that it is about; what follows from its mistake is left
+open, and stands as `...` in its track.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from math import inf, isnan, nan
 from typing import Any
 
-from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.silence import difference, nearest
-from rosbeat.exercises import adjusting, heating
-from rosbeat.exercises.adjusting import Answer, Limits, phases
+from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
 from rosbeat.exercises.exercise import Exercise, failed_by, passed
-from rosbeat.exercises.page_12_scenarios import BASIC, BY_PARAMETER, BY_SERVICE, SCENARIOS, SERVICE
+from rosbeat.exercises.model import (
+    Parting,
+    Suspect,
+    Track,
+    agree,
+    fitting,
+    missing,
+    named,
+    on,
+    parting,
+)
+from rosbeat.exercises.scenarios import feeder, observe
 from rosbeat.records import Observation, Outcome
 
-#: What holds when, and which requests make sense: from 10 to 40; and low below high.
-_BY_SERVICE = phases(Limits(26.0), BY_SERVICE, lambda limits: 10 <= limits.high <= 40)
-_BY_PARAMETER = phases(Limits(26.0, 20.0), BY_PARAMETER, lambda limits: limits.low < limits.high)
+_TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
+_STATUS = Wire("/status", "std_msgs/msg/String")
+_HEATER = Wire("/heater", "std_msgs/msg/Bool")
 
 
-# 12a: a service.
+def same(done: object, model: object) -> bool:
+    """Return whether two values agree; `...` agrees with everything."""
+    return done is ... or model is ... or done == model
 
 
-def _judge_service(observation: Observation) -> Outcome:
-    words = adjusting.words_of(observation, _BY_SERVICE)
-    found = (
-        adjusting.deaf_or_dumb(observation)
-        or adjusting.wrong_at_first(_BY_SERVICE[0], words[0])
-        or _no_server(observation, "server", SERVICE, BASIC)
-    )
-    replies = adjusting.replies_to(observation, "response", SERVICE)
-    if not found and not replies:
-        found = Diagnosis(
-            "response-missing",
-            f"{SERVICE} was called {len(_BY_SERVICE) - 1} times, and never answered.",
-            "Does the callback come to its return?",
-        )
-    answers = [
-        Answer(one.data["bool_value"], one.data["string_value"]) if one else Answer(None)
-        for one in (replies.get(number) for number in range(1, len(_BY_SERVICE)))
-    ]
-    found = found or adjusting.judge_answers(_BY_SERVICE, answers, words)
-    if found:
-        return failed_by("12a", found)
-    refused = sum(not one.good for one in _BY_SERVICE)
-    return passed(
-        "12a",
-        f"{len(answers)} calls: {len(answers) - refused} values kept, {refused} refused with a "
-        "reason, NaN among them.",
-    )
-
-
-def _no_server(observation: Observation, kind: str, name: str, type_name: str) -> Diagnosis | None:
-    """Why nobody can answer; None if a server of that name and type is there."""
-    ends = [end for end in observation.graph.endpoints if end.node == observation.subject]
-    here = [end for end in ends if end.kind == kind and end.name == name]
+def _no_server(seen: Observation, kind: str, name: str, type_name: str) -> Diagnosis | None:
+    """Say why no node answers; None if there is a server of that name and type."""
     what = "service" if kind == "server" else "action"
-    if here and here[0].type_name != type_name:
+    ends = [end for end in seen.graph.endpoints if end.node == seen.subject and end.kind == kind]
+    here = next((end for end in ends if end.name == name), None)
+    if here and here.type_name == type_name:
+        return None
+    if here:
         return Diagnosis(
             "type-mismatch",
-            f"{name} is of type {here[0].type_name}; it is called as {type_name}.",
+            f"{name} is of type {here.type_name}; the client uses {type_name}.",
             f"Both sides of {what}s have to name the same type, as with topics.",
         )
-    if here:
-        return None
-    names = [end.name for end in ends if end.kind == kind and _is_own(end.name, end.node)]
+    # Every node brings services for its parameters, and every action some for its goals.
+    names = [end.name for end in ends if not end.name.startswith(f"{end.node}/")]
+    names = [one for one in names if "/_action/" not in one]
     near = nearest(name, names) or (names[0] if len(names) == 1 else "")
     if near:
         return Diagnosis(
             "service-misspelled",
-            f"The node offers {near}, and {name} is called: {difference(near, name)}.",
-            "Who calls has nothing but the name, as with topics.",
+            f"The node offers {near}, and the client asks for {name}: {difference(near, name)}.",
+            "A client knows nothing but the name, as with topics.",
         )
     return Diagnosis(
         f"no-{what}",
-        f"{name} was called, and the node has no {what} of that name.",
+        f"A client asked for {name}, and the node has no {what} of that name.",
         f"Something has to be made in the constructor that names the {what} and its callback.",
     )
 
 
-def _is_own(name: str, node: str) -> bool:
-    return not name.startswith(f"{node}/") and "/_action/" not in name
+# 12a and 12b: a monitor whose limits change while it runs.
 
 
-# 12b: parameters.
+@dataclass(frozen=True)
+class Limits:
+    """The limits that a monitor judges by."""
+
+    high: float
+    low: float = -inf
+
+    def status(self, reading: float) -> str:
+        """Return the status of a reading."""
+        return "High" if reading > self.high else "Low" if reading < self.low else "Normal"
 
 
-def _judge_parameters(observation: Observation) -> Outcome:
-    words = adjusting.words_of(observation, _BY_PARAMETER)
-    found = adjusting.deaf_or_dumb(observation)
-    found = found or adjusting.wrong_at_first(_BY_PARAMETER[0], words[0])
-    replies = adjusting.replies_to(observation, "parameters", observation.subject)
-    data = [replies[number].data for number in sorted(replies)]
-    answers = [Answer(one["successful"], one["reason"]) for one in data]
-    found = found or _never_validated(answers, words)
-    found = found or adjusting.judge_answers(_BY_PARAMETER, answers, words)
-    if found:
-        return failed_by("12b", found)
-    refused = sum(not one.good for one in _BY_PARAMETER)
-    return passed(
-        "12b",
-        f"{len(answers)} changes: {len(answers) - refused} made, two of them of both at once, and "
-        f"{refused} refused with a reason, NaN among them.",
+@dataclass(frozen=True)
+class Request:
+    """A request for other limits, and what is fed after it.
+
+    Attributes:
+        values: The limits that are asked for, by name; empty at the beginning.
+        readings: The readings until the next request.
+        before: The limits until then.
+        is_good: Whether the new limits make sense.
+    """
+
+    values: dict[str, float]
+    readings: tuple[float, ...]
+    before: Limits
+    is_good: bool
+
+    @property
+    def asked(self) -> Limits:
+        """Return the limits that an accepted request leads to."""
+        return replace(self.before, **self.values)
+
+    @property
+    def after(self) -> Limits:
+        """Return the limits that hold afterwards."""
+        return self.asked if self.is_good else self.before
+
+    @property
+    def text(self) -> str:
+        """Return the request in words."""
+        return " and ".join(f"{name} = {value:g}" for name, value in self.values.items())
+
+
+def _requests(
+    limits: Limits,
+    is_good: Callable[[Limits], bool],
+    *asked: tuple[dict[str, float], tuple[float, ...]],
+) -> tuple[Request, ...]:
+    found = []
+    for values, readings in asked:
+        found.append(Request(values, readings, limits, is_good(replace(limits, **values))))
+        limits = found[-1].after
+    return tuple(found)
+
+
+BY_SERVICE = _requests(
+    Limits(26.0),
+    lambda limits: 10 <= limits.high <= 40,
+    ({}, (25.0, 26.5, 26.0)),
+    ({"high": 24.0}, (25.0, 24.0, 23.0)),
+    ({"high": 60.0}, (25.0, 23.0)),
+    ({"high": nan}, (25.0, 23.0)),
+    ({"high": -5.0}, (23.0, 25.0)),
+    ({"high": 10.0}, (11.0, 9.5)),
+    ({"high": 40.0}, (39.0, 41.0)),
+    ({"high": 40.25}, (40.125, 39.0)),
+    ({"high": 9.75}, (40.125, 39.0)),
+    ({"high": inf}, (41.0, 39.0)),
+    ({"high": 22.5}, (22.75, 22.25)),
+)
+BY_PARAMETER = _requests(
+    Limits(26.0, 20.0),
+    lambda limits: limits.low < limits.high,
+    ({}, (25.0, 26.5, 19.5)),
+    ({"high": 24.0}, (25.0, 23.0, 19.5)),
+    ({"high": 19.0}, (22.0, 25.0, 19.5)),
+    ({"high": 20.0}, (22.0, 25.0)),
+    ({"low": 24.5}, (24.25, 22.0, 19.5)),
+    ({"low": 24.0}, (23.0, 25.0)),
+    ({"low": 22.0}, (21.0, 23.0, 25.0)),
+    ({"low": 28.0, "high": 30.0}, (27.0, 29.0, 31.0)),
+    ({"high": 8.0, "low": 5.0}, (9.0, 7.0, 4.0)),
+    ({"low": 9.0, "high": 6.0}, (7.0, 10.0, 4.0)),
+    ({"high": 5.5}, (5.25, 5.75, 4.0)),
+    ({"high": nan}, (5.25, 5.75)),
+)
+_SERVICE, _BASIC = "/set_high", "test_msgs/srv/BasicTypes"
+
+
+def observe_service(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+    """Run a monitor, and call its service between the readings."""
+    from rosbeat.ros.scenario import Call
+
+    def call(at: float, values: dict[str, float]) -> Call:
+        value = {"float32_value": values["high"]}
+        return Call(at, service="set_high", type_name=_BASIC, values=value)
+
+    return _observe_requests(answer, BY_SERVICE, call)
+
+
+def observe_parameters(answer: Any) -> Observation:  # noqa: ANN401
+    """Run a monitor, and set its parameters between the readings."""
+    from rosbeat.ros.scenario import SetParameters
+
+    return _observe_requests(
+        answer, BY_PARAMETER, lambda at, values: SetParameters(at, values=values)
     )
 
 
-def _never_validated(answers: list[Answer], words: list[list[str]]) -> Diagnosis | None:
-    if any("invalid type" in one.reason for one in answers):
+def _observe_requests(
+    answer: Any,  # noqa: ANN401
+    requests: Sequence[Request],
+    step: Callable[[float, dict[str, float]], Any],
+) -> Observation:
+    """Feed a reading each second, and make each request half a second before its first reading."""
+    readings: list[float] = []
+    steps = []
+    for request in requests:
+        if request.values:
+            steps.append(step(len(readings) + 0.5, request.values))
+        readings += request.readings
+    sensor = feeder("temperature_sensor", "temperature", _TEMPERATURE.type_name, readings)
+    return observe(answer, len(readings) + 1, others=[sensor], steps=steps)
+
+
+class Reaction(IntEnum):
+    """Name what a monitor does about a request, in the order in which it is judged."""
+
+    ACCEPTED = 0
+    STATUSES = 1
+    REASON = 2
+
+
+def _reaction(
+    request: Request,
+    accepted: bool | None,
+    limits: Limits | None = None,
+    reason: Any = ...,  # noqa: ANN401 - a truth, or `...`
+) -> Track:
+    """Return what a monitor does that judges the next readings by these limits, or by any."""
+    statuses = tuple(limits.status(one) if limits else ... for one in request.readings)
+    track: dict[int, tuple[Any, ...]] = {Reaction.STATUSES: statuses}
+    if request.values:
+        track |= {Reaction.ACCEPTED: (accepted,), Reaction.REASON: (reason,)}
+    return track
+
+
+def right_monitor(request: Request) -> Track:
+    """Return what a right monitor does. A text may stand beside an acceptance, too."""
+    reason = ... if request.is_good else True
+    return _reaction(request, request.is_good, request.after, reason)
+
+
+def _suspect(
+    mistake: str, hint: str, when: Callable[[Request], bool], then: Callable[[Request], Track]
+) -> Suspect:
+    """Return a monitor that is right, except about some requests."""
+    return Suspect(mistake, hint, lambda one: then(one) if when(one) else right_monitor(one))
+
+
+def _is_nan(request: Request) -> bool:
+    return any(map(isnan, request.values.values()))
+
+
+def _is_nonsense(request: Request) -> bool:
+    return bool(request.values) and not request.is_good
+
+
+#: Monitors that react to every request in this way.
+NOT_FILLED = Suspect(
+    "response-not-filled",
+    "A field that is never filled holds False. Where does the client read that you accepted?",
+    lambda one: _reaction(one, False, one.after),
+)
+NOT_VALIDATED = Suspect(
+    "not-validated",
+    "Is the callback registered? And is there a way on which it refuses?",
+    lambda one: _reaction(one, True),
+)
+#: Monitors that are wrong about the first request at which they are not right.
+MONITORS = (
+    _suspect(
+        "boundary",
+        "Above high is High, and below low is Low. A reading at the limit itself is Normal.",
+        lambda one: not one.values,
+        lambda one: {
+            Reaction.STATUSES: tuple(
+                "High" if value >= one.before.high else one.before.status(value)
+                for value in one.readings
+            )
+        },
+    ),
+    _suspect(
+        "validated-one-by-one",
+        "Both new values are in the list. Which of your comparisons still uses an old one?",
+        lambda one: one.is_good and len(one.values) > 1,
+        lambda one: _reaction(one, False),
+    ),
+    _suspect(
+        "good-value-refused",
+        "Which of your conditions is true for this value? Are the limits themselves fine?",
+        lambda one: one.is_good and len(one.values) == 1,
+        lambda one: _reaction(one, False),
+    ),
+    _suspect(
+        "nan-accepted",
+        "Every comparison with NaN is False, so a test for what is bad lets it pass. How does a "
+        "test for what is good read?",
+        _is_nan,
+        lambda one: _reaction(one, True),
+    ),
+    _suspect(
+        "nonsense-accepted",
+        "Print what you compare, just before you compare it: are these the new values? If so, "
+        "look at the comparison; if not, at how a new value gets there, under which name.",
+        lambda one: _is_nonsense(one) and not _is_nan(one),
+        lambda one: _reaction(one, True),
+    ),
+    _suspect(
+        "accepted-and-lost",
+        "Where do you keep the new value, and from where does the callback take it?",
+        lambda one: one.is_good and bool(one.values),
+        lambda one: _reaction(one, True, one.before),
+    ),
+    _suspect(
+        "other-limits",
+        "The value that is kept has to be exactly the one that was asked for. Is it made a whole "
+        "number on the way?",
+        lambda one: one.is_good and bool(one.values),
+        lambda one: _reaction(one, True, Limits(one.asked.high // 1, one.asked.low // 1)),
+    ),
+    _suspect(
+        "refused-and-kept",
+        "Look first, keep afterwards: a refused value must not change anything.",
+        _is_nonsense,
+        lambda one: _reaction(one, False, one.asked),
+    ),
+    _suspect(
+        "reason-missing",
+        "A client that is refused needs to know why: there is a field for a text.",
+        _is_nonsense,
+        lambda one: _reaction(one, False, one.before, False),
+    ),
+)
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """A monitor's answer to a request; `accepted` is None if there was none."""
+
+    accepted: bool | None = None
+    reason: str = ""
+
+
+def _wrong_monitor(
+    seen: Observation,
+    requests: Sequence[Request],
+    answers: Sequence[_Answer] = (),
+    whole: Sequence[Suspect] = (),
+) -> Diagnosis | None:
+    """Name the mistake of a monitor.
+
+    Args:
+        seen: What it did.
+        requests: What was asked, and fed; nothing is asked first.
+        answers: Its answers to the others.
+        whole: Suspects that react to all requests alike.
+    """
+    did = []
+    for request, answer, statuses in zip(
+        requests, [_Answer(), *answers], _statuses(seen, requests), strict=True
+    ):
+        track = dict(_reaction(request, answer.accepted, reason=bool(answer.reason.strip())))
+        did.append((request, answer, track | {Reaction.STATUSES: statuses}))
+    for request, answer, done in did:
+        parted = parting(done, right_monitor(request), same)
+        if parted is None:
+            continue
+        fit = [
+            suspect
+            for suspect in (whole if request.values else ())
+            if all(agree(suspect.model(one), track, same) for one, _, track in did[1:])
+        ]
+        evidence = _reaction_evidence(request, answer, parted)
+        fit = fit or fitting(request, done, MONITORS, same)
+        return named(evidence, fit, _other(request, evidence))
+    return None
+
+
+def _statuses(seen: Observation, requests: Sequence[Request]) -> Iterator[tuple[str, ...]]:
+    """Yield the statuses of each request's readings; `-` for none, or for more than one."""
+    said: dict[float, list[str]] = {}
+    for sample in on(seen, _STATUS):
+        said.setdefault(sample.time, []).append(str(sample.value).strip())
+    second = 0
+    for request in requests:
+        here = [said.get(second + place, []) for place in range(1, len(request.readings) + 1)]
+        second += len(request.readings)
+        yield tuple(one[0] if len(one) == 1 else "-" for one in here)
+
+
+def _reaction_evidence(request: Request, answer: _Answer, parted: Parting) -> str:
+    """Return what was right and what was done where the two part."""
+    if parted.at is Reaction.STATUSES:
+        pairs = zip(request.readings, parted.done, parted.right, strict=True)
+        reading, word, right = next(one for one in pairs if not same(*one[1:]))
+        word = "nothing, or more than one thing" if word == "-" else word
+        when = f"After {request.text} was {'accepted' if answer.accepted else 'refused'}"
+        when = when if request.values else "Before any change"
+        return f"{when}, the status for {reading:g} was {word}; it should be {right}."
+    task = f"The request for {request.text} was"
+    if parted.at is Reaction.REASON:
+        return f"{task} refused without a reason."
+    if answer.accepted is None:
+        return f"{task} never answered."
+    new = request.asked
+    limits = f", since low is then {new.low:g} and high is {new.high:g}" if new.low > -inf else ""
+    if answer.accepted:
+        return f"{task} accepted, and should be refused{limits}."
+    reason = f" with the reason {answer.reason!r}" if answer.reason.strip() else ""
+    return f"{task} refused{reason}, and should be accepted{limits}."
+
+
+def _other(request: Request, evidence: str) -> Diagnosis:
+    """Name statuses that follow from no limits of a suspect."""
+    name, hint = "refused-and-kept", "A refused value must not change anything. Does any line?"
+    if request.is_good:
+        name, hint = "other-limits", "Is the value that is kept exactly the one in the request?"
+    if not request.values:
+        name, hint = "wrong-state", "What does your code compare for this reading, and with what?"
+    return Diagnosis(name, evidence, hint)
+
+
+def _unheard_or_silent(seen: Observation) -> Diagnosis | None:
+    """Say why no reading was heard, or no status published; None if both were."""
+    if not any(call.source == _TEMPERATURE.topic for call in seen.callbacks):
+        return why_not_heard(seen, _TEMPERATURE) or Diagnosis(
+            "no-subscription",
+            "Readings were published on /temperature, and the node got none.",
+            "The subscription was part of what you were given.",
+        )
+    if on(seen, _STATUS):
+        return None
+    otherwise = Diagnosis(
+        "never-published",
+        "Readings arrived, and nothing was published on {topic}.",
+        "The status of each reading was part of what you were given.",
+    )
+    return missing(seen, _STATUS, otherwise=otherwise)
+
+
+def _judge_service(seen: Observation) -> Outcome:
+    # What is given comes before what is asked for.
+    found = _unheard_or_silent(seen) or _wrong_monitor(seen, BY_SERVICE[:1])
+    found = found or _no_server(seen, "server", _SERVICE, _BASIC)
+    replies = {
+        one.number: _Answer(one.data["bool_value"], one.data["string_value"])
+        for one in seen.replies
+        if (one.word, one.name) == ("response", _SERVICE)
+    }
+    if not found and not replies:
+        found = Diagnosis(
+            "response-missing",
+            f"{_SERVICE} was called {len(BY_SERVICE) - 1} times, and never answered.",
+            "Does the callback come to its return?",
+        )
+    answers = [replies.get(number, _Answer()) for number in range(1, len(BY_SERVICE))]
+    found = found or _wrong_monitor(seen, BY_SERVICE, answers, [NOT_FILLED])
+    if found:
+        return failed_by("12a", found)
+    return passed("12a", _all_right("calls", "values kept,", BY_SERVICE))
+
+
+def _judge_parameters(seen: Observation) -> Outcome:
+    found = _unheard_or_silent(seen) or _wrong_monitor(seen, BY_PARAMETER[:1])
+    answers = [
+        _Answer(one.data["successful"], one.data["reason"])
+        for one in sorted(seen.replies, key=lambda one: one.number)
+        if (one.word, one.name) == ("parameters", seen.subject)
+    ]
+    found = found or _refused_by_ros(answers)
+    found = found or _wrong_monitor(seen, BY_PARAMETER, answers, [NOT_FILLED, NOT_VALIDATED])
+    if found:
+        return failed_by("12b", found)
+    kept = "made, two of them of both at once, and"
+    return passed("12b", _all_right("changes", kept, BY_PARAMETER))
+
+
+def _all_right(what: str, kept: str, requests: Sequence[Request]) -> str:
+    asked, refused = len(requests) - 1, sum(not one.is_good for one in requests)
+    return (
+        f"{asked} {what}: {asked - refused} {kept} {refused} refused with a reason, NaN among them."
+    )
+
+
+def _refused_by_ros(answers: Iterable[_Answer]) -> Diagnosis | None:
+    """Name what rclpy itself says in the place of a reason; no model of a monitor would."""
+    reasons = [one.reason for one in answers]
+    if any("invalid type" in one for one in reasons):
         return Diagnosis(
             "result-of-another-kind",
-            "The callback gave back something else than a SetParametersResult, so ROS refused "
+            "The callback returned something other than a SetParametersResult, so ROS refused "
             "every change.",
             "ROS wants an object with two fields, whether you accept or refuse: which class is it?",
         )
-    if any("not declared" in one.reason for one in answers):
+    if any("not declared" in one for one in reasons):
         return Diagnosis(
             "parameter-undeclared",
             "A parameter was to be set that the node has not declared: low or high.",
             "Both were declared in what you were given, under these names.",
         )
-    if all(one.said for one in answers):
-        return Diagnosis(
-            "not-validated",
-            "Every value was accepted, a high of 19 with a low of 20, too.",
-            "Is the callback registered? And is there a way on which it refuses?",
-        )
     return None
+
+
+# 12c: a thermostat that heats a room to a target, reports, and can be stopped.
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A goal that the thermostat is sent.
+
+    Attributes:
+        at: When.
+        order: The target.
+        cancel_after: When it is canceled; None for never.
+    """
+
+    at: float
+    order: int
+    cancel_after: float | None = None
+
+    @property
+    def is_good(self) -> bool:
+        """Return whether the thermostat has to accept it."""
+        return 10 <= self.order <= 26
+
+    @property
+    def is_canceled(self) -> bool:
+        """Return whether it is canceled."""
+        return self.cancel_after is not None
+
+
+#: Reached, canceled, three out of reach, reached before it is sent, and one more.
+GOALS = (
+    Goal(2.5, 22),
+    Goal(10.5, 26, cancel_after=2.0),
+    Goal(16.5, 99),
+    Goal(18.5, 9),
+    Goal(20.5, 27),
+    Goal(22.5, 10),
+    Goal(27.5, 26),
+)
+_FIRST, _REACHED = GOALS[0], GOALS[5]
+_START = 18
+_HEAT, _FIBONACCI = "/heat", "test_msgs/action/Fibonacci"
+
+
+def observe_heating(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+    """Run a thermostat in a room, and send it goals."""
+    from rosbeat.ros.scenario import SendGoal
+    from rosbeat.ros.test_nodes import Room
+
+    steps = [
+        SendGoal(
+            one.at, action="heat", type_name=_FIBONACCI, goal={"order": one.order},
+            cancel_after=one.cancel_after,
+        )
+        for one in GOALS
+    ]  # fmt: skip
+    return observe(answer, 38, others=[lambda: Room(_START)], steps=steps)
+
+
+class Work(IntEnum):
+    """Name what a thermostat does about a goal, in the order in which it is judged."""
+
+    DECISION = 0
+    SWITCHED_ON = 1
+    CANCEL = 2
+    END = 3
+    STATUS = 4
+    DEGREES = 5
+    FEEDBACK = 6
+    HEATER = 7
+
+
+def right_thermostat(goal: Goal) -> Track:
+    """Return what a right thermostat does about a goal."""
+    if not goal.is_good:
+        return {Work.DECISION: ("rejected",)}
+    return {
+        Work.DECISION: ("accepted",),
+        Work.SWITCHED_ON: ("yes",),
+        Work.CANCEL: ("accepted",),
+        Work.END: ("in time",),
+        Work.STATUS: ("CANCELED" if goal.is_canceled else "SUCCEEDED",),
+        Work.DEGREES: ("as read",),
+        Work.FEEDBACK: ("each second",),
+        Work.HEATER: ("off",),
+    }
+
+
+def _at(
+    mistake: str, hint: str, point: Work, value: str, of: Callable[[Goal], bool] = lambda _: True
+) -> Suspect:
+    """Return a thermostat that is right about some goals until a point, and does anything after."""
+
+    def model(goal: Goal) -> Track:
+        right = right_thermostat(goal)
+        if not of(goal) or point not in right:
+            return right
+        return {at: right[at] if at < point else (value if at == point else ...,) for at in right}
+
+    return Suspect(mistake, hint, model)
+
+
+_STOPPED, _RUNS_ON = (lambda goal: goal.is_canceled), (lambda goal: not goal.is_canceled)
+_RANGE = "Goals from 10 to 26 make sense. Compare in the callback that decides."
+_TWO_ENDS = "There are two ways for the work to end. Which call belongs to which?"
+_ALL_READ = "A result holds every temperature that was read since the goal came, in order."
+THERMOSTATS = (
+    _at("nonsense-accepted", _RANGE, Work.DECISION, "accepted", lambda goal: not goal.is_good),
+    _at(
+        "good-value-refused",
+        f"{_RANGE} Does it return one of the two GoalResponses on each way?",
+        Work.DECISION, "rejected", lambda goal: 10 < goal.order < 26,
+    ),
+    _at(
+        "boundary",
+        "Goals from 10 to 26 make sense, 10 and 26 themselves included.",
+        Work.DECISION, "rejected", lambda goal: goal.order in (10, 26),
+    ),
+    _at(
+        "never-switched-on",
+        "The room only gets warmer after a Bool that is True on /heater.",
+        Work.SWITCHED_ON, "no", lambda goal: goal is _FIRST,
+    ),
+    _at(
+        "cancel-refused",
+        "An action server refuses to cancel unless a callback of its own accepts.",
+        Work.CANCEL, "refused", _STOPPED,
+    ),
+    _at(
+        "never-ends",
+        "What makes the condition of the loop false? Print it in each round.",
+        Work.END, "never", _RUNS_ON,
+    ),
+    _at(
+        "wrong-state",
+        "If the room is warm enough, there is nothing to wait for.",
+        Work.END, "too late", lambda goal: goal is _REACHED,
+    ),
+    _at(
+        "cancel-ignored",
+        "Accepting a cancel is a promise: the work has to ask its goal handle in each round.",
+        Work.END, "too late", _STOPPED,
+    ),
+    _at(
+        "ends-too-soon", "Is anything left over from the previous goal?",
+        Work.END, "too soon", _STOPPED,
+    ),
+    _at(
+        "succeed-forgotten",
+        "ROS takes a goal for given up unless the work says how it ended. Which call says so?",
+        Work.STATUS, "ABORTED", _RUNS_ON,
+    ),
+    _at("wrong-state", _TWO_ENDS, Work.STATUS, "CANCELED", _RUNS_ON),
+    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "ABORTED", _STOPPED),
+    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "SUCCEEDED", _STOPPED),
+    _at("result-wrong", "The result has a field for the temperatures, as the feedback has.",
+        Work.DEGREES, "none"),
+    _at(
+        "ends-too-soon", "The work goes on as long as the room is colder than the target.",
+        Work.DEGREES, "too few", _RUNS_ON,
+    ),
+    _at("boundary", "Exactly the target is warm enough.",
+        Work.DEGREES, "one too many", _RUNS_ON),
+    _at("result-wrong", _ALL_READ, Work.DEGREES, "others"),
+    _at("feedback-missing",
+        "Publish feedback in each round of the loop, with what was read so far.",
+        Work.FEEDBACK, "missing", _RUNS_ON),
+    _at("wrong-values", "Feedback holds all temperatures so far, as the result does in the end.",
+        Work.FEEDBACK, "others", _RUNS_ON),
+    _at("left-on", "Which line switches the heater off? Every way out of the work has to pass it.",
+        Work.HEATER, "on"),
+)  # fmt: skip
+
+
+class _Heating:
+    """Hold what a client got for one goal, and what the heater did.
+
+    The tolerances are why this is no plain comparison with a simulated room: a result may begin
+    with the temperature before the goal, feedback may skip its last second, and a canceled goal may
+    end before or after the next reading.
+    """
+
+    def __init__(self, seen: Observation, goal: Goal) -> None:
+        self._goal, self._canceled_at = goal, goal.at + (goal.cancel_after or inf)
+        self._heater = [(one.time, bool(one.value)) for one in on(seen, _HEATER)]
+        replies = [one for one in seen.replies if one.number == GOALS.index(goal) + 1]
+        self._feedback = [one for one in replies if one.word == "feedback"]
+        got = {one.word: one for one in replies}
+        self.decision = "neither accepted nor rejected"
+        if "goal" in got:
+            self.decision = "accepted" if got["goal"].data["accepted"] else "rejected"
+        self._cancels = "cancel" in got and bool(got["cancel"].data["count"])
+        self.end = got["result"].time if "result" in got else None
+        result = got["result"].data if "result" in got else {"status": "", "sequence": ()}
+        self._status, self._degrees = str(result["status"]), list(result["sequence"])
+        room = [(one.time, int(one.value)) for one in on(seen, _TEMPERATURE)]
+        start = next((value for at, value in reversed(room) if at < goal.at), _START)
+        self._wanted = list(range(start + 1, goal.order + 1))
+        self._right = (self._wanted, [start, *self._wanted])
+        if goal.is_canceled:  # the last reading may have come just when the work ended
+            length = len(self._degrees)
+            read = [value for at, value in room if at <= (self.end or 0)]
+            self._right = (read[-length:], read[-length - 1 : -1])
+
+    def points(self) -> dict[Work, tuple[Any, str]]:
+        """Return what was done at each point, and a sentence about it; `...` if it may be any."""
+        task = f"The goal {self._goal.order}, sent at {self._goal.at:g} s,"
+        right = right_thermostat(self._goal)
+        ended = "did not end" if self.end is None else f"ended at {self.end:g} s"
+        decision = (
+            self.decision,
+            f"{task} was {self.decision}; it should be {right[Work.DECISION][0]}.",
+        )
+        if not self._goal.is_good:
+            return {Work.DECISION: decision}
+        canceled, end = self._goal.is_canceled, self._ended()
+        due = f"It should end when {'it is canceled' if canceled else 'the target is reached'}"
+        due += f", at {self._canceled_at:g} s" if canceled else ""
+        # A cancel that comes after the end cannot be accepted.
+        refused = canceled and end != "too soon" and not self._cancels
+        free = self._goal is _REACHED
+        return {
+            Work.DECISION: decision,
+            Work.SWITCHED_ON: (
+                "yes" if any(state for _, state in self._heater) else "no",
+                f"{task} was accepted, and the heater was never switched on.",
+            ),
+            Work.CANCEL: (
+                "refused" if refused else "accepted",
+                f"{task} was to be canceled at {self._canceled_at:g} s, and the node refused.",
+            ),
+            Work.END: (end, f"{task} {ended}. {due}."),
+            Work.STATUS: (
+                self._status,
+                f"{task} {ended}. The client was told {self._status}, and not "
+                f"{right[Work.STATUS][0]}.",
+            ),
+            Work.DEGREES: (
+                ... if free else self._read(),
+                f"The result of the goal {self._goal.order} holds {self._degrees[:8]}; it should "
+                f"hold {self._right[0][:8]}.",
+            ),
+            Work.FEEDBACK: (... if free or canceled else self._reported(), self._feedback_text()),
+            Work.HEATER: (
+                "on" if self._is_on_after() else "off",
+                f"{task} {ended}, and a second later the heater was still on.",
+            ),
+        }
+
+    def _ended(self) -> str:
+        if self._goal.is_canceled:
+            after = (inf if self.end is None else self.end) - self._canceled_at
+            return "too soon" if after < 0 else "too late" if after > 1 else "in time"
+        if self.end is None:
+            return "never"
+        return "too late" if self._goal is _REACHED and self.end > self._goal.at + 2 else "in time"
+
+    def _read(self) -> str:
+        found = self._degrees
+        if not found:
+            return "none"
+        if found in self._right:
+            return "as read"
+        if self._goal.is_canceled:
+            return "others"
+        # A heater that was not on for long enough cannot have got so far.
+        if found[-1] < self._goal.order and (self.end or 0) < self._goal.at + len(self._wanted):
+            return "too few"
+        more = found[-1] > self._goal.order and found[:-1] in self._right
+        return "one too many" if more else "others"
+
+    def _reported(self) -> str:
+        least = max(1, len(self._wanted) - 1) if self._goal is _FIRST else 1
+        if len({one.time for one in self._feedback}) < least:
+            return "missing"
+        return "others" if self._strange() else "each second"
+
+    def _strange(self) -> list[list[int]]:
+        """Return the feedback that is no beginning of the result."""
+        found = [list(one.data["sequence"]) for one in self._feedback]
+        return [one for one in found if not one or one != self._degrees[: len(one)]]
+
+    def _feedback_text(self) -> str:
+        if self._reported() == "others":
+            return f"Feedback held {self._strange()[0][:8]}; the result is {self._degrees[:8]}."
+        seconds = len({one.time for one in self._feedback})
+        return (
+            f"On the way to {self._goal.order} degrees the client got feedback at {seconds} of "
+            f"{len(self._degrees)} seconds."
+        )
+
+    def _is_on_after(self) -> bool:
+        """Return whether the heater is on a second after the end, if there is one."""
+        states = [state for at, state in self._heater if at <= (self.end or -1) + 1]
+        return self.end is not None and states[-1:] == [True]
+
+
+def _judge_heating(seen: Observation) -> Outcome:
+    found = (
+        _no_server(seen, "action server", _HEAT, _FIBONACCI) or _blocked(seen) or _wrong_work(seen)
+    )
+    if found:
+        return failed_by("12c", found)
+    rejected = sum(not one.is_good for one in GOALS)
+    return passed(
+        "12c",
+        f"Heated to {_FIRST.order}, with a report each second; stopped when it was canceled; "
+        f"{rejected} goals that make no sense were rejected.",
+    )
+
+
+def _wrong_work(seen: Observation) -> Diagnosis | None:
+    """Name the mistake of a thermostat: of its decisions first, then of its work."""
+    works = [(goal, _Heating(seen, goal).points()) for goal in GOALS]
+    rounds = [(goal, points, [Work.DECISION]) for goal, points in works]
+    rounds += [(goal, points, list(points)) for goal, points in works]
+    for goal, points, judged in rounds:
+        done = {at: (value,) for at, (value, _) in points.items()}
+        right = right_thermostat(goal)
+        parted = parting({at: done[at] for at in judged}, {at: right[at] for at in judged}, same)
+        if parted is None:
+            continue
+        silent = why_not_published(seen, _HEATER) if parted.at is Work.SWITCHED_ON else None
+        evidence = points[parted.at][1]
+        hint = "Does the callback of this step come to its end? Print before and after it."
+        unknown = Diagnosis(UNKNOWN, evidence, hint)
+        return silent or named(evidence, fitting(goal, done, THERMOSTATS, same), unknown)
+    return None
+
+
+def _blocked(seen: Observation) -> Diagnosis | None:
+    """Name work that keeps the node from hearing: the executor shows it, not what was done."""
+    work, begin = _Heating(seen, _FIRST), _FIRST.at
+    end = work.end or begin + 4
+    heard = [one.time for one in seen.callbacks if one.source == _TEMPERATURE.topic]
+    if work.decision != "accepted" or not heard or end < begin + 2:
+        return None
+    if any(begin < at < end for at in heard):
+        return None
+    return Diagnosis(
+        "callback-blocks",
+        f"From {begin:g} to {end:g} s the node did not hear a single reading: while its work "
+        "sleeps, nothing else of it runs, no cancel either.",
+        "An `async` callback gives the others room while it awaits something.",
+    )
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "12a",
-        SCENARIOS["12a"],
+        observe_service,
         _judge_service,
         "a threshold behind a service",
         2,
         (
             "A service is made like a subscription: a type, a name, a callback. The callback is "
             "handed a request and an empty response, fills the response, and gives it back.",
-            "Look before you keep: only a value that makes sense may become self.high.",
+            "Look before you keep: only a value that makes sense may become self.high. If you "
+            "refuse one, the response has a field for the reason, too.",
             "Ask whether the value is good, and not whether it is bad: NaN is neither above nor "
             "below anything.",
         ),
     ),
     Exercise(
         "12b",
-        SCENARIOS["12b"],
+        observe_parameters,
         _judge_parameters,
         "parameters that are checked",
         3,
@@ -156,14 +866,16 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "12c",
-        SCENARIOS["12c"],
-        heating.judge,
+        observe_heating,
+        _judge_heating,
         "heat to a target",
         4,
         (
-            "Compare with the window: what it counts in seconds, the thermostat reads in degrees.",
-            "`await self.reading` gives the next temperature. Read, report, look whether somebody "
-            "has canceled, and go on while it is too cold.",
+            "Two methods are yours. `decide` accepts or rejects a goal with a `GoalResponse`, and "
+            "`heat` does the work. Compare both with the airing: what it counts in seconds, the "
+            "thermostat reads in degrees.",
+            "`await self.reading` gives the next temperature. Read, report, check whether the "
+            "client has canceled, and go on while it is too cold.",
             "Whatever ends the work, the heater has to be off afterwards: one line behind the "
             "loop does it for both ways.",
             "A goal ends with one of two calls, and then the result is given back in any case.",

@@ -100,11 +100,6 @@ ANSWERS = (
     ),
     _wrong("no reason", "reason-missing", (_WHY, "pass")),
     _wrong(
-        "a reason in any case",
-        "reason-too-many",
-        (_IF, f'response.string_value = "10 to 40"\n        {_IF}'),
-    ),
-    _wrong(
         "the answer is left empty",
         "response-not-filled",
         (_TEST, "good = 10.0 <= request.float32_value <= 40.0"),

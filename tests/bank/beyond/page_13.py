@@ -1,7 +1,7 @@
 """Answers to the exercises of page 13."""
 
 from bank.answer import Answer
-from bank.beyond import greenhouse_right, greenhouse_wrong, vent_alone
+from bank.beyond import greenhouse_right, greenhouse_wrong, page_13_more, vent_alone
 
 #: What a learner has to find, in pieces that no hint may hold; spaces do not count.
 SECRETS: dict[str, tuple[str, ...]] = {
@@ -13,4 +13,5 @@ ANSWERS: tuple[Answer, ...] = (
     *vent_alone.ANSWERS,
     *greenhouse_right.ANSWERS,
     *greenhouse_wrong.ANSWERS,
+    *page_13_more.ANSWERS,
 )

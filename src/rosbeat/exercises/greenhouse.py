@@ -1,0 +1,501 @@
+"""The greenhouse of page 13: what is required of it, and the weather to try it in.
+
+The requirements are read from JSON; `ROSBEAT_RUBRIC` names another file than the course's own. The
+weather of every trial follows from the numbers in that file.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import struct
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from importlib.resources import files
+from math import inf, isfinite, nan
+from pathlib import Path
+from textwrap import wrap
+from typing import Any
+
+from rosbeat.errors import ExerciseError
+from rosbeat.exercises.cards import words
+from rosbeat.exercises.scenarios import station
+
+# What is required.
+
+SETTING = "ROSBEAT_RUBRIC"
+#: The requirements that can be judged.
+KNOWN = tuple(f"R{number}" for number in range(1, 12))
+#: What the points of all requirements add up to: the points of the exercise.
+TOTAL = 20
+#: The numbers that stand in the course's own rubric: limits in degrees Celsius and per cent, and
+#: times in whole seconds.
+USUAL: Mapping[str, float] = {
+    "open_above": 28.0,
+    "close_below": 26.0,
+    "dry_below": 40.0,
+    "temperature_min": -20.0,
+    "temperature_max": 60.0,
+    "pump_seconds": 5.0,
+    "rest_seconds": 20.0,
+    "silent_seconds": 5.0,
+    "report_seconds": 10.0,
+    "react_seconds": 2.0,
+}
+_OWN = "rubrics/greenhouse.json"
+_KINDS = {"id": str, "text": str, "points": int, "required": bool}
+_FIELDS = "an id and a text in quotes, points (a whole number) and required (true or false)"
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """One thing that a greenhouse has to do.
+
+    Attributes:
+        id: Its name, such as `R1`.
+        text: One sentence, numbers filled in.
+        points: What it is worth.
+        required: Whether the exercise is passed only with it.
+    """
+
+    id: str
+    text: str
+    points: int
+    required: bool
+
+
+@dataclass(frozen=True)
+class Rubric:
+    """All that a greenhouse has to do.
+
+    Attributes:
+        numbers: The limits and times that stand in the requirements, by name.
+        requirements: The requirements, in order.
+    """
+
+    numbers: dict[str, float]
+    requirements: tuple[Requirement, ...]
+
+
+def read_rubric() -> Rubric:
+    """Read the rubric: the file that `ROSBEAT_RUBRIC` names, or the course's own.
+
+    Raises:
+        ExerciseError: If the file cannot be read, or is no rubric.
+    """
+    chosen = os.environ.get(SETTING, "")
+    if not chosen:
+        text = files("rosbeat.exercises").joinpath(_OWN).read_text(encoding="utf-8")
+        return parse_rubric(text, _OWN)
+    try:
+        text = Path(chosen).expanduser().read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as error:
+        raise ExerciseError(
+            f"The rubric {chosen} cannot be read: {error}.",
+            f"The variable {SETTING} names a file that is not there, or holds no text.",
+            f"Correct the path, or unset {SETTING}: then the course's own rubric counts.",
+        ) from None
+    return parse_rubric(text, chosen)
+
+
+def matching_rubric(numbers: Mapping[str, float]) -> Rubric:
+    """Return the rubric, if it has the numbers that a trial was made with.
+
+    Args:
+        numbers: Those of the trial; what it says of itself is not believed.
+
+    Raises:
+        ExerciseError: If they are others, or the rubric cannot be used.
+    """
+    rubric = read_rubric()
+    if dict(numbers) != rubric.numbers:
+        raise ExerciseError(
+            "This greenhouse was run in the weather of another rubric.",
+            "Its numbers differ from those that count now, so what it did says nothing of them.",
+            "Run the check again, or grade the answer anew.",
+        )
+    return rubric
+
+
+def parse_rubric(text: str, name: str) -> Rubric:
+    """Make a rubric of the text of a file.
+
+    Args:
+        text: JSON, an object with `numbers` and `requirements`.
+        name: The file's name, for errors.
+
+    Raises:
+        ExerciseError: If it is no rubric that a check could use; all reasons are told.
+    """
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise _refused(name, f"it is not JSON, {error}") from None
+    wrong = list(_shape(data)) or [*_numbers(data["numbers"]), *_rows(data["requirements"])]
+    wrong = wrong or [*_spans(data["numbers"]), *_texts(data)]
+    if wrong:
+        raise _refused(name, "; ".join(wrong))
+    numbers = {key: float(value) for key, value in data["numbers"].items()}
+    rows = [{**row, "text": _filled(row["text"], numbers)} for row in data["requirements"]]
+    return Rubric(numbers, tuple(Requirement(**row) for row in rows))
+
+
+# What may be wrong with it; each yields a few words for each thing.
+
+
+def _shape(data: object) -> Iterator[str]:
+    if not isinstance(data, dict) or set(data) != {"numbers", "requirements"}:
+        yield "it should hold `numbers` and `requirements`, and nothing else"
+    elif not isinstance(data["numbers"], dict) or not isinstance(data["requirements"], list):
+        yield "`numbers` should be an object, and `requirements` a list"
+
+
+def _numbers(found: dict[str, Any]) -> Iterator[str]:
+    for name in sorted(set(USUAL) ^ set(found)):
+        yield f"`{name}` is missing" if name in USUAL else f"there is no number `{name}`"
+    for name, value in found.items():
+        if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+            yield f"`{name}` is {value!r} and should be a number"
+        elif name.endswith("_seconds") and (value != int(value) or not 1 <= value <= 120):
+            yield f"`{name}` is {value!r} and should be a whole number from 1 to 120"
+
+
+def _rows(rows: list[Any]) -> Iterator[str]:
+    for number, row in enumerate(rows, 1):
+        kinds = {key: type(value) for key, value in row.items()} if isinstance(row, dict) else {}
+        if kinds != _KINDS:
+            yield f"requirement {number} should have {_FIELDS}, and nothing else"
+            return
+    ids = [row["id"] for row in rows]
+    strange = sorted(set(ids) - set(KNOWN))
+    if strange or len(set(ids)) != len(ids):
+        yield f"each of {', '.join(KNOWN)} may stand there once, and nothing else"
+    points = [row["points"] for row in rows]
+    if sum(points) != TOTAL or min(points, default=0) < 0:
+        yield f"the points add up to {sum(points)}; they should make {TOTAL}, none below 0"
+    if not any(row["required"] for row in rows):
+        yield "nothing is required"
+
+
+def _spans(n: dict[str, float]) -> Iterator[str]:
+    """Yield what keeps the weather of the trials from telling a right answer from a wrong one."""
+    rules = {
+        "`close_below` has to be at least 1 below `open_above`": n["close_below"] + 1
+        <= n["open_above"],
+        "`temperature_min` has to be at least 10 below `close_below`": n["temperature_min"] + 10
+        <= n["close_below"],
+        "`temperature_max` has to be at least 10 above `open_above`": n["open_above"] + 10
+        <= n["temperature_max"],
+        "`dry_below` has to be from 20 to 70": 20 <= n["dry_below"] <= 70,
+        "`pump_seconds` has to be at least 3 above `react_seconds`": n["react_seconds"] + 3
+        <= n["pump_seconds"],
+        "`silent_seconds` has to be at least 3 above `react_seconds`": n["react_seconds"] + 3
+        <= n["silent_seconds"],
+        "`rest_seconds` has to be at least 5 above `react_seconds`": n["react_seconds"] + 5
+        <= n["rest_seconds"],
+        "`report_seconds` has to be from 5 to 30": 5 <= n["report_seconds"] <= 30,
+        "`react_seconds` has to be at most 5": n["react_seconds"] <= 5,
+    }
+    yield from (text for text, holds in rules.items() if not holds)
+
+
+def _texts(data: dict[str, Any]) -> Iterator[str]:
+    for row in data["requirements"]:
+        try:
+            _filled(row["text"], data["numbers"])
+        except (ValueError, LookupError, AttributeError):
+            yield f"the text of {row['id']} has a brace that stands for no number"
+
+
+def _filled(text: str, numbers: dict[str, float]) -> str:
+    return text.format(**{name: f"{value:g}" for name, value in numbers.items()})
+
+
+def _refused(name: str, why: str) -> ExerciseError:
+    return ExerciseError(
+        f"{name} is no rubric of the greenhouse: {why}.",
+        "A check needs to know what is required, what it is worth, and which numbers count.",
+        f"Start from a copy of the course's own, {_OWN} beside the exercises, and change little.",
+    )
+
+
+# The weather. Each temperature is held for one second longer than a system may take to react, so
+# that what it does can be told from what it did.
+
+#: Names of the trials, and of the sensors.
+PLAIN, BROKEN, LOSSY, OTHER = "plain day", "broken sensors", "ending nodes", "other limits"
+SENSORS = ("thermometer", "hygrometer")
+WET = 95.0
+#: How far beyond a limit a reading is that is clearly beyond it.
+_BEYOND, _JUST = 4.0, 0.25
+
+
+@dataclass
+class Day:
+    """Hold the readings of two sensors, second by second from 1 s on, and what matters in them.
+
+    Attributes:
+        temperature: Readings; None is a second without a message.
+        humidity: The same.
+        marks: When something begins, by name.
+        held: For each temperature that tries the vent alone: when it begins, when it ends, and
+            the temperature.
+    """
+
+    temperature: list[float | None] = field(default_factory=list)
+    humidity: list[float | None] = field(default_factory=list)
+    marks: dict[str, int] = field(default_factory=dict)
+    held: list[tuple[int, int, float]] = field(default_factory=list)
+
+    @property
+    def seconds(self) -> int:
+        """Return how long it takes, in seconds."""
+        return len(self.temperature) + 1
+
+    def hold(
+        self, seconds: float, temperature: float | None, humidity: float | None, mark: str = ""
+    ) -> int:
+        """Let the sensors say the same for some seconds; return when that begins."""
+        begins = self.seconds
+        self.temperature += [temperature] * int(seconds)
+        self.humidity += [humidity] * int(seconds)
+        if mark:
+            self.marks[mark] = begins
+        return begins
+
+
+@dataclass(frozen=True)
+class Air:
+    """Name the readings that the trials are made of.
+
+    Attributes:
+        hot: Clearly above the limit at which the vent opens.
+        middle: Between the two limits.
+        cold: Clearly below the limit at which it closes.
+        dry: Clearly below the limit for the pump.
+    """
+
+    hot: float
+    middle: float
+    cold: float
+    dry: float
+
+
+def air(numbers: Mapping[str, float]) -> Air:
+    """Return the readings that the trials are made of."""
+    opening, closing = numbers["open_above"], numbers["close_below"]
+    middle = (opening + closing) / 2
+    return Air(opening + _BEYOND, middle, closing - _BEYOND, numbers["dry_below"] - 10)
+
+
+def as_float32(value: float) -> float:
+    """Return a number as a `Float32` carries it."""
+    return float(struct.unpack("f", struct.pack("f", value))[0])
+
+
+def _vent_readings(numbers: Mapping[str, float]) -> list[float]:
+    """Return temperatures on all sides of both limits at which the vent moves."""
+    opening, closing, some = numbers["open_above"], numbers["close_below"], air(numbers)
+    # A limit that a Float32 cannot carry is met by no reading.
+    top = opening if as_float32(opening) == opening else opening - _JUST
+    bottom = closing if as_float32(closing) == closing else closing + _JUST
+    return [
+        *(some.cold, some.middle, top, opening + _JUST),
+        *(some.middle, bottom, closing - _JUST, some.middle),
+        *(some.hot, some.middle, some.cold, some.cold + 1),
+    ]
+
+
+def plain_day(n: Mapping[str, float]) -> Day:
+    """Return a day with sensors that work: the vent alone, the pump alone, then both at once."""
+    day, some, react = airing(n), air(n), n["react_seconds"]
+    limit = n["dry_below"]
+    at_limit = limit if as_float32(limit) == limit else limit + _JUST
+    cold, pause = some.cold, n["pump_seconds"] + n["rest_seconds"]
+    day.hold(2, cold, WET, "pumping")
+    day.hold(react + 1, cold + 1, at_limit, "at the limit")
+    day.hold(react + 1, cold + 2, limit - _JUST, "dry")
+    day.hold(pause + 9 - react - 1, cold, some.dry)
+    day.hold(pause + 3, cold + 1, WET, "wet")
+    day.hold(react + 1, some.hot, WET, "both")
+    day.hold(max(n["pump_seconds"], react) + 10, some.hot + 1, some.dry, "hot and dry")
+    day.hold(2 * react + 2, cold, some.dry, "cool and dry")
+    day.hold(pause + react + 3, cold + 1, WET)
+    day.hold(react, cold, some.dry, "dry again")
+    day.hold(n["pump_seconds"] + 6, some.hot, some.dry, "hot again")
+    return day
+
+
+def airing(n: Mapping[str, float]) -> Day:
+    """Return the first part of the plain day, for the vent alone."""
+    day = Day()
+    for value in _vent_readings(n):
+        begins = day.hold(n["react_seconds"] + 1, value, WET)
+        day.held.append((begins, day.seconds, value))
+    return day
+
+
+def broken_day(n: Mapping[str, float]) -> Day:
+    """Return a day with sensors that report impossible values, and sensors that fall silent."""
+    day, some, react = Day(), air(n), n["react_seconds"]
+    still, cold = react + 1, some.cold
+    day.hold(still + 3, cold, WET)
+    day.hold(still + 2, some.hot, WET, "hot")
+    for value in (nan, n["temperature_min"] - 50, -inf):
+        day.hold(1, value, WET)
+        day.hold(2, some.hot, WET)
+    day.hold(still, some.hot, WET, "still open")
+    day.hold(still + 2, cold, WET, "cool")
+    for value in (nan, n["temperature_max"] + 500, inf):
+        day.hold(1, value, WET)
+        day.hold(2, cold, WET)
+    for value in (-5.0, -inf, nan):
+        day.hold(1, cold, value)
+        day.hold(2, cold, WET)
+    day.hold(still, cold, WET, "still closed")
+    day.hold(still + 1, cold, some.dry, "dry")
+    day.hold(n["pump_seconds"] + 3, cold, WET, "wet")
+    # Time for a second alarm that nobody wants, and for a report without a single reading.
+    long = max(2 * n["silent_seconds"] + react + 2, 2 * n["report_seconds"] + 1)
+    for name, humidity in (("temperature", WET), ("both", None)):
+        day.hold(long, None, humidity, f"{name} silent")
+        day.hold(react + 4, cold, WET, f"{name} back")
+    return day
+
+
+def lossy_day(n: Mapping[str, float]) -> Day:
+    """Return a day that is three times hot and cool again; before each, a node ends."""
+    day, some = Day(), air(n)
+    span = n["react_seconds"] + 2
+    for name in ("report", "alarm", "pump"):
+        day.hold(span, some.cold, WET, f"without {name}")
+        day.hold(span, some.hot, WET, f"hot without {name}")
+    day.hold(span, some.cold, WET, "end")
+    return day
+
+
+#: By how much the limits differ from the usual ones in the trial of parameters.
+COOLER, WETTER = 4.0, 20.0
+
+
+def other_limits(n: Mapping[str, float]) -> dict[str, float]:
+    """Return the parameters of the trial with other limits."""
+    return {
+        "open_above": n["open_above"] - COOLER,
+        "close_below": n["close_below"] - COOLER,
+        "dry_below": n["dry_below"] + WETTER,
+    }
+
+
+def other_day(n: Mapping[str, float]) -> Day:
+    """Return a day whose readings mean something only with the other limits."""
+    day, span = Day(), n["react_seconds"] + 2
+    cold = n["close_below"] - COOLER - 2
+    day.hold(span, cold, 99.0)
+    day.hold(span, n["open_above"] - COOLER / 2, 99.0, "warm")
+    day.hold(span, n["close_below"] - COOLER / 2, 99.0, "less warm")
+    day.hold(span + 1, cold, 99.0, "cool")
+    day.hold(span, cold, n["dry_below"] + WETTER / 2, "damp")
+    return day
+
+
+# What a page shows.
+
+_DAYS = {PLAIN: plain_day, BROKEN: broken_day}
+_WIDTH = 84
+
+
+@dataclass(frozen=True)
+class Requirements:
+    """Show requirements in Jupyter and in a terminal.
+
+    Attributes:
+        rows: The requirements.
+    """
+
+    rows: tuple[Requirement, ...]
+
+    def __str__(self) -> str:
+        return "\n".join(line for row in self.rows for line in _lines(row))
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def html(self) -> str:
+        """Return the requirements as a table in HTML."""
+        left = 'style="text-align:left"'  # Jupyter's own is right
+        head = "".join(f"<th {left}>{one}</th>" for one in ("", "requirement", "points"))
+        body = "".join(_row(row) for row in self.rows)
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        return {"text/plain": str(self), "text/html": self.html()}
+
+
+def requirements(*ids: str) -> Requirements:
+    """Show what the greenhouse has to do, as the check will judge it.
+
+    Args:
+        ids: Only these, such as `"R1"`; by default all.
+
+    Raises:
+        ExerciseError: If there is no such requirement.
+    """
+    rows = read_rubric().requirements
+    strange = sorted(set(ids) - {row.id for row in rows})
+    if strange:
+        raise ExerciseError(
+            f"There is no requirement {strange[0]!r}.",
+            f"The requirements are: {', '.join(row.id for row in rows)}.",
+            f'Write for example requirements("{rows[0].id}").',
+        )
+    return Requirements(tuple(row for row in rows if not ids or row.id in ids))
+
+
+def weather(
+    day: str = PLAIN,
+    *,
+    temperature: Iterable[float | None] | None = None,
+    humidity: Iterable[float | None] | None = None,
+) -> tuple[Callable[[], Any], Callable[[], Any]]:
+    """Return the two sensors of the greenhouse, which publish one reading a second.
+
+    Args:
+        day: What they say: `"plain day"` or `"broken sensors"`.
+        temperature: Readings of your own for the first one; None is a second of silence.
+        humidity: The same for the second one.
+
+    Returns:
+        Two node classes, for `ros.add`.
+
+    Raises:
+        ExerciseError: If there is no such day.
+    """
+    if day not in _DAYS:
+        raise ExerciseError(
+            f"There is no weather {day!r}.",
+            f"The course knows: {', '.join(_DAYS)}.",
+            'Write weather("plain day"), or give readings: weather(temperature=[20.0, 30.0]).',
+        )
+    numbers = read_rubric().numbers
+    own = temperature is not None or humidity is not None
+    known = Day() if own else _DAYS[day](numbers)
+    return (
+        station(SENSORS[0], "temperature", known.temperature if not own else temperature or ()),
+        station(SENSORS[1], "humidity", known.humidity if not own else humidity or ()),
+    )
+
+
+def _worth(row: Requirement) -> str:
+    return f"{row.points}" + ("" if row.required else ", optional")
+
+
+def _lines(row: Requirement) -> list[str]:
+    text = wrap(f"{row.text} ({_worth(row)})", _WIDTH - 5)
+    return [f"{row.id if not at else '':<5}{line}" for at, line in enumerate(text)]
+
+
+def _row(row: Requirement) -> str:
+    left = 'style="text-align:left"'
+    worth = _worth(row).replace(" ", "&nbsp;")  # no line break, and no sanitizer drops it
+    return f"<tr><td>{words(row.id)}</td><td {left}>{words(row.text)}</td><td>{worth}</td></tr>"

@@ -1,0 +1,83 @@
+"""The models of page 12: right ones, and those of misunderstandings. Needs no ROS."""
+
+from dataclasses import replace
+from itertools import combinations, pairwise
+
+import pytest
+
+from rosbeat.exercises import page_12
+from rosbeat.exercises.model import agree
+from rosbeat.exercises.page_12 import (
+    BY_PARAMETER,
+    BY_SERVICE,
+    GOALS,
+    MONITORS,
+    NOT_FILLED,
+    NOT_VALIDATED,
+    THERMOSTATS,
+    right_monitor,
+    right_thermostat,
+    same,
+)
+from rosbeat.exercises.registry import EXERCISES
+from rosbeat.records import Observation
+
+#: What the models of an exercise are fed, the right one, and the suspects.
+MODELS = {
+    # One after the other is a misunderstanding of two limits in one request: page 12b alone.
+    "12a": (
+        BY_SERVICE,
+        right_monitor,
+        [NOT_FILLED, *(one for one in MONITORS if one.mistake != "validated-one-by-one")],
+    ),
+    # The readings of 12b meet no limit before the first request.
+    "12b": (
+        BY_PARAMETER,
+        right_monitor,
+        [NOT_FILLED, NOT_VALIDATED, *(one for one in MONITORS if one.mistake != "boundary")],
+    ),
+    "12c": (GOALS, right_thermostat, THERMOSTATS),
+}
+
+#: A good value that is refused may be used or not. A monitor that uses all of them is a special
+#: case, and is tried first.
+INCLUDED = {("response-not-filled", "good-value-refused")}
+
+
+def alike(one, other, fed):
+    """Whether two models do the same about everything that is fed."""
+    return all(agree(one(each), other(each), same) for each in fed)
+
+
+@pytest.mark.parametrize("exercise", MODELS)
+def test_the_input_tells_suspects_from_the_right_model_and_from_each_other(exercise):
+    fed, right, suspects = MODELS[exercise]
+    assert [one.mistake for one in suspects if alike(one.model, right, fed)] == []
+    pairs = [pair for pair in combinations(suspects, 2) if pair[0].mistake != pair[1].mistake]
+    found = [pair for pair in pairs if alike(pair[0].model, pair[1].model, fed)]
+    assert {(one.mistake, other.mistake) for one, other in found} <= INCLUDED
+
+
+@pytest.mark.parametrize("requests", [BY_SERVICE, BY_PARAMETER])
+def test_nothing_is_asked_for_at_first_and_then_always_something(requests):
+    assert [bool(one.values) for one in requests] == [False] + [True] * (len(requests) - 1)
+    assert all(one.before == before.after for before, one in pairwise(requests))
+
+
+def test_a_refused_request_leaves_the_limits_as_they_are():
+    refused = next(one for one in BY_PARAMETER if one.values and not one.is_good)
+    assert refused.after == refused.before != refused.asked
+    assert replace(refused, is_good=True).after == refused.asked
+
+
+@pytest.mark.parametrize("exercise", MODELS)
+def test_a_node_that_does_nothing_fails(exercise):
+    outcome = EXERCISES[exercise].judged(Observation(40 * 10**9, 0, subject="/node"))
+    assert (outcome.status, outcome.points) == ("failed", 0)
+
+
+def test_a_suspect_leaves_open_what_follows_from_its_mistake():
+    (suspect,) = (one for one in THERMOSTATS if one.mistake == "left-on")
+    assert suspect.model(GOALS[0])[page_12.Work.HEATER] == ("on",)
+    (suspect,) = (one for one in THERMOSTATS if one.mistake == "cancel-refused")
+    assert suspect.model(GOALS[1])[page_12.Work.HEATER] == (...,)
