@@ -6,12 +6,12 @@ from pathlib import Path
 
 import listings  # the folder is put on the path by conftest.py
 import pytest
+
+from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.check import EXERCISES
 from rosbeat.exercises.evidence import from_json, to_json
 from rosbeat.exercises.scenarios import CommandMeaning
-
-from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.exercises.system_run import MONITOR, SENSOR, run_system
+from rosbeat.exercises.system import MONITOR, SENSOR, run_system
 
 pytestmark = pytest.mark.ros
 
