@@ -125,45 +125,29 @@ def _made_by(place: str, line: str) -> set[str] | None:
 
 
 def _judge_folder(seen: FolderMaking) -> Outcome:
-    folders = set(seen.workspace.folders)
     simulated = [_made_by(*one) for one in seen.tried]
-    # A folder may be there from before: then what was typed now counts, where that is certain.
-    made = [one for one in simulated if one is not None]
-    others = len(made) == len(simulated) > 0 and not any(_ALARM in one for one in _around(made))
-    if _ALARM in folders and not others:
+    certain = [one for paths in simulated if paths is not None for one in paths]
+    # The folder may be there from before: then what was typed now counts, if that is certain.
+    is_old = bool(seen.tried) and None not in simulated
+    is_old = is_old and not any(f"{one}/".startswith(f"{_ALARM}/") for one in certain)
+    if _ALARM in seen.workspace.folders and not is_old:
         return passed("01a", f"{_ALARM} is there.")
-    there = {one for one in folders if _is_near(one)} - ({_ALARM} if others else set())
     typed = {one for one in (simulated[-1] or () if simulated else ()) if _is_near(one)}
-    if seen.obstacle:
-        return failed_by("01a", _diagnose_obstacle(seen.obstacle))
+    there = {one for one in seen.workspace.folders if _is_near(one) and one != _ALARM}
     known = diagnosis_of(seen.meaning)
+    if seen.obstacle:
+        said = f"{_ALARM} is a {seen.obstacle}, and a folder was asked for."
+        hint = "Remove it with `rm`, and make the folder with `mkdir`: it makes a new, empty one."
+        return failed_by("01a", Diagnosis("not-a-folder", said, hint))
     if known and known.mistake != "folder-exists":  # which is no mistake here
         hint = _PWD if _ALARM in known.hint else known.hint
         return failed_by("01a", Diagnosis(known.mistake, known.evidence, hint))
     if typed or there:
         return failed_by("01a", _diagnose_making(typed, there, seen))
-    if seen.tried:
-        return failed_by("01a", _diagnose_nothing(seen))
-    return not_attempted("01a", f"There is no folder {_ALARM} yet.")
-
-
-def _around(made: list[set[str]]) -> list[set[str]]:
-    """Return the folders of each line with all that are around them."""
-    return [{"/".join(one.split("/")[:end]) for one in paths for end in range(1, 9)}
-            for paths in made]  # fmt: skip
-
-
-def _diagnose_obstacle(kind: str) -> Diagnosis:
-    return Diagnosis(
-        "not-a-folder",
-        f"{_ALARM} is a {kind}, and a folder was asked for.",
-        "Remove it with `rm`, and make the folder with `mkdir`: it makes a new, empty one.",
-    )
-
-
-def _diagnose_nothing(seen: FolderMaking) -> Diagnosis:
-    evidence = f"You typed `{seen.tried[-1][1]}`, and there is no folder {_ALARM} in the workspace."
-    return Diagnosis(UNKNOWN, evidence, _PWD)
+    if not seen.tried:
+        return not_attempted("01a", f"There is no folder {_ALARM} yet.")
+    said = f"You typed `{seen.tried[-1][1]}`, and there is no folder {_ALARM} in the workspace."
+    return failed_by("01a", Diagnosis(UNKNOWN, said, _PWD))
 
 
 def _is_near(folder: str) -> bool:
@@ -195,18 +179,19 @@ def _makes(mistake: str, hint: str, *paths: str) -> Suspect:
 
 #: Those who make most come first: of what they make, others make a part.
 _SUSPECTS = (
-    _makes("folders-side-by-side", _SIDE_BY_SIDE, _PARENT, _CHILD),
-    _makes("folders-side-by-side", _SIDE_BY_SIDE, _RUNS_THROUGH, _CHILD),
-    _makes("folders-side-by-side", _SIDE_BY_SIDE, _RUNS_THROUGH, f"resources/{_CHILD}"),
     *(
-        _makes("folders-side-by-side", _SIDE_BY_SIDE, f"{place}/{_PARENT}", f"{place}/{_CHILD}")
-        for place in FOLDERS
+        _makes("folders-side-by-side", _SIDE_BY_SIDE, parent, child)
+        for parent, child in (
+            (_PARENT, _CHILD),
+            (_RUNS_THROUGH, _CHILD),
+            *((f"{place}/{_PARENT}", f"{place}/{_CHILD}") for place in ("resources", *FOLDERS)),
+        )
     ),
     _makes("levels-miscounted", _ONE_LEVEL, _RUNS_THROUGH),
     _makes("levels-miscounted", _BETWEEN, f"resources/{_CHILD}"),
     *(
-        _makes("folders-swapped", _OUTER_FIRST, f"{place}{_CHILD}/{_PARENT}")
-        for place in ("", "resources/", *(f"{place}/" for place in FOLDERS))
+        _makes("folders-swapped", _OUTER_FIRST, posixpath.join(place, _CHILD, _PARENT))
+        for place in ("", "resources", *FOLDERS)
     ),
 )
 
@@ -220,12 +205,9 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
         seen: The evidence.
     """
     near = max(typed or there, key=_nearness)
-    before = " from before" if _ALARM in seen.workspace.folders else ""
-    evidence = (
-        f"What you typed makes {near}; {_ALARM} is there{before}."
-        if before
-        else f"There is {near}, but not {_ALARM}."
-    )
+    evidence = f"There is {near}, but not {_ALARM}."
+    if _ALARM in seen.workspace.folders:
+        evidence = f"What you typed makes {near}. {_ALARM} is there from before."
     # Only what a suspect makes counts: a workspace keeps what was tried before, too.
     fit = [one for one in _SUSPECTS if near in one.model(None) and one.model(None).keys() <= there]
     found = named(evidence, fit[:1], Diagnosis(*_of_spelling(near, evidence)))
@@ -377,7 +359,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _look_at_making,
         _judge_folder,
         title="a folder in a folder",
-        points=1,
         hints=(
             "One `mkdir` may make several folders, one in another.",
             "In a path, `/` stands between the outer folder and the one in it.",
@@ -389,7 +370,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _look_at_way,
         _judge_way,
         title="from here to there",
-        points=1,
         hints=(
             "`..` stands for the folder around the one where you are.",
             f"Count the levels from {_START} up to the workspace.",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import chain, combinations, product
 from typing import Any
 
@@ -157,24 +157,10 @@ _RIGHT = {
 _BLANKS = re.compile(r"[ \t]*([=:]+)[ \t]*")
 
 
-def _entry_points(
-    parts: Mapping[str, str], change: Callable[[str], str] = str, changed: str = ""
-) -> Track:
-    """Return the text for each call of a function that writes these parts.
-
-    Args:
-        parts: What it writes.
-        change: What it does to some of its arguments.
-        changed: The parts in which it does so, such as `{0}{1}`.
-    """
-    filled = {}
-    for call, arguments in enumerate(ARGUMENTS):
-        given = [
-            change(one) if f"{{{at}}}" in changed else one
-            for at, one in enumerate((*arguments, "main")[:4])
-        ]
-        filled[call] = ("".join(parts.values()).format(*given),)
-    return filled
+def _entry_points(parts: Mapping[str, str], calls: Sequence[tuple[str, ...]] = ARGUMENTS) -> Track:
+    """Return the text for each call of a function that writes these parts."""
+    text = "".join(parts.values())
+    return {call: (text.format(*given, "main"),) for call, given in enumerate(calls)}
 
 
 def _same_entry(one: str, other: str) -> bool:
@@ -242,21 +228,21 @@ def _suspect(mistake: str, hint: str, parts: Mapping[str, str]) -> Suspect:
     return Suspect(mistake, hint, lambda _: _entry_points({**_RIGHT, **parts}))
 
 
-def _changing(change: Callable[[str], str], changed: str) -> Suspect:
+def _changes_names(change: Callable[[str], str], *changed: int) -> Suspect:
     """Return somebody who changes the letters of some arguments."""
-    return Suspect("wrong-values", _AS_GIVEN, lambda _: _entry_points(_RIGHT, change, changed))
-
-
-def _dashed(text: str) -> str:
-    return text.replace("_", "-")
+    calls = [
+        tuple(change(one) if at in changed else one for at, one in enumerate((*given, "main")))
+        for given in ARGUMENTS
+    ]
+    return Suspect("wrong-values", _AS_GIVEN, lambda _: _entry_points(_RIGHT, calls))
 
 
 _SUSPECTS = (
     *(_suspect(*slip) for slip in chain(_slips(), _other_orders())),
     *(
-        _changing(change, changed)
-        for change in (str.lower, str.upper, str.title, str.capitalize, _dashed)
-        for changed in ("{0}{1}{2}{3}", "{0}", "{1}", "{2}", "{3}", "{1}{2}")
+        _changes_names(change, *changed)
+        for change in (str.lower, str.upper, str.title, lambda name: name.replace("_", "-"))
+        for changed in ((0, 1, 2, 3), (0,), (1,), (2,), (3,))
     ),
 )
 
@@ -275,16 +261,15 @@ def _with_fixed_parts(first: str) -> Iterator[Suspect]:
     Args:
         first: The result of the first call, which shows that name.
     """
-    yield _suspect("swallowed-parameter", _USE_ALL, {**dict.fromkeys(_RIGHT, ""), "before": first})
-    patterns = {name: re.escape(part) for name, part in _RIGHT.items()}
+    whole = {**dict.fromkeys(_RIGHT, ""), "before": first.replace("}", "}}")}
+    yield _suspect("swallowed-parameter", _USE_ALL, whole)
     given = dict(zip(_PARAMETERS, (*ARGUMENTS[0], "main"), strict=True))
-    patterns.update(given)
-    for count in range(1, len(_PARAMETERS)):
-        for names in combinations(_PARAMETERS, count):
-            fixed = {name: rf"(?P<{name}>[\w.]+)" for name in names}
-            shown = re.fullmatch("".join({**patterns, **fixed}.values()), _without_blanks(first))
-            if shown:
-                yield _suspect("swallowed-parameter", _USE_ALL, shown.groupdict())
+    for names in chain.from_iterable(combinations(_PARAMETERS, count) for count in (1, 2, 3)):
+        fixed = {name: rf"(?P<{name}>[\w.]+)" for name in names}
+        pattern = "".join({**_RIGHT, "dot": r"\.", **given, **fixed}.values())
+        shown = re.fullmatch(pattern, _without_blanks(first))
+        if shown:
+            yield _suspect("swallowed-parameter", _USE_ALL, shown.groupdict())
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
@@ -307,7 +292,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _call,
         _judge_calls,
         title="write entry points",
-        points=1,
         hints=(
             "The function gives back one text, made of what it was given.",
             "An f before the first quote fills in what stands between braces.",

@@ -144,7 +144,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _look_at_run,
         _judge_monitor,
         title="one more monitor",
-        points=1,
         hints=(
             "The second monitor is the same program as the first one, run once more.",
             "After `ros2 run` come two names: the package, and the executable.",
@@ -156,7 +155,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         look_at_workspace,
         _judge_links,
         title="link instead of copy",
-        points=1,
         hints=(
             "colcon has an option for it, and its own help says what the option is called.",
             "The line above the cell looks for a word in that help. An option begins with two "

@@ -231,7 +231,6 @@ def _listen(probe: DomainProbe, sensor: Program) -> tuple[Endpoint, ...]:
 
 _FLOAT = "std_msgs/msg/Float32"
 _WORDS = ("High", "Low", "Normal")
-_NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 #: Two decimals are logged; a float32 has about seven digits.
 _ROUNDING = 0.0051
 #: Seconds between two readings, on a machine that may be busy.
@@ -328,54 +327,37 @@ def _status(value: float) -> str:
     return "High" if value > 26.0 else "Low" if value < 20.0 else "Normal"
 
 
-def _says(mistake: str, hint: str, status: Callable[[float], str]) -> Suspect:
-    """Return a monitor with another status; it is fed the readings."""
+_SWAPPED = {"High": "Low", "Low": "High", "Normal": "Normal"}
+
+
+def _suspect(mistake: str, hint: str, status: Callable[[float], str]) -> Suspect:
+    """Return a monitor with another status; its model is fed the readings."""
     return Suspect(mistake, hint, lambda values: {value: (status(value),) for value in values})
 
 
-def _with_limits(value: float, high: bool, low: bool) -> str:
-    """Return the status of a monitor for which a limit itself is High, or Low."""
-    if high and value == 26.0:
-        return "High"
-    return "Low" if low and value == 20.0 else _status(value)
-
-
-_SWAPPED = {"High": "Low", "Low": "High", "Normal": "Normal"}
+_AT_LIMIT = "is Normal: above 26 is High, below 20 is Low."
 _SUSPECTS = (
-    *(
-        _says(
-            "boundary",
-            f"Exactly {limits} is Normal: above 26 is High, below 20 is Low.",
-            lambda value, high=high, low=low: _with_limits(value, high, low),  # type: ignore[misc]
-        )
-        for limits, high, low in (
-            ("26", True, False),
-            ("20", False, True),
-            ("26 or 20", True, True),
-        )
+    _suspect("boundary", f"Exactly 26 {_AT_LIMIT}", lambda v: "High" if v == 26 else _status(v)),
+    _suspect("boundary", f"Exactly 20 {_AT_LIMIT}", lambda v: "Low" if v == 20 else _status(v)),
+    _suspect(
+        "boundary",
+        f"Exactly 26 or 20 {_AT_LIMIT}",
+        lambda v: "High" if v >= 26 else "Low" if v <= 20 else "Normal",
     ),
-    _says(
+    _suspect(
         "wrong-state",
         "High and Low are swapped: compare `<` and `>` in both conditions.",
-        lambda value: _SWAPPED[_status(value)],
+        lambda v: _SWAPPED[_status(v)],
     ),
-    *(
-        _says(
-            "wrong-state",
-            f"It says {word} to every reading: is the number in the message compared at all?",
-            lambda _, word=word: word,  # type: ignore[misc]
-        )
-        for word in _WORDS
-    ),
-    _says(
+    _suspect(
         "wrong-state",
         "A reading above 26 is not High: does an earlier condition catch it?",
-        lambda value: "Low" if value < 20.0 else "Normal",
+        lambda v: "Low" if v < 20 else "Normal",
     ),
-    _says(
+    _suspect(
         "wrong-state",
         "A reading below 20 is not Low: does an earlier condition catch it?",
-        lambda value: "High" if value > 26.0 else "Normal",
+        lambda v: "High" if v > 26 else "Normal",
     ),
 )
 
@@ -459,25 +441,25 @@ def _diagnose_walk(values: Sequence[float]) -> Diagnosis | None:
 
 def _diagnose_crossing(seen: SystemRun) -> Diagnosis | None:
     """Return what is wrong with what the monitor said to the sensor, where it names numbers."""
-    for line in seen.repeated.splitlines():
-        if not _words(line) or not _NUMBER.search(line.rpartition("]: ")[2]):
-            continue
-        value = _reading(line, seen)
-        if value is None:
-            return Diagnosis(
-                "wrong-values",
-                f"{MONITOR} said {line.strip()!r}, and no such reading was published.",
-                "Does it log the number in the message, as it came?",
-            )
-        wrong = _diagnose_statuses({value: _words(line)})
-        if wrong:
-            return wrong
-    return None
+    lines = [line for line in seen.repeated.splitlines() if _words(line) and _numbers(line)]
+    pairs = [(_reading(line, seen), line) for line in lines]
+    strange = next((line for value, line in pairs if value is None), None)
+    if strange is None:
+        return _diagnose_statuses({value: _words(line) for value, line in pairs})
+    return Diagnosis(
+        "wrong-values",
+        f"{MONITOR} said {strange.strip()!r}, and no such reading was published.",
+        "Does it log the number in the message, as it came?",
+    )
+
+
+def _numbers(line: str) -> list[str]:
+    return re.findall(r"-?\d+(?:\.\d+)?", line.rpartition("]: ")[2])
 
 
 def _reading(line: str, seen: SystemRun) -> float | None:
     """Return the reading that a line is about: one of its numbers, rounded as it is written."""
-    for text in _NUMBER.findall(line.rpartition("]: ")[2]):
+    for text in _numbers(line):
         digits = len(text.partition(".")[2])
         for _, value in seen.heard:
             if abs(float(text) - value) <= 0.51 * 10.0**-digits:

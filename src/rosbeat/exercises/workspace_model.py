@@ -8,7 +8,7 @@ from itertools import product
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
 from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
 from rosbeat.exercises.scenarios import CommandMeaning
-from rosbeat.workspace.meanings.flaws import MISTAKE_OF
+from rosbeat.workspace.meanings.flaws import diagnose_flaw
 from rosbeat.workspace.packages import Package
 from rosbeat.workspace.setup_script import NO_CALL
 
@@ -38,36 +38,18 @@ def diagnosis_of(meaning: CommandMeaning | None) -> Diagnosis | None:
 # A build script. It is read and never run, so what is wrong with it is told by its text.
 
 _ANATOMY = "An entry point is 'executable = package.module:function'."
-#: What is wrong with an entry point, by the kind of the flaw, and what to do about it.
-FLAWS = {
-    "missing-comma": (
-        "two entries have become one",
-        "A comma is missing after the first one: Python joins texts that stand side by side.",
-    ),
-    "no-equals": ("has no equals sign", _ANATOMY),
-    "two-equals": ("has two equals signs", "One equals sign is enough: it is no comparison."),
-    "bad-name": ("begins with a name that no program can have", _ANATOMY),
-    "slash": ("has a slash in the module", "Modules are written with dots: package.module."),
-    "suffix": (
-        "names a file, with .py, and not a module",
-        "Leave out .py: a module is named without it.",
-    ),
-    "no-function-part": (
-        "names no function",
-        "After the module comes a colon and the name of the function.",
-    ),
-    "no-module": (
-        "names a module that does not exist",
-        "The module is package.file: the folder with __init__.py, a dot, the file's name.",
-    ),
-    "syntax-error": (
-        "names a module that Python cannot read",
-        "Mend the file, on page 03 or 04, and run its cell again.",
-    ),
-    "no-function": (
-        "names a function that its module does not have",
-        "Look for `def` in the file. The name stands without brackets here.",
-    ),
+#: What to do about a flaw of an entry point, by its kind, without giving the answer away.
+FLAW_HINTS = {
+    "missing-comma": "A comma is missing after the first one: two entries have become one.",
+    "no-equals": _ANATOMY,
+    "two-equals": "One equals sign is enough: it is no comparison.",
+    "bad-name": _ANATOMY,
+    "slash": "Modules are written with dots: package.module.",
+    "suffix": "Leave out .py: a module is named without it.",
+    "no-function-part": "After the module comes a colon and the name of the function.",
+    "no-module": "The module is package.file: the folder with __init__.py, a dot, the file's name.",
+    "syntax-error": "Mend the file, on page 03 or 04, and run its cell again.",
+    "no-function": "Look for `def` in the file. The name stands without brackets here.",
 }
 
 
@@ -144,20 +126,17 @@ def diagnose_entries(package: Package, programs: tuple[str, str]) -> Diagnosis |
             `main` in it.
     """
     if package.flaws:
-        flaw = package.flaws[0]
-        said, cure = FLAWS[flaw.kind]
-        where = f"Line {flaw.entry.line} of" if flaw.entry.file == "setup.py" else "In"
-        evidence = f"{where} {flaw.entry.file}, '{flaw.entry.text}': {said}."
-        return Diagnosis(MISTAKE_OF[flaw.kind], evidence, cure)
-    found = {one.executable: (f"{one.module}:{one.function}",)
+        found = diagnose_flaw(package.flaws[0])
+        return Diagnosis(found.mistake, found.evidence, FLAW_HINTS[package.flaws[0].kind])
+    targets = {one.executable: (f"{one.module}:{one.function}",)
              for one in package.setup.entry_points}  # fmt: skip
     right = {program: (f"{package.name}.{program}:main",) for program in programs}
-    done = {program: found[program] for program in programs if program in found}
+    done = {program: targets[program] for program in programs if program in targets}
     parted = parting(done, right)
     if parted is None:
         return _diagnose_installation(package)
     if not parted.done:
-        return _diagnose_missing(package, parted.at, parted.right in found.values())
+        return _diagnose_missing(package, parted.at, parted.right in targets.values())
     evidence = f"{parted.at} would call {parted.done[0]}."
     other = "It should call main in the file of the same name."
     fit = fitting(right, done, _SUSPECTS)

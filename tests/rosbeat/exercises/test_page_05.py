@@ -50,14 +50,14 @@ def test_what_differs_from_the_manifest_is_a_remark(judged):
 @pytest.mark.parametrize(
     ("old", "new", "evidence"),
     [
-        ("publisher:main',", "publisher:main'", "two entries have become one"),
-        ("publisher:main", "publisher.py:main", "with .py"),
-        ("publisher:main", "publisher", "names no function"),
-        ("publisher:main", "publsher:main", "module that does not exist"),
-        ("publisher =", "publisher ==", "two equals signs"),
+        ("publisher:main',", "publisher:main'", "comma is missing"),
+        ("publisher:main", "publisher.py:main", "names a file"),
+        ("publisher:main", "publisher", "no function in it"),
+        ("publisher:main", "publsher:main", "there is none of that name"),
+        ("publisher =", "publisher ==", "more than one `=`"),
         ("subscriber:main", "publisher:main", "temperature_subscriber would call"),
         ("['package.xml']", "[]", "leaves out package.xml"),
-        ("'temperature_subscriber = ", "*more(), '", "no equals sign"),
+        ("'temperature_subscriber = ", "*more(), '", "has no `=`"),
         ("\n", "\n\0", "cannot be read"),
     ],
 )
@@ -71,7 +71,7 @@ def test_a_wrong_script_says_what_is_wrong(judged, old, new, evidence):
 def test_every_flaw_of_an_entry_point_has_words():
     kinds = set(re.findall(r'Flaw\(\s*"([a-z-]+)"', Path(targets.__file__).read_text()))
     assert len(kinds) >= 10
-    assert kinds == set(workspace_model.FLAWS) == set(MISTAKE_OF)
+    assert kinds == set(workspace_model.FLAW_HINTS) == set(MISTAKE_OF)
     assert set(MISTAKE_OF.values()) <= set(MISTAKES)
 
 
@@ -110,6 +110,7 @@ class Shy:
         (lambda e, p, m: e, "parameters-changed"),
         (lambda *_: object(), "not-a-text"),
         (lambda e, p, m, f="main": f"'{e} -> {p}/{m}.{f}", "new-to-me"),
+        (lambda e, p, m, f="main": f"{e} = {p}.{m}:{f}}}", "new-to-me"),
     ],
 )
 def test_what_is_no_function_or_gives_no_text(answer, mistake):
