@@ -10,8 +10,8 @@ import pytest
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.check import EXERCISES
 from rosbeat.exercises.evidence import from_json, to_json
-from rosbeat.exercises.scenarios import CommandMeaning
 from rosbeat.exercises.model import agree
+from rosbeat.exercises.scenarios import CommandMeaning
 from rosbeat.exercises.system import _SUSPECTS, MONITOR, SENSOR, TOLD, _status, run_system
 
 pytestmark = pytest.mark.ros
