@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 import re
 import shlex
+import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -63,6 +64,7 @@ class FolderMaking:
     Attributes:
         workspace: What is in the workspace.
         obstacle: What is where the folder was asked for, if it is none: `link`, `file` or empty.
+        is_older: Whether the folder that was asked for has been there longer than this page runs.
         tried: Each line about that folder, with the folder it was typed in, as the prompt said it.
             Empty where a page has no terminals.
         meaning: What the last of these lines has led to, if it is a known mistake.
@@ -70,8 +72,13 @@ class FolderMaking:
 
     workspace: Workspace
     obstacle: str = ""
+    is_older: bool = False
     tried: tuple[tuple[str, str], ...] = ()
     meaning: CommandMeaning | None = None
+
+
+#: This module is imported by the first cell of a page.
+_PAGE_BEGAN = time.time()
 
 
 def page_terminals() -> Iterable[Any]:
@@ -95,13 +102,14 @@ def _look_at_making(answer: Any) -> FolderMaking:  # noqa: ANN401 - whatever a l
             meaning = look_at_terminal(terminal, root, lines[-1][1]).meaning
     place = root / _ALARM
     obstacle = "link" if place.is_symlink() else "file" if place.is_file() else ""
-    return FolderMaking(found, obstacle, tried, meaning)
+    is_older = place.is_dir() and place.stat().st_mtime < _PAGE_BEGAN
+    return FolderMaking(found, obstacle, is_older, tried, meaning)
 
 
 def _is_try(line: str) -> bool:
-    names = re.split(r"[\W_]+", line.lower())
-    near = any(goal in name or alike(name, goal) for name in names for goal in (_PARENT, _CHILD))
-    return near and any(words[0] not in _LOOKING for words in _commands(line))
+    commands = _commands(line)
+    near = any(_is_near(word) for words in commands for word in words)
+    return near and any(words[0] not in _LOOKING for words in commands)
 
 
 def _made_by(place: str, line: str) -> set[str] | None:
@@ -127,8 +135,8 @@ def _made_by(place: str, line: str) -> set[str] | None:
 def _judge_folder(seen: FolderMaking) -> Outcome:
     simulated = [_made_by(*one) for one in seen.tried]
     certain = [one for paths in simulated if paths is not None for one in paths]
-    # The folder may be there from before: then what was typed now counts, if that is certain.
-    is_old = bool(seen.tried) and None not in simulated
+    # Of a folder from before, what was typed now counts, if it is certain what that makes.
+    is_old = seen.is_older and bool(seen.tried) and None not in simulated
     is_old = is_old and not any(f"{one}/".startswith(f"{_ALARM}/") for one in certain)
     if _ALARM in seen.workspace.folders and not is_old:
         return passed("01a", f"{_ALARM} is there.")
@@ -153,7 +161,7 @@ def _judge_folder(seen: FolderMaking) -> Outcome:
 def _is_near(folder: str) -> bool:
     names = folder.lower().replace("\\", "/").split("/")
     known = any(alike(name, goal) for name in names for goal in (_PARENT, _CHILD))
-    return known or _letters(folder) == _letters(_ALARM) or _letters(names[-1]) == _BOTH
+    return known or _BOTH in _letters(folder)
 
 
 def _letters(path: str) -> str:
@@ -216,7 +224,7 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
 
 def _of_spelling(near: str, evidence: str) -> tuple[str, str, str]:
     """Return the mistake in a path that no suspect makes; how it is spelled cannot be listed."""
-    if "\\" in near or _letters(near.rpartition("/")[2]) in (_BOTH, _letters(_ALARM)):
+    if "\\" in near or _BOTH in _letters(near.rpartition("/")[2]):
         hint = "Paths use `/` between two names, on Linux everywhere."
         return "path-separator", evidence, hint
     for wanted in (_ALARM, _RUNS_THROUGH):

@@ -3,6 +3,7 @@
 from bank.workspaces.answer import right, untried, wrong
 
 _RIGHT = "mkdir -p resources/sounds/alarm"
+_BEFORE = f"{_RIGHT}\ntouch -d '1 day ago' resources/sounds/alarm"
 
 ANSWERS = (
     right("01a", "as on the page", "mkdir -p resources/sounds/alarm"),
@@ -30,10 +31,16 @@ ANSWERS = (
     right("01a", "a loop", "for one in sounds sounds/alarm; do mkdir resources/$one; done"),
     right("01a", "a shell in between", "(cd resources && mkdir -p sounds/alarm)"),
     right("01a", "a copy", "cp -r resources/images resources/sounds\nmkdir resources/sounds/alarm"),
+    right(
+        "01a",
+        "wrong here, and right in another terminal",
+        "mkdir -p resources/sound/alarm",
+        also=_RIGHT,
+    ),
     right("01a", "one more folder", f"{_RIGHT}\nmkdir resources/sounds/bell"),
-    right("01a", "from before", "ls resources/sounds", also=_RIGHT),
-    right("01a", "from before, and again", _RIGHT, also=_RIGHT),
-    right("01a", "from before, and again without -p", "mkdir resources/sounds/alarm", also=_RIGHT),
+    right("01a", "from before", "ls resources/sounds", also=_BEFORE),
+    right("01a", "from before, and again", _RIGHT, also=_BEFORE),
+    right("01a", "from before, and again without -p", "mkdir resources/sounds/alarm", also=_BEFORE),
     wrong("01a", "without -p", "parents-missing", "mkdir resources/sounds/alarm"),
     wrong("01a", "a capital P", "option-misspelled", "mkdir -P resources/sounds/alarm"),
     wrong("01a", "a dash forgotten", "parents-missing", "mkdir p resources/sounds/alarm"),
@@ -56,14 +63,14 @@ ANSWERS = (
         "from before, and now a letter",
         "path-misspelled",
         "mkdir -p resources/sound/alarm",
-        also=_RIGHT,
+        also=_BEFORE,
     ),
     wrong(
         "01a",
         "from before, and now elsewhere",
         "wrong-folder",
         "mkdir -p docs/sounds/alarm",
-        also=_RIGHT,
+        also=_BEFORE,
     ),
     wrong(
         "01a",
