@@ -181,7 +181,7 @@ _OUTER_FIRST = "The outer folder comes first, then the one that is in it."
 
 
 def _makes(mistake: str, hint: str, *paths: str) -> Suspect:
-    """Return somebody who makes these folders, and what is around them."""
+    """Return a suspect who makes these folders, and what is around them."""
     return Suspect(mistake, hint, lambda _: dict.fromkeys(paths, ("made",)))
 
 
@@ -333,6 +333,8 @@ _RELATIVE = (
 
 def _of_words(words: list[str], folder: str) -> tuple[str, str]:
     """Return the mistake in a command that did not lead to the goal, and a hint.
+
+    The command itself shows it: only its path is simulated, as there may be any other in it.
 
     Args:
         words: The command.

@@ -184,7 +184,7 @@ _COMPARE = "Compare it with the parts in the table of the page, sign by sign and
 
 
 def _slips() -> Iterator[tuple[str, str, Mapping[str, str]]]:
-    """Generate each slip: its mistake, its hint, and the parts that somebody with it writes."""
+    """Generate each slip: its mistake, its hint, and the parts that are written with it."""
     yield "slash-in-module", _DOT, {"dot": "/"}
     yield "swallowed-parameter", f"{_COLON} It is not always main.", {"function": "main"}
     for pair in ("''", '""', "``", "()", "[]", "<>"):
@@ -214,7 +214,7 @@ _PARAMETERS = ("executable", "package", "module", "function")
 
 
 def _other_orders() -> Iterator[tuple[str, str, Mapping[str, str]]]:
-    """Generate what somebody writes who mistakes one parameter for another."""
+    """Generate the slips in which one parameter is mistaken for another."""
     right = tuple(_RIGHT[name] for name in _PARAMETERS)
     slips = (("entry-point-form", _FIRST), *[("entry-point-target", _DOT)] * 2,
              ("entry-point-target", _COLON))  # fmt: skip
@@ -229,7 +229,7 @@ def _suspect(mistake: str, hint: str, parts: Mapping[str, str]) -> Suspect:
 
 
 def _changes_names(change: Callable[[str], str], *changed: int) -> Suspect:
-    """Return somebody who changes the letters of some arguments."""
+    """Return a suspect who changes the letters of some arguments."""
     calls = [
         tuple(change(one) if at in changed else one for at, one in enumerate((*given, "main")))
         for given in ARGUMENTS
@@ -248,7 +248,7 @@ _SUSPECTS = (
 
 
 def _pairs() -> Iterator[Suspect]:
-    """Generate everybody with two slips at once."""
+    """Generate a suspect for every two slips at once."""
     for (mistake, hint, parts), (_, more, others) in combinations(_slips(), 2):
         if not parts.keys() & others.keys():
             both = " ".join(dict.fromkeys((hint, more)))
@@ -256,7 +256,7 @@ def _pairs() -> Iterator[Suspect]:
 
 
 def _with_fixed_parts(first: str) -> Iterator[Suspect]:
-    """Generate everybody who writes a name of the first call wherever a parameter belongs.
+    """Generate suspects who write a name of the first call where a parameter belongs.
 
     Args:
         first: The result of the first call, which shows that name.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from difflib import SequenceMatcher
-from itertools import product
+from functools import partial
 
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
 from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
@@ -96,24 +96,20 @@ def diagnose_script(package: Package) -> Diagnosis | None:
     )
 
 
-def _targets_of_files(right: Track, files: tuple[int, ...]) -> Track:
-    """Return the programs of somebody who gives each executable the function of another file."""
-    targets = [right[program] for program in sorted(right)]
-    return {program: targets[file] for program, file in zip(sorted(right), files, strict=True)}
+def _with_functions_of(files: tuple[int, int], right: Track) -> Track:
+    """Return what each of two programs calls if it gets the function of the file at that place."""
+    programs = sorted(right)
+    return {program: right[programs[at]] for program, at in zip(programs, files, strict=True)}
 
 
-#: Two programs, and for each the file whose function it calls.
+_SWAPPED = (
+    "The functions of the two files are swapped: an executable calls the function in the file of "
+    "its own name."
+)
+_ONE_FILE = "Both entries call the function of one file: each executable has a file of its own."
 _SUSPECTS = tuple(
-    Suspect(
-        "other-function",
-        "The functions of the two files are swapped: an executable calls the function in the file "
-        "of its own name."
-        if files == (1, 0)
-        else "Both entries call the function of one file: each executable has a file of its own.",
-        lambda right, files=files: _targets_of_files(right, files),  # type: ignore[misc]
-    )
-    for files in product((0, 1), repeat=2)
-    if files != (0, 1)
+    Suspect("other-function", hint, partial(_with_functions_of, files))
+    for hint, files in ((_SWAPPED, (1, 0)), (_ONE_FILE, (0, 0)), (_ONE_FILE, (1, 1)))
 )
 
 

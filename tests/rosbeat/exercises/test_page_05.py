@@ -75,7 +75,7 @@ def test_every_flaw_of_an_entry_point_has_words():
     assert set(MISTAKE_OF.values()) <= set(MISTAKES)
 
 
-def test_who_gives_a_program_the_other_file_s_function_is_told_from_the_rest():
+def test_each_suspect_of_05a_calls_other_functions():
     tracks = [one.model(BOTH) for one in workspace_model._SUSPECTS]
     assert len({str(track) for track in (*tracks, BOTH)}) == len(tracks) + 1
 
