@@ -3,10 +3,10 @@
 from collections import Counter
 
 import pytest
-from rosbeat.exercises.check import EXERCISES
 
 from bank.workspaces.table import ANSWERS, SOLUTIONS, outcome_of
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
+from rosbeat.exercises.check import EXERCISES
 
 pytestmark = pytest.mark.ros  # `check` loads every exercise, those about nodes included
 

@@ -193,6 +193,8 @@ _OTHERS = (
     Mistake("no-setup-call", "a setup.py that does not call setup"),
     Mistake("packages-missing", "a setup.py that installs no code"),
     Mistake("entry-point-form", "an entry point that is not name = package.module:function"),
+    Mistake("other-function", "an entry point that calls the other file's function"),
+    Mistake("data-files-missing", "a setup.py that leaves out the marker or the manifest"),
     Mistake("entry-points-hidden", "entry points that only running setup.py would show"),
     Mistake("group-misspelled", "entry points where nobody looks for them"),
     Mistake("swallowed-parameter", "a parameter that is not used"),

@@ -10,11 +10,11 @@ from __future__ import annotations
 from typing import Any
 
 from rosbeat.exercises.bag_report_runs import BagReports
-from rosbeat.exercises.call_runs import Calls
+from rosbeat.exercises.page_01 import FolderMaking
 from rosbeat.exercises.page_13 import Trials
 from rosbeat.exercises.replays import Replays
 from rosbeat.exercises.scenarios import Report, TypedIn, Workspace
-from rosbeat.exercises.system_run import SystemRun
+from rosbeat.exercises.system import SystemRun
 from rosbeat.record_json import parse, record, refusal, write
 from rosbeat.records import Observation, ProgramRun
 
@@ -28,7 +28,7 @@ KINDS: dict[str, type] = {
         Observation,
         Workspace,
         TypedIn,
-        Calls,
+        FolderMaking,
         SystemRun,
         ProgramRun,
         Report,

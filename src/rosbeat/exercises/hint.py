@@ -167,5 +167,13 @@ def _next(texts: tuple[str, ...], used: int, exercise: str) -> str:
     return f'{what}: hint("{exercise}")'
 
 
+#: The whole system has no cell of its own.
+_ON_PAGES = (
+    "# The solution pages 02 to 06 make this system step by step. They are in the folder\n"
+    "# `solutions`, from 02_create_a_package.ipynb to 06_build_source_run.ipynb. The finished\n"
+    "# package is in `solutions/sensor_simulator`."
+)
+
+
 def _answer(exercise: str) -> str:
-    return answer_to(exercise) or "# It stands on the solution page of this exercise."
+    return answer_to(exercise) or _ON_PAGES

@@ -2,152 +2,323 @@
 
 from __future__ import annotations
 
+import posixpath
+import re
+import shlex
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.exercises.exercise import Exercise, failed, failed_by, not_attempted, passed
-from rosbeat.exercises.page_01_scenarios import SCENARIOS
-from rosbeat.exercises.paths import (
-    alike,
-    closeness,
-    commands,
-    is_absolute,
-    led_to,
-    letters,
-    misspelled,
-    moves,
+from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
+from rosbeat.exercises.model import Suspect, named
+from rosbeat.exercises.scenarios import (
+    CommandMeaning,
+    TypedIn,
+    Workspace,
+    look_at_terminal,
+    look_at_workspace,
 )
-from rosbeat.exercises.scenarios import TypedIn, Workspace
+from rosbeat.exercises.workspace_model import alike, diagnosis_of
 from rosbeat.records import Outcome
-from rosbeat.workspace.place import NAME
+from rosbeat.workspace.place import NAME, workspace
 from rosbeat.workspace.stages import FOLDERS
 
-_WANTED, _PARENT, _CHILD = "resources/sounds/alarm", "sounds", "alarm"
-_START, _GOAL = "resources/images", "src"
+# Lines that were typed.
+
+_SEPARATORS = {";", "&&", "||", "|", "&"}
 
 
-def _judge_folder(seen: Workspace) -> Outcome:
-    if _WANTED in seen.folders:
-        return passed("01a", f"{_WANTED} is there.")
-    near = [one for one in seen.folders if _is_near(one)]
-    if not near:
-        return not_attempted("01a", f"There is no folder {_WANTED} yet.")
-    nearest = max(near, key=_fitness)
-    mistake, hint = _what_is_wrong(nearest, set(seen.folders))
-    evidence = f"There is {nearest}, but not {_WANTED}."
-    return failed("01a", evidence, hint + _on_what_is_left(near, seen), mistake)
+def _commands(line: str) -> list[list[str]]:
+    """Return the words of each command in a line."""
+    lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
+    lexer.whitespace_split = True
+    lexer.escape = ""  # a backslash stays to be seen
+    try:
+        words = list(lexer)
+    except ValueError:  # a quote is not closed
+        words = line.split()
+    found: list[list[str]] = [[]]
+    for word in words:
+        if word in _SEPARATORS:
+            found.append([])
+        else:
+            found[-1].append(word)
+    return [one for one in found if one]
 
 
-def _fitness(folder: str) -> tuple[int, bool, int, str]:
-    """How near a folder is to the right one: a slip of long ago must not hide a better try."""
-    same = letters(folder) == letters(_WANTED)
-    return closeness(folder, _WANTED), same, folder.count("/"), folder
+# 01a, a folder in a folder: what is in the workspace, and what was typed to make it.
+
+_ALARM, _PARENT, _CHILD = "resources/sounds/alarm", "sounds", "alarm"
+_RUNS_THROUGH = "resources/sounds"
+#: Commands that make no folder.
+_LOOKING = {"ls", "cd", "pwd", "cat", "find", "tree", "stat", "echo", "rm", "rmdir"}
 
 
-def _on_what_is_left(near: list[str], seen: Workspace) -> str:
-    """How to be rid of folders that lead nowhere; none that was there before, nor a package's."""
-    packages = [package.folder.as_posix() for package in seen.packages.values()]
-    astray = sorted({_astray(one) for one in near} - {""})
-    left = [one for one in astray if not any(f"{one}/" in f"{here}/" for here in packages)]
-    if not left:
-        return ""
-    named = " and ".join(_named(one) for one in left)
-    return (
-        f" You do not need {named}: `rmdir` removes an empty folder, and `rm -r` one with all "
-        "that is in it."
-    )
+@dataclass(frozen=True)
+class FolderMaking:
+    """Record the folders of a workspace, and the lines that were typed to make one of them.
+
+    Attributes:
+        workspace: What is in the workspace.
+        obstacle: What is where the folder was asked for, if it is none: `link`, `file` or empty.
+        is_older: Whether the folder that was asked for has been there longer than this page runs.
+        tried: Each line about that folder, with the folder it was typed in, as the prompt said it.
+            Empty where a page has no terminals.
+        meaning: What the last of these lines has led to, if it is a known mistake.
+    """
+
+    workspace: Workspace
+    obstacle: str = ""
+    is_older: bool = False
+    tried: tuple[tuple[str, str], ...] = ()
+    meaning: CommandMeaning | None = None
 
 
-def _named(folder: str) -> str:
-    """A folder in words: as a path, it may have the one in it that is asked for."""
-    place, _, name = folder.rpartition("/")
-    return f"{name} in {place}" if place else name
+#: This module is imported by the first cell of a page.
+_PAGE_BEGAN = time.time()
 
 
-def _astray(folder: str) -> str:
-    """The outermost part of a path that is neither of the page nor on the way to the goal."""
-    names = folder.split("/")
-    outer = ["/".join(names[: at + 1]) for at in range(len(names))]
-    known = (*FOLDERS, "resources", f"resources/{_PARENT}")
-    return next((one for one in outer if one not in known), "")
+def page_terminals() -> Iterable[Any]:
+    """Return the open terminals of this page; none where there is no page."""
+    from IPython import get_ipython
+
+    from rosbeat.workspace.terminals import terminals_of
+
+    shell = get_ipython()
+    return terminals_of(shell) if shell else ()
+
+
+def _look_at_making(answer: Any) -> FolderMaking:  # noqa: ANN401 - whatever a learner hands over
+    found, root = look_at_workspace(answer), Path(answer)
+    tried: tuple[tuple[str, str], ...] = ()
+    meaning = None
+    for terminal in page_terminals():
+        lines = tuple(one for one in look_at_terminal(terminal, root).commands if _is_try(one[1]))
+        if lines:
+            tried += lines
+            meaning = look_at_terminal(terminal, root, lines[-1][1]).meaning
+    place = root / _ALARM
+    obstacle = "link" if place.is_symlink() else "file" if place.is_file() else ""
+    is_older = place.is_dir() and place.stat().st_mtime < _PAGE_BEGAN
+    return FolderMaking(found, obstacle, is_older, tried, meaning)
+
+
+def _is_try(line: str) -> bool:
+    commands = _commands(line)
+    near = any(_is_near(word) for words in commands for word in words)
+    return near and any(words[0] not in _LOOKING for words in commands)
+
+
+def _made_by(place: str, line: str) -> set[str] | None:
+    """Return the folders that a line is to make, relative to the workspace, by simulating `mkdir`.
+
+    Args:
+        place: Where it was typed, as the prompt said it.
+        line: The line.
+
+    Returns:
+        None if only a shell could tell, or the line does something else.
+    """
+    words = line.split()
+    _, inside, below = f"{place}/".partition(f"{NAME}/")
+    plain = re.fullmatch(r"[\w\s./-]+", line) and words[0] == "mkdir" and inside
+    options = {one for one in words if one.startswith("-")}
+    if not plain or options - {"-p", "-v", "-pv", "-vp", "--parents", "--verbose"}:
+        return None
+    return {posixpath.normpath(posixpath.join(below, one)) for one in words[1:]
+            if one not in options}  # fmt: skip
+
+
+def _judge_folder(seen: FolderMaking) -> Outcome:
+    simulated = [_made_by(*one) for one in seen.tried]
+    certain = [one for paths in simulated if paths is not None for one in paths]
+    # Of a folder from before, what was typed now counts, if it is certain what that makes.
+    is_old = seen.is_older and bool(seen.tried) and None not in simulated
+    is_old = is_old and not any(f"{one}/".startswith(f"{_ALARM}/") for one in certain)
+    if _ALARM in seen.workspace.folders and not is_old:
+        return passed("01a", f"{_ALARM} is there.")
+    typed = {one for one in (simulated[-1] or () if simulated else ()) if _is_near(one)}
+    there = {one for one in seen.workspace.folders if _is_near(one) and one != _ALARM}
+    known = diagnosis_of(seen.meaning)
+    if seen.obstacle:
+        said = f"{_ALARM} is a {seen.obstacle}, and a folder was asked for."
+        hint = "Remove it with `rm`, and make the folder with `mkdir`: it makes a new, empty one."
+        return failed_by("01a", Diagnosis("not-a-folder", said, hint))
+    if known and known.mistake != "folder-exists":  # which is no mistake here
+        hint = _PWD if _ALARM in known.hint else known.hint
+        return failed_by("01a", Diagnosis(known.mistake, known.evidence, hint))
+    if typed or there:
+        return failed_by("01a", _diagnose_making(typed, there, seen))
+    if not seen.tried:
+        return not_attempted("01a", f"There is no folder {_ALARM} yet.")
+    said = f"You typed `{seen.tried[-1][1]}`, and there is no folder {_ALARM} in the workspace."
+    return failed_by("01a", Diagnosis(UNKNOWN, said, _PWD))
 
 
 def _is_near(folder: str) -> bool:
     names = folder.lower().replace("\\", "/").split("/")
     known = any(alike(name, goal) for name in names for goal in (_PARENT, _CHILD))
-    return known or letters(folder) == letters(_WANTED) or letters(names[-1]) == _BOTH
+    return known or _BOTH in _letters(folder)
+
+
+def _letters(path: str) -> str:
+    """Return the letters and digits of a path, small: what is left if no sign between counts."""
+    return "".join(sign for sign in path.lower() if sign.isalnum())
 
 
 _BOTH = _PARENT + _CHILD
 _PWD = "A relative path begins where the terminal is. pwd says where that is."
+_ONE_LEVEL = "One level is missing. A path may name several folders: outer/inner."
+_BETWEEN = "One level is missing: what lies between the two?"
+_SIDE_BY_SIDE = (
+    "Names with a blank between them become folders side by side; `/` puts one inside the other. A "
+    "relative path begins where the terminal is."
+)
+_OUTER_FIRST = "The outer folder comes first, then the one that is in it."
 
 
-def _what_is_wrong(near: str, folders: set[str]) -> tuple[str, str]:
-    """The mistake behind a folder that is nearly the right one, and a hint."""
-    last = near.rpartition("/")[2]
-    if "\\" in near or letters(last) in (_BOTH, letters(_WANTED)):
-        return "path-separator", "Paths use `/` between two names, on Linux everywhere."
-    if misspelled(near, _WANTED) or misspelled(near, f"resources/{_PARENT}"):
-        return "path-misspelled", "Compare the path letter by letter; capital letters count, too."
-    if near == f"resources/{_PARENT}" and not {_CHILD, f"resources/{_CHILD}"} & folders:
-        return (
-            "levels-miscounted",
-            "One level is missing. A path may name several folders: outer/inner.",
+def _makes(mistake: str, hint: str, *paths: str) -> Suspect:
+    """Return a suspect who makes these folders, and what is around them."""
+    return Suspect(mistake, hint, lambda _: dict.fromkeys(paths, ("made",)))
+
+
+#: Those who make most come first: of what they make, others make a part.
+_SUSPECTS = (
+    *(
+        _makes("folders-side-by-side", _SIDE_BY_SIDE, parent, child)
+        for parent, child in (
+            (_PARENT, _CHILD),
+            (_RUNS_THROUGH, _CHILD),
+            *((f"{place}/{_PARENT}", f"{place}/{_CHILD}") for place in ("resources", *FOLDERS)),
         )
-    return _misplaced(near, folders)
+    ),
+    _makes("levels-miscounted", _ONE_LEVEL, _RUNS_THROUGH),
+    _makes("levels-miscounted", _BETWEEN, f"resources/{_CHILD}"),
+    *(
+        _makes("folders-swapped", _OUTER_FIRST, posixpath.join(place, _CHILD, _PARENT))
+        for place in ("", "resources", *FOLDERS)
+    ),
+)
 
 
-def _misplaced(near: str, folders: set[str]) -> tuple[str, str]:
-    if near.endswith(f"{_CHILD}/{_PARENT}"):
-        return "folders-swapped", "The outer folder comes first, then the one that is in it."
-    siblings = {near.rpartition("/")[0] + one for one in (f"/{_PARENT}", f"/{_CHILD}")}
-    split = _CHILD in folders and {_PARENT, f"resources/{_PARENT}"} & folders
-    if split or siblings <= folders:
-        return (
-            "folders-side-by-side",
-            "Names with a blank between them become folders side by side; `/` puts one inside the "
-            "other. A relative path begins where the terminal is.",
-        )
-    if near == f"resources/{_CHILD}":
-        return "levels-miscounted", "One level is missing: what lies between the two?"
-    return "wrong-folder", _PWD
+def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Diagnosis:
+    """Return what is wrong with folders that are nearly the right one.
+
+    Args:
+        typed: Those that the last line was to make, as far as that can be simulated.
+        there: Those that are in the workspace.
+        seen: The evidence.
+    """
+    near = max(typed or there, key=_nearness)
+    evidence = f"There is {near}, but not {_ALARM}."
+    if _ALARM in seen.workspace.folders:
+        evidence = f"What you typed makes {near}. {_ALARM} is there from before."
+    # Only what a suspect makes counts: a workspace keeps what was tried before, too.
+    fit = [one for one in _SUSPECTS if near in one.model(None) and one.model(None).keys() <= there]
+    found = named(evidence, fit[:1], Diagnosis(*_of_spelling(near, evidence)))
+    return Diagnosis(found.mistake, evidence, found.hint + _advice_to_remove(there, seen.workspace))
+
+
+def _of_spelling(near: str, evidence: str) -> tuple[str, str, str]:
+    """Return the mistake in a path that no suspect makes; how it is spelled cannot be listed."""
+    if "\\" in near or _BOTH in _letters(near.rpartition("/")[2]):
+        hint = "Paths use `/` between two names, on Linux everywhere."
+        return "path-separator", evidence, hint
+    for wanted in (_ALARM, _RUNS_THROUGH):
+        parts, goals = near.split("/"), wanted.split("/")
+        unlike = sum(not alike(part, goal) for part, goal in zip(parts, goals, strict=False))
+        if len(parts) == len(goals) and unlike <= (wanted == _ALARM and parts[0] == goals[0]):
+            hint = "Compare the path letter by letter; capital letters count, too."
+            return "path-misspelled", evidence, hint
+    return "wrong-folder", evidence, _PWD
+
+
+def _nearness(folder: str) -> tuple[int, bool, int, str]:
+    """Return how near a folder is to the right one: an old slip must not hide a better try."""
+    parts = folder.split("/")
+    close = sum(any(alike(part, goal) for part in parts) for goal in _ALARM.split("/"))
+    return close, _letters(folder) == _letters(_ALARM), folder.count("/"), folder
+
+
+def _advice_to_remove(near: set[str], seen: Workspace) -> str:
+    """Return how to remove folders that lead nowhere; none of the page's, nor a package's."""
+    known = (*FOLDERS, "resources", _RUNS_THROUGH)
+    packages = [f"{package.folder.as_posix()}/" for package in seen.packages.values()]
+    astray = set()
+    for folder in near:
+        names = folder.split("/")
+        outer = ["/".join(names[: at + 1]) for at in range(len(names))]
+        first = next((one for one in outer if one not in known), "")
+        if first and not any(f"{first}/" in package for package in packages):
+            place, _, name = first.rpartition("/")
+            # In words: as a path, it may have the one in it that is asked for.
+            astray.add((first, f"{name} in {place}" if place else name))
+    if not astray:
+        return ""
+    listed = " and ".join(said for _, said in sorted(astray))
+    return (
+        f" You do not need {listed}: `rmdir` removes an empty folder, and `rm -r` one with all "
+        "that is in it."
+    )
+
+
+# 01b, from here to there: where a terminal is, and what was typed on the way.
+
+_START, _GOAL = "resources/images", "src"
+
+
+def _look_at_way(answer: Any) -> TypedIn:  # noqa: ANN401 - whatever a learner hands over
+    return look_at_terminal(answer, workspace())
 
 
 def _judge_way(seen: TypedIn) -> Outcome:
     tried = _tried(seen)
+    place = "the workspace itself" if seen.folder == "." else seen.folder
     if seen.folder == _GOAL:
-        return _judge_kind_of_path(moves(_that_led_away(tried)))
+        # What was typed before the line that left the start did not lead away.
+        left = max((at for at, (place, _) in enumerate(tried) if place.endswith(_START)), default=0)
+        return _judge_kind_of_path([text for _, text in tried[left:]])
+    if not tried and seen.folder == _START:
+        return not_attempted("01b", f"The terminal is still in {_START}.")
     if not tried:
-        return not_attempted("01b", _of_no_way(seen.folder))
-    return failed_by("01b", _of_a_way(seen, [text for _, text in tried]))
-
-
-def _of_no_way(folder: str) -> str:
-    if folder == _START:
-        return f"The terminal is still in {_START}."
-    return f"The terminal is in {_place(folder)}, and no way from {_START} has been typed yet."
+        said = f"The terminal is in {place}, and no way from {_START} has been typed yet."
+        return not_attempted("01b", said)
+    words = [words for _, text in tried for words in _commands(text)] or [[""]]
+    mistake, hint = _of_words(words[-1], seen.folder)
+    evidence = f"The terminal is in {place} now, and {_GOAL} was the goal."
+    return failed_by("01b", Diagnosis(mistake, evidence, hint))
 
 
 def _tried(seen: TypedIn) -> list[tuple[str, str]]:
-    """What was typed since the terminal came to the folder where the exercise begins."""
+    """Return what was typed since the terminal came to the folder where the exercise begins."""
     starts = [at for at, (place, _) in enumerate(seen.commands) if place.endswith(_START)]
     first = next((at for at in reversed(starts) if at - 1 not in starts), len(seen.commands))
-    return [(place, text) for place, text in seen.commands[first:] if not _is_no_try(text)]
+    # `pwd` only looks, and the page's own line goes to the start.
+    return [
+        (place, text)
+        for place, text in seen.commands[first:]
+        if text.strip() != "pwd" and not text.rstrip(" \"'/").endswith(_START)
+    ]
 
 
-def _is_no_try(line: str) -> bool:
-    """Whether a line only looks, or is the one of the page that goes to the start."""
-    return line.strip() == "pwd" or line.rstrip(" \"'/").endswith(_START)
+def _judge_kind_of_path(lines: list[str]) -> Outcome:
+    went = [words[1:] for line in lines for words in _commands(line) if words[0] in ("cd", "pushd")]
+    if any(_is_absolute(words) for words in went):
+        evidence = f"The terminal is in {_GOAL}, by an absolute path."
+        return failed_by("01b", Diagnosis("absolute-path", evidence, _RELATIVE))
+    if len(went) > 1:
+        said = f"You went in {len(went)} steps. One path may name all of them, joined with `/`."
+        return passed("01b", f"The terminal is in {_GOAL}.", said)
+    return passed("01b", f"The terminal is in {_GOAL}.")
 
 
-def _that_led_away(tried: list[tuple[str, str]]) -> list[str]:
-    """The lines from the one that left the start: what was typed before it did not lead away."""
-    last = max((at for at, (place, _) in enumerate(tried) if place.endswith(_START)), default=0)
-    return [text for _, text in tried[last:]]
-
-
-def _place(folder: str) -> str:
-    return "the workspace itself" if folder == "." else folder
+def _is_absolute(words: Sequence[str]) -> bool:
+    """Return whether `cd` with these words leads to the same place from everywhere."""
+    path = next((word for word in words if not word.startswith("-")), "")
+    return not path or path.startswith(("/", "~", "$"))
 
 
 _UPWARDS = (
@@ -160,58 +331,44 @@ _RELATIVE = (
 )
 
 
-def _of_a_way(seen: TypedIn, tried: list[str]) -> Diagnosis:
-    words = (commands(tried) or [[""]])[-1]
-    evidence = f"The terminal is in {_place(seen.folder)} now, and {_GOAL} was the goal."
-    mistake, hint = _of_words(words, seen.folder)
-    return Diagnosis(mistake, evidence, hint)
-
-
 def _of_words(words: list[str], folder: str) -> tuple[str, str]:
-    """The mistake in a command that did not lead to the goal, and a hint."""
+    """Return the mistake in a command that did not lead to the goal, and a hint.
+
+    The command itself shows it: only its path is simulated, as there may be any other in it.
+
+    Args:
+        words: The command.
+        folder: Where the terminal is now.
+    """
     first, rest = words[0], words[1:]
     if first.startswith("cd") and first[2:3] in tuple("./~\\"):
         return "space-missing", "A blank belongs between `cd` and the path."
     if "\\" in " ".join(words):
         return "path-separator", "Paths use `/` between two names, on Linux everywhere."
+    if first.startswith((".", "/")):
+        return "word-missing", "A path alone is no command. Which one changes the folder?"
     if first not in ("cd", "pushd"):
         return ("command-misspelled" if alike(first, "cd") else UNKNOWN), _UPWARDS
     if len(rest) > 1 and not rest[0].startswith("-"):
         return "space-too-many", "A path has no blank in it: `/` joins its parts."
-    if is_absolute(rest):
+    if _is_absolute(rest):
         return "absolute-path", _RELATIVE
-    return _of_path(rest[-1], folder)
-
-
-def _of_path(path: str, folder: str) -> tuple[str, str]:
-    goal = led_to(_START, path)
+    # Where the path leads from the start, whether there is such a folder or not.
+    goal = posixpath.normpath(posixpath.join(_START, rest[-1]))
     name = goal.rpartition("/")[2]
     if name == _GOAL or goal in (".", "..", "resources") or goal.strip("./") == "":
         return "levels-miscounted", _UPWARDS
     if goal != _GOAL and alike(name, _GOAL) and folder == _START:
         return "path-misspelled", "Compare the name letter by letter; capital letters count, too."
-    if folder != _START:
-        return "wrong-folder", _UPWARDS
-    return "folder-not-found", _UPWARDS
-
-
-def _judge_kind_of_path(went: list[list[str]]) -> Outcome:
-    if any(is_absolute(words) for words in went):
-        evidence = f"The terminal is in {_GOAL}, by an absolute path."
-        return failed("01b", evidence, _RELATIVE, "absolute-path")
-    if len(went) > 1:
-        said = f"You went in {len(went)} steps. One path may name all of them, joined with `/`."
-        return passed("01b", f"The terminal is in {_GOAL}.", said)
-    return passed("01b", f"The terminal is in {_GOAL}.")
+    return ("folder-not-found" if folder == _START else "wrong-folder"), _UPWARDS
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "01a",
-        SCENARIOS["01a"],
+        _look_at_making,
         _judge_folder,
         title="a folder in a folder",
-        points=1,
         hints=(
             "One `mkdir` may make several folders, one in another.",
             "In a path, `/` stands between the outer folder and the one in it.",
@@ -220,10 +377,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "01b",
-        SCENARIOS["01b"],
+        _look_at_way,
         _judge_way,
         title="from here to there",
-        points=1,
         hints=(
             "`..` stands for the folder around the one where you are.",
             f"Count the levels from {_START} up to the workspace.",

@@ -2,27 +2,43 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+from difflib import get_close_matches
 from typing import Any
 
-from rosbeat.exercises.exercise import BLANK, Exercise, failed, failed_by, not_attempted, passed
-from rosbeat.exercises.manifests import (
-    diagnose_dependencies,
-    diagnose_tags,
-    diagnose_values,
-    hint_on_xml,
-    is_open,
-    remark_on_license,
-)
-from rosbeat.exercises.page_02_scenarios import SCENARIOS
-from rosbeat.exercises.paths import alike
-from rosbeat.exercises.scenarios import Workspace
+from packaging.licenses import InvalidLicenseExpression, canonicalize_license_expression
+
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.exercise import BLANK, Exercise, failed_by, not_attempted, passed
+from rosbeat.exercises.scenarios import Workspace, look_at_workspace
+from rosbeat.exercises.workspace_model import alike
 from rosbeat.records import Outcome
 from rosbeat.workspace.manifest import Manifest
 from rosbeat.workspace.packages import Package
 
-_FIRST, _SECOND = "sensor_simulator", "room_display"
-_FIRST_NEEDS, _NEEDS = ("rclpy", "std_msgs"), ("rclpy", "sensor_msgs")
+# A manifest is text, and what is wrong with a text is told by looking at it: nothing is simulated
+# on this page. Each judge generates what is wrong, the causes before what follows from them, and
+# the first counts.
+
+# 02a, fill in the manifest.
+
+_FIRST, _FIRST_NEEDS = "sensor_simulator", ("rclpy", "std_msgs")
 _MANIFEST = "src/sensor_simulator/package.xml"
+_TODO = re.compile(r"\W*todo\W*$|\W*todo\s*:", re.IGNORECASE)
+#: ROS Enhancement Proposal 140 and 149: two of the tags of a package.xml, in formats 2 and 3.
+_FORMATS = ("2", "3")
+#: As catkin_pkg has it, which reads manifests for colcon.
+_EMAIL = re.compile(r"[-\w%+]+(\.[-\w%+]+)*@[-\w%]+(\.[-\w%]+)*\.[a-zA-Z]{2,}", re.ASCII)
+_VERSION = re.compile(r"\d+\.\d+\.\d+")
+#: Tags that a manifest needs.
+_TAGS = ("name", "version", "description", "maintainer", "license", "export")
+#: Short names of licences that ROS packages often have, to be compared with a misspelled one.
+_LICENSES = (
+    "Apache-2.0", "MIT", "BSD-2-Clause", "BSD-3-Clause", "GPL-3.0-only", "GPL-3.0-or-later",
+    "LGPL-3.0-only", "LGPL-3.0-or-later", "AGPL-3.0-only", "MPL-2.0", "EPL-2.0", "BSL-1.0", "ISC",
+    "CC-BY-4.0", "CC0-1.0", "Unlicense",
+)  # fmt: skip
 
 
 def _judge_manifest(seen: Workspace) -> Outcome:
@@ -30,140 +46,226 @@ def _judge_manifest(seen: Workspace) -> Outcome:
     if not here:
         return not_attempted("02a", f"There is no package {_FIRST} in src yet.")
     manifest = here[0].manifest
-    if manifest.problem:
-        evidence = f"{_MANIFEST} cannot be read: {manifest.problem}."
-        return failed("02a", evidence, hint_on_xml(manifest.problem), "manifest-unreadable")
-    wanted = {"description": manifest.description, "licence": manifest.license}
-    todo = [name for name, text in wanted.items() if is_open(text)]
-    slip = diagnose_tags(manifest, _MANIFEST)
+    todo = _open_texts(manifest)
+    slip = next(_slips_of_form(manifest, _MANIFEST), None)
+    if not slip and len(todo) == 2:
+        return not_attempted("02a", f"{_MANIFEST} has no description and no licence yet.")
+    slip = slip or next(_slips_of_values(manifest, todo), None)
     if slip:
         return failed_by("02a", slip)
-    if len(todo) == len(wanted):
-        return not_attempted("02a", f"{_MANIFEST} has no description and no licence yet.")
-    if todo:
-        evidence = f"The {todo[0]} in {_MANIFEST} is still open."
-        return failed("02a", evidence, _TODO, "manifest-open")
-    return _judge_rest(manifest)
-
-
-_SAME_NAME = f"<name> has to be {_FIRST}, like the folder and the Python package in it."
-_TODO = f"Put a text of your own between <tag> and </tag>, in place of TODO or {BLANK}."
-
-
-def _judge_rest(manifest: Manifest) -> Outcome:
-    if manifest.name != _FIRST:
-        evidence = f"The manifest names another package: {manifest.name}."
-        return failed("02a", evidence, _SAME_NAME, "package-renamed")
-    found = diagnose_dependencies(manifest, _FIRST_NEEDS) or diagnose_values(manifest)
-    if found:
-        return failed_by("02a", found)
-    if manifest.build_type != "ament_python":
-        return _another_build_type(manifest.build_type)
     said = f"Licensed under {manifest.license}: {manifest.description}"
-    return passed("02a", said, *remark_on_license(manifest.license))
+    return passed("02a", said, *_remark_on_license(manifest.license))
 
 
-def _another_build_type(found: str) -> Outcome:
-    said = f"The build type is {found}." if found else "The build type is gone."
-    return failed(
-        "02a",
-        f"Description and licence are there. {said}",
-        "<build_type>, between <export> and </export>, tells colcon how to build the package: "
-        "here, one for Python.",
-        "build-type",
+def _open_texts(manifest: Manifest) -> list[str]:
+    """Return which texts are none yet: empty, a TODO, a blank, or only signs."""
+    texts = {"description": manifest.description, "licence": manifest.license}
+    return [
+        name
+        for name, text in texts.items()
+        if _TODO.match(text)
+        or text.lower() == "none"
+        or BLANK in text
+        or not any(sign.isalnum() for sign in text)
+    ]
+
+
+def _slips_of_form(manifest: Manifest, path: str) -> Iterator[Diagnosis]:
+    """Generate what keeps a file from being a manifest that can be read."""
+    problem = manifest.problem
+    if problem:
+        yield Diagnosis(
+            "manifest-unreadable",
+            f"{path} cannot be read: {problem}.",
+            "`<?xml` has to be the very first line, with nothing before it, not even a blank."
+            if "declaration not at start" in problem
+            else "In XML, what is opened with <tag> is closed with </tag>. `<` and `&` in a text "
+            "are written &lt; and &amp;.",
+        )
+    for wanted in _TAGS:
+        near = [tag for tag in manifest.tags if alike(tag, wanted) and tag not in _TAGS]
+        if wanted not in manifest.tags and near:
+            yield Diagnosis(
+                "tag-misspelled",
+                f"{path} has a tag <{near[0]}>, and ROS knows none of that name.",
+                "Compare it, letter by letter, with the manifest that the page shows above.",
+            )
+
+
+def _slips_of_values(manifest: Manifest, todo: list[str]) -> Iterator[Diagnosis]:
+    """Generate what is wrong with the values of a manifest that can be read."""
+    if todo:
+        yield Diagnosis(
+            "manifest-open",
+            f"The {todo[0]} in {_MANIFEST} is still open.",
+            f"Put a text of your own between <tag> and </tag>, in place of TODO or {BLANK}.",
+        )
+    if manifest.name != _FIRST:
+        yield Diagnosis(
+            "package-renamed",
+            f"The manifest names another package: {manifest.name}.",
+            f"<name> has to be {_FIRST}, like the folder and the Python package in it.",
+        )
+    yield from _slips_of_dependencies(manifest, _FIRST_NEEDS)
+    if manifest.format not in _FORMATS:
+        yield Diagnosis(
+            "manifest-value",
+            f"The format of the manifest is {manifest.format or 'not given'}.",
+            f"ROS 2 reads the formats {' and '.join(_FORMATS)}; <package> says which one it is.",
+        )
+    if not _VERSION.fullmatch(manifest.version):
+        yield Diagnosis(
+            "manifest-value",
+            f"The version is {manifest.version or 'not given'}.",
+            "A version is three numbers with dots between them, and colcon builds nothing without.",
+        )
+    if not manifest.maintainer or not _EMAIL.fullmatch(manifest.email):
+        yield Diagnosis(
+            "manifest-value",
+            "The manifest names no maintainer with an address.",
+            "<maintainer> holds a name, and its email an address such as you@example.com.",
+        )
+    if manifest.build_type != "ament_python":
+        kind = f"is {manifest.build_type}" if manifest.build_type else "is gone"
+        yield Diagnosis(
+            "build-type",
+            f"Description and licence are there. The build type {kind}.",
+            "<build_type>, between <export> and </export>, tells colcon how to build the package: "
+            "here, one for Python.",
+        )
+
+
+def _slips_of_dependencies(
+    manifest: Manifest, needs: tuple[str, ...], again: str = ""
+) -> Iterator[Diagnosis]:
+    """Generate a dependency that is missing, or nearly there.
+
+    Args:
+        manifest: What the file says.
+        needs: The packages that it should depend on.
+        again: How to write them down, besides what every hint says.
+    """
+    missing = [one for one in needs if one not in manifest.depends]
+    if not missing:
+        return
+    glued = [one for one in manifest.depends if "," in one or " " in one]
+    near = [one for one in manifest.depends if alike(one, missing[0]) and one not in needs]
+    if glued or near:
+        yield Diagnosis(
+            "dependency-misspelled",
+            f"It depends on {(glued or near)[0]}, and no package is called that.",
+            f"Names of packages count letter by letter, and each stands alone. {again}".strip(),
+        )
+    yield Diagnosis(
+        "dependency-missing",
+        f"It does not say that it needs {' and '.join(missing)}. It says now: "
+        f"{', '.join(manifest.depends) or 'none'}.",
+        f"Every package that the nodes import is a dependency. {again}".strip(),
     )
+
+
+def _remark_on_license(text: str) -> tuple[str, ...]:
+    """Return a remark if one of several licences, with commas between them, has no short name."""
+    unknown = next((one for one in text.split(", ") if not _is_known_license(one)), "")
+    if not unknown:
+        return ()
+    names = {one.lower(): one for one in _LICENSES}
+    near = get_close_matches(unknown.lower(), names, 1, 0.75)
+    asked = f"Did you mean {names[near[0]]}? " if near else ""
+    return (
+        f"Programs do not know a licence {unknown}. {asked}spdx.org/licenses lists the short "
+        "names that they know, such as MIT.",
+    )
+
+
+def _is_known_license(text: str) -> bool:
+    try:
+        return bool(canonicalize_license_expression(text))
+    except InvalidLicenseExpression:
+        return False
+
+
+# 02b, a second package.
+
+_SECOND, _NEEDS = "room_display", ("rclpy", "sensor_msgs")
 
 
 def _judge_second(seen: Workspace) -> Outcome:
     package = seen.packages.get(_SECOND)
+    slips = _slips_of_absence(seen) if package is None else _slips_of_package(seen, package)
+    slip = next(slips, None)
+    if slip:
+        return failed_by("02b", slip)
     if package is None:
-        return _judge_absence(seen)
-    place = seen.place_of(_SECOND)
-    if place:
-        return _misplaced(place)
-    return _judge_kind(package)
+        return not_attempted("02b", f"There is no package {_SECOND} yet.")
+    return passed("02b", f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}.")
 
 
-def _misplaced(place: str) -> Outcome:
-    return failed(
-        "02b",
+def _misplaced(place: str) -> Diagnosis:
+    return Diagnosis(
+        "wrong-folder",
         f"{_SECOND} lies in {place}, and packages belong in src.",
         "Remove it there (rm -r), go to src with cd, and make it again.",
-        "wrong-folder",
     )
 
 
-def _judge_absence(seen: Workspace) -> Outcome:
-    """What there is, if there is no such package: one nearly so called, or only its folder."""
+def _slips_of_absence(seen: Workspace) -> Iterator[Diagnosis]:
+    """Generate what is there if the package is not: only its folder, or one nearly so called."""
     inside = [one for one in seen.folders if one.rpartition("/")[2] == _SECOND]
+    packages = [f"{one.folder.as_posix()}/" for one in seen.packages.values()]
     for folder in inside:
         place = folder.rpartition("/")[0]
-        if place and any(_is_in(place, one) for one in seen.packages.values()):
-            return _misplaced(place)
+        if place and any(f"{place}/".startswith(package) for package in packages):
+            yield _misplaced(place)
     if inside:
-        return failed(
-            "02b",
+        yield Diagnosis(
+            "no-manifest",
             f"There is a folder {inside[0]}, and no package.xml in it.",
             "`ros2 pkg create` makes the folder and all that belongs in it. Remove the folder "
             "first: `rmdir` removes an empty one.",
-            "no-manifest",
         )
-    near = [name for name in seen.packages if alike(name, _SECOND) and name != _FIRST]
-    if near:
-        return failed(
-            "02b",
-            f"There is a package {near[0]}, and none called {_SECOND}.",
-            f"Names count letter by letter. Remove the folder (rm -r) of {near[0]}, and make it "
-            "again.",
-            "package-misspelled",
-        )
-    return not_attempted("02b", f"There is no package {_SECOND} yet.")
+    for name in seen.packages:
+        if alike(name, _SECOND) and name != _FIRST:
+            yield Diagnosis(
+                "package-misspelled",
+                f"There is a package {name}, and none called {_SECOND}.",
+                f"Names count letter by letter. Remove the folder (rm -r) of {name}, and make it "
+                "again.",
+            )
 
 
-def _is_in(place: str, package: Package) -> bool:
-    folder = package.folder.as_posix()
-    return place == folder or place.startswith(f"{folder}/")
-
-
-def _judge_kind(package: Package) -> Outcome:
-    manifest = package.manifest
+def _slips_of_package(seen: Workspace, package: Package) -> Iterator[Diagnosis]:
+    """Generate what is wrong with the package that is there."""
+    place, manifest = seen.place_of(_SECOND), package.manifest
     again = f"Remove the folder (rm -r src/{_SECOND}) and make the package again, with "
-    if manifest.problem:
-        evidence = f"The package.xml of {_SECOND} cannot be read: {manifest.problem}."
-        return failed("02b", evidence, hint_on_xml(manifest.problem), "manifest-unreadable")
+    if place:
+        yield _misplaced(place)
+    yield from _slips_of_form(manifest, f"src/{_SECOND}/package.xml")
     if manifest.build_type != "ament_python":
         kind = manifest.build_type or "of an unknown kind"
         hint = f"{again}--build-type: a Python package was asked for."
-        return failed("02b", f"{_SECOND} is {kind}.", hint, "build-type")
-    found = diagnose_dependencies(manifest, _NEEDS)
-    if found:
-        hint = f"{found.hint} {again}--dependencies and both names after it."
-        return failed("02b", found.evidence, hint, found.mistake)
-    return _judge_files(package)
-
-
-def _judge_files(package: Package) -> Outcome:
-    """Whether what every Python package needs is there; one made by hand may lack some of it."""
+        yield Diagnosis("build-type", f"{_SECOND} is {kind}.", hint)
+    both = f"{again}--dependencies and both names after it."
+    yield from _slips_of_dependencies(manifest, _NEEDS, both)
+    # What every Python package needs: one made by hand may lack some of it.
     there = {
         "setup.py": not package.setup.problem,
         f"resource/{_SECOND}": package.has_marker,
         f"{_SECOND}/__init__.py": package.has_init,
     }
-    gone = [name for name, is_there in there.items() if not is_there]
-    if gone:
-        return failed(
-            "02b",
-            f"{_SECOND} has no {gone[0]} that colcon could use.",
-            f"Compare it with the files of {_FIRST}: every Python package has the same ones.",
-            "marker-missing",
-        )
-    return passed("02b", f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}.")
+    for name, is_there in there.items():
+        if not is_there:
+            yield Diagnosis(
+                "marker-missing",
+                f"{_SECOND} has no {name} that colcon could use.",
+                f"Compare it with the files of {_FIRST}: every Python package has the same ones.",
+            )
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "02a",
-        SCENARIOS["02a"],
+        look_at_workspace,
         _judge_manifest,
         title="fill in the manifest",
         points=2,
@@ -177,7 +279,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "02b",
-        SCENARIOS["02b"],
+        look_at_workspace,
         _judge_second,
         title="a second package",
         points=2,

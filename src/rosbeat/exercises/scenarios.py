@@ -161,7 +161,7 @@ class Workspace:
     """What is in a workspace.
 
     Attributes:
-        folders: Every folder, relative to the workspace, without what colcon makes.
+        folders: Every folder, relative to the workspace, without links and what colcon makes.
         packages: Every package, wherever it lies.
     """
 
@@ -290,7 +290,8 @@ def _meaning(
 
 
 def _folders(root: Path) -> tuple[str, ...]:
-    found = (path.relative_to(root) for path in root.rglob("*") if path.is_dir())
+    found = (path.relative_to(root) for path in root.rglob("*")
+             if path.is_dir() and not path.is_symlink())  # fmt: skip
     return tuple(sorted(path.as_posix() for path in found if path.parts[0] not in _BUILT))
 
 

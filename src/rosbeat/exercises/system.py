@@ -1,40 +1,254 @@
-"""The whole system: both programs of the tutorial, built, run, and ended with Ctrl+C."""
+"""The whole system: both programs of the tutorial, built, run, and ended with Ctrl+C.
+
+The package is built with colcon and its programs are started with `ros2 run`, as a learner would.
+It is copied into an empty workspace; the learner's own files are only read. The monitor comes first
+and is told some numbers; then comes the sensor, and both the monitor and a probe hear it.
+"""
 
 from __future__ import annotations
 
+import ast
 import re
-from collections.abc import Sequence
+import shutil
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from pathlib import Path
 from statistics import median
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.programs import diagnose_output
-from rosbeat.exercises.entries import diagnose_entries, diagnose_script
 from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
-from rosbeat.exercises.meanings import diagnosis_of
-from rosbeat.exercises.system_remarks import ends_by_the_tutorial, remarks_on
-from rosbeat.exercises.system_run import MONITOR, PACKAGE, SENSOR, TOPIC, SystemRun, run_system
-from rosbeat.records import Outcome, ProgramRun
+from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
+from rosbeat.exercises.scenarios import CommandMeaning, look_at_workspace, meaning_of
+from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script, diagnosis_of
+from rosbeat.records import Endpoint, Outcome, ProgramRun
+from rosbeat.ros.programs import (
+    DomainProbe,
+    Program,
+    domain_probe,
+    private_domain,
+    program_environment,
+)
+from rosbeat.workspace.packages import Package
+from rosbeat.workspace.parsing import parse
 
 ID = "system"
+PACKAGE = "sensor_simulator"
+SENSOR, MONITOR = "temperature_publisher", "temperature_subscriber"
+TOPIC = "temperature"
+
+# The scenario.
+
+#: What the monitor is told: each side of both limits, the limits, and beyond them.
+TOLD = (26.0, 20.0, 26.5, 19.5, 35.25, -3.5, 22.75)
+_READINGS = 5
+# Seconds of wall time, for a busy machine; usually it takes a tenth of each.
+_TO_BUILD, _TO_MEET, _TO_ANSWER, _TO_READ = 90.0, 20.0, 2.0, 20.0
+#: A number for the first answer, and seconds for it: the monitor may still be starting.
+_FIRST_TOLD, _TO_START = 23.5, 6.0
+
+
+@dataclass(frozen=True)
+class Source:
+    """Record what the source of a program shows without being run; nothing if it is not there.
+
+    Attributes:
+        module: Its name.
+        classes: The classes that it defines.
+        numbers: The numbers that are written in it.
+        ends: The names of what `main` calls.
+    """
+
+    module: str
+    classes: tuple[str, ...] = ()
+    numbers: tuple[float, ...] = ()
+    ends: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class SystemRun:
+    """Record what became of a package, from its source to the end of its programs.
+
+    Attributes:
+        package: The package in the learner's workspace, or None.
+        place: Where it lies, if that is not `src`.
+        sources: Its two programs.
+        build_code: Exit code of `colcon build`; None if it was not built.
+        build_output: What that printed.
+        meaning: What the first failure means, if its command is known to fail like this.
+        sensor: The sensor's run, or None.
+        monitor: The monitor's run, or None.
+        met: Whether the monitor listens on the topic.
+        answers: Each number that the monitor was told, and what it printed then.
+        heard: When each reading of the sensor came, in seconds since the first, and the reading.
+        publishers: What the sensor publishes.
+        repeated: What the monitor printed while the sensor was there.
+    """
+
+    package: Package | None = None
+    place: str = ""
+    sources: tuple[Source, ...] = ()
+    build_code: int | None = None
+    build_output: str = ""
+    meaning: CommandMeaning | None = None
+    sensor: ProgramRun | None = None
+    monitor: ProgramRun | None = None
+    met: bool = False
+    answers: tuple[tuple[float, str], ...] = ()
+    heard: tuple[tuple[float, float], ...] = ()
+    publishers: tuple[Endpoint, ...] = ()
+    repeated: str = ""
+
+
+def run_system(answer: Any) -> SystemRun:  # noqa: ANN401 - whatever a learner hands over
+    """Build the package and run its two programs.
+
+    Args:
+        answer: The folder of the workspace; `workspace.folder()` on a page.
+
+    Raises:
+        ExerciseError: If that is no folder.
+        KeyboardInterrupt: If Interrupt was pressed; the programs are ended then, too.
+    """
+    seen = look_at_workspace(answer)
+    package = seen.packages.get(PACKAGE)
+    if package is None:
+        return SystemRun()
+    folder = Path(answer) / package.folder
+    modules = (_read_source(folder / PACKAGE / f"{name}.py") for name in (SENSOR, MONITOR))
+    found = SystemRun(package, seen.place_of(PACKAGE), tuple(modules))
+    entries = {one.executable for one in package.setup.entry_points}
+    missing = not {SENSOR, MONITOR} <= entries and not package.setup.incomplete
+    # A look is enough where there is nothing to build, or it cannot be built.
+    unfit = found.place or package.manifest.build_type != "ament_python" or not package.has_init
+    if unfit or package.setup.problem or package.flaws or missing:
+        return found
+    with TemporaryDirectory(prefix="rosbeat-") as place, private_domain() as domain_id:
+        return _build_and_run(found, folder, Path(place), domain_id)
+
+
+def _read_source(path: Path) -> Source:
+    try:
+        tree = parse(path.read_bytes())
+    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return Source(path.stem)
+    nodes = list(ast.walk(tree))
+    values = [one.value for one in nodes if isinstance(one, ast.Constant)]
+    numbers = [one for one in values if isinstance(one, int | float) and type(one) is not bool]
+    mains = [one for one in tree.body if isinstance(one, ast.FunctionDef) and one.name == "main"]
+    called = [one.func for main in mains for one in ast.walk(main) if isinstance(one, ast.Call)]
+    return Source(
+        path.stem,
+        tuple(one.name for one in nodes if isinstance(one, ast.ClassDef)),
+        tuple(float(one) for one in numbers if abs(one) < 1e300),
+        tuple(ast.unparse(one).split(".")[-1] for one in called),
+    )
+
+
+def _build_and_run(found: SystemRun, folder: Path, place: Path, domain_id: int) -> SystemRun:
+    root, home = place / "workspace", place / "home"
+    home.mkdir()
+    ignored = shutil.ignore_patterns("__pycache__", ".git", "build", "install", "log")
+    shutil.copytree(folder, root / "src" / PACKAGE, symlinks=True, ignore=ignored)
+    environ = program_environment(home, domain_id)
+    command = ("colcon", "build", "--packages-select", PACKAGE)
+    with Program(command, environ, root) as building:
+        building.wait(lambda _: False, _TO_BUILD)
+        built = building.finish()
+    found = replace(found, build_code=built.exit_code, build_output=built.output)
+    if built.exit_code != 0:
+        code = -1 if built.exit_code is None else built.exit_code
+        meaning = meaning_of(" ".join(command), built.output, code, root, root)
+        return replace(found, meaning=meaning)
+
+    def start(name: str) -> Program:
+        line = f"source install/setup.bash && exec ros2 run {PACKAGE} {name}"
+        return Program(("bash", "-c", line), environ, root, name)
+
+    found = _run_both(found, start, domain_id)
+    for run in (found.monitor, found.sensor):
+        if run is not None and run.ended_early:
+            line, code = f"ros2 run {PACKAGE} {run.program}", run.exit_code or 0
+            return replace(found, meaning=meaning_of(line, run.output, code, root, root))
+    return found
+
+
+def _run_both(found: SystemRun, start: Callable[[str], Program], domain_id: int) -> SystemRun:
+    """Run both programs from their start to their end, and add what they did."""
+    with ExitStack() as stack:
+        monitor = stack.enter_context(start(MONITOR))
+        probe = stack.enter_context(domain_probe(domain_id, TOPIC))
+        probe.wait(lambda: probe.has_subscriber() or not monitor.running, _TO_MEET)
+        met = probe.has_subscriber()
+        if met:
+            _wait_for_first_answer(probe, monitor)
+        answers = tuple((value, _tell(probe, monitor, value)) for value in TOLD if met)
+        probe.clear()
+        said = len(monitor.output)
+        sensor = stack.enter_context(start(SENSOR))
+        publishers = _listen(probe, sensor)
+        repeated = monitor.output[said:]
+        return replace(
+            found, met=met, answers=answers, heard=probe.received, publishers=publishers,
+            repeated=repeated, sensor=sensor.finish(), monitor=monitor.finish(),
+        )  # fmt: skip
+
+
+def _wait_for_first_answer(probe: DomainProbe, monitor: Program) -> None:
+    """Wait until the monitor has answered a number once.
+
+    It listens before its constructor has ended, so what it prints first is no answer yet. A
+    monitor that does not repeat the number is given the time all the same.
+    """
+    sign = re.compile(rf"(?<![\d.]){_FIRST_TOLD:g}(?:[.]\d+)?(?!\d).*\n")
+    before = len(monitor.output)
+    probe.publish(_FIRST_TOLD)
+    monitor.wait(lambda output: bool(sign.search(output, before)), _TO_START)
+
+
+def _tell(probe: DomainProbe, monitor: Program, value: float) -> str:
+    """Publish a number, and return what the monitor prints then."""
+    before = len(monitor.output)
+    probe.publish(value)
+    monitor.wait(lambda output: "\n" in output[before:], _TO_ANSWER)
+    return monitor.output[before:]
+
+
+def _listen(probe: DomainProbe, sensor: Program) -> tuple[Endpoint, ...]:
+    """Wait for some readings, and return what the sensor publishes."""
+    probe.wait(lambda: probe.publishers() or not sensor.running, _TO_READ)
+    topics = [end.name for end in probe.publishers()]
+    if f"/{TOPIC}" in topics or not topics:
+        probe.wait(lambda: len(probe.received) >= _READINGS or not sensor.running, _TO_READ)
+    return probe.publishers()
+
+
+# The judge. Its parts follow the system from its package to its end; the first mistake counts.
+
 _FLOAT = "std_msgs/msg/Float32"
 _WORDS = ("High", "Low", "Normal")
-_NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 #: Two decimals are logged; a float32 has about seven digits.
 _ROUNDING = 0.0051
 #: Seconds between two readings, on a machine that may be busy.
 _BEAT = (0.7, 1.4)
+#: How the tutorial's own `main` ends after Ctrl+C, where the signal has shut ROS down already.
+_ENDINGS = ("rcl_shutdown already called", "ExternalShutdownException")
 
 
 def _judge(seen: SystemRun) -> Outcome:
-    if seen.package is None:
+    package = seen.package
+    if package is None:
         return not_attempted(ID, f"There is no package {PACKAGE} in src yet.")
-    if not any(one.ends for one in seen.sources) and not seen.package.setup.entry_points:
+    if not any(one.ends for one in seen.sources) and not package.setup.entry_points:
         return not_attempted(ID, f"The package {PACKAGE} has no programs yet.")
     wrong = (
-        _package(seen) or _build(seen) or _start(seen) or _monitor(seen) or _sensor(seen)
-        or _crossing(seen) or _endings(seen)
+        _diagnose_package(seen, package) or _diagnose_build(seen) or _diagnose_start(seen)
+        or _diagnose_monitor(seen) or _diagnose_sensor(seen) or _diagnose_crossing(seen)
+        or next(filter(None, map(_diagnose_end, _runs(seen))), None)
     )  # fmt: skip
     if wrong:
         return failed_by(ID, wrong)
@@ -42,23 +256,19 @@ def _judge(seen: SystemRun) -> Outcome:
         ID,
         f"{PACKAGE} was built, and both programs ran: {len(seen.heard)} readings crossed, with "
         "the right status each.",
-        *remarks_on(seen),
+        *_remarks(seen),
     )
 
 
-# The package and its build.
+def _runs(seen: SystemRun) -> list[ProgramRun]:
+    return [run for run in (seen.sensor, seen.monitor) if run is not None]
 
 
-def _package(seen: SystemRun) -> Diagnosis | None:
-    package = seen.package
-    assert package is not None
-    if seen.place:
-        return Diagnosis(
-            "wrong-folder",
-            f"The package {PACKAGE} lies in {seen.place}.",
-            "A workspace keeps its packages in src.",
-        )
+def _diagnose_package(seen: SystemRun, package: Package) -> Diagnosis | None:
     kind = package.manifest.build_type
+    if seen.place:
+        said = f"The package {PACKAGE} lies in {seen.place}."
+        return Diagnosis("wrong-folder", said, "A workspace keeps its packages in src.")
     if kind != "ament_python":
         return Diagnosis(
             "build-type",
@@ -70,10 +280,10 @@ def _package(seen: SystemRun) -> Diagnosis | None:
         return Diagnosis(
             "marker-missing", f"{gone} is gone.", "It is an empty file: make it again with touch."
         )
-    return diagnose_script(package.setup) or diagnose_entries(package, (SENSOR, MONITOR))
+    return diagnose_script(package) or diagnose_entries(package, (SENSOR, MONITOR))
 
 
-def _build(seen: SystemRun) -> Diagnosis | None:
+def _diagnose_build(seen: SystemRun) -> Diagnosis | None:
     if seen.build_code == 0:
         return None
     said = f"ended with {seen.build_code}"
@@ -86,20 +296,17 @@ def _build(seen: SystemRun) -> Diagnosis | None:
     )
 
 
-def _start(seen: SystemRun) -> Diagnosis | None:
-    for run in (seen.monitor, seen.sensor):
-        if run is not None and run.ended_early:
-            return diagnosis_of(seen.meaning) or diagnose_output(run.output) or _ended(run)
-    return None
-
-
-def _ended(run: ProgramRun) -> Diagnosis:
-    return Diagnosis(
+def _diagnose_start(seen: SystemRun) -> Diagnosis | None:
+    early = next((run for run in reversed(_runs(seen)) if run.ended_early), None)
+    if early is None:
+        return None
+    return diagnosis_of(seen.meaning) or diagnose_output(early.output) or Diagnosis(
         UNKNOWN,
-        f"{run.program} ended by itself, with exit code {run.exit_code}: {_last_line(run.output)}",
-        f"Start it with ros2 run {PACKAGE} {run.program} and read what it prints. A node runs "
+        f"{early.program} ended by itself, with exit code {early.exit_code}: "
+        f"{_last_line(early.output)}",
+        f"Start it with ros2 run {PACKAGE} {early.program} and read what it prints. A node runs "
         "until Ctrl+C: does main call rclpy.spin?",
-    )
+    )  # fmt: skip
 
 
 def _last_line(text: str) -> str:
@@ -108,49 +315,86 @@ def _last_line(text: str) -> str:
     return lines[-1]
 
 
-# The monitor.
+# The monitor, by models of what it says to each reading.
 
 
-def _monitor(seen: SystemRun) -> Diagnosis | None:
+def _words(text: str) -> tuple[str, ...]:
+    """Return the statuses that a text names."""
+    return tuple(word for word in _WORDS if re.search(rf"\b{word}\b", text, re.IGNORECASE))
+
+
+def _status(value: float) -> str:
+    return "High" if value > 26.0 else "Low" if value < 20.0 else "Normal"
+
+
+_SWAPPED = {"High": "Low", "Low": "High", "Normal": "Normal"}
+
+
+def _suspect(mistake: str, hint: str, status: Callable[[float], str]) -> Suspect:
+    """Return a monitor with another status; its model is fed the readings."""
+    return Suspect(mistake, hint, lambda values: {value: (status(value),) for value in values})
+
+
+_AT_LIMIT = "is Normal: above 26 is High, below 20 is Low."
+_SUSPECTS = (
+    _suspect("boundary", f"Exactly 26 {_AT_LIMIT}", lambda v: "High" if v == 26 else _status(v)),
+    _suspect("boundary", f"Exactly 20 {_AT_LIMIT}", lambda v: "Low" if v == 20 else _status(v)),
+    _suspect(
+        "boundary",
+        f"Exactly 26 or 20 {_AT_LIMIT}",
+        lambda v: "High" if v >= 26 else "Low" if v <= 20 else "Normal",
+    ),
+    _suspect(
+        "wrong-state",
+        "High and Low are swapped: compare `<` and `>` in both conditions.",
+        lambda v: _SWAPPED[_status(v)],
+    ),
+    _suspect(
+        "wrong-state",
+        "A reading above 26 is not High: does an earlier condition catch it?",
+        lambda v: "Low" if v < 20 else "Normal",
+    ),
+    _suspect(
+        "wrong-state",
+        "A reading below 20 is not Low: does an earlier condition catch it?",
+        lambda v: "High" if v > 26 else "Normal",
+    ),
+)
+
+
+def _diagnose_monitor(seen: SystemRun) -> Diagnosis | None:
     if not seen.met:
         return Diagnosis(
             "no-subscription",
             f"{MONITOR} runs, and does not listen on /{TOPIC} for messages of {_FLOAT}.",
             "Compare the topic's name and the message type in create_subscription.",
         )
-    for value, text in seen.answers:
-        wrong = _status(value, text)
-        if wrong:
-            return wrong
-    return None
-
-
-def _status(value: float, text: str) -> Diagnosis | None:
-    wanted = "High" if value > 26.0 else "Low" if value < 20.0 else "Normal"
-    found = _words(text)
-    if found == [wanted]:
-        return None
-    if not text.strip():
-        said = f"{MONITOR} got a reading of {value:g} and printed nothing."
+    silent = next((value for value, text in seen.answers if not text.strip()), None)
+    if silent is not None:
+        said = f"{MONITOR} got a reading of {silent:g} and printed nothing."
         return Diagnosis("nothing-logged", said, "End the callback with self.get_logger().info.")
-    said = f"For a reading of {value:g}, {MONITOR} said {' and '.join(found) or 'no status'}."
-    if value in (26.0, 20.0):
-        hint = f"Exactly {value:g} is Normal: above 26 is High, below 20 is Low."
-        return Diagnosis("boundary", said, hint)
-    return Diagnosis("wrong-state", said, f"Which of your conditions is true for {value:g}?")
+    return _diagnose_statuses({value: _words(text) for value, text in seen.answers})
 
 
-def _words(text: str) -> list[str]:
-    return [word for word in _WORDS if re.search(rf"\b{word}\b", text, re.IGNORECASE)]
+def _diagnose_statuses(done: Track) -> Diagnosis | None:
+    """Return what is wrong with the statuses that a monitor gave to readings."""
+    parted = parting(done, {value: (_status(value),) for value in done})
+    if parted is None:
+        return None
+    said = " and ".join(parted.done) or "no status"
+    evidence = f"For a reading of {parted.at:g}, {MONITOR} said {said}."
+    hint = f"Which of your conditions is true for {parted.at:g}?"
+    unlike = Diagnosis("wrong-state", evidence, hint)
+    return named(evidence, fitting(tuple(done), done, _SUSPECTS), unlike)
 
 
 # The sensor.
 
 
-def _sensor(seen: SystemRun) -> Diagnosis | None:
+def _diagnose_sensor(seen: SystemRun) -> Diagnosis | None:
     values = [value for _, value in seen.heard]
     if len(values) < 2:
-        return _silent(seen)
+        return _diagnose_silence(seen)
     pauses = [later - sooner for (sooner, _), (later, _) in pairwise(seen.heard)]
     beat = median(pauses)
     if not _BEAT[0] <= beat <= _BEAT[1]:
@@ -159,10 +403,10 @@ def _sensor(seen: SystemRun) -> Diagnosis | None:
             f"A reading came every {beat:.2g} seconds.",
             "One a second is wanted: the first argument of create_timer is the time between two.",
         )
-    return _walk(values)
+    return _diagnose_walk(values)
 
 
-def _silent(seen: SystemRun) -> Diagnosis:
+def _diagnose_silence(seen: SystemRun) -> Diagnosis:
     others = sorted({end.name for end in seen.publishers} - {f"/{TOPIC}"})
     kinds = sorted({end.type_name for end in seen.publishers if end.name == f"/{TOPIC}"})
     if others and not kinds:
@@ -178,7 +422,7 @@ def _silent(seen: SystemRun) -> Diagnosis:
     return Diagnosis("no-publisher", said, "self.create_publisher makes one, in __init__.")
 
 
-def _walk(values: Sequence[float]) -> Diagnosis | None:
+def _diagnose_walk(values: Sequence[float]) -> Diagnosis | None:
     shown = ", ".join(f"{value:.2f}" for value in values)
     if min(values) < 10.2 - _ROUNDING or max(values) > 28.0 + _ROUNDING:
         hint = "It stays between two limits: max and min cut off what is beyond."
@@ -195,28 +439,27 @@ def _walk(values: Sequence[float]) -> Diagnosis | None:
 # What crossed, and the ends.
 
 
-def _crossing(seen: SystemRun) -> Diagnosis | None:
-    """What the monitor said to the sensor's readings, as far as it names numbers."""
-    lines = [line for line in seen.repeated.splitlines() if _words(line) and _value(line)]
+def _diagnose_crossing(seen: SystemRun) -> Diagnosis | None:
+    """Return what is wrong with what the monitor said to the sensor, where it names numbers."""
+    lines = [line for line in seen.repeated.splitlines() if _words(line) and _numbers(line)]
     pairs = [(_reading(line, seen), line) for line in lines]
     strange = next((line for value, line in pairs if value is None), None)
-    if strange:
-        return Diagnosis(
-            "wrong-values",
-            f"{MONITOR} said {strange.strip()!r}, and no such reading was published.",
-            "Does it log the number in the message, as it came?",
-        )
-    known = [(value, line) for value, line in pairs if value is not None]
-    return next((wrong for value, line in known if (wrong := _status(value, line))), None)
+    if strange is None:
+        return _diagnose_statuses({value: _words(line) for value, line in pairs})
+    return Diagnosis(
+        "wrong-values",
+        f"{MONITOR} said {strange.strip()!r}, and no such reading was published.",
+        "Does it log the number in the message, as it came?",
+    )
 
 
-def _value(line: str) -> list[str]:
-    return _NUMBER.findall(line.rpartition("]: ")[2])
+def _numbers(line: str) -> list[str]:
+    return re.findall(r"-?\d+(?:\.\d+)?", line.rpartition("]: ")[2])
 
 
 def _reading(line: str, seen: SystemRun) -> float | None:
-    """The reading that a line is about: one of its numbers, rounded as it is written."""
-    for text in _value(line):
+    """Return the reading that a line is about: one of its numbers, rounded as it is written."""
+    for text in _numbers(line):
         digits = len(text.partition(".")[2])
         for _, value in seen.heard:
             if abs(float(text) - value) <= 0.51 * 10.0**-digits:
@@ -224,25 +467,46 @@ def _reading(line: str, seen: SystemRun) -> float | None:
     return None
 
 
-def _endings(seen: SystemRun) -> Diagnosis | None:
-    runs = [run for run in (seen.sensor, seen.monitor) if run is not None]
-    return next((wrong for run in runs if (wrong := _ending(run))), None)
-
-
-def _ending(run: ProgramRun) -> Diagnosis | None:
-    if run.exit_code == 0 or ends_by_the_tutorial(run):
+def _diagnose_end(run: ProgramRun) -> Diagnosis | None:
+    if run.exit_code == 0 or _ends_by_the_tutorial(run):
         return None
     if run.exit_code is None:
         said = f"{run.program} did not end within five seconds of Ctrl+C."
-        return Diagnosis(
-            "ctrl-c-traceback", said, "main should end when rclpy.spin is interrupted."
-        )
+        hint = "main should end when rclpy.spin is interrupted."
+        return Diagnosis("ctrl-c-traceback", said, hint)
     return Diagnosis(
         "ctrl-c-traceback",
         f"After Ctrl+C, {run.program} ended with exit code {run.exit_code}: "
         f"{_last_line(run.output)}",
         "Catch KeyboardInterrupt around rclpy.spin, and tidy up after it.",
     )
+
+
+def _ends_by_the_tutorial(run: ProgramRun) -> bool:
+    """Return whether a program ends with the traceback that the tutorial's own `main` has."""
+    return run.exit_code is not None and any(sign in run.output for sign in _ENDINGS)
+
+
+def _remarks(seen: SystemRun) -> Iterator[str]:
+    """Generate the slips of the tutorial that are in a system which works."""
+    for run in _runs(seen):
+        if _ends_by_the_tutorial(run):
+            yield (
+                f"After Ctrl+C, {run.program} prints a traceback: ROS has shut down already. "
+                "rclpy.try_shutdown() instead of rclpy.shutdown(), and ExternalShutdownException "
+                "beside KeyboardInterrupt, end it quietly."
+            )
+    for source in seen.sources:
+        if "TemperaturSensor" in source.classes:
+            said = (
+                "The class TemperaturSensor is spelled TemperatureSensor elsewhere in the tutorial."
+            )
+            yield said
+        if source.module == SENSOR and 10.2 in source.numbers:
+            yield "The lower limit is 10.2, as the tutorial has it; 18.0 was probably meant."
+        tidies = {"destroy_node", "shutdown", "try_shutdown"} & set(source.ends)
+        if source.module == MONITOR and source.ends and not tidies:
+            yield f"main in {MONITOR} leaves its node and ROS as they are; the sensor tidies up."
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (

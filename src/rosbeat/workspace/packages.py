@@ -129,6 +129,8 @@ def _with_configured(setup: SetupScript, parser: configparser.ConfigParser) -> S
         return setup
     if not setup.packages and parser.has_option("options", "packages"):
         setup = replace(setup, packages=None)
+    if parser.has_section("options.data_files"):
+        setup = replace(setup, left_out=())
     section = "options.entry_points"
     if setup.groups or setup.incomplete or not parser.has_section(section):
         return setup

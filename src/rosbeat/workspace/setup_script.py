@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import ast
+import posixpath
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from pathlib import Path
 
+from rosbeat.records import OMIT_EMPTY
 from rosbeat.workspace.parsing import decoded, parse, pieces
 from rosbeat.workspace.seen_names import reached
 from rosbeat.workspace.seen_values import Seen, entries_of, items_of, keywords_of, text_of
@@ -72,6 +74,8 @@ class SetupScript:
         packages: Patterns of the Python packages that it installs; None if that cannot be seen.
         excluded: Patterns of those that it leaves out.
         about: Its version, description and license, as far as it says them as texts.
+        left_out: The marker and the manifest, if it certainly does not install them where every
+            ROS package has them.
     """
 
     package_name: str = ""
@@ -86,6 +90,7 @@ class SetupScript:
     packages: tuple[str, ...] | None = None
     excluded: tuple[str, ...] = ()
     about: tuple[tuple[str, str], ...] = ()
+    left_out: tuple[str, ...] = field(default=(), metadata=OMIT_EMPTY)
 
     def installs(self, package: str) -> bool:
         """Whether a Python package is installed, as far as can be seen.
@@ -155,6 +160,7 @@ def _script(tree: ast.Module, source: str) -> SetupScript:
         packages=packages,
         excluded=excluded,
         about=tuple((key, _text(given[key])) for key in _ABOUT if _text(given.get(key))),
+        left_out=() if everything is None else _left_out(given),
     )
 
 
@@ -261,6 +267,30 @@ def entry_point(text: str, line: int, parts: int = 1, file: str = "setup.py") ->
     module, _, function = target.partition(":")
     function = function.split("[")[0]
     return EntryPoint(text, line, executable.strip(), module.strip(), function.strip(), parts, file)
+
+
+def _left_out(given: Mapping[str, Seen]) -> tuple[str, ...]:
+    """Return the files of every ROS package that `data_files` leaves out; none if some is unseen.
+
+    Paths are compared as setuptools understands them: `./package.xml` is `package.xml`.
+    """
+    name = _text(given.get("name"))
+    wanted = {
+        f"resource/{name}": f"share/ament_index/resource_index/packages/{name}",
+        "package.xml": f"share/{name}/package.xml",
+    }
+    pairs = items_of(given["data_files"]) if "data_files" in given else []
+    if not name or pairs is None:
+        return ()
+    installed = set()
+    for pair in map(items_of, pairs):
+        if pair is None or len(pair) != 2:
+            return ()
+        folder, files = text_of(pair[0]), _texts(pair[1])
+        if folder is None or files is None:
+            return ()
+        installed |= {posixpath.normpath(f"{folder}/{posixpath.basename(one)}") for one in files}
+    return tuple(source for source, place in wanted.items() if place not in installed)
 
 
 def _packages(

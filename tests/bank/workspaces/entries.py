@@ -10,6 +10,12 @@ _SECOND = "'temperature_subscriber = sensor_simulator.temperature_subscriber:mai
 _PACKAGES = "packages=find_packages(exclude=['test']),"
 _DICT = _SETUP[_SETUP.index("    entry_points=") : _SETUP.rindex(")")]
 _NAMES = "('temperature_publisher', 'temperature_subscriber')"
+_MANIFEST = "('share/' + package_name, ['package.xml'])"
+_DATA = _SETUP[_SETUP.index("    data_files=") : _SETUP.index("    install_requires")]
+_DATA_CFG = (
+    "printf '[options.data_files]\\nshare/sensor_simulator =\\n  package.xml\\n'"
+    " >> src/sensor_simulator/setup.cfg"
+)
 _CFG = (
     "printf '[options.entry_points]\\nconsole_scripts =\\n"
     "  temperature_publisher = sensor_simulator.temperature_publisher:main\\n"
@@ -135,6 +141,122 @@ ANSWERS = (
         ),
     ),
     right("05a", "in setup.cfg", _with((_DICT, "")), also=_CFG),
+    right(
+        "05a",
+        "data files by name",
+        _with((_MANIFEST, "('share/sensor_simulator', ['package.xml'])")),
+    ),
+    right(
+        "05a",
+        "data files with an f",
+        _with((_MANIFEST, "(f'share/{package_name}', ['package.xml'])")),
+    ),
+    right(
+        "05a",
+        "data files with the library",
+        _with(
+            (_MANIFEST, "(os.path.join('share', package_name), ['package.xml'])"),
+            ("from setuptools", "import os\nfrom setuptools"),
+        ),
+    ),
+    right("05a", "more data files", _with((_MANIFEST, _MANIFEST.replace("]", ", 'LICENSE']")))),
+    right(
+        "05a",
+        "a slash at the end of a folder",
+        _with((_MANIFEST, _MANIFEST.replace("e,", "e + '/',"))),
+    ),
+    right(
+        "05a",
+        "data files in a variable",
+        _with(
+            (_DATA, "    data_files=files,\n"),
+            ("\nsetup(", f"\nfiles = {_DATA.strip()[11:-1]}\n\nsetup("),
+        ),
+    ),
+    right(
+        "05a",
+        "data files looked for",
+        _with(
+            (_MANIFEST, _MANIFEST.replace("['package.xml']", "glob('*.xml')")),
+            ("from setuptools", "from glob import glob\nfrom setuptools"),
+        ),
+    ),
+    right(
+        "05a",
+        "data files as lists",
+        _with((_MANIFEST, "['share/' + package_name, ('package.xml',)]")),
+    ),
+    right("05a", "data files in setup.cfg", _with((_DATA, "")), also=_DATA_CFG),
+    right(
+        "05a",
+        "an update",
+        _given("points", f"points = {{}}\npoints['console_scripts'] = [{_FIRST}, {_SECOND}]"),
+    ),
+    right(
+        "05a",
+        "two lists in one",
+        _given("{'console_scripts': [*one, *two]}", f"one = [{_FIRST}]\ntwo = [{_SECOND}]"),
+    ),
+    right(
+        "05a",
+        "joined by name",
+        _with(
+            (
+                _FIRST,
+                "'='.join(['temperature_publisher', package_name + '.temperature_publisher:main'])",
+            )
+        ),
+    ),
+    wrong(
+        "05a",
+        "no manifest in data_files",
+        "data-files-missing",
+        _with((f"        {_MANIFEST},\n", "")),
+    ),
+    wrong(
+        "05a",
+        "an empty list of data files",
+        "data-files-missing",
+        _with((_DATA, "    data_files=[],\n")),
+    ),
+    wrong("05a", "no data_files", "data-files-missing", _with((_DATA, ""))),
+    wrong(
+        "05a",
+        "no marker in data_files",
+        "data-files-missing",
+        _with(("['resource/' + package_name]", "[]")),
+    ),
+    wrong(
+        "05a",
+        "the manifest in another folder",
+        "data-files-missing",
+        _with((_MANIFEST, "('share', ['package.xml'])")),
+    ),
+    wrong(
+        "05a",
+        "the manifest misspelled",
+        "data-files-missing",
+        _with(("['package.xml']", "['packages.xml']")),
+    ),
+    wrong(
+        "05a",
+        "the subscriber's twice",
+        "other-function",
+        _with(
+            (
+                "sensor_simulator.temperature_publisher:main",
+                "sensor_simulator.temperature_subscriber:main",
+            )
+        ),
+    ),
+    wrong(
+        "05a",
+        "a dash in the name",
+        "executable-misspelled",
+        _with(("'temperature_publisher =", "'temperature-publisher =")),
+    ),
+    wrong("05a", "small console", "group-misspelled", _with(("console_scripts", "console_scrips"))),
+    wrong("05a", "only the publisher, twice", "entry-point-missing", _with((_SECOND, _FIRST))),
     untried("05a", "as it was made", _with((f"{_FIRST},", ""), (f"{_SECOND},", ""))),
     untried("05a", "no list at all", _with((_DICT, ""))),
     untried("05a", "blanks", _with((_FIRST, "'____'"), (_SECOND, "'____'"))),
@@ -196,7 +318,7 @@ ANSWERS = (
     wrong(
         "05a",
         "the same module twice",
-        "entry-point-target",
+        "other-function",
         _with(
             (
                 "sensor_simulator.temperature_subscriber:main",
@@ -207,7 +329,7 @@ ANSWERS = (
     wrong(
         "05a",
         "swapped",
-        "entry-point-target",
+        "other-function",
         _with(
             ("temperature_publisher =", "x ="),
             ("temperature_subscriber =", "temperature_publisher ="),

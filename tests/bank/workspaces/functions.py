@@ -57,6 +57,129 @@ ANSWERS = (
         "class Writer:\n    def write(self, e, p, m, f='main'):\n"
         "        return f'{e} = {p}.{m}:{f}'\nentry_point = Writer().write",
     ),
+    right("05b", "no blanks", _DEF + "return f'{executable}={package}.{module}:{function}'"),
+    right("05b", "aligned", _DEF + "return f'{executable:<30}= {package}.{module}:{function}'"),
+    right(
+        "05b",
+        "a template of the library",
+        "from string import Template\n" + _DEF + "return Template('$e = $p.$m:$f').substitute("
+        "e=executable, p=package, m=module, f=function)",
+    ),
+    right(
+        "05b",
+        "a named template",
+        _DEF + "return '{e} = {p}.{m}:{f}'.format_map("
+        "dict(e=executable, p=package, m=module, f=function))",
+    ),
+    right(
+        "05b",
+        "a dataclass",
+        "from dataclasses import dataclass\n@dataclass\nclass Entry:\n"
+        "    e: str\n    p: str\n    m: str\n    f: str = 'main'\n"
+        "    def __str__(self):\n        return f'{self.e} = {self.p}.{self.m}:{self.f}'\n"
+        "def entry_point(*parts):\n    return str(Entry(*parts))",
+    ),
+    right(
+        "05b",
+        "an object that is called",
+        "class Writer:\n    def __call__(self, e, p, m, f='main'):\n"
+        "        return ''.join((e, ' = ', p, '.', m, ':', f))\nentry_point = Writer()",
+    ),
+    right(
+        "05b",
+        "a part of a function",
+        "from functools import partial\ndef write(text, e, p, m, f='main'):\n"
+        "    return text % (e, p, m, f)\nentry_point = partial(write, '%s = %s.%s:%s')",
+    ),
+    right(
+        "05b",
+        "a default of its own",
+        "def entry_point(e, p, m, f=None):\n    return f'{e} = {p}.{m}:{f or \"main\"}'",
+    ),
+    right(
+        "05b",
+        "printed, too",
+        _DEF + "text = f'{executable} = {package}.{module}:{function}'\n"
+        "    print(text)\n    return text",
+    ),
+    right(
+        "05b",
+        "a text of one's own kind",
+        "class Text(str):\n    pass\n"
+        + _DEF
+        + "return Text(f'{executable} = {package}.{module}:{function}')",
+    ),
+    right(
+        "05b",
+        "numpy",
+        "import numpy\n"
+        + _DEF
+        + "return numpy.str_(f'{executable} = {package}.{module}:{function}')",
+    ),
+    _returns(
+        "small letters", "wrong-values", "f'{executable} = {package}.{module}:{function}'.lower()"
+    ),
+    _returns(
+        "one small part", "wrong-values", "f'{executable} = {package}.{module.lower()}:{function}'"
+    ),
+    _returns(
+        "capital letters", "wrong-values", "f'{executable} = {package}.{module}:{function}'.upper()"
+    ),
+    _returns(
+        "dashes for underscores",
+        "wrong-values",
+        "f'{executable} = {package}.{module}:{function}'.replace('_', '-')",
+    ),
+    _returns(
+        "a fixed package",
+        "swallowed-parameter",
+        "f'{executable} = sensor_simulator.{module}:{function}'",
+    ),
+    _returns(
+        "a fixed module", "swallowed-parameter", "f'{executable} = {package}.voice:{function}'"
+    ),
+    _returns("two fixed parts", "swallowed-parameter", "f'{executable} = rosie.voice:{function}'"),
+    _returns(
+        "package and module swapped",
+        "entry-point-target",
+        "f'{executable} = {module}.{package}:{function}'",
+    ),
+    _returns(
+        "the executable as the module",
+        "entry-point-target",
+        "f'{executable} = {package}.{executable}:{function}'",
+    ),
+    _returns(
+        "executable and package swapped",
+        "entry-point-form",
+        "f'{package} = {executable}.{module}:{function}'",
+    ),
+    _returns(
+        "a colon for the sign", "entry-point-form", "f'{executable}: {package}.{module}:{function}'"
+    ),
+    _returns(
+        "a blank for the dot",
+        "entry-point-target",
+        "f'{executable} = {package} {module}:{function}'",
+    ),
+    _returns(
+        "a slash for the colon",
+        "entry-point-target",
+        "f'{executable} = {package}.{module}/{function}'",
+    ),
+    _returns(
+        "a blank at the end", "stray-characters", "f'{executable} = {package}.{module}:{function} '"
+    ),
+    _returns("a tuple of one", "not-a-text", "f'{executable} = {package}.{module}:{function}',"),
+    _returns("bytes", "not-a-text", "f'{executable} = {package}.{module}:{function}'.encode()"),
+    _returns("a set", "not-a-text", "{f'{executable} = {package}.{module}:{function}'}"),
+    _returns("with ros2 run", "new-to-me", "f'ros2 run {package} {executable}'"),
+    wrong(
+        "05b",
+        "a text that is called",
+        "raised",
+        _DEF + "text = 'a'\n    return text(executable)",
+    ),
     untried("05b", "the blank", f"{_DEF}return ____\n"),
     _returns("a slash", "slash-in-module", "f'{executable} = {package}/{module}:{function}'"),
     _returns(

@@ -42,6 +42,46 @@ MANIFESTS = (
     right(
         "02a", "a person", _with((_MAINTAINER, '<maintainer email="a.b@c.org">A B</maintainer>'))
     ),
+    right("02a", "characters as they are", _described("<![CDATA[Below 20 & above 26.]]>")),
+    right("02a", "bold", _described("A <b>sensor</b> of a room.")),
+    right("02a", "another version", _with(("0.0.0", "12.3.4"))),
+    right("02a", "two maintainers", _with((_MAINTAINER, _MAINTAINER * 2))),
+    right("02a", "a comment", _with((_LICENSE, f"<!-- mine -->{_LICENSE}"))),
+    right(
+        "02a",
+        "more tags",
+        _with((_LICENSE, f"{_LICENSE}<url>https://example.com</url><author>me</author>")),
+    ),
+    right("02a", "Chinese", _described("模拟温度传感器")),
+    right("02a", "a licence with blanks around", _licensed(" MIT ")),
+    right("02a", "a licence file", _with(("<license>", '<license file="LICENSE">'))),
+    right("02a", "one word", _described("Sensor")),
+    wrong("02a", "todo with words", "manifest-open", _described("TODO: write this")),
+    wrong("02a", "no licence tag", "manifest-open", _with((_LICENSE, ""))),
+    wrong("02a", "dashes", "manifest-open", _licensed("---")),
+    wrong(
+        "02a",
+        "two dependencies in one tag",
+        "dependency-misspelled",
+        _with((_RCLPY, "<depend>rclpy std_msgs</depend>"), (_STD, "")),
+    ),
+    wrong(
+        "02a", "closed by another tag", "manifest-unreadable", _with(("</license>", "</licence>"))
+    ),
+    wrong("02a", "a capital name", "package-renamed", _with(("<name>sensor", "<name>Sensor"))),
+    wrong("02a", "cmake alone", "build-type", _with(("ament_python", "cmake"))),
+    wrong(
+        "02a",
+        "no export",
+        "build-type",
+        _with(("<export>\n    <build_type>ament_python</build_type>\n  </export>", "")),
+    ),
+    wrong(
+        "02a",
+        "an address without a dot",
+        "manifest-value",
+        _with(("you@example.com", "you@example")),
+    ),
     untried(
         "02a",
         "as it was made",
@@ -162,6 +202,28 @@ SECOND = (
         "mv resource/sensor_simulator resource/room_display\n"
         "sed -i 's/sensor_simulator/room_display/; s/std_msgs/sensor_msgs/' package.xml setup.*",
     ),
+    right("02b", "pushd", f"pushd src; {_CREATE}; popd"),
+    right("02b", "an equals sign", f"cd src\n{_CREATE.replace('type ', 'type=')}"),
+    right("02b", "made twice", f"cd src\n{_CREATE}\n{_CREATE}"),
+    right(
+        "02b",
+        "wrong first, removed, then right",
+        f"{_CREATE}\nrm -r room_display\ncd src\n{_CREATE}",
+    ),
+    right(
+        "02b",
+        "on two lines",
+        "cd src\n" + _CREATE.replace(" --dep", " \\\n --dep").replace("\\\n", ""),
+    ),
+    right("02b", "a full path", f'cd "$ROS2_WORKSPACE/src" && {_CREATE}'),
+    untried(
+        "02b",
+        "both in quotes, which ros2 refuses",
+        f"cd src\n{_CREATE.replace('rclpy sensor_msgs', chr(34) + 'rclpy sensor_msgs' + chr(34))}",
+    ),
+    wrong("02b", "in resources", "wrong-folder", f"cd resources\n{_CREATE}"),
+    wrong("02b", "in a folder of src", "wrong-folder", f"mkdir src/more\ncd src/more\n{_CREATE}"),
+    wrong("02b", "a folder of the name in the workspace", "no-manifest", "mkdir room_display"),
     untried("02b", "nothing made", "cd src"),
     untried(
         "02b",

@@ -1,119 +1,88 @@
-"""Page 01: right, differently right and wrong; each judge is a pure function of what was seen."""
+"""Page 01: what the bank of answers cannot show, as plain evidence; and the suspects of 01a."""
 
 import pytest
-from rosbeat.exercises.scenarios import TypedIn, Workspace
 
-from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.exercises.page_01 import EXERCISES
+from rosbeat.exercises.page_01 import _SUSPECTS, EXERCISES, FolderMaking
+from rosbeat.exercises.scenarios import CommandMeaning, TypedIn, Workspace
+from rosbeat.workspace.stages import FOLDERS
 
-FOLDERS = ("docs", "resources", "resources/images", "scripts", "src")
 folder_01a, way_01b = EXERCISES
+PLACE = "ROS2_and_RL_Tutorials"
 
 
-def judged_folders(*more):
-    return folder_01a.judged(Workspace(tuple(sorted((*FOLDERS, *more))), {}))
-
-
-def judged_way(folder, *typed):
-    place = "ROS2_and_RL_Tutorials/resources/images"
-    commands = tuple((place, command) for command in typed)
-    return way_01b.judged(TypedIn(folder, commands, 0, ""))
-
-
-@pytest.mark.parametrize("more", [(), ("resources/sounds",), ("src/other", "resources/sounds")])
-def test_the_folder_is_there_however_it_was_made(more):
-    assert judged_folders("resources/sounds/alarm", *more).status == PASSED
-
-
-def test_nothing_of_the_folder_is_nothing_tried():
-    assert judged_folders().status == NOT_ATTEMPTED
-
-
-@pytest.mark.parametrize(
-    ("made", "hint"),
-    [
-        ("resources/sounds", "outer/inner"),
-        ("sounds/alarm", "pwd"),
-        ("alarm", "begins where the terminal is"),
-        ("resources/Sounds/Alarm", "capital"),
-        ("src/resources/sounds/alarm", "pwd"),
-    ],
-)
-def test_a_folder_near_by_says_what_is_missing(made, hint):
-    outcome = judged_folders(made)
-    assert outcome.status == FAILED
-    assert made in outcome.evidence
-    assert hint in outcome.hint
+def made(*folders, **more):
+    there = tuple(sorted((*FOLDERS, "resources", *folders)))
+    return folder_01a.judged(FolderMaking(Workspace(there, {}), **more))
 
 
 def test_a_better_try_counts_more_than_what_is_left_of_an_old_one():
-    outcome = judged_folders("resourcessoundsalarm", "resources/sounds")
+    outcome = made("resourcessoundsalarm", "resources/sounds")
     assert outcome.mistake == "levels-miscounted"
     assert "There is resources/sounds," in outcome.evidence
     assert "need resourcessoundsalarm: `rmdir`" in outcome.hint
 
 
 @pytest.mark.parametrize(
-    ("made", "left"),
+    ("folder", "left"),
     [
         ("resources/Sounds/alarm", "Sounds in resources"),
         ("src/resources/sounds/alarm", "resources in src"),
-        ("resources/sounds/alarms", "alarms in resources/sounds"),
         ("ressources/sounds", "ressources"),
+        ("resources/sounds", ""),
     ],
 )
-def test_what_to_remove_is_only_what_is_not_of_the_page(made, left):
-    assert f"You do not need {left}:" in judged_folders(made).hint
+def test_what_to_remove_is_only_what_is_not_of_the_page(folder, left):
+    assert (f"You do not need {left}:" in made(folder).hint) == bool(left)
 
 
-def test_what_is_on_the_way_stays():
-    assert "rm" not in judged_folders("resources/sounds").hint.split()
-    assert "`rmdir`" not in judged_folders("resources/sounds").hint
+def test_nothing_typed_and_nothing_made_is_nothing_tried():
+    assert made().status == "not attempted"
 
 
-@pytest.mark.parametrize(
-    "typed", ["cd ../../src", "cd ../..//src", "cd ../../src/", "pushd ../../src"]
-)
-def test_the_way_is_relative(typed):
-    assert judged_way("src", typed).status == PASSED
+def test_a_try_that_nothing_explains_is_unknown_and_shown():
+    outcome = made(tried=((PLACE, "mkdir $HOME/sounds/alarm"),))
+    assert (outcome.status, outcome.mistake) == ("failed", "new-to-me")
+    assert "`mkdir $HOME/sounds/alarm`" in outcome.evidence
 
 
-@pytest.mark.parametrize(
-    "typed",
-    [
-        "cd ~/ROS2_and_RL_Tutorials/src",
-        "cd /home/you/ROS2_and_RL_Tutorials/src",
-        'cd "/a b/ROS2_and_RL_Tutorials/src"',
-        'cd "$ROS2_WORKSPACE/src"',
-    ],
-)
-def test_an_absolute_path_is_not_what_was_asked(typed):
-    outcome = judged_way("src", typed)
-    assert outcome.status == FAILED
-    assert "absolute" in outcome.evidence
+@pytest.mark.parametrize(("name", "known"), [("parents-missing", True), ("passed", False)])
+def test_evidence_cannot_invent_a_mistake(name, known):
+    meaning = CommandMeaning(name, "evidence", "hint")
+    outcome = made(tried=((PLACE, "mkdir a/alarm"),), meaning=meaning)
+    assert outcome.mistake == (name if known else "new-to-me")
 
 
-def test_who_has_not_moved_has_not_tried():
-    assert judged_way("resources/images").status == NOT_ATTEMPTED
-    assert judged_way("resources/images", "pwd").status == NOT_ATTEMPTED
+@pytest.mark.parametrize("suspect", _SUSPECTS, ids=lambda one: "+".join(one.model(None)))
+def test_each_suspect_is_named_by_what_it_makes(suspect):
+    paths = suspect.model(None)
+    outcome = made(*paths)
+    assert (outcome.status, outcome.mistake) == ("failed", suspect.mistake)
+    assert outcome.hint.startswith(suspect.hint)
+    assert not [one for one in _SUSPECTS if one is not suspect and one.model(None) == paths]
+
+
+def way(folder, *typed):
+    commands = tuple((f"{PLACE}/resources/images", command) for command in typed)
+    return way_01b.judged(TypedIn(folder, commands, 0, ""))
 
 
 @pytest.mark.parametrize("folder", [".", "docs", "resources/images"])
 def test_nothing_typed_is_nothing_tried(folder):
-    outcome = way_01b.judged(TypedIn(folder, (), None, ""))
-    assert (outcome.status, outcome.mistake) == (NOT_ATTEMPTED, "")
+    assert way_01b.judged(TypedIn(folder, (), None, "")).status == "not attempted"
 
 
 @pytest.mark.parametrize(
-    ("folder", "typed"),
+    ("folder", "typed", "status"),
     [
-        ("resources/images", "cd src"),
-        ("resources", "cd .."),
-        ("/", "cd /"),
-        ("docs", "cd ../../docs"),
+        ("src", "cd ../..//src", "passed"),
+        ("src", 'cd "/a b/ROS2_and_RL_Tutorials/src"', "failed"),
+        ("resources/images", "cd 'src", "failed"),
+        ("/", "cd /", "failed"),
+        ("docs", "cd ../../docs", "failed"),
+        ("resources/images", "pwd", "not attempted"),
     ],
 )
-def test_another_place_is_named(folder, typed):
-    outcome = judged_way(folder, typed)
-    assert outcome.status == FAILED
+def test_a_way_is_judged_by_where_it_leads_and_how(folder, typed, status):
+    outcome = way(folder, typed)
+    assert outcome.status == status
     assert folder in outcome.evidence

@@ -1,128 +1,87 @@
-"""Page 02: manifests and second packages, right, differently right and wrong."""
+"""Page 02: what the bank of answers cannot show of manifests and packages."""
+
+import re
 
 import pytest
+from catkin_pkg.package import InvalidPackage, parse_package_string
 
-from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.page_02 import EXERCISES
+from rosbeat.exercises.scenarios import Workspace
+from rosbeat.workspace.packages import read_package
+from rosbeat.workspace.stages import finished
 
 manifest_02a, second_02b = EXERCISES
-XML = """<?xml version="1.0"?>
-<package format="3">
-  <name>{name}</name>
-  <version>0.0.0</version>
-  <description>{description}</description>
-  <maintainer email="a@example.com">a</maintainer>
-  <license>{license}</license>
-  {depends}
-  <export><build_type>{kind}</build_type></export>
-</package>
-"""
-GOOD = {
-    "name": "sensor_simulator",
-    "description": "A sensor.",
-    "license": "MIT",
-    "depends": "<depend>rclpy</depend><depend>std_msgs</depend>",
-    "kind": "ament_python",
-}
-SECOND = {
-    **GOOD,
-    "name": "room_display",
-    "depends": "<depend>rclpy</depend><depend>sensor_msgs</depend>",
-}
+XML = finished("package.xml")
 
 
 @pytest.fixture
-def judge(tmp_path):
-    """Write manifests into a workspace, look at it, and judge."""
+def judged(tmp_path):
+    """Write a manifest into a workspace, and judge it."""
 
-    def run(exercise, **texts):
-        (tmp_path / "src").mkdir(exist_ok=True)
-        for place, text in texts.items():
-            folder = tmp_path.joinpath(*place.split("__"))
-            folder.mkdir(parents=True, exist_ok=True)
-            (folder / "package.xml").write_text(text)
-            name = folder.name
-            for file in ("setup.py", f"resource/{name}", f"{name}/__init__.py"):
-                (folder / file).parent.mkdir(exist_ok=True)
-                (folder / file).write_text("from setuptools import setup\nsetup()\n")
-        return exercise.judged(exercise.scenario(tmp_path))
+    def judge(text, place="sensor_simulator"):
+        folder = tmp_path / "src" / place
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "package.xml").write_text(text)
+        return manifest_02a.judged(manifest_02a.scenario(tmp_path))
 
-    return run
+    return judge
 
 
-def xml(good, **changes):
-    return XML.format(**{**good, **changes})
+def test_no_package_is_nothing_tried(tmp_path):
+    for exercise in EXERCISES:
+        assert exercise.judged(exercise.scenario(tmp_path)).status == "not attempted"
+
+
+def test_a_backup_of_the_package_is_not_the_package(judged):
+    judged(re.sub("<description>.*<", "<description>TODO<", XML), "sensor_simulator_backup")
+    assert judged(XML).status == "passed"
 
 
 @pytest.mark.parametrize(
-    "changes",
+    ("text", "said"),
     [
-        {},
-        {"license": "Apache-2.0"},
-        {"description": "Mesure la température &amp; la publie."},
-        {"depends": "<exec_depend>rclpy</exec_depend><depend>std_msgs</depend>"},
-        {"depends": "<depend>std_msgs</depend><depend>rclpy</depend><depend>a</depend>"},
+        ("MIT OR Apache-2.0", ""),
+        ("apache-2.0", ""),
+        ("mine", "licence mine. spdx"),
+        ("Apahce-2.0", "Did you mean Apache-2.0?"),
+        ("Apache 2.0", "Did you mean Apache-2.0?"),
+        ("MIT</license><license>Apache-2", "licence Apache-2. Did you mean Apache-2.0?"),
     ],
 )
-def test_a_manifest_that_is_filled_in(judge, changes):
-    assert judge(manifest_02a, src__sensor_simulator=xml(GOOD, **changes)).status == PASSED
+def test_a_licence_that_programs_do_not_know_gets_a_remark(judged, text, said):
+    outcome = judged(XML.replace("Apache-2.0", text))
+    assert outcome.status == "passed"
+    assert len(outcome.remarks) == bool(said)
+    assert said in "".join(outcome.remarks)
 
 
-def test_a_backup_of_the_package_is_not_the_package(judge):
-    untouched = xml(GOOD, description="TODO", license="TODO")
-    packages = {"src__sensor_simulator": xml(GOOD), "src__sensor_simulator_backup": untouched}
-    assert judge(manifest_02a, **packages).status == PASSED
-
-
-@pytest.mark.parametrize("todo", ["TODO: Package description", "____", ""])
-def test_both_open_is_nothing_tried(judge, todo):
-    text = xml(GOOD, description=todo, license="TODO: License declaration")
-    assert judge(manifest_02a, src__sensor_simulator=text).status == NOT_ATTEMPTED
-
-
-def test_no_package_is_nothing_tried(judge):
-    assert judge(manifest_02a).status == NOT_ATTEMPTED
-    assert judge(second_02b).status == NOT_ATTEMPTED
+@pytest.mark.parametrize(("text", "hint"), [(f"\n{XML}", "very first line"), (XML[:-9], "</tag>")])
+def test_xml_that_cannot_be_read_has_two_hints(judged, text, hint):
+    assert hint in judged(text).hint
 
 
 @pytest.mark.parametrize(
-    ("text", "evidence"),
+    "text",
     [
-        (xml(GOOD, license="TODO: License declaration"), "licence"),
-        (xml(GOOD, description="____"), "description"),
-        (xml(GOOD, name="sensor"), "sensor"),
-        (xml(GOOD, depends="<depend>rclpy</depend>"), "std_msgs"),
-        (xml(GOOD, kind=""), "build type"),
-        (xml(GOOD, description="a < b"), "cannot be read"),
-        (xml(GOOD).replace("</license>", ""), "cannot be read"),
+        XML,
+        *(re.sub('format=".*?"', f'format="{one}"', XML) for one in ("2", "4", "9", "x")),
+        *(XML.replace("0.0.0", one) for one in ("1.2.3", "10.0.1", "1.0", "abc", "", "1.0.0.0")),
+        *(XML.replace("you@example.com", one) for one in ("a.b@c.org", "you", "a@b", "a@b.c", "")),
     ],
 )
-def test_a_wrong_manifest_says_what_is_wrong(judge, text, evidence):
-    outcome = judge(manifest_02a, src__sensor_simulator=text)
-    assert outcome.status == FAILED
-    assert evidence in outcome.evidence
-    assert outcome.hint
+def test_colcon_s_reader_agrees(judged, text):
+    try:
+        parse_package_string(text)
+        accepted = True
+    except (InvalidPackage, AssertionError, ValueError):
+        accepted = False
+    outcome = judged(text)
+    assert (outcome.status == "passed") == accepted
+    assert accepted or outcome.mistake == "manifest-value"
 
 
-@pytest.mark.parametrize(
-    "changes", [{}, {"description": "TODO"}, {"depends": SECOND["depends"] + "<depend>a</depend>"}]
-)
-def test_a_second_package(judge, changes):
-    assert judge(second_02b, src__room_display=xml(SECOND, **changes)).status == PASSED
-
-
-@pytest.mark.parametrize(
-    ("place", "changes", "evidence"),
-    [
-        ("room_display", {}, "the workspace itself"),
-        ("docs__room_display", {}, "docs"),
-        ("src__room_display", {"kind": "ament_cmake"}, "ament_cmake"),
-        ("src__room_display", {"depends": ""}, "rclpy and sensor_msgs"),
-        ("src__room_display", {"depends": "<depend>rclpy</depend>"}, "sensor_msgs"),
-    ],
-)
-def test_a_wrong_second_package_says_what_is_wrong(judge, place, changes, evidence):
-    outcome = judge(second_02b, **{place: xml(SECOND, **changes)})
-    assert outcome.status == FAILED
-    assert evidence in outcome.evidence
-    assert outcome.hint
+def test_a_package_by_its_folder_alone(tmp_path):
+    (tmp_path / "room_display").mkdir()
+    package = read_package(tmp_path / "room_display", tmp_path)
+    seen = Workspace((), {"room_display": package})
+    assert second_02b.judged(seen).status == "failed"

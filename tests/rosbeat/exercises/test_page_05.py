@@ -1,4 +1,4 @@
-"""Page 05: entry points in a setup.py that nobody runs, and functions that write them."""
+"""Page 05: what the bank of answers cannot show of setup.py and of calls; and the suspects."""
 
 import re
 from pathlib import Path
@@ -6,147 +6,119 @@ from pathlib import Path
 import pytest
 
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.exercises import entries as entries_module
-from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.exercises.page_05 import EXERCISES
+from rosbeat.exercises import page_05, workspace_model
+from rosbeat.exercises.model import agree
+from rosbeat.exercises.page_05 import ARGUMENTS, EXERCISES
+from rosbeat.exercises.scenarios import Report
 from rosbeat.workspace import targets
 from rosbeat.workspace.meanings.flaws import MISTAKE_OF
+from rosbeat.workspace.stages import finished
 
 setup_05a, function_05b = EXERCISES
-PUBLISHER = "'temperature_publisher = sensor_simulator.temperature_publisher:main',"
-SUBSCRIBER = "'temperature_subscriber = sensor_simulator.temperature_subscriber:main',"
-SETUP = """from setuptools import setup
-package_name = 'sensor_simulator'
-setup(name=package_name, packages=[package_name], entry_points={{'console_scripts': [
-{}
-]}})
-"""
+PROGRAMS = ("temperature_publisher", "temperature_subscriber")
+BOTH = {one: (f"p.{one}:main",) for one in PROGRAMS}
 
 
 @pytest.fixture
-def judge(tmp_path):
+def judged(tmp_path):
+    """Write a setup.py into a workspace with both nodes, and judge it."""
     package = tmp_path / "src" / "sensor_simulator"
-    (package / "sensor_simulator").mkdir(parents=True)
-    (package / "package.xml").write_text("<package><name>sensor_simulator</name></package>")
-    for name in ("__init__", "temperature_publisher", "temperature_subscriber"):
-        (package / "sensor_simulator" / f"{name}.py").write_text("def main():\n    pass\n")
-
+    code = package / "sensor_simulator"
+    code.mkdir(parents=True)
+    (package / "package.xml").write_text(finished("package.xml"))
+    for name in ("__init__", *PROGRAMS):
+        (code / f"{name}.py").write_text("def main():\n    pass\n")
     (package / "setup.cfg").write_text("[install]\ninstall_scripts=$base/lib/sensor_simulator\n")
 
-    def run(*entries):
-        (package / "setup.py").write_text(SETUP.format("\n".join(entries)))
+    def judge(*edits):
+        text = finished("setup.py")
+        for old, new in edits:
+            assert old in text
+            text = text.replace(old, new)
+        (package / "setup.py").write_bytes(text.encode())
         return setup_05a.judged(setup_05a.scenario(tmp_path))
 
-    return run
+    return judge
+
+
+def test_what_differs_from_the_manifest_is_a_remark(judged):
+    assert judged().remarks == ()
+    (said,) = judged(("0.0.0", "1.0.0"), ("Apache-2.0", "MIT")).remarks
+    assert "version, license" in said
 
 
 @pytest.mark.parametrize(
-    "entries",
+    ("old", "new", "evidence"),
     [
-        (PUBLISHER, SUBSCRIBER),
-        (SUBSCRIBER, PUBLISHER[:-1]),
-        (PUBLISHER, SUBSCRIBER, "'more = sensor_simulator.temperature_publisher:main',"),
-        (PUBLISHER.replace(" = ", "="), SUBSCRIBER.replace("'", '"')),
-        ("package_name.join(['', '']) or", PUBLISHER, SUBSCRIBER)[1:],
-        ("f'temperature_publisher = {package_name}.temperature_publisher:main',", SUBSCRIBER),
+        ("publisher:main',", "publisher:main'", "comma is missing"),
+        ("publisher:main", "publisher.py:main", "names a file"),
+        ("publisher:main", "publisher", "no function in it"),
+        ("publisher:main", "publsher:main", "there is none of that name"),
+        ("publisher =", "publisher ==", "more than one `=`"),
+        ("subscriber:main", "publisher:main", "temperature_subscriber would call"),
+        ("['package.xml']", "[]", "leaves out package.xml"),
+        ("'temperature_subscriber = ", "*more(), '", "has no `=`"),
+        ("\n", "\n\0", "cannot be read"),
     ],
 )
-def test_both_programs_are_there(judge, entries):
-    assert judge(*entries).status == PASSED
-
-
-def test_an_empty_list_is_nothing_tried(judge):
-    assert judge().status == NOT_ATTEMPTED
-    assert judge("'____',", "'____',").status == NOT_ATTEMPTED
-
-
-@pytest.mark.parametrize(
-    ("entries", "evidence"),
-    [
-        ((PUBLISHER,), "no temperature_subscriber"),
-        ((PUBLISHER[:-1], SUBSCRIBER), "two entries have become one"),
-        ((PUBLISHER.replace("publisher:main", "publisher.py:main"), SUBSCRIBER), "with .py"),
-        ((PUBLISHER.replace("simulator.", "simulator/"), SUBSCRIBER), "slash"),
-        ((PUBLISHER.replace(":main", ":man"), SUBSCRIBER), "function"),
-        ((PUBLISHER.replace(":main", ""), SUBSCRIBER), "names no function"),
-        ((PUBLISHER.replace("publisher:", "publsher:"), SUBSCRIBER), "module"),
-        ((PUBLISHER, SUBSCRIBER.replace("subscriber:", "publisher:")), "would call"),
-        (("'____',", SUBSCRIBER), "equals sign"),
-        ((PUBLISHER.replace("=", "=="), SUBSCRIBER), "two equals signs"),
-        (("*more(),", PUBLISHER), "no temperature_subscriber that can be read"),
-        (("'{} = {}'.format('a', b()),",), "that can be read"),
-        ((PUBLISHER.replace("temperature_publisher =", "publisher ="), SUBSCRIBER), "publisher"),
-        ((PUBLISHER.replace("'temp", "temp"), SUBSCRIBER), "cannot be read"),
-    ],
-)
-def test_a_wrong_list_says_what_is_wrong(judge, entries, evidence):
-    outcome = judge(*entries)
-    assert outcome.status == FAILED
+def test_a_wrong_script_says_what_is_wrong(judged, old, new, evidence):
+    outcome = judged((old, new))
+    assert outcome.status == "failed"
     assert evidence in outcome.evidence
     assert outcome.hint
 
 
 def test_every_flaw_of_an_entry_point_has_words():
-    source = Path(targets.__file__).read_text()
-    kinds = set(re.findall(r'Flaw\(\s*"([a-z-]+)"', source))
+    kinds = set(re.findall(r'Flaw\(\s*"([a-z-]+)"', Path(targets.__file__).read_text()))
     assert len(kinds) >= 10
-    assert kinds == set(entries_module.FLAWS) == set(MISTAKE_OF)
+    assert kinds == set(workspace_model.FLAW_HINTS) == set(MISTAKE_OF)
     assert set(MISTAKE_OF.values()) <= set(MISTAKES)
 
 
-def by_format(executable, package, module, function="main"):
-    return f"{executable} = {package}.{module}:{function}"
+def test_each_suspect_of_05a_calls_other_functions():
+    tracks = [one.model(BOTH) for one in workspace_model._SUSPECTS]
+    assert len({str(track) for track in (*tracks, BOTH)}) == len(tracks) + 1
 
 
-def by_adding(executable, package, module, function="main"):
-    return executable + "=" + package + "." + module + ":" + function
+def test_each_suspect_of_05b_is_told_from_the_right_one_and_from_other_mistakes():
+    right = page_05._entry_points(page_05._RIGHT)
+    by_text = {}
+    for suspect in page_05._SUSPECTS:
+        track = suspect.model(None)
+        assert not agree(track, right, page_05._same_entry), suspect
+        texts = tuple(page_05._without_blanks(text) for (text,) in track.values())
+        by_text.setdefault(texts, set()).add(suspect.mistake)
+    assert [mistakes for mistakes in by_text.values() if len(mistakes) > 1] == []
 
 
-class AsAMethod:
-    def entry_point(self, executable, package, module, function="main"):
-        return f"{executable}  =  {package}.{module}:{function}"
+def endless(*_):
+    while True:
+        pass
 
 
-RIGHT = [
-    lambda e, p, m, f="main": f"{e} = {p}.{m}:{f}",
-    by_format,
-    by_adding,
-    AsAMethod().entry_point,
-    lambda e, *parts: f"{e} = {'.'.join(parts[:2])}:{(*parts, 'main')[2]}",
-]
-WRONG = {
-    "always main": lambda e, p, m, f="main": f"{e} = {p}.{m}:main",
-    "a fixed text": lambda e, p, m, f="main": "talk = rosie.voice:main",
-    "printed": lambda e, p, m, f="main": print(f"{e} = {p}.{m}:{f}"),
-    "a slash": lambda e, p, m, f="main": f"{e} = {p}/{m}:{f}",
-    "a dot": lambda e, p, m, f="main": f"{e} = {p}.{m}.{f}",
-    "the wrong way round": lambda e, p, m, f="main": f"{p}.{m}:{f} = {e}",
-    "brackets": lambda e, p, m, f="main": f"{e} = {p}.{m}:{f}()",
-    "too few arguments": lambda e: e,
-    "two equals signs": lambda e, p, m, f="main": f"{e} == {p}.{m}:{f}",
-    "no f": lambda e, p, m, f="main": "{e} = {p}.{m}:{f}",
-    "quoted": lambda e, p, m, f="main": f"'{e} = {p}.{m}:{f}'",
-    "a tuple": lambda e, p, m, f="main": (e, p, m, f),
-    "a comma": lambda e, p, m, f="main": f"{e} = {p}.{m}:{f},",
-    "raises": lambda e, p, m, f="main": 1 / 0,
-    "no function": "talk = rosie.voice:main",
-}
+class Shy:
+    def __call__(self, *_):
+        raise ValueError("no")
 
 
-@pytest.mark.parametrize("answer", RIGHT)
-def test_a_function_that_writes_entry_points(answer):
-    assert function_05b.judged(function_05b.scenario(answer)).status == PASSED
-
-
-@pytest.mark.parametrize("answer", WRONG.values(), ids=WRONG)
-def test_a_wrong_function_says_what_is_wrong(answer):
+@pytest.mark.parametrize(
+    ("answer", "mistake"),
+    [
+        *((one, "no-function") for one in (None, 3, "a = b.c:d", [], object())),
+        (endless, "does-not-return"),
+        (Shy(), "raised"),
+        (lambda e, p, m: e, "parameters-changed"),
+        (lambda *_: object(), "not-a-text"),
+        (lambda e, p, m, f="main": f"'{e} -> {p}/{m}.{f}", "new-to-me"),
+        (lambda e, p, m, f="main": f"{e} = {p}.{m}:{f}}}", "new-to-me"),
+    ],
+)
+def test_what_is_no_function_or_gives_no_text(answer, mistake):
     outcome = function_05b.judged(function_05b.scenario(answer))
-    assert outcome.status == FAILED
-    assert outcome.hint
+    assert (outcome.status, outcome.mistake) == ("failed", mistake)
 
 
-def test_a_blank_is_nothing_tried():
-    def entry_point(executable, package, module, function="main"):
-        return ____  # noqa: F821
-
-    assert function_05b.judged(function_05b.scenario(entry_point)).status == NOT_ATTEMPTED
+def test_evidence_of_fewer_calls_than_were_made_is_refused():
+    assert len(ARGUMENTS) > 1
+    with pytest.raises(ValueError, match="zip"):
+        function_05b.judged(Report('["talk = rosie.voice:main"]', "", "list"))

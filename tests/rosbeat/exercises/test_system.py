@@ -6,12 +6,13 @@ from pathlib import Path
 
 import listings  # the folder is put on the path by conftest.py
 import pytest
-from rosbeat.exercises.check import EXERCISES
-from rosbeat.exercises.evidence import from_json, to_json
-from rosbeat.exercises.scenarios import CommandMeaning
 
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.exercises.system_run import MONITOR, SENSOR, run_system
+from rosbeat.exercises.check import EXERCISES
+from rosbeat.exercises.evidence import from_json, to_json
+from rosbeat.exercises.model import agree
+from rosbeat.exercises.scenarios import CommandMeaning
+from rosbeat.exercises.system import _SUSPECTS, MONITOR, SENSOR, TOLD, _status, run_system
 
 pytestmark = pytest.mark.ros
 
@@ -68,6 +69,19 @@ def told(seen, value, text):
     return tuple((one, text if one == value else said) for one, said in seen.answers)
 
 
+def says(status):
+    return tuple((value, f"{value:.2f}C - Status:{status(value)}\n") for value in TOLD)
+
+
+@pytest.mark.parametrize("suspect", _SUSPECTS, ids=lambda one: one.hint)
+def test_each_suspect_is_named_by_what_the_monitor_is_told(seen, suspect):
+    track = suspect.model(TOLD)
+    assert not agree(track, {value: (_status(value),) for value in TOLD})
+    assert not [one for one in _SUSPECTS if one is not suspect and agree(one.model(TOLD), track)]
+    outcome = SYSTEM.judged(replace(seen, answers=says(lambda value: track[value][0])))
+    assert (outcome.mistake, outcome.hint) == (suspect.mistake, suspect.hint)
+
+
 def beats(seen, seconds):
     return tuple((n * seconds, value) for n, (_, value) in enumerate(seen.heard))
 
@@ -98,10 +112,10 @@ WRONG = {
     "a limit below": ("boundary", lambda s: {"answers": told(s, 20.0, LINE.format("20.0", "Low"))}),
     "upside down": ("wrong-state", lambda s: {"answers": told(s, 35.25, LINE.format(1, "Low"))}),
     "two states": ("wrong-state", lambda s: {"answers": told(s, 22.75, "High, low or Normal\n")}),
-    "mute": ("nothing-logged", lambda s: {"answers": told(s, 26.0, "")}),
-    "deaf": ("no-subscription", lambda s: {"met": False, "answers": ()}),
-    "hasty": ("wrong-rate", lambda s: {"heard": beats(s, 0.5)}),
-    "slow": ("wrong-rate", lambda s: {"heard": beats(s, 2.0)}),
+    "nothing logged": ("nothing-logged", lambda s: {"answers": told(s, 26.0, "")}),
+    "no subscription": ("no-subscription", lambda s: {"met": False, "answers": ()}),
+    "twice a second": ("wrong-rate", lambda s: {"heard": beats(s, 0.5)}),
+    "every two seconds": ("wrong-rate", lambda s: {"heard": beats(s, 2.0)}),
     "jumping": ("step-too-wide", lambda _: {"heard": numbers(22.0, 24.0, 22.0)}),
     "starting elsewhere": ("step-too-wide", lambda _: {"heard": numbers(25.0, 25.1, 25.2)}),
     "hot": ("no-clamp", lambda _: {"heard": numbers(28.0, 28.3, 28.4)}),

@@ -1,0 +1,190 @@
+"""Judge what lies in a workspace: names that are nearly right, and the programs of a package."""
+
+from __future__ import annotations
+
+from difflib import SequenceMatcher
+from functools import partial
+
+from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
+from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
+from rosbeat.exercises.scenarios import CommandMeaning
+from rosbeat.workspace.meanings.flaws import diagnose_flaw
+from rosbeat.workspace.packages import Package
+from rosbeat.workspace.setup_script import NO_CALL
+
+#: How much alike two names have to be, from 0 to 1, to be taken for one with a letter wrong.
+_ALIKE = 0.75
+
+
+def alike(one: str, other: str) -> bool:
+    """Return whether two names differ only in a letter or two, in capitals, or in their order."""
+    one, other = one.lower(), other.lower()
+    turned = sorted(one) == sorted(other)
+    return turned or SequenceMatcher(None, one, other).ratio() >= _ALIKE
+
+
+def diagnosis_of(meaning: CommandMeaning | None) -> Diagnosis | None:
+    """Return what was recognised on the spot as a diagnosis.
+
+    Evidence comes from where a learner's code has run, so a mistake with a name that the catalogue
+    does not have is an unknown one.
+    """
+    if meaning is None:
+        return None
+    mistake = meaning.mistake if meaning.mistake in MISTAKES else UNKNOWN
+    return Diagnosis(mistake, meaning.evidence, meaning.hint)
+
+
+# A build script. It is read and never run, so what is wrong with it is told by its text.
+
+_ANATOMY = "An entry point is 'executable = package.module:function'."
+#: What to do about a flaw of an entry point, by its kind, without giving the answer away.
+FLAW_HINTS = {
+    "missing-comma": "A comma is missing after the first one: two entries have become one.",
+    "no-equals": _ANATOMY,
+    "two-equals": "One equals sign is enough: it is no comparison.",
+    "bad-name": _ANATOMY,
+    "slash": "Modules are written with dots: package.module.",
+    "suffix": "Leave out .py: a module is named without it.",
+    "no-function-part": "After the module comes a colon and the name of the function.",
+    "no-module": "The module is package.file: the folder with __init__.py, a dot, the file's name.",
+    "syntax-error": "Mend the file, on page 03 or 04, and run its cell again.",
+    "no-function": "Look for `def` in the file. The name stands without brackets here.",
+}
+
+
+def diagnose_script(package: Package) -> Diagnosis | None:
+    """Return what keeps a build script from being one of its package.
+
+    Args:
+        package: The package.
+    """
+    setup = package.setup
+    if setup.problem == NO_CALL:
+        return Diagnosis(
+            "no-setup-call",
+            f"setup.py cannot be used: {setup.problem}.",
+            "setup(...) has to be called when the file is run, at its left margin.",
+        )
+    if setup.problem and not setup.line and "No such file" in setup.problem:
+        hint = "Run the cell above again: it writes the file."
+        return Diagnosis("marker-missing", "setup.py is gone.", hint)
+    if setup.problem:
+        where = f", line {setup.line}" if setup.line else ""
+        return Diagnosis(
+            "syntax-error",
+            f"setup.py cannot be read: {setup.problem}{where}.",
+            "Each entry is a text between quotes, with a comma after it, inside the square "
+            "brackets.",
+        )
+    if setup.misspelled_group:
+        return Diagnosis(
+            "group-misspelled",
+            f"setup.py puts its entries under {setup.misspelled_group}, and no tool looks for "
+            "them there.",
+            "Compare that word with the page, letter by letter.",
+        )
+    if setup.package_name in ("", package.name):
+        return None
+    # Before the entries: those that are made of the name are wrong only because of it.
+    return Diagnosis(
+        "names-differ",
+        f"setup.py calls the package {setup.package_name}, and package.xml calls it "
+        f"{package.name}.",
+        "A package has one name, the same in both files; setup.py makes names of files of it, too. "
+        "Compare `package_name`, or what stands behind `name=`, with <name> in package.xml.",
+    )
+
+
+def _with_functions_of(files: tuple[int, int], right: Track) -> Track:
+    """Return what each of two programs calls if it gets the function of the file at that place."""
+    programs = sorted(right)
+    return {program: right[programs[at]] for program, at in zip(programs, files, strict=True)}
+
+
+_SWAPPED = (
+    "The functions of the two files are swapped: an executable calls the function in the file of "
+    "its own name."
+)
+_ONE_FILE = "Both entries call the function of one file: each executable has a file of its own."
+_SUSPECTS = tuple(
+    Suspect("other-function", hint, partial(_with_functions_of, files))
+    for hint, files in ((_SWAPPED, (1, 0)), (_ONE_FILE, (0, 0)), (_ONE_FILE, (1, 1)))
+)
+
+
+def diagnose_entries(package: Package, programs: tuple[str, str]) -> Diagnosis | None:
+    """Return what is wrong with the entry points of a package.
+
+    Args:
+        package: The package, whose build script can be read.
+        programs: The executables that are wanted, each like its module in the package, with
+            `main` in it.
+    """
+    if package.flaws:
+        found = diagnose_flaw(package.flaws[0])
+        return Diagnosis(found.mistake, found.evidence, FLAW_HINTS[package.flaws[0].kind])
+    targets = {one.executable: (f"{one.module}:{one.function}",)
+             for one in package.setup.entry_points}  # fmt: skip
+    right = {program: (f"{package.name}.{program}:main",) for program in programs}
+    done = {program: targets[program] for program in programs if program in targets}
+    parted = parting(done, right)
+    if parted is None:
+        return _diagnose_installation(package)
+    if not parted.done:
+        return _diagnose_missing(package, parted.at, parted.right in targets.values())
+    evidence = f"{parted.at} would call {parted.done[0]}."
+    other = "It should call main in the file of the same name."
+    fit = fitting(right, done, _SUSPECTS)
+    return named(evidence, fit, Diagnosis("entry-point-target", evidence, other))
+
+
+def _diagnose_missing(package: Package, program: str, is_renamed: bool) -> Diagnosis:
+    if package.setup.incomplete:
+        return Diagnosis(
+            "entry-points-hidden",
+            f"There is no {program} that can be read here.",
+            "Some entries are calculated, and this check reads setup.py without running it. Write "
+            "both as plain texts.",
+        )
+    names = ", ".join(one.executable for one in package.setup.entry_points)
+    return Diagnosis(
+        "executable-misspelled" if is_renamed else "entry-point-missing",
+        f"There is no {program}. The executables are: {names}.",
+        "The executable is the name before the equals sign, and the exercise says what it is "
+        "called. It is not the name of the node.",
+    )
+
+
+def _diagnose_installation(package: Package) -> Diagnosis | None:
+    """Return what keeps entry points that are right from becoming programs."""
+    name, kind = package.name, package.manifest.build_type
+    if kind.endswith("cmake"):
+        return Diagnosis(
+            "build-type",
+            f"setup.py is fine, and package.xml says {kind}: colcon would not even read setup.py.",
+            "<build_type> belongs to a package for Python.",
+        )
+    if not package.setup.installs(name):
+        return Diagnosis(
+            "packages-missing",
+            f"Both entries are there, and `packages` of setup.py leaves out {name}: their code "
+            "would not be installed.",
+            "find_packages finds every folder that has an __init__.py, but for those that it is "
+            "told to leave out.",
+        )
+    if not package.has_init and name not in (package.setup.packages or ()):
+        return Diagnosis(
+            "marker-missing",
+            f"setup.py is fine, and {name}/__init__.py is gone: find_packages would not see the "
+            "folder.",
+            "It is an empty file; `touch` makes one.",
+        )
+    if package.scripts_are_found:
+        return None
+    return Diagnosis(
+        "marker-missing",
+        "setup.py is fine, and setup.cfg does not say where programs go: `ros2 run` would not "
+        "find them.",
+        "Compare it with the setup.cfg that page 02 shows.",
+    )
