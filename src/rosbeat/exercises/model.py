@@ -117,6 +117,24 @@ def named(evidence: str, fit: Sequence[Suspect], otherwise: Diagnosis | None = N
     return Diagnosis(fit[0].mistake, evidence, " Or: ".join(hints))
 
 
+def spelling(found: str, words: Iterable[str]) -> str:
+    """Return a hint if a word differs from one that is right only in capitals or blanks.
+
+    Words are compared exactly as the page writes them.
+
+    Args:
+        found: The word that an answer wrote.
+        words: The right ones.
+
+    Returns:
+        The hint; empty if the word is right, or another one altogether.
+    """
+    near = {word.strip().casefold(): word for word in words}.get(found.strip().casefold(), found)
+    if near == found:
+        return ""
+    return f"Capitals and blanks count: the page writes {near!r}, and your node {found!r}."
+
+
 # Messages on a topic.
 
 
