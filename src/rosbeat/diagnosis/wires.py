@@ -6,6 +6,7 @@ is in the graph of the observation, and that says why.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -13,7 +14,14 @@ from rosbeat.diagnosis.explanation_names import difference, nearest
 from rosbeat.diagnosis.faults import diagnose_fault
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
-from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Observation
+from rosbeat.records import (
+    ACTION_PART,
+    INFRASTRUCTURE_TOPICS,
+    Endpoint,
+    Fault,
+    GraphSnapshot,
+    Observation,
+)
 
 
 @dataclass(frozen=True)
@@ -90,6 +98,32 @@ def why_not_heard(observation: Observation, wire: Wire) -> Diagnosis | None:
         f"The node has no subscription, so what is published on {wire.topic} passes it by.",
         "Something has to be made in the constructor that names the topic and the callback.",
     )
+
+
+def types_of_both_sides(fault: Fault, graph: GraphSnapshot) -> str:
+    """Say which message types meet on a topic where an endpoint was refused for its type.
+
+    Args:
+        fault: The exception with which it was refused.
+        graph: The other endpoints.
+
+    Returns:
+        A sentence; empty if it cannot be known which topic it was.
+    """
+    asked = re.match(r"create_\w+\(message_type\[(\w+)\]", fault.asked)
+    if not asked:
+        return ""
+    others = {
+        end.name: end.type_name.rpartition("/")[2]
+        for end in graph.endpoints
+        if end.kind in ("publisher", "subscription") and end.name not in INFRASTRUCTURE_TOPICS
+        if not end.type_name.endswith(f"/{asked[1]}")
+    }
+    written = [name for name in others if re.search(rf"['\"/]{name.strip('/')}\b", fault.code)]
+    names = written or list(others)
+    if len(names) != 1:
+        return ""
+    return f"On {names[0]}, your node uses {asked[1]} and the other side {others[names[0]]}."
 
 
 # What the node made.

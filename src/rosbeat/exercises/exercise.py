@@ -8,6 +8,7 @@ from typing import Any, Generic, TypeVar
 
 from rosbeat.diagnosis.faults import diagnose_fault, first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.wires import types_of_both_sides
 from rosbeat.records import Fault, Observation, Outcome
 
 # What an exercise is.
@@ -105,12 +106,16 @@ def before_judging(exercise: str, observation: Observation) -> Outcome | None:
     if any(is_blank(fault) for fault in observation.faults):
         return not_attempted(exercise)
     if observation.faults:
-        return _raised(exercise, observation.faults[0])
+        return _raised(exercise, observation)
     return None
 
 
-def _raised(exercise: str, fault: Fault) -> Outcome:
+def _raised(exercise: str, observation: Observation) -> Outcome:
+    fault = observation.faults[0]
     known = diagnose_fault(fault)
+    if known is not None and known.mistake == "type-mismatch":
+        types = types_of_both_sides(fault, observation.graph)
+        known = replace(known, evidence=f"{known.evidence} {types}".rstrip())
     if known is not None:
         return failed_by(exercise, known)
     if fault.callback in ("add", "run"):  # the session itself refused; its sentence is complete
