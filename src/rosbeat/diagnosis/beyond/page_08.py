@@ -8,6 +8,7 @@ MISTAKES: tuple[Mistake, ...] = (
     Mistake("not-kept", "a last word that is not kept for those who come late"),
     Mistake("old-words-too", "more kept for those who come late than asked for"),
     Mistake("change-missing", "a change that nobody is told about"),
+    Mistake("lifespan-too-short", "a lifespan that throws messages away too early"),
     Mistake("queue-too-short", "a queue too short for the pause"),
     Mistake("heard-twice", "the same message heard by two subscriptions"),
     Mistake("no-deadline", "a silence that nothing measures"),
