@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
@@ -42,6 +43,20 @@ class Suspect:
     mistake: str
     hint: str
     model: Callable[[Any], Track]
+
+
+def variants(model: Callable[..., Track], rows: Iterable[Any]) -> tuple[Suspect, ...]:
+    """Return suspects that are one model with other options.
+
+    Args:
+        model: Does what is right by its defaults.
+        rows: A mistake, a hint, and one dict of options or more for each.
+    """
+    return tuple(
+        Suspect(mistake, hint, partial(model, **options))
+        for mistake, hint, *many in rows
+        for options in many
+    )
 
 
 @dataclass(frozen=True)
