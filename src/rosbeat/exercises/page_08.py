@@ -28,6 +28,7 @@ from rosbeat.exercises.model import (
     on,
     parting,
     spelling,
+    variants,
 )
 from rosbeat.exercises.scenarios import feeder, hearer, observe
 from rosbeat.records import NANOSECONDS, Endpoint, Observation, Outcome, QoS, Sample
@@ -150,26 +151,17 @@ def _keep_mode(
 _REPEATED = "A command for the mode that there is changes nothing, and needs no message."
 _CHANGE = "A command for another mode is a change. Does your node keep it, and publish it?"
 _BEGIN = f"Publish {_START!r} in the constructor, as soon as there is something to publish with."
-KEEPERS = (
-    Suspect("status-repeated", _REPEATED, partial(_keep_mode, is_news=lambda *_: True)),
-    Suspect(
-        "status-repeated",
-        f"Before the first command there is a mode, too: {_START!r}.",
-        partial(_keep_mode, is_news=lambda _, before, command: command != before),
-    ),
-    Suspect(
-        "change-missing",
-        f"The mode may become {_START!r} again. With what does your node compare a command?",
-        partial(_keep_mode, is_news=lambda _, __, command: command != _START),
-    ),
-    Suspect(
-        "change-missing",
-        "Each change counts, not only the first. What does your node remember of the last one?",
-        partial(_keep_mode, is_news=lambda mode, _, __: mode == _START),
-    ),
-    Suspect("change-missing", _CHANGE, partial(_keep_mode, is_news=lambda *_: False)),
-    Suspect("wrong-start", _BEGIN, partial(_keep_mode, begins=False)),
-)
+_FIRST_MODE = f"Before the first command there is a mode, too: {_START!r}."
+_COMPARED = f"The mode may become {_START!r} again. With what does your node compare a command?"
+_EACH_CHANGE = "Each change counts, not only the first. What does your node remember of the last?"
+KEEPERS = variants(_keep_mode, (
+    ("status-repeated", _REPEATED, {"is_news": lambda *_: True}),
+    ("status-repeated", _FIRST_MODE, {"is_news": lambda _, before, command: command != before}),
+    ("change-missing", _COMPARED, {"is_news": lambda _, __, command: command != _START}),
+    ("change-missing", _EACH_CHANGE, {"is_news": lambda mode, _, __: mode == _START}),
+    ("change-missing", _CHANGE, {"is_news": lambda *_: False}),
+    ("wrong-start", _BEGIN, {"begins": False}),
+))  # fmt: skip
 
 
 def _heard_by_displays(words: Sequence[_Word], qos: QoS) -> Track:
@@ -196,17 +188,16 @@ _DEPTH = (
     "For those who come late, the publisher keeps as many messages as its queue is long. How many "
     "of them are still true?"
 )
+_EXPIRES = (
+    "A lifespan throws away what is older. A mode stays true until the next one, however long that "
+    "takes."
+)
 _MODE_POLICIES = (
     ("durability", "not-kept", _STORE),
     ("reliability", "qos-mismatch", f"The rule of reliability: {rule('reliability')}."),
     ("depth", "old-words-too", _DEPTH),
     ("history", "old-words-too", _DEPTH),
-    (
-        "lifespan_ns",
-        "lifespan-too-short",
-        "A lifespan throws away what is older. A mode stays true until the next one, however long "
-        "that takes.",
-    ),
+    ("lifespan_ns", "lifespan-too-short", _EXPIRES),
 )
 
 
@@ -215,16 +206,9 @@ def offer_suspects(words: Sequence[_Word], offers: QoS) -> list[Suspect]:
     return _suspects_by_policy(_MODE_POLICIES, _heard_by_displays, words, _ONE_STORED, offers)
 
 
-_NEVER = Diagnosis(
-    "never-published",
-    "Nothing was published on {topic}.",
-    "The first mode is published at once, in the constructor.",
-)
-
-
 def _judge_mode_keeper(observation: Observation) -> Outcome:
     wrong = (
-        missing(observation, _MODE, otherwise=_NEVER)
+        missing(observation, _MODE)
         or _unheard(observation, _COMMAND)
         or _diagnose_modes(on(observation, _MODE))
         or _diagnose_displays(observation)
@@ -280,7 +264,8 @@ def _diagnose_displays(observation: Observation) -> Diagnosis | None:
     parted = parting(done, _heard_by_displays(words, _ONE_STORED))
     if parted is None:
         return None
-    offers = _ends(observation, _MODE, "publisher")[0].qos
+    # A publisher that was destroyed is no longer in the graph.
+    offers = next((end.qos for end in _ends(observation, _MODE, "publisher")), _ONE_STORED)
     joins, asks = [*DISPLAYS.values()][parted.at]
     evidence = (
         f"A display joined at {joins:g} s and asked for {asks.reliability}, {asks.durability}. It "
@@ -348,44 +333,31 @@ _QUEUE = (
     "How many readings come while it is away, from all sensors together? They all wait in one "
     "queue."
 )
+_TWICE = "One subscription is enough, if it asks for no more than the poorest sensor offers."
+_WAITS = "A lifespan throws away what has waited longer. How long may a reading have to wait?"
 _READING_POLICIES = (
-    *(
-        (policy, "qos-mismatch", f"The rule of {policy}: {rule(policy)}.")
-        for policy in ("reliability", "durability")
-    ),
+    ("reliability", "qos-mismatch", f"The rule of reliability: {rule('reliability')}."),
+    ("durability", "qos-mismatch", f"The rule of durability: {rule('durability')}."),
     ("deadline_ns", "qos-mismatch", f"The rule of deadline: {rule('deadline')}."),
     ("depth", "queue-too-short", _QUEUE),
-    (
-        "lifespan_ns",
-        "lifespan-too-short",
-        "A lifespan throws away what has waited for longer. How long may a reading have to wait?",
-    ),
+    ("lifespan_ns", "lifespan-too-short", _WAITS),
 )
 
 
 def archive_suspects(asks: Sequence[QoS]) -> list[Suspect]:
     """Return what the policies of an archive's subscriptions may have done."""
-    found = _suspects_by_policy(_READING_POLICIES, _archive, FED, _ROOMY, asks[0])
-    if len(asks) > 1:
-        once = "One subscription is enough, if it asks for no more than the poorest sensor offers."
-        found = [
-            Suspect("heard-twice", once, partial(_archive, qos=asks)),
-            Suspect("queue-too-short", _QUEUE, partial(_archive, qos=asks, most=1)),
-        ]
-    return found
-
-
-_NO_COPY = Diagnosis(
-    "never-published",
-    "Readings came in, and nothing was published on {topic}.",
-    "Does the callback come to the line that publishes?",
-)
+    if len(asks) == 1:
+        return _suspects_by_policy(_READING_POLICIES, _archive, FED, _ROOMY, asks[0])
+    return [
+        Suspect("heard-twice", _TWICE, partial(_archive, qos=asks)),
+        Suspect("queue-too-short", _QUEUE, partial(_archive, qos=asks, most=1)),
+    ]
 
 
 def _judge_archive(observation: Observation) -> Outcome:
     wrong = (
         _unheard(observation, _READING)
-        or missing(observation, _ARCHIVE, otherwise=_NO_COPY)
+        or missing(observation, _ARCHIVE)
         or _diagnose_archive(observation, [float(one.value) for one in on(observation, _ARCHIVE)])
     )
     if wrong:
@@ -418,7 +390,7 @@ def _diagnose_archive(observation: Observation, kept: Sequence[float]) -> Diagno
         f"The reading {FED[at, node]:g}, which {node} published at {at:g} s, is in the archive "
         f"{times} times, and once was right. {missed} of {len(FED)} readings are missing there; "
         f"the node was away from {_AWAY[0]:g} s to {_AWAY[1]:g} s. Your subscription asks for "
-        f"{' and '.join(map(_described, asks))}."
+        f"{' and '.join(map(_described, asks)) or 'nothing'}."
     )
     otherwise = Diagnosis("wrong-values", evidence, "Publish each reading once, when it comes.")
     return named(evidence, fitting(FED, done, archive_suspects(asks)), otherwise)
@@ -495,51 +467,41 @@ _EACH = "It has to notice each silence, and the end of each. What does it rememb
 _DUE = f"{LOST!r} is due when nothing has come for {LIMIT:g} s."
 _RESTART = f"{_DUE} What measures that has to begin again with each reading."
 _FIRST = f"Only what was lost can be back. What does the node know before its first {LOST!r}?"
-WATCHDOGS = (
-    Suspect(
-        "status-repeated",
-        f"The event comes again in each further period of silence. {_REMEMBER}",
-        partial(_watch, is_news=lambda last, word, _: LOST in (word, last)),
-    ),
-    Suspect(
-        "status-repeated",
-        f"{BACK!r} has to be published, too, before {LOST!r} is news again.",
-        partial(_watch, publishes=(LOST,)),
-    ),
-    Suspect("wrong-start", _FIRST, partial(_watch, last=LOST)),
-    Suspect(
-        "change-missing", _EACH, partial(_watch, is_news=lambda last, word, _: last != LOST == word)
-    ),
-    Suspect(
-        "change-missing",
-        "total_count goes on from one silence to the next. Which other memory is there?",
-        partial(_watch, is_news=lambda last, word, missed: word != last and missed == 1),
-    ),
-    Suspect(
-        "wrong-deadline",
-        f"{_DUE} How long has it been silent when the second event comes?",
-        partial(_watch, is_news=lambda last, word, missed: word != last and missed > 1),
-    ),
-    Suspect("wrong-deadline", _RESTART, partial(_watch, restarts=False)),
-    Suspect(
-        "status-repeated",
-        f"{_REMEMBER} {_RESTART}",
-        partial(_watch, is_news=lambda last, word, _: LOST in (word, last), restarts=False),
-    ),
-)
+_EVENTS = "The event comes again in each further period of silence."
+_NO_END = f"{BACK!r} has to be published, too, before {LOST!r} is news again."
+_TOTAL = "total_count goes on from one silence to the next. Which other memory is there?"
+_SECOND = f"{_DUE} How long has it been silent when a later event comes?"
+
+
+def _always_lost(last: str, word: str, _: int) -> bool:
+    return LOST in (word, last)
+
+
+def _once_ever(last: str, word: str, missed: int) -> bool:
+    return word != last and missed == 1
+
+
+def _from_the_second(last: str, word: str, missed: int) -> bool:
+    return word != last and missed > 1
+
+
+WATCHDOGS = variants(_watch, (
+    ("status-repeated", f"{_EVENTS} {_REMEMBER}", {"is_news": _always_lost}),
+    ("status-repeated", _NO_END, {"publishes": (LOST,)}),
+    ("wrong-start", _FIRST, {"last": LOST}),
+    ("change-missing", _EACH, {"is_news": lambda last, word, _: last != LOST == word}),
+    ("change-missing", _TOTAL, {"is_news": _once_ever}),
+    ("wrong-deadline", _SECOND, {"is_news": _from_the_second}),
+    ("wrong-deadline", _RESTART, {"restarts": False}),
+    ("status-repeated", f"{_REMEMBER} {_RESTART}", {"is_news": _always_lost, "restarts": False}),
+))  # fmt: skip
 
 
 def deadline_suspects(asks: Sequence[QoS]) -> list[Suspect]:
-    """Return the watchdogs that measure with these deadlines."""
-    limits = [qos.deadline_ns / NANOSECONDS for qos in asks if qos.deadline_ns]
+    """Return the watchdogs that measure with these deadlines; a shorter one is not connected."""
+    limits = [qos.deadline_ns / NANOSECONDS for qos in asks]
+    limits = [limit for limit in limits if limit >= LIMIT]
     return [Suspect("wrong-deadline", _DUE, partial(_watch, limit=limit)) for limit in limits]
-
-
-_UNSAID = Diagnosis(
-    "never-published",
-    "Readings stopped coming, and nothing was published on {topic}.",
-    "Does the callback of the event come to the line that publishes?",
-)
 
 
 def _judge_watchdog(observation: Observation) -> Outcome:
@@ -547,7 +509,7 @@ def _judge_watchdog(observation: Observation) -> Outcome:
     wrong = (
         _unheard(observation, _TEMPERATURE)
         or (None if said else _unmeasured(observation))
-        or missing(observation, _HEALTH, otherwise=_UNSAID)
+        or missing(observation, _HEALTH)
         or _diagnose_words(observation, [(one.time, str(one.value)) for one in said])
     )
     if wrong:
@@ -599,6 +561,12 @@ def _other_word(parted: Parting) -> Diagnosis:
         return Diagnosis("change-missing", evidence, _EACH)
     evidence = f"Message {number} on /health was {word!r}, at {at:g} s; "
     evidence += f"{wanted!r} was due, at {due:g} s." if wanted else "nothing more was due."
+    if at < TIMES[0]:
+        hint = "Before the first reading nothing has been lost yet, and nothing is back."
+        return Diagnosis("wrong-start", evidence, hint)
+    if word == BACK and not wanted:
+        hint = "When does each of your callbacks run?"
+        return Diagnosis("alert-too-many", evidence, hint)
     if word != wanted:  # the two words take turns
         if number == 1:
             return Diagnosis("wrong-start", evidence, _FIRST)
