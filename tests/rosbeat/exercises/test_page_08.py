@@ -11,8 +11,9 @@ from bank.beyond.last_word_right import BASE as KEEPER
 from bank.beyond.news_of_silence_right import BASE as WATCHDOG
 from bank.running import outcome_of
 from rosbeat.exercises import page_08 as page
+from rosbeat.exercises.evidence import from_json, to_json
 from rosbeat.exercises.model import agree, fitting
-from rosbeat.records import QoS
+from rosbeat.records import Endpoint, GraphSnapshot, Observation, QoS
 
 ONE, ROOMY = QoS(depth=1, durability="TRANSIENT_LOCAL"), QoS("BEST_EFFORT", depth=16)
 MODES = [(at, word) for at, (word,) in page._keep_mode(page.COMMANDS).items()]
@@ -95,6 +96,19 @@ def test_evidence_shows_the_first_moment_and_both_values(exercise, answer, said)
 
 
 @pytest.mark.ros
+def test_both_types_are_named_where_another_one_is_refused():
+    other = edited(ARCHIVE, ('(Float32, "reading"', '(String, "reading"'))
+    found = outcome_of("08b", other, "Archive")
+    assert "On /reading, your node uses String and the other side Float32." in found.evidence
+
+
+@pytest.mark.ros
+def test_a_word_in_capitals_is_told_that_capitals_count():
+    found = outcome_of("08c", edited(WATCHDOG, ('"lost"', '"Lost"')), "Watchdog")
+    assert (found.mistake, "Capitals" in found.hint) == ("wrong-word", True)
+
+
+@pytest.mark.ros
 def test_only_a_policy_that_stands_alone_is_called_one():
     profile = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
     hints = [
@@ -102,3 +116,9 @@ def test_only_a_policy_that_stands_alone_is_called_one():
         for wrong in ("DurabilityPolicy.TRANSIENT_LOCAL", "QoSProfile(depth=1)", "1")
     ]
     assert ["policy alone" in hint for hint in hints] == [True, False, False]
+
+
+def test_a_policy_that_stands_alone_is_written_down():
+    end = Endpoint("/a", "/b", "c", "publisher", QoS(policy_alone="TRANSIENT_LOCAL"))
+    seen = Observation(1, 0, graph=GraphSnapshot(("/a",), (end,)))
+    assert from_json(to_json(seen)) == seen
