@@ -206,6 +206,8 @@ class QoS:
             nanoseconds; 0 if there is no such limit.
         lifespan_ns: How old a message may get, in nanoseconds, before it is dropped from the queue
             of this endpoint; 0 if there is no such limit.
+        policy_alone: The policy that was handed over in the place of a profile, and so counts as a
+            depth, such as `TRANSIENT_LOCAL`; or empty.
     """
 
     reliability: str = "RELIABLE"
@@ -214,6 +216,7 @@ class QoS:
     depth: int = 10
     deadline_ns: int = 0
     lifespan_ns: int = 0
+    policy_alone: str = field(default="", metadata=OMIT_EMPTY)
 
 
 @dataclass(frozen=True)

@@ -276,6 +276,7 @@ _OF_PAGES = (
     Mistake("deadline-unheard", "a deadline that nobody is told about"),
     Mistake("deadline-wrong-side", "a deadline where nothing is waited for"),
     Mistake("wrong-deadline", "another deadline than asked for"),
+    Mistake("lifespan-too-short", "a lifespan that throws messages away too early"),
     # Those of page 09.
     Mistake("parameter-type", "a parameter of another type than declared"),
     Mistake("parameter-undeclared", "a parameter that was not declared"),

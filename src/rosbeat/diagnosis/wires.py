@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from rosbeat.diagnosis.exceptions import diagnose_fault
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
-from rosbeat.diagnosis.silence import difference, nearest
+from rosbeat.diagnosis.silence import difference, nearest, short_type
 from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Fault, Observation
 
 
@@ -135,24 +135,25 @@ def why_raised(observation: Observation, fault: Fault) -> Diagnosis | None:
         observation: What was seen, with the nodes beside the one that raised.
         fault: The exception.
     """
-    found, asked = diagnose_fault(fault), fault.asked
-    if found is None or found.mistake != "type-mismatch" or not asked or not asked.given:
+    found, call = diagnose_fault(fault), fault.asked
+    if found is None or found.mistake != "type-mismatch" or not call or not call.given:
         return found
-    # The exception names the topic only sometimes, and the learner's line nearly always.
-    words = set(re.findall(r"\w+", f"{fault.code} {fault.text}"))
-    sides = ("publisher", "subscription")
-    there = {
-        (end.name, end.type_name)
+    own, sides = call.given[0].name, ("publisher", "subscription")
+    others = {
+        end.name: short_type(end.type_name)
         for end in observation.graph.endpoints
-        if end.kind in sides and end.name.rpartition("/")[2] in words and end.node != fault.node
+        if end.kind in sides and end.name not in INFRASTRUCTURE_TOPICS and end.node != fault.node
+        if short_type(end.type_name) != own
     }
-    if len(there) != 1:
+    # The exception names the topic only sometimes, and the learner's line nearly always.
+    said = set(re.findall(r"\w+", f"{fault.code} {fault.text}"))
+    names = [name for name in others if name.rpartition("/")[2] in said] or list(others)
+    if len(names) != 1:
         return found
-    ((topic, type_name),) = there
-    own = asked.given[0].name
     return Diagnosis(
         found.mistake,
-        f"{found.evidence} {topic} carries {type_name} here, and your node asks for {own}.",
+        f"{found.evidence} On {names[0]}, your node uses {own} and the other side "
+        f"{others[names[0]]}.",
         "One topic carries one type, and both sides have to name the same one.",
     )
 

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosbeat.exercises.bag_report_runs import BagReports
 from rosbeat.exercises.page_01 import FolderMaking
+from rosbeat.exercises.page_11 import BagReports, Replays
 from rosbeat.exercises.page_13 import Trials
-from rosbeat.exercises.replays import Replays
 from rosbeat.exercises.scenarios import Report, TypedIn, Workspace
 from rosbeat.exercises.system import SystemRun
 from rosbeat.record_json import parse, record, refusal, write

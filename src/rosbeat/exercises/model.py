@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
@@ -42,6 +43,20 @@ class Suspect:
     mistake: str
     hint: str
     model: Callable[[Any], Track]
+
+
+def variants(model: Callable[..., Track], rows: Iterable[Any]) -> tuple[Suspect, ...]:
+    """Return suspects that are one model with other options.
+
+    Args:
+        model: Does what is right by its defaults.
+        rows: A mistake, a hint, and one dict of options or more for each.
+    """
+    return tuple(
+        Suspect(mistake, hint, partial(model, **options))
+        for mistake, hint, *many in rows
+        for options in many
+    )
 
 
 @dataclass(frozen=True)
@@ -115,6 +130,24 @@ def named(evidence: str, fit: Sequence[Suspect], otherwise: Diagnosis | None = N
         )
     hints = list(dict.fromkeys(one.hint for one in fit))[:2]
     return Diagnosis(fit[0].mistake, evidence, " Or: ".join(hints))
+
+
+def spelling(found: str, words: Iterable[str]) -> str:
+    """Return a hint if a word differs from one that is right only in capitals or blanks.
+
+    Words are compared exactly as the page writes them.
+
+    Args:
+        found: The word that an answer wrote.
+        words: The right ones.
+
+    Returns:
+        The hint; empty if the word is right, or another one altogether.
+    """
+    near = {word.strip().casefold(): word for word in words}.get(found.strip().casefold(), found)
+    if near == found:
+        return ""
+    return f"Capitals and blanks count: the page writes {near!r}, and your node {found!r}."
 
 
 # Messages on a topic.

@@ -1,20 +1,622 @@
-"""Page 08, tune quality of service: the last word waits, listen to everybody, silence is news."""
+"""Page 08, tune quality of service: the last word waits, listen to everybody, silence is news.
+
+The scenarios know only what they feed. What a right node makes of it, and what a node makes of it
+whose author misunderstood something, is simulated by the judges.
+"""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import pairwise
 from typing import Any
 
-from rosbeat.exercises.everybody import judge_everybody
-from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.last_word import judge_last_word
-from rosbeat.exercises.page_08_scenarios import COMMANDS, DISPLAYS, READINGS, SCENARIOS, TIMES
-from rosbeat.exercises.silence import judge_silence
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.qos import POLICY_ALONE, incompatible, rule
+from rosbeat.diagnosis.wires import Wire, why_not_heard
+from rosbeat.exercises.exercise import Exercise, failed_by, passed
+from rosbeat.exercises.model import (
+    Parting,
+    Suspect,
+    Track,
+    agree,
+    fitting,
+    missing,
+    named,
+    on,
+    parting,
+    spelling,
+    variants,
+)
+from rosbeat.exercises.scenarios import feeder, hearer, observe
+from rosbeat.records import NANOSECONDS, Endpoint, Observation, Outcome, QoS, Sample
+
+_FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
+#: A time in seconds, and the word that was said then.
+_Word = tuple[float, str]
+
+# What the judges of this page share.
+
+
+def _unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
+    """Say why no callback of the node ran for a topic; None if one did."""
+    mine = [one for one in observation.callbacks if one.node == observation.subject]
+    if any(one.source == wire.topic for one in mine):
+        return None
+    return why_not_heard(observation, wire) or Diagnosis(
+        UNKNOWN,
+        f"Messages were published on {wire.topic}, and the node got none of them.",
+        "Is it connected? Compare what it asks for with what the publisher offers.",
+    )
+
+
+def _ends(observation: Observation, wire: Wire, kind: str) -> list[Endpoint]:
+    ends = observation.graph.on(wire.topic, kind)
+    return [end for end in ends if end.node == observation.subject]
+
+
+def _seconds(span_ns: int) -> str:
+    return f"{span_ns / NANOSECONDS:g} s"
+
+
+def _described(qos: QoS) -> str:
+    """Return a quality of service in words."""
+    depth = "every message" if qos.history == "KEEP_ALL" else f"a depth of {qos.depth}"
+    limits = {"deadline": qos.deadline_ns, "lifespan": qos.lifespan_ns}
+    said = [f"a {name} of {_seconds(limit)}" for name, limit in limits.items() if limit]
+    return ", ".join([qos.reliability, qos.durability, depth, *said])
+
+
+def _suspects_by_policy(
+    policies: Iterable[tuple[str, str, str]],
+    model: Callable[..., Track],
+    fed: Any,  # noqa: ANN401 - whatever the model takes
+    right: QoS,
+    mine: QoS,
+) -> list[Suspect]:
+    """Return a suspect for each policy of an endpoint, given as field of `QoS`, mistake and hint.
+
+    Each policy is tried alone, with all others as they should be. Then those that do harm alone
+    are tried together: two wrong policies may hide each other.
+    """
+    alone = []
+    for policy, mistake, hint in policies:
+        qos = replace(right, **{policy: getattr(mine, policy)})
+        said = f"{hint} {POLICY_ALONE}" if mine.policy_alone else hint
+        alone.append(Suspect(mistake, said, partial(model, qos=qos)))
+    harmful = [one for one in alone if not agree(one.model(fed), model(fed, right))]
+    return alone + [replace(one, model=partial(model, qos=mine)) for one in harmful]
+
+
+# 08a, the last word waits: displays come at different times and log what they hear.
+
+_MODE, _COMMAND = Wire("/mode", _STRING), Wire("/command", _STRING)
+#: Commands for the mode that there is are among them, the very first one too, and modes come back.
+COMMANDS = (
+    *((0.75, "idle"), (1.0, "drive"), (2.0, "drive"), (3.0, "stop"), (5.0, "idle")),
+    *((6.0, "dock"), (7.0, "drive")),
+)
+_ONE_STORED = QoS(depth=1, durability="TRANSIENT_LOCAL")
+_TEN_STORED = QoS(depth=10, durability="TRANSIENT_LOCAL")
+#: Names of displays, with the second at which each joins, and what it asks for.
+DISPLAYS = {
+    "display_from_the_start": (0.0, _ONE_STORED),
+    "display_after_the_first_mode": (0.5, _TEN_STORED),
+    "display_of_what_is_new": (2.5, QoS(depth=10)),
+    "display_in_between": (2.5, _TEN_STORED),
+    "display_of_one_word": (4.0, _ONE_STORED),
+    "display_that_is_in_no_hurry": (4.0, QoS("BEST_EFFORT", depth=5)),
+    "display_at_the_end": (28.0, _TEN_STORED),
+}
+_START = "idle"
+
+
+def _run_mode_keeper(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+    from rosbeat.ros.scenario import Add, Publish
+
+    displays = [
+        (joins, hearer(name, _MODE.topic, _STRING, qos)) for name, (joins, qos) in DISPLAYS.items()
+    ]
+    steps = [
+        Publish(at, topic=_COMMAND.topic, type_name=_STRING, values=(word,))
+        for at, word in COMMANDS
+    ]
+    late = [Add(joins, make=make) for joins, make in displays if joins]
+    others = [make for joins, make in displays if not joins]
+    return observe(answer, 30.0, others=others, steps=[*steps, *late])
+
+
+#: Whether a command is worth a message, from the mode, the command before and the command.
+_IsNews = Callable[[str, str, str], bool]
+
+
+def _keep_mode(
+    commands: Sequence[_Word],
+    is_news: _IsNews = lambda mode, _, command: command != mode,
+    begins: bool = True,
+) -> Track:
+    """Return what a mode keeper publishes, by time in seconds; with `begins` its first mode."""
+    said: dict[float, tuple[str, ...]] = {0.0: (_START,)} if begins else {}
+    mode, before = _START, ""
+    for at, command in commands:
+        if is_news(mode, before, command):
+            mode = command
+            said[at] = (mode,)
+        before = command
+    return said
+
+
+_REPEATED = "A command for the mode that there is changes nothing, and needs no message."
+_CHANGE = "A command for another mode is a change. Does your node keep it, and publish it?"
+_BEGIN = f"Publish {_START!r} in the constructor, as soon as there is something to publish with."
+_FIRST_MODE = f"Before the first command there is a mode, too: {_START!r}."
+_COMPARED = f"The mode may become {_START!r} again. With what does your node compare a command?"
+_EACH_CHANGE = "Each change counts, not only the first. What does your node remember of the last?"
+KEEPERS = variants(_keep_mode, (
+    ("status-repeated", _REPEATED, {"is_news": lambda *_: True}),
+    ("status-repeated", _FIRST_MODE, {"is_news": lambda _, before, command: command != before}),
+    ("change-missing", _COMPARED, {"is_news": lambda _, __, command: command != _START}),
+    ("change-missing", _EACH_CHANGE, {"is_news": lambda mode, _, __: mode == _START}),
+    ("change-missing", _CHANGE, {"is_news": lambda *_: False}),
+    ("wrong-start", _BEGIN, {"begins": False}),
+))  # fmt: skip
+
+
+def _heard_by_displays(words: Sequence[_Word], qos: QoS) -> Track:
+    """Return what each display hears of some words, by its place in `DISPLAYS`."""
+    heard: dict[int, tuple[str, ...]] = {}
+    for number, (joins, asks) in enumerate(DISPLAYS.values()):
+        if incompatible(qos, asks):
+            continue
+        stores = "TRANSIENT_LOCAL" == qos.durability == asks.durability
+        before = [
+            word
+            for at, word in words
+            if joins and at <= joins and stores
+            if not qos.lifespan_ns or (joins - at) * NANOSECONDS < qos.lifespan_ns
+        ]
+        depth = asks.depth if qos.history == "KEEP_ALL" else min(qos.depth, asks.depth)
+        live = [word for at, word in words if at > joins or not joins]
+        heard[number] = (*before[-depth:], *live)
+    return heard
+
+
+_STORE = "The publisher has to keep what it said for those who come late. Which policy says so?"
+_DEPTH = (
+    "For those who come late, the publisher keeps as many messages as its queue is long. How many "
+    "of them are still true?"
+)
+_EXPIRES = (
+    "A lifespan throws away what is older. A mode stays true until the next one, however long that "
+    "takes."
+)
+_MODE_POLICIES = (
+    ("durability", "not-kept", _STORE),
+    ("reliability", "qos-mismatch", f"The rule of reliability: {rule('reliability')}."),
+    ("depth", "old-words-too", _DEPTH),
+    ("history", "old-words-too", _DEPTH),
+    ("lifespan_ns", "lifespan-too-short", _EXPIRES),
+)
+
+
+def offer_suspects(words: Sequence[_Word], offers: QoS) -> list[Suspect]:
+    """Return what each policy that a publisher of these words offers may have done."""
+    return _suspects_by_policy(_MODE_POLICIES, _heard_by_displays, words, _ONE_STORED, offers)
+
+
+def _judge_mode_keeper(observation: Observation) -> Outcome:
+    wrong = (
+        missing(observation, _MODE)
+        or _unheard(observation, _COMMAND)
+        or _diagnose_modes(on(observation, _MODE))
+        or _diagnose_displays(observation)
+    )
+    if wrong:
+        return failed_by("08a", wrong)
+    return passed(
+        "08a",
+        f"{len(DISPLAYS)} displays came at different times. Each one that asked for it got the "
+        "mode of that moment, and only that one.",
+    )
+
+
+def _diagnose_modes(samples: Sequence[Sample]) -> Diagnosis | None:
+    right, done = _keep_mode(COMMANDS), _by_time(samples)
+    parted = parting(done, right)
+    if parted is None:
+        return None
+    done_words, right_words = (_listed(words) for words in (parted.done, parted.right))
+    evidence = (
+        f"At {parted.at:g} s the node published {done_words} on /mode; {right_words} was right."
+    )
+    return named(evidence, fitting(COMMANDS, done, KEEPERS), _other_mode(evidence, parted, right))
+
+
+def _by_time(samples: Iterable[Sample]) -> Track:
+    found: dict[float, tuple[str, ...]] = {}
+    for one in samples:
+        found[one.time] = (*found.get(one.time, ()), str(one.value))
+    return found
+
+
+def _other_mode(evidence: str, parted: Parting, right: Track) -> Diagnosis:
+    """Name what no model reproduces by the moment at which it parted from the right one."""
+    modes = [word for at in sorted(right) if at <= parted.at for word in right[at]]
+    if not parted.right:
+        modes = [*modes[:-1], modes[-1], modes[-1]]
+    if parted.at == 0 and parted.done[:1] != parted.right:
+        return Diagnosis("wrong-start", evidence, _BEGIN)
+    if not parted.done:
+        return Diagnosis("change-missing", evidence, _CHANGE)
+    if set(parted.right) <= set(parted.done) <= set(modes[-2:]):
+        return Diagnosis("status-repeated", evidence, _REPEATED)
+    hint = spelling(parted.done[0], modes) or "The mode is the command's text, unchanged."
+    return Diagnosis("wrong-values", evidence, hint)
+
+
+def _diagnose_displays(observation: Observation) -> Diagnosis | None:
+    words = [(one.time, str(one.value)) for one in on(observation, _MODE)]
+    texts = {name: tuple(log.text for log in observation.logs if log.name == name)
+             for name in DISPLAYS}  # fmt: skip
+    done = {number: heard for number, heard in enumerate(texts.values()) if heard}
+    parted = parting(done, _heard_by_displays(words, _ONE_STORED))
+    if parted is None:
+        return None
+    # A publisher that was destroyed is no longer in the graph.
+    offers = next((end.qos for end in _ends(observation, _MODE, "publisher")), _ONE_STORED)
+    joins, asks = [*DISPLAYS.values()][parted.at]
+    evidence = (
+        f"A display joined at {joins:g} s and asked for {asks.reliability}, {asks.durability}. It "
+        f"heard {_listed(parted.done)}; {_listed(parted.right)} was right. Your publisher offers "
+        f"{_described(offers)}."
+    )
+    otherwise = Diagnosis(
+        UNKNOWN, evidence, "Compare what the publisher offers with what such a display asks for."
+    )
+    return named(evidence, fitting(words, done, offer_suspects(words, offers)), otherwise)
+
+
+def _listed(words: Iterable[str]) -> str:
+    return ", ".join(map(repr, words)) or "nothing"
+
+
+# 08b, listen to everybody: two sensors, and a node that is away for a while.
+
+_READING, _ARCHIVE = Wire("/reading", _FLOAT), Wire("/archive", _FLOAT)
+#: What the two sensors publish, once a second each: no number twice, and none follows from another.
+#: A float32 holds each of them exactly.
+READINGS = {
+    "/new_sensor": tuple(20.0 + number * number % 61 / 8 for number in range(20)),
+    "/old_sensor": tuple(40.0 + number / 8 for number in range(20)),
+}
+_OFFERED = {"/new_sensor": QoS("BEST_EFFORT", depth=5), "/old_sensor": QoS(depth=5)}
+_AWAY = (5.5, 13.5)
+#: Values of readings, by the second at which each is published, and the node.
+_Readings = dict[tuple[float, str], float]
+FED: _Readings = {
+    (float(at), node): value
+    for node, values in READINGS.items()
+    for at, value in enumerate(values, 1)
+}
+_ROOMY = QoS("BEST_EFFORT", depth=len(FED))
+
+
+def _run_archive(answer: Any) -> Observation:  # noqa: ANN401
+    from rosbeat.ros.scenario import Pause, Resume
+
+    sensors = [
+        feeder(name.strip("/"), _READING.topic, _FLOAT, values, qos=_OFFERED[name])
+        for name, values in READINGS.items()
+    ]
+    return observe(answer, 21.0, others=sensors, steps=[Pause(_AWAY[0]), Resume(_AWAY[1])])
+
+
+def _archive(fed: _Readings, qos: QoS | Sequence[QoS], most: int = 99) -> Track:
+    """Return each reading as often as an archive with these subscriptions has it, or `most`."""
+    counts: Counter[tuple[float, str]] = Counter()
+    for asks in [qos] if isinstance(qos, QoS) else qos:
+        heard = sorted(one for one in fed if not incompatible(_OFFERED[one[1]], asks))
+        waiting = [one for one in heard if _AWAY[0] < one[0] <= _AWAY[1]]
+        counts.update(one for one in heard if one not in waiting)
+        depth = len(waiting) if asks.history == "KEEP_ALL" else asks.depth
+        counts.update(
+            one
+            for one in waiting[-depth:]
+            if not asks.lifespan_ns or (_AWAY[1] - one[0]) * NANOSECONDS < asks.lifespan_ns
+        )
+    return {one: (fed[one],) * min(count, most) for one, count in counts.items()}
+
+
+_QUEUE = (
+    "How many readings come while it is away, from all sensors together? They all wait in one "
+    "queue."
+)
+_TWICE = "One subscription is enough, if it asks for no more than the poorest sensor offers."
+_WAITS = "A lifespan throws away what has waited longer. How long may a reading have to wait?"
+_READING_POLICIES = (
+    ("reliability", "qos-mismatch", f"The rule of reliability: {rule('reliability')}."),
+    ("durability", "qos-mismatch", f"The rule of durability: {rule('durability')}."),
+    ("deadline_ns", "qos-mismatch", f"The rule of deadline: {rule('deadline')}."),
+    ("depth", "queue-too-short", _QUEUE),
+    ("lifespan_ns", "lifespan-too-short", _WAITS),
+)
+
+
+def archive_suspects(asks: Sequence[QoS]) -> list[Suspect]:
+    """Return what the policies of an archive's subscriptions may have done."""
+    if len(asks) == 1:
+        return _suspects_by_policy(_READING_POLICIES, _archive, FED, _ROOMY, asks[0])
+    return [
+        Suspect("heard-twice", _TWICE, partial(_archive, qos=asks)),
+        Suspect("queue-too-short", _QUEUE, partial(_archive, qos=asks, most=1)),
+    ]
+
+
+def _judge_archive(observation: Observation) -> Outcome:
+    wrong = (
+        _unheard(observation, _READING)
+        or missing(observation, _ARCHIVE)
+        or _diagnose_archive(observation, [float(one.value) for one in on(observation, _ARCHIVE)])
+    )
+    if wrong:
+        return failed_by("08b", wrong)
+    return passed(
+        "08b",
+        f"{len(READINGS)} sensors, {len(FED)} readings, {len(FED)} in the archive: it heard "
+        "everybody, and nothing was lost while it was away.",
+    )
+
+
+def _diagnose_archive(observation: Observation, kept: Sequence[float]) -> Diagnosis | None:
+    # Of a number that no sensor has published nobody can say which reading it was.
+    strange = next((value for value in kept if value not in FED.values()), None)
+    if strange is not None:
+        return Diagnosis(
+            "wrong-values",
+            f"{strange:g} is in the archive, and no sensor has published it.",
+            "Each reading goes into the archive as it is.",
+        )
+    counts = Counter(kept)
+    done = {one: (value,) * counts[value] for one, value in FED.items()}
+    parted = parting(done, _archive(FED, _ROOMY))
+    if parted is None:
+        return _diagnose_order(kept)
+    asks = [end.qos for end in _ends(observation, _READING, "subscription")]
+    (at, node), times = parted.at, len(parted.done)
+    missed = sum(not counts[value] for value in FED.values())
+    evidence = (
+        f"The reading {FED[at, node]:g}, which {node} published at {at:g} s, is in the archive "
+        f"{times} times, and once was right. {missed} of {len(FED)} readings are missing there; "
+        f"the node was away from {_AWAY[0]:g} s to {_AWAY[1]:g} s. Your subscription asks for "
+        f"{' and '.join(map(_described, asks)) or 'nothing'}."
+    )
+    otherwise = Diagnosis("wrong-values", evidence, "Publish each reading once, when it comes.")
+    return named(evidence, fitting(FED, done, archive_suspects(asks)), otherwise)
+
+
+def _diagnose_order(kept: Sequence[float]) -> Diagnosis | None:
+    """Compare the order; what turns it round is the node's own doing, whatever its policies."""
+    for name, values in READINGS.items():
+        if [value for value in kept if value in values] != list(values):
+            return Diagnosis(
+                "wrong-values",
+                f"The readings of {name} are in the archive in another order than it published "
+                "them.",
+                "What came first waits at the front. Does something turn the order round?",
+            )
+    return None
+
+
+# 08c, silence is news: readings that stop for a while.
+
+_TEMPERATURE, _HEALTH = Wire("/temperature", _FLOAT), Wire("/health", _STRING)
+LOST, BACK = "lost", "back"
+#: The deadline that the sensor offers, in seconds: no longer silence is none.
+LIMIT = 2.0
+#: Readings a second apart, or nearly two; a long silence, a short one, and one to the end.
+TIMES = (1.0, 2.0, 3.0, 4.75, 6.0, 13.5, 14.5, 15.5, 18.0)
+_END = 25.0
+#: How late a node may be that looks at a clock now and then, and any other, in seconds.
+_LATE, _EXACT = 0.45, 1e-6
+
+
+def _run_watchdog(answer: Any) -> Observation:  # noqa: ANN401
+    from rosbeat.ros.scenario import Publish
+
+    qos = QoS(deadline_ns=round(LIMIT * NANOSECONDS))
+    steps = [Publish(at, topic=_TEMPERATURE.topic, values=(21.5,), qos=qos) for at in TIMES]
+    return observe(answer, _END, steps=steps)
+
+
+#: Whether a word is worth a message, from the last word, the word and the deadlines missed so far.
+_IsWorthIt = Callable[[str, str, int], bool]
+
+
+def _watch(
+    times: Sequence[float],
+    is_news: _IsWorthIt = lambda last, word, _: word != last,
+    limit: float = LIMIT,
+    last: str = BACK,
+    publishes: Sequence[str] = (LOST, BACK),
+    restarts: bool = True,
+) -> Track:
+    """Return the messages of a watchdog, by number; `last` is the word that it remembers.
+
+    Its time limit begins anew with each reading, or never `restarts`.
+    """
+    spans = pairwise([*times, _END]) if restarts else [(0.0, _END)]
+    misses = [
+        (begin + limit * (number + 1), LOST)
+        for begin, end in spans
+        for number in range(int((end - begin - _EXACT) / limit))
+    ]
+    signals = sorted([*misses, *((at, BACK) for at in times)], key=lambda one: one[0])
+    said: list[_Word] = []
+    for number, (at, word) in enumerate(signals):
+        missed = sum(earlier == LOST for _, earlier in signals[: number + 1])
+        if is_news(last, word, missed):
+            last = word
+            said += [(at, word)] if word in publishes else []
+    return {number: (one,) for number, one in enumerate(said)}
+
+
+_REMEMBER = "The node has to remember what it said last, and to say only what is new."
+_EACH = "It has to notice each silence, and the end of each. What does it remember?"
+_DUE = f"{LOST!r} is due when nothing has come for {LIMIT:g} s."
+_RESTART = f"{_DUE} What measures that has to begin again with each reading."
+_FIRST = f"Only what was lost can be back. What does the node know before its first {LOST!r}?"
+_EVENTS = "The event comes again in each further period of silence."
+_NO_END = f"{BACK!r} has to be published, too, before {LOST!r} is news again."
+_TOTAL = "total_count goes on from one silence to the next. Which other memory is there?"
+_SECOND = f"{_DUE} How long has it been silent when a later event comes?"
+
+
+def _always_lost(last: str, word: str, _: int) -> bool:
+    return LOST in (word, last)
+
+
+def _once_ever(last: str, word: str, missed: int) -> bool:
+    return word != last and missed == 1
+
+
+def _from_the_second(last: str, word: str, missed: int) -> bool:
+    return word != last and missed > 1
+
+
+WATCHDOGS = variants(_watch, (
+    ("status-repeated", f"{_EVENTS} {_REMEMBER}", {"is_news": _always_lost}),
+    ("status-repeated", _NO_END, {"publishes": (LOST,)}),
+    ("wrong-start", _FIRST, {"last": LOST}),
+    ("change-missing", _EACH, {"is_news": lambda last, word, _: last != LOST == word}),
+    ("change-missing", _TOTAL, {"is_news": _once_ever}),
+    ("wrong-deadline", _SECOND, {"is_news": _from_the_second}),
+    ("wrong-deadline", _RESTART, {"restarts": False}),
+    ("status-repeated", f"{_REMEMBER} {_RESTART}", {"is_news": _always_lost, "restarts": False}),
+))  # fmt: skip
+
+
+def deadline_suspects(asks: Sequence[QoS]) -> list[Suspect]:
+    """Return the watchdogs that measure with these deadlines; a shorter one is not connected."""
+    limits = [qos.deadline_ns / NANOSECONDS for qos in asks]
+    limits = [limit for limit in limits if limit >= LIMIT]
+    return [Suspect("wrong-deadline", _DUE, partial(_watch, limit=limit)) for limit in limits]
+
+
+def _judge_watchdog(observation: Observation) -> Outcome:
+    said = on(observation, _HEALTH)
+    wrong = (
+        _unheard(observation, _TEMPERATURE)
+        or (None if said else _unmeasured(observation))
+        or missing(observation, _HEALTH)
+        or _diagnose_words(observation, [(one.time, str(one.value)) for one in said])
+    )
+    if wrong:
+        return failed_by("08c", wrong)
+    silences = sum(one[0][1] == LOST for one in _watch(TIMES).values())
+    return passed(
+        "08c",
+        f"{len(TIMES)} readings, {silences} silences: {LOST!r} once in each of them, and {BACK!r} "
+        "once after each that ended.",
+    )
+
+
+def _diagnose_words(observation: Observation, said: Sequence[_Word]) -> Diagnosis | None:
+    strange = next((one for one in said if one[1] not in (LOST, BACK)), None)
+    if strange is not None:
+        return Diagnosis(
+            "wrong-word",
+            f"At {strange[0]:g} s the node said {strange[1]!r}.",
+            spelling(strange[1], (LOST, BACK)) or f"The two words are {LOST!r} and {BACK!r}.",
+        )
+    mine = [one for one in observation.callbacks if one.node == observation.subject]
+    late = _LATE if any(one.kind == "timer" for one in mine) else _EXACT
+
+    def in_time(found: _Word, due: _Word) -> bool:
+        return found[1] == due[1] and due[0] - _EXACT <= found[0] <= due[0] + late
+
+    def near(one: _Word, other: _Word) -> bool:
+        return one[1] == other[1] and abs(one[0] - other[0]) <= late
+
+    done = {number: (one,) for number, one in enumerate(said)}
+    parted = parting(done, _watch(TIMES), in_time)
+    if parted is None:
+        return None
+    asks = [end.qos for end in _ends(observation, _TEMPERATURE, "subscription")]
+    fit = fitting(TIMES, done, [*WATCHDOGS, *deadline_suspects(asks)], near)
+    otherwise = _other_word(parted)
+    deadlines = [_seconds(qos.deadline_ns) for qos in asks if qos.deadline_ns]
+    own = f" Your subscription has a deadline of {deadlines[0]}." if deadlines else ""
+    otherwise = replace(otherwise, evidence=otherwise.evidence + own)
+    return named(otherwise.evidence, fit, otherwise)
+
+
+def _other_word(parted: Parting) -> Diagnosis:
+    """Name what no model reproduces by the first message that is not as it should be."""
+    number = parted.at + 1
+    (at, word), (due, wanted) = ((said or ((0.0, ""),))[0] for said in (parted.done, parted.right))
+    if not word:
+        evidence = f"{wanted!r} was due at {due:g} s, and the node did not say it."
+        return Diagnosis("change-missing", evidence, _EACH)
+    evidence = f"Message {number} on /health was {word!r}, at {at:g} s; "
+    evidence += f"{wanted!r} was due, at {due:g} s." if wanted else "nothing more was due."
+    if at < TIMES[0]:
+        hint = "Before the first reading nothing has been lost yet, and nothing is back."
+        return Diagnosis("wrong-start", evidence, hint)
+    if word == BACK and not wanted:
+        hint = "When does each of your callbacks run?"
+        return Diagnosis("alert-too-many", evidence, hint)
+    if word != wanted:  # the two words take turns
+        if number == 1:
+            return Diagnosis("wrong-start", evidence, _FIRST)
+        return Diagnosis("status-repeated", evidence, _REMEMBER)
+    if word == BACK:
+        hint = "The first reading after the silence brings the news. Which callback is called then?"
+        return Diagnosis("wrong-rate", evidence, hint)
+    return Diagnosis("wrong-deadline", evidence, _RESTART if at < due else _DUE)
+
+
+def _unmeasured(observation: Observation) -> Diagnosis | None:
+    """Say why the node did not notice that readings stopped.
+
+    It said nothing, and all silent models are alike. So this reads what the node has made.
+    """
+    mine = [end for end in observation.graph.endpoints if end.node == observation.subject]
+    calls = [one for one in observation.callbacks if one.node == observation.subject]
+    if any(one.kind in ("event", "timer") for one in calls):
+        return None
+    bounded = {end.kind: end for end in mine if end.qos.deadline_ns}
+    if "subscription" in bounded:
+        deadline_ns = bounded["subscription"].qos.deadline_ns
+        evidence = f"The subscription has a deadline of {_seconds(deadline_ns)}"
+        if deadline_ns > LIMIT * NANOSECONDS:
+            return Diagnosis("wrong-deadline", f"{evidence}.", _DUE)
+        return Diagnosis(
+            "deadline-unheard",
+            f"{evidence}. It was missed, and no callback of your node was told.",
+            "create_subscription takes event_callbacks: what is called if the deadline is missed?",
+        )
+    if "publisher" in bounded:
+        return Diagnosis(
+            "deadline-wrong-side",
+            f"The publisher on {bounded['publisher'].name} has a deadline, and the subscription "
+            "to /temperature has none.",
+            "Readings are what is waited for. Which end of the node gets them?",
+        )
+    return Diagnosis(
+        "no-deadline",
+        "Readings stopped coming, and nothing in the node measures how long: its subscription has "
+        "no deadline.",
+        "A deadline is a part of the QoS that the subscription asks for.",
+    )
+
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "08a",
-        SCENARIOS["08a"],
-        lambda observation: judge_last_word("08a", observation, COMMANDS, DISPLAYS),
+        _run_mode_keeper,
+        _judge_mode_keeper,
         "the last word waits",
         2,
         (
@@ -28,8 +630,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "08b",
-        SCENARIOS["08b"],
-        lambda observation: judge_everybody("08b", observation, READINGS),
+        _run_archive,
+        _judge_archive,
         "listen to everybody",
         2,
         (
@@ -41,8 +643,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "08c",
-        SCENARIOS["08c"],
-        lambda observation: judge_silence("08c", observation, TIMES),
+        _run_watchdog,
+        _judge_watchdog,
         "silence is news",
         3,
         (

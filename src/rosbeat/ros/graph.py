@@ -8,6 +8,7 @@ from array import array
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Coroutine, Iterable, Iterator
 from contextlib import suppress
+from enum import Enum
 from functools import partial
 from inspect import iscoroutinefunction
 from itertools import count, product
@@ -49,9 +50,11 @@ def qos_of(profile: QoSProfile) -> QoS:
         profile.reliability.name,
         profile.durability.name,
         profile.history.name,
-        profile.depth,
+        int(profile.depth),
         limit_ns(profile.deadline),
         limit_ns(profile.lifespan),
+        # A policy is a number as well, so rclpy takes one for a depth.
+        profile.depth.name if isinstance(profile.depth, Enum) else "",
     )
 
 

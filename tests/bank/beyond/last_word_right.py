@@ -57,10 +57,6 @@ ANSWERS = (
             "self.mode = mode\n        msg = String()\n        msg.data = mode")),
     _right("a deadline that nobody asks for",
            ("depth=1,", "depth=1, deadline=Duration(seconds=60),")),
-    _right("the first mode by a timer that fires once",
-           ('self.change("idle")',
-            'self.mode = ""\n        self.once = self.create_timer(0.1, self.begin)\n\n'
-            '    def begin(self):\n        self.once.cancel()\n        self.change("idle")')),
     right("08a", "a property that publishes", '''
         class Robot(Node):
             def __init__(self):

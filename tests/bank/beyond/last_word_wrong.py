@@ -48,6 +48,10 @@ ANSWERS = (
            ('self.change("idle")',
             'self.mode = "idle"\n        self.once = self.create_timer(0.9, self.begin)\n\n'
             '    def begin(self):\n        self.once.cancel()\n        self.change("idle")')),
+    _wrong("the first mode after a tenth of a second", "wrong-start",
+           ('self.change("idle")',
+            'self.mode = ""\n        self.once = self.create_timer(0.1, self.begin)\n\n'
+            '    def begin(self):\n        self.once.cancel()\n        self.change("idle")')),
     _wrong("once a second", "status-repeated",
            ('self.change("idle")',
             'self.change("idle")\n'
@@ -98,7 +102,7 @@ ANSWERS = (
             "        if msg.data != last:")),
     _wrong("a policy and no profile", "not-kept",
            (_QOS, "qos = DurabilityPolicy.TRANSIENT_LOCAL")),
-    _wrong("kept for a while only", "not-kept",
+    _wrong("kept for a while only", "lifespan-too-short",
            ("depth=1,", "depth=1, lifespan=Duration(seconds=3.5),")),
     _wrong("the message for its text", "message-for-value",
            ("self.change(msg.data)", "self.change(msg)")),

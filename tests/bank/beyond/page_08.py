@@ -8,6 +8,7 @@ from bank.beyond import (
     last_word_wrong,
     news_of_silence_right,
     news_of_silence_wrong,
+    qos_more,
 )
 
 #: What a learner has to find, in pieces that no hint may hold; spaces do not count.
@@ -24,4 +25,5 @@ ANSWERS: tuple[Answer, ...] = (
     *everybody_wrong.ANSWERS,
     *news_of_silence_right.ANSWERS,
     *news_of_silence_wrong.ANSWERS,
+    *qos_more.ANSWERS,
 )

@@ -1,7 +1,14 @@
 """Answers to the exercises of page 11."""
 
 from bank.answer import Answer
-from bank.beyond import drift_right, drift_wrong, look_into, watchdog_right, watchdog_wrong
+from bank.beyond import (
+    bags_more,
+    drift_right,
+    drift_wrong,
+    look_into,
+    watchdog_right,
+    watchdog_wrong,
+)
 
 #: What a learner has to find, in pieces that no hint may hold; spaces do not count.
 SECRETS: dict[str, tuple[str, ...]] = {
@@ -16,4 +23,5 @@ ANSWERS: tuple[Answer, ...] = (
     *watchdog_wrong.ANSWERS,
     *drift_right.ANSWERS,
     *drift_wrong.ANSWERS,
+    *bags_more.ANSWERS,
 )

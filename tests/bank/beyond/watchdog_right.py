@@ -37,7 +37,6 @@ ANSWERS = (
     _right("not equal to itself", ("math.isnan(msg.data)", "msg.data != msg.data")),
     _right("NaN to begin with", ("self.last = None", "self.last = math.nan"),
            ("self.last is not None and ", "")),
-    _right("in capitals, with blanks", ("String(data=word)", 'String(data=f" {word.upper()} ")')),
     _right("both signs", (_JUMP, "if self.last is not None and "
                                  "(msg.data - self.last > 5 or self.last - msg.data > 5):")),
     _right("it also logs", ("self.say(\"nan\")", 'self.get_logger().error("no number")\n'

@@ -91,6 +91,8 @@ ANSWERS = (
         (_FIVE, "hangs, before = len(set(self.window)) == 1, self.told\n"
                 "        self.told = hangs\n        if hangs and not before:"))),
     # Words, and where they go.
+    _wrong("in capitals", "wrong-word", ("String(data=word)", "String(data=word.upper())")),
+    _wrong("with a blank", "wrong-word", ("String(data=word)", 'String(data=word + " ")')),
     _wrong("another word", "wrong-word", ('"stuck"', '"hangs"')),
     _wrong("a sentence", "wrong-word", ('self.say("jump")', 'self.say("a jump")')),
     _wrong("a spelling", "wrong-word", ('"nan"', '"not a number"')),
