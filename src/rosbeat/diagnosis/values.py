@@ -105,8 +105,15 @@ def by_zero(fault: Fault) -> Meaning | None:
 
 
 def no_such_place(fault: Fault) -> Meaning | None:
-    """An index beyond the end of a list."""
-    if not matched(fault, r"index out of range|from (an )?empty", "IndexError"):
+    """Recognise an index beyond the end of a list, and something taken out of an empty one."""
+    if matched(fault, r"from (an )?empty", "IndexError"):
+        return Meaning(
+            "index-error",
+            "The list is empty, so nothing can be taken out of it.",
+            "When does this line run although nothing is there? Ask for that before you take "
+            "something out.",
+        )
+    if not matched(fault, r"index out of range", "IndexError"):
         return None
     return Meaning(
         "index-error",

@@ -27,4 +27,5 @@ MISTAKES: tuple[Mistake, ...] = (
     Mistake("lost-before-found", "a sensor reported lost that was never there"),
     Mistake("back-missing", "a return that nobody reports"),
     Mistake("back-too-often", "a return reported of one that was not lost"),
+    Mistake("wrong-form", "a text whose parts stand in another form than asked for"),
 )
