@@ -47,7 +47,8 @@ BASES = {"09a": silence_right.BASE, "09b": worker_wrong.TIMED, "09c": anywhere_r
 TOLD = [
     ("09a", (">= 3.0", ">= 5.0"), "Lost was due, and the node said lost at 17 s."),
     ("09a", (">= 3.0", ">= 2.0"), "Nothing was due, and the node said lost at 9.5 s."),
-    ("09a", ('self.statuses.publish(String(data="back"))', "pass"), "Back was due, and the node said nothing."),
+    ("09a", ('self.statuses.publish(String(data="back"))', "pass"),
+     "Back was due, and the node said nothing."),
     ("09b", ("create_timer(3.0", "create_timer(3.4"), "order 7 was done at 5.9 s"),
     ("09b", ("create_timer(3.0", "create_timer(2.9"), "The work itself takes 3 s."),
     ("09b", ("self.waiting.append(msg.data)", "self.waiting = self.waiting[:2] + [msg.data]"),
