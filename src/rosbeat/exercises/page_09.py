@@ -14,7 +14,7 @@ from rosbeat.diagnosis.wires import Wire, why_not_heard
 from rosbeat.exercises.exercise import Exercise, failed_by, passed
 from rosbeat.exercises.model import Suspect, Track, fitting, missing, named, on, parting
 from rosbeat.exercises.scenarios import feeder, observe, started
-from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Outcome, Sample
+from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Observation, Outcome, Sample
 
 _FLOAT, _INT, _STRING = (f"std_msgs/msg/{name}" for name in ("Float32", "Int32", "String"))
 _STATUS = Wire("/status", _STRING)
@@ -150,8 +150,9 @@ def _wrong_words(observation: Observation) -> Diagnosis | None:
     if part.at == len(READINGS):
         evidence = evidence.replace("the next reading came", "no reading came, and the run ended")
     for wait in observation.waits:
-        if (wait.node, wait.reason) == (observation.subject, "sleep"):
-            evidence += f" {wait.callback} slept from {wait.time:g} s to {wait.until_ns / 1e9:g} s."
+        seconds = (wait.until_ns - wait.time_ns) / NANOSECONDS
+        if (wait.node, wait.reason) == (observation.subject, "sleep") and seconds > 0.5:
+            evidence += f" {wait.callback} slept for {seconds:g} s from {wait.time:g} s on."
             hint = "While a callback sleeps, the node receives nothing and no timer runs."
             return Diagnosis("callback-blocks", evidence, hint)
     fit = fitting(READINGS, done, SILENCE_SUSPECTS)
@@ -160,8 +161,7 @@ def _wrong_words(observation: Observation) -> Diagnosis | None:
 
 def _first_word(at: int, done: Sequence[str], right: Sequence[str], evidence: str) -> Diagnosis:
     """Name a mistake by its first word alone: a node may look at any moments, and forget a lot."""
-    same = next((n for n, pair in enumerate(zip(done, right, strict=False)) if len({*pair}) > 1),
-                min(len(done), len(right)))  # fmt: skip
+    same = next(n for n in range(9) if done[n : n + 1] != right[n : n + 1])
     if same == len(done):
         if right[same] == "lost due":
             return Diagnosis("silence-unnoticed", evidence, _UNSEEN)
