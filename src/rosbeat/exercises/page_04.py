@@ -111,8 +111,8 @@ def _judge_states(observation: Observation) -> Outcome:
     evidence = f"For a reading of {value:g} the node said {' and '.join(part.done)}."
     strange = next((one for one in part.done if one not in _OTHER_STATES), None)
     if strange is not None:
-        hint = "The three words are Warm, Frost and Fine. They count letter by letter, capitals too"
-        hint += ", and a word alone, not a list with a word in it."
+        hint = "The three words are Warm, Frost and Fine, letter by letter: capitals count, and a "
+        hint += "list with a word in it is not the word."
         return failed_by("04a", Diagnosis("wrong-word", evidence, hint))
     hint = f"It should be {wanted}. Which of your conditions is true for {value:g}?"
     other = Diagnosis("wrong-state", evidence, hint)

@@ -29,7 +29,7 @@ TOLD = [
     ("04a", ("temp > 8.0", "temp >= 8.0"), "For a reading of 8 the node said Warm. Exactly 8"),
     ("04a", ("{status}", "Warm or Frost"), "For a reading of 5 the node said Warm and Frost."),
     ("04a", ("self.get_logger", "print if True else self.get_logger"), "nothing was logged"),
-    ("04a", ("{status}", "{status.upper()}"), "capitals too"),
+    ("04a", ("{status}", "{status.upper()}"), "capitals count"),
     ("04a", ("temp = msg.data", "temp = int(msg.data)"), "Whole degrees are too coarse"),
     ("04b", ("> 26.0", ">= 26.0"), "for a reading of 26. Publish only"),
     ("04b", (" or msg.data < 20.0", ""), "No alert for a reading of 19.9844. Low readings"),
