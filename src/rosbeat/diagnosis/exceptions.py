@@ -1214,7 +1214,15 @@ _VALUE_RULES: tuple[Rule, ...] = (
     Row(
         "index-error",
         "IndexError",
-        r"index out of range|from (an )?empty",
+        r"from (an )?empty",
+        "The list is empty, so nothing can be taken out of it.",
+        "When does this line run although nothing is there? Ask for that before you take something "
+        "out.",
+    ),
+    Row(
+        "index-error",
+        "IndexError",
+        r"index out of range",
         "The list has no such place: it is shorter than this line expects.",
         "How long is it at the first call? Counting begins at 0, so the last place is its length "
         "less one.",

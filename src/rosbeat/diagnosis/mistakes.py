@@ -300,6 +300,7 @@ _OF_PAGES = (
     Mistake("lost-before-found", "a sensor reported lost that was never there"),
     Mistake("back-missing", "a return that nobody reports"),
     Mistake("back-too-often", "a return reported of one that was not lost"),
+    Mistake("wrong-form", "a text whose parts stand in another form than asked for"),
     # Those of page 10.
     # What a patient may have.
     Mistake("wrong-namespace", "a topic's name in another namespace"),

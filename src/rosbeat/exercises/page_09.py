@@ -2,28 +2,658 @@
 
 from __future__ import annotations
 
+import re
+from bisect import bisect_right, insort
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
-from rosbeat.exercises.exercise import Exercise
-from rosbeat.exercises.noticing import judge_noticing
-from rosbeat.exercises.page_09_scenarios import GREENHOUSE, HOME, ORDERS, PORCH, READINGS, SCENARIOS
-from rosbeat.exercises.reusable import HIGH, LOW, UNIT, Place, judge_reusable
-from rosbeat.exercises.steady_work import judge_work
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.wires import Wire, why_not_heard
+from rosbeat.exercises.exercise import Exercise, failed_by, passed
+from rosbeat.exercises.model import Suspect, Track, fitting, missing, named, on, parting
+from rosbeat.exercises.scenarios import feeder, observe, started
+from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Observation, Outcome, Sample
 
-_PLACES = (
-    Place("", HOME.topic, "/status", LOW, HIGH, UNIT, HOME.readings),
-    Place(
-        "/greenhouse/humidity_monitor", GREENHOUSE.topic, "/greenhouse/status", 40.0, 70.0, "%",
-        GREENHOUSE.readings,
-    ),
-    Place("/porch/light_monitor", PORCH.topic, "/porch/light", LOW, 800.0, "lx", PORCH.readings),
+_FLOAT, _INT, _STRING = (f"std_msgs/msg/{name}" for name in ("Float32", "Int32", "String"))
+_STATUS = Wire("/status", _STRING)
+
+
+def _unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
+    """Say why the node received nothing from a topic, or None if it received something."""
+    if (observation.subject, wire.topic) in {
+        (one.node, one.source) for one in observation.callbacks
+    }:
+        return None
+    return why_not_heard(observation, wire) or Diagnosis(
+        "no-subscription",
+        f"Messages were published on {wire.topic}, and the node got none.",
+        "What listens to them, and under which name?",
+    )
+
+
+def _silent(
+    observation: Observation, wire: Wire, besides: Iterable[str] = (), hint: str = ""
+) -> Diagnosis | None:
+    """Say why the node published nothing on a topic, or None if it did."""
+    found = missing(observation, wire, tuple(besides))
+    if found is None or found.mistake not in ("never-published", "new-to-me"):
+        return found
+    evidence = f"Nothing was published on {wire.topic} in {observation.time:g} s."
+    call = "Which callback comes to the line that publishes, and what calls it?"
+    return Diagnosis("never-published", evidence, call + hint)
+
+
+# 09a: notice the silence.
+
+_TEMPERATURE = Wire("/temperature", _FLOAT)
+#: When readings come: late at first, then with pauses too short to count, and two silences.
+READINGS = (5.25, 6.25, 7.25, 10.0, 11.0, 12.0, 20.0, 21.0, 23.5, 31.0, 32.0, 34.5)
+_READINGS_END = READINGS[-1] + 2
+#: Seconds without a reading after which a sensor is lost, and how late that may be said.
+SILENCE, LATE = 3.0, 1.0
+_ROOM = 0.05
+#: Words and when they were published.
+Words = Iterable[tuple[float, str]]
+
+
+def _run_with_silences(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+    from rosbeat.ros.scenario import Publish
+
+    steps = [Publish(at, topic=_TEMPERATURE.topic, values=(22.0,)) for at in READINGS]
+    return observe(answer, _READINGS_END, steps=steps)
+
+
+def _by_reading(words: Words) -> Track:
+    """Return the words by the number of readings that had come, each early, due or late."""
+    found: dict[int, tuple[str, ...]] = {}
+    for at, word in words:
+        count = bisect_right(READINGS, at + _ROOM)
+        waited = at - READINGS[count - 1] if count else 0.0
+        due = SILENCE if word == "lost" else 0.0
+        when = "early" if waited < due - _ROOM else "late" if waited > due + LATE + _ROOM else "due"
+        found[count] = (*found.get(count, ()), f"{word} {when}")
+    return found
+
+
+def _watch(
+    after: float = SILENCE, at_once: bool = False, most: int | None = None
+) -> Callable[[Sequence[float]], Track]:
+    """Return the model of a node that says `lost` and `back`.
+
+    Args:
+        after: Seconds of silence until it says `lost`.
+        at_once: Whether it says `lost` only when the silence is over.
+        most: How many words it ever says.
+    """
+
+    def model(readings: Sequence[float]) -> Track:
+        words = []
+        for last, first in pairwise(readings):
+            if first - last > after:
+                words += [(first if at_once else last + after, "lost"), (first, "back")]
+        return _by_reading(words[:most])
+
+    return model
+
+
+_UNSEEN = (
+    "A message cannot tell that there is none. What else calls the node, again and again, and by "
+    "which clock does it count? A session's time is the node's own clock."
+)
+_IN_TIME = f"At most {LATE:g} s late: how often does the node look?"
+_COUNT = f"Count from the last reading, and wait for {SILENCE:g} s of silence."
+SILENCE_SUSPECTS = (
+    Suspect("silence-unnoticed", _UNSEEN, _watch(after=100.0)),
+    Suspect("silence-unnoticed", "The first silence was noticed, and the second was not. What does "
+            "the node remember after `back`?", _watch(most=2)),
+    Suspect("noticed-afterwards", "The callback of a subscription runs when a message comes. What "
+            "looks when none comes?", _watch(at_once=True)),
+    *(Suspect("noticed-early", _COUNT, _watch(after=after)) for after in (0.0, 1.5, 2.6)),
+    Suspect("noticed-late", _IN_TIME, _watch(after=5.0)),
 )  # fmt: skip
+
+
+def _judge_silence(observation: Observation) -> Outcome:
+    wrong = _unheard(observation, _TEMPERATURE) or _silent(observation, _STATUS)
+    if wrong is None or wrong.mistake == "never-published":
+        wrong = _wrong_words(observation)
+    if wrong:
+        return failed_by("09a", wrong)
+    return passed(
+        "09a",
+        f"{len(READINGS)} readings, {len(_watch()(READINGS)) // 2} silences: each was noticed "
+        "once, and its end too.",
+    )
+
+
+def _wrong_words(observation: Observation) -> Diagnosis | None:
+    words = [(sample.time, str(sample.value)) for sample in on(observation, _STATUS)]
+    for at, word in words:
+        if word not in ("lost", "back"):
+            hint = "The status is lost or back, letter by letter: capitals and blanks count."
+            return Diagnosis("wrong-word", f"On /status appeared {word!r}, at {at:g} s.", hint)
+    done = _by_reading(words)
+    part = parting(done, _watch()(READINGS))
+    if part is None:
+        return None
+    said = [
+        f"{word} at {at:g} s" for at, word in words if [*_by_reading([(at, word)])] == [part.at]
+    ]
+    times = (0.0, *READINGS, _READINGS_END)[part.at :]
+    due = f"{part.right[0].split()[0]} was due" if part.right else "nothing was due"
+    evidence = (
+        f"After {times[0]:g} s, the next reading came at {times[1]:g} s. {due.capitalize()}, and "
+        f"the node said {' and '.join(said) or 'nothing'}."
+    )
+    if part.at == len(READINGS):
+        evidence = evidence.replace("the next reading came", "no reading came, and the run ended")
+    for wait in observation.waits:
+        seconds = (wait.until_ns - wait.time_ns) / NANOSECONDS
+        if (wait.node, wait.reason) == (observation.subject, "sleep") and seconds > 0.5:
+            evidence += f" {wait.callback} slept for {seconds:g} s from {wait.time:g} s on."
+            hint = "While a callback sleeps, the node receives nothing and no timer runs."
+            return Diagnosis("callback-blocks", evidence, hint)
+    fit = fitting(READINGS, done, SILENCE_SUSPECTS)
+    return named(evidence, fit, _first_word(part.at, part.done, part.right, evidence))
+
+
+def _first_word(at: int, done: Sequence[str], right: Sequence[str], evidence: str) -> Diagnosis:
+    """Name a mistake by its first word alone: a node may look at any moments, and forget a lot."""
+    same = next(n for n in range(9) if done[n : n + 1] != right[n : n + 1])
+    if same == len(done):
+        if right[same] == "lost due":
+            return Diagnosis("silence-unnoticed", evidence, _UNSEEN)
+        return Diagnosis("back-missing", evidence, "A reading that ends a silence is news.")
+    word, when = done[same].split()
+    if word == "back" and right[same:] != ("back due",):
+        return Diagnosis("back-too-often", evidence, "Back is the end of lost, and only of that.")
+    if word == "lost" and at == 0:
+        hint = "Before the first reading there is nothing to lose. How does the node know of one?"
+        return Diagnosis("lost-before-found", evidence, hint)
+    if word == "lost" and any(one.startswith("lost") for one in done[:same]):
+        return Diagnosis("status-repeated", evidence, "Once is enough: what must be remembered?")
+    if when == "early":
+        return Diagnosis("noticed-early", evidence, _COUNT)
+    return Diagnosis("noticed-late", evidence, _IN_TIME)
+
+
+# 09b: work, and go on beating.
+
+_ORDER, _DONE, _BEAT = Wire("/order", _INT), Wire("/done", _INT), Wire("/beat", _STRING)
+#: When orders come, and their numbers: one after another, and two while two others wait.
+ORDERS = ((2.5, 7), (9.5, 3), (9.5, 12), (11.75, 5), (11.75, 9))
+_ORDERS_END = 29.0
+#: Seconds that an order takes.
+WORK = 3.0
+#: The longest period in seconds of a timer that looks whether an order is done: a report may be
+#: late by a period.
+_LOOK = 1.0
+Reports = Sequence[tuple[float, int]]
+
+
+def _run_with_orders(answer: Any) -> Observation:  # noqa: ANN401
+    from rosbeat.ros.scenario import Publish
+
+    steps = [
+        Publish(at, topic=_ORDER.topic, type_name=_INT, values=(number,)) for at, number in ORDERS
+    ]
+    return observe(answer, _ORDERS_END, steps=steps)
+
+
+def _judge_work(observation: Observation) -> Outcome:
+    thread = " A thread of its own counts real time, which does not pass here."
+    wrong = (
+        _unheard(observation, _ORDER)
+        or _silent(observation, _BEAT, [_DONE.topic])
+        or _wrong_beats([beat.time for beat in on(observation, _BEAT)])
+        or _silent(observation, _DONE, [_BEAT.topic], thread)
+        or _wrong_reports(observation)
+    )
+    if wrong:
+        return failed_by("09b", wrong)
+    return passed(
+        "09b",
+        f"{len(ORDERS)} orders, each done after {WORK:g} s, one after the other; meanwhile "
+        f"{len(on(observation, _BEAT))} beats, none of them late.",
+    )
+
+
+def _wrong_beats(beats: Sequence[float]) -> Diagnosis | None:
+    """Say what is wrong with the beat; without a model, since a timer may begin at any moment."""
+    hint = "One beat a second, whether it works or not."
+    # Before the first beat, and behind the last one, a gap may be shorter.
+    for begin, end in pairwise((0.0, *beats, _ORDERS_END)):
+        if end - begin < 0.9 and begin > 0.0 and end < _ORDERS_END:
+            evidence = f"A beat came at {begin:g} s, and the next at {end:g} s already."
+            return Diagnosis("wrong-rate", evidence, hint)
+        if end - begin > 1.1 and end <= ORDERS[0][0]:
+            evidence = f"Between {begin:g} s and {end:g} s there was no beat, and no work to do."
+            return Diagnosis("wrong-rate", evidence, "One beat a second needs a timer of 1.0 s.")
+        if end - begin > 1.1:
+            order = [number for at, number in ORDERS if at < end][-1]
+            return Diagnosis(
+                "beat-starved",
+                f"Between {begin:g} s and {end:g} s there was no beat, while there was order "
+                f"{order}.",
+                "A node runs one callback at a time. While yours waits for the work to be done, no "
+                "other can run: what could call you back when it is done?",
+            )
+    mean = (beats[-1] - beats[0]) / max(1, len(beats) - 1)
+    if len(beats) > 1 and abs(mean - 1.0) > 0.02:
+        evidence = f"{len(beats)} beats came, every {mean:.2f} s."
+        return Diagnosis("wrong-rate", evidence, hint)
+    return None
+
+
+def _by_report(reports: Reports) -> Track:
+    """Return each report's number, and the seconds from when the order could begin."""
+    came, free, found = {number: at for at, number in ORDERS}, 0.0, {}
+    for place, (at, number) in enumerate(reports):
+        found[place] = (number, at - max(free, came.get(number, 0.0)))
+        free = at
+    return found
+
+
+def _worker(
+    put: Callable[[list[int], int], Any] = list.append,
+    take: Callable[[list[int]], list[int]] = lambda waiting: [waiting.pop(0)],
+    restart: bool = False,
+) -> Callable[[float], Track]:
+    """Return the model of a worker, from the seconds that it works to its reports.
+
+    Args:
+        put: Adds an order to those that wait; the first of them is being worked on.
+        take: Takes out what is done when the time is over.
+        restart: Whether each order that comes begins the time anew.
+    """
+
+    def model(work: float) -> Track:
+        reports: list[tuple[float, int]] = []
+        waiting: list[int] = []
+        due = _ORDERS_END
+        for at, order in (*ORDERS, (_ORDERS_END, 0)):
+            while waiting and due <= at:
+                reports += [(due, number) for number in take(waiting)]
+                due += work
+            if restart or not waiting:
+                due = at + work
+            put(waiting, order)
+        return _by_report(reports)
+
+    return model
+
+
+def _independent(work: float) -> Track:
+    """Return the reports of a timer for each order, which all run at once."""
+    return _by_report([(at + work, number) for at, number in ORDERS])
+
+
+def _free_running(_: float) -> Track:
+    """Return the reports of a timer that runs from the beginning."""
+    reports, waiting = [], list(ORDERS)
+    for tick in range(3, int(_ORDERS_END), 3):
+        if waiting and waiting[0][0] <= tick:
+            reports.append((float(tick), waiting.pop(0)[1]))
+    return _by_report(reports)
+
+
+def _keep(most: int) -> Callable[[list[int], int], None]:
+    return lambda waiting, order: waiting.append(order) if len(waiting) < most else None
+
+
+def _take_and_empty(waiting: list[int]) -> list[int]:
+    done = waiting[:1]
+    waiting.clear()
+    return done
+
+
+_WAITS = "An order that comes while another one is worked on has to wait somewhere."
+_ONE_AT_A_TIME = f"Orders are done one after the other: the next {WORK:g} s begin when one is done."
+_FIRST_COME = "The order that came first is done first."
+WORK_SUSPECTS = (
+    Suspect("work-too-short", "The timer runs on by itself: begin its period anew when the work on "
+            "an order begins.", _free_running),
+    Suspect("work-too-long", "Each order that comes begins the time anew. It has to go on for the "
+            "order that is being worked on.", _worker(restart=True)),
+    Suspect("work-at-once", _ONE_AT_A_TIME, _independent),
+    Suspect("work-at-once", _ONE_AT_A_TIME,
+            _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
+    Suspect("order-lost", f"Only the newest order is kept. {_WAITS}",
+            _worker(put=lambda waiting, order: waiting.__setitem__(slice(None), [order]))),
+    *(Suspect("order-lost", f"Not more than {most - 1} could wait. {_WAITS}", _worker(_keep(most)))
+      for most in (1, 2, 3)),
+    Suspect("order-lost", f"When one order was done, all others were gone. {_WAITS}",
+            _worker(take=_take_and_empty)),
+    Suspect("order-swapped", f"The newest came first. {_FIRST_COME}",
+            _worker(take=lambda waiting: [waiting.pop()])),
+    Suspect("order-swapped", f"The smallest number came first. {_FIRST_COME}", _worker(put=insort)),
+)  # fmt: skip
+TOO_SHORT = Suspect("work-too-short", f"The work itself takes {WORK:g} s.", _worker())
+TOO_LONG = Suspect(
+    "work-too-long", f"It takes {WORK:g} s. What does it wait for besides?", _worker()
+)
+
+
+def _lateness(observation: Observation) -> float:
+    """Return the period of a timer that ran at each report: a report may be late by that."""
+    reports = {report.time_ns for report in on(observation, _DONE)}
+    runs: dict[tuple[str, str], set[int]] = {}
+    for one in observation.callbacks:
+        if (one.node, one.kind) == (observation.subject, "timer"):
+            runs.setdefault((one.name, one.source), set()).add(one.time_ns)
+    periods = [float(source.split()[0]) for (_, source), times in runs.items() if reports <= times]
+    return max((period for period in periods if period <= _LOOK), default=0.0)
+
+
+def _wrong_reports(observation: Observation) -> Diagnosis | None:
+    reports = [(report.time, int(report.value)) for report in on(observation, _DONE)]
+    done = _by_report(reports)
+    late = _lateness(observation)
+    room = min(late, 0.1) + 0.01  # a counter of small steps may be off by one
+
+    def in_time(found: float, wanted: float) -> bool:
+        return found == wanted or (
+            isinstance(found, float) and -room <= found - wanted <= late + room
+        )
+
+    part = parting(done, _worker()(WORK), in_time)
+    if part is None:
+        return None
+    place = part.at
+    evidence = f"No order was due after {len(ORDERS)} reports"
+    if part.right:
+        at = next(at for at, number in ORDERS if number == part.right[0])
+        begin = max(at, reports[place - 1][0]) if 0 < place <= len(reports) else at
+        evidence = f"Order {part.right[0]} could begin at {begin:g} s and was due {WORK:g} s later"
+    said = f"order {reports[place][1]} was done at {reports[place][0]:g} s" if part.done else (
+        f"it was not done by {observation.time:g} s")  # fmt: skip
+    evidence = f"{evidence}; {said}."
+    work = done[0][1]
+    suspects = (TOO_SHORT if work < WORK else TOO_LONG, *WORK_SUSPECTS)
+    fit = fitting(
+        work, done, suspects, lambda one, other: in_time(other, one) or in_time(one, other)
+    )
+    return named(evidence, fit, _first_report(part.done, part.right, done, evidence))
+
+
+def _first_report(
+    done: Sequence[Any], right: Sequence[Any], reports: Track, evidence: str
+) -> Diagnosis:
+    """Name a mistake by its first report alone: several at once have too many models."""
+    numbers = [number for number, _ in reports.values()]
+    if done and done[0] not in [number for _, number in ORDERS]:
+        return Diagnosis("wrong-values", evidence, "What was ordered is what gets done.")
+    if done and numbers.count(done[0]) > 1:
+        hint = "A timer calls again and again until it is stopped."
+        return Diagnosis("done-twice", evidence, hint)
+    if right[0] not in numbers:
+        return Diagnosis("order-lost", evidence, _WAITS)
+    if done[0] != right[0]:
+        return Diagnosis("order-swapped", evidence, _FIRST_COME)
+    short = done[1] < WORK
+    suspect = TOO_SHORT if short else TOO_LONG
+    return Diagnosis(suspect.mistake, evidence, suspect.hint)
+
+
+# 09c: a monitor for any place.
+
+LOW, HIGH, UNIT = 20.0, 26.0, "C"
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place in which the monitor is started.
+
+    Attributes:
+        node: Full name of the node; empty for the one that is started without arguments.
+        listens: Full name of the topic on which its readings come.
+        speaks: Full name of the topic on which it has to publish.
+        readings: What it hears, one a second, the first at 1 s.
+        low: Its lower limit.
+        high: Its upper limit.
+        unit: Its unit.
+        remappings: Other names of topics that the node is started with.
+        parameters: Parameters that it is started with.
+    """
+
+    node: str
+    listens: str
+    speaks: str
+    readings: tuple[float, ...]
+    low: float = LOW
+    high: float = HIGH
+    unit: str = UNIT
+    remappings: Mapping[str, str] = field(default_factory=dict)
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+
+
+# Readings at the limits of a place, just outside, and between the limits of the others. A float32
+# holds each of the numbers at a limit exactly.
+HOME = Place(
+    "", "/reading", "/status",
+    (22.0, 27.5, 26.0, 26.015625, 25.5, 20.0, 19.984375, 12.5, 20.5, 55.0),
+)  # fmt: skip
+GREENHOUSE = Place(
+    "/greenhouse/humidity_monitor", "/greenhouse/humidity", "/greenhouse/status",
+    (55.0, 72.5, 70.0, 70.015625, 40.0, 39.984375, 22.0, 27.5, 65.5, 30.5), 40.0, 70.0, "%",
+    {"reading": "humidity"}, {"low": 40.0, "high": 70.0, "unit": "%"},
+)  # fmt: skip
+PORCH = Place(
+    "/porch/light_monitor", "/porch/reading", "/porch/light",
+    (300.0, 810.5, 800.0, 19.5, 20.0, 27.5, 65.5, 12.0, 900.5, 400.0), LOW, 800.0, "lx",
+    {"status": "light"}, {"high": 800.0, "unit": "lx"},
+)  # fmt: skip
+PLACES = (HOME, GREENHOUSE, PORCH)
+_PARAMETERS = {"low": LOW, "high": HIGH, "unit": UNIT}
+
+
+def _run_everywhere(answer: Any) -> Observation:  # noqa: ANN401
+    """Start an answer in three places at once; the one without arguments is looked at."""
+    from rosbeat.ros.scenario import SetParameters
+
+    seconds = len(HOME.readings) + 1
+    feeds = [
+        feeder(f"sensor_{number}", one.listens, _FLOAT, one.readings)
+        for number, one in enumerate(PLACES, 1)
+    ]
+    elsewhere = [
+        started(
+            answer,
+            name=one.node.split("/")[2],
+            namespace=one.node.split("/")[1],
+            remappings=one.remappings,
+            parameters=one.parameters,
+        )
+        for one in PLACES[1:]
+    ]
+    # The reply says whether there is such a parameter.
+    steps = [SetParameters(seconds - 0.5, values={name: _PARAMETERS[name]}) for name in _PARAMETERS]
+    return observe(answer, seconds, others=[*feeds, *elsewhere], steps=steps)
+
+
+def _judge_places(observation: Observation) -> Outcome:
+    wrong = _unheard(observation, Wire(HOME.listens, _FLOAT)) or _silent(observation, _STATUS)
+    for place in PLACES[1:]:
+        wrong = wrong or _wrong_names(observation, place)
+    for place in PLACES:
+        wrong = wrong or _wrong_count(observation, place)
+    for place in PLACES:
+        wrong = wrong or _wrong_states(observation, place) or _wrong_form(observation, place)
+    if wrong:
+        return failed_by("09c", wrong)
+    return passed(
+        "09c",
+        f"One class in {len(PLACES)} places at once, with other topics, limits and units "
+        f"({', '.join(place.unit for place in PLACES)}): "
+        f"{sum(len(place.readings) for place in PLACES)} readings, no wrong word.",
+    )
+
+
+def _wrong_names(observation: Observation, place: Place) -> Diagnosis | None:
+    space = place.node.rpartition("/")[0]
+    for kind, does, topic in (
+        ("subscription", "listen to", place.listens),
+        ("publisher", "publish on", place.speaks),
+    ):
+        ends = [
+            end for end in observation.graph.endpoints if (end.node, end.kind) == (place.node, kind)
+        ]
+        names = [end.name for end in ends if end.name not in INFRASTRUCTURE_TOPICS]
+        if topic in names:
+            continue
+        evidence = (
+            f"Started in the namespace {space}, the node should {does} {topic}, and the name in "
+            f"use is {' and '.join(names) or 'none'}."
+        )
+        if all(name.startswith(f"{space}/") for name in names):
+            hint = "Which name stands in the code? It has to be the one that is asked for, whole."
+            return Diagnosis("wrong-topic", evidence, hint)
+        hint = "A namespace moves a name only if it does not begin with a slash."
+        return Diagnosis("absolute-name", evidence, hint)
+    return None
+
+
+def _published(observation: Observation, place: Place) -> list[Sample]:
+    node = place.node or observation.subject
+    return [one for one in on(observation, Wire(place.speaks, _STRING)) if one.node == node]
+
+
+def _wrong_count(observation: Observation, place: Place) -> Diagnosis | None:
+    times = [one.time for one in _published(observation, place)]
+    if times == [float(second) for second in range(1, len(place.readings) + 1)]:
+        return None
+    return Diagnosis(
+        "wrong-rate",
+        f"{len(place.readings)} readings came on {place.listens}, one a second, and {len(times)} "
+        f"texts were published on {place.speaks}.",
+        "One text for each reading, when it comes: also if nothing has changed.",
+    )
+
+
+def _word(value: float, low: float, high: float) -> str:
+    return "High" if value > high else "Low" if value < low else "Normal"
+
+
+def _words(
+    low: float | None = None,
+    high: float | None = None,
+    above: float = 0.0,
+    below: float = 0.0,
+    **other: str,
+) -> Callable[[Place], Track]:
+    """Return the model of a monitor, from a place to the word for each reading.
+
+    Args:
+        low: Its lower limit; by default the place's.
+        high: Its upper limit; by default the place's.
+        above: How much too far up its lower limit is.
+        below: How much too far down its upper limit is.
+        other: Other words, by the right ones.
+    """
+
+    def model(place: Place) -> Track:
+        limits = (place.low if low is None else low, place.high if high is None else high)
+        said = [_word(one, limits[0] + above, limits[1] - below) for one in place.readings]
+        return {second: (other.get(one, one),) for second, one in enumerate(said, 1)}
+
+    return model
+
+
+_FROM_OUTSIDE = (
+    "A value from outside reaches a node only through a parameter that it declares, by exactly "
+    "that name, and reads."
+)
+_AT_THE_LIMIT = "Above and below leave the limit itself out: exactly there all is Normal."
+PLACE_SUSPECTS = (
+    Suspect("limits-fixed", f"The parameters low and high changed nothing. {_FROM_OUTSIDE}",
+            _words(LOW, HIGH)),
+    Suspect("limits-fixed", f"The parameter low changed nothing. {_FROM_OUTSIDE}", _words(low=LOW)),
+    Suspect("limits-fixed", f"The parameter high changed nothing. {_FROM_OUTSIDE}",
+            _words(high=HIGH)),
+    *(Suspect("boundary", _AT_THE_LIMIT, _words(above=above, below=below))
+      for above, below in ((1e-3, 0.0), (0.0, 1e-3), (1e-3, 1e-3))),
+    Suspect("wrong-state", "High and Low have changed places.", _words(High="Low", Low="High")),
+    Suspect("wrong-state", "The parameters low and high have changed places.",
+            lambda place: _words(place.high, place.low)(place)),
+)  # fmt: skip
+_ANY_WORD = re.compile(r"(?i)(?<![a-z])(?:high|low|normal)(?![a-z])")
+
+
+def _said(observation: Observation, place: Place) -> Track:
+    texts = [str(one.value) for one in _published(observation, place)]
+    found = [tuple(dict.fromkeys(_ANY_WORD.findall(text))) for text in texts]
+    return {second: words or ("",) for second, words in enumerate(found, 1)}
+
+
+def _wrong_states(observation: Observation, place: Place) -> Diagnosis | None:
+    done = _said(observation, place)
+    part = parting(done, _words()(place))
+    if part is None:
+        return None
+    text = _published(observation, place)[part.at - 1].value
+    evidence = (
+        f"With the limits {place.low:g} and {place.high:g}, it said {text!r} of a reading of "
+        f"{place.readings[part.at - 1]:g}.{_undeclared(observation)}"
+    )
+    if part.done[0] not in ("High", "Low", "Normal") or len(part.done) > 1:
+        hint = "One of three words stands in each text: High, Low or Normal, letter by letter."
+        return Diagnosis("wrong-word", evidence, f"{hint} Capitals count.")
+    if place == HOME and _said(observation, GREENHOUSE) == _words()(GREENHOUSE):
+        hint = f"Where it is told no limits, they are {LOW:g} and {HIGH:g}: the default values."
+        return Diagnosis("other-default", f"{evidence} Where it was told, it kept them.", hint)
+    other = Diagnosis("wrong-state", evidence, "Which of your conditions is true for it?")
+    return named(evidence, fitting(place, done, PLACE_SUSPECTS), other)
+
+
+def _undeclared(observation: Observation) -> str:
+    """Return a sentence about parameters that the node does not declare, or an empty text."""
+    names = [
+        [*_PARAMETERS][reply.number - 1]
+        for reply in observation.replies
+        if reply.data.get("reason") == "not declared"
+    ]
+    return f" The node declares no parameter {' and no '.join(names)}." if names else ""
+
+
+def _form(text: str, reading: float, unit: str) -> str:
+    """Return a text with the names of its parts in their place."""
+    edge = ("(?<![A-Za-z])", "(?![A-Za-z])") if unit.isalpha() else ("", "")
+    text = re.sub(re.escape(unit).join(edge), "<unit>", text)
+    numbers = (number for number in re.findall(r"[-+]?\d+\.\d+", text))
+    for number in numbers:
+        if abs(float(number) - reading) < 0.06:  # one decimal, and 32 bits
+            text = text.replace(number, "<reading>")
+    return _ANY_WORD.sub("<word>", text)
+
+
+def _wrong_form(observation: Observation, place: Place) -> Diagnosis | None:
+    for reading, sample in zip(place.readings, _published(observation, place), strict=True):
+        text = str(sample.value)
+        form = _form(text, reading, place.unit)
+        if form == "<word> <reading> <unit>":
+            continue
+        evidence = f"Of {reading:g} it said {text!r}."
+        if "<unit>" not in form and "<unit>" in _form(text, reading, UNIT):
+            evidence += f" It was started with the unit {place.unit!r}.{_undeclared(observation)}"
+            return Diagnosis("unit-fixed", evidence, f"The unit is a parameter. {_FROM_OUTSIDE}")
+        if "<unit>" not in form:
+            hint = f"Each text ends with the unit, here {place.unit}."
+            return Diagnosis("wrong-unit", evidence, hint)
+        if "<reading>" not in form:
+            hint = "The reading itself belongs into the text, with a decimal or more."
+            return Diagnosis("wrong-values", evidence, hint)
+        hint = "Three parts, each once, with a blank between them: word, reading, unit."
+        return Diagnosis("wrong-form", evidence, hint)
+    return None
+
 
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "09a",
-        SCENARIOS["09a"],
-        lambda seen: judge_noticing("09a", seen, READINGS),
+        _run_with_silences,
+        _judge_silence,
         "notice the silence",
         3,
         (
@@ -37,8 +667,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "09b",
-        SCENARIOS["09b"],
-        lambda seen: judge_work("09b", seen, ORDERS),
+        _run_with_orders,
+        _judge_work,
         "work, and go on beating",
         3,
         (
@@ -53,8 +683,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "09c",
-        SCENARIOS["09c"],
-        lambda seen: judge_reusable("09c", seen, _PLACES),
+        _run_everywhere,
+        _judge_places,
         "a monitor for any place",
         3,
         (

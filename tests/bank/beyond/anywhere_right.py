@@ -34,11 +34,7 @@ def _right(name, *edits):
 
 ANSWERS = (
     _right("asked for each time"),
-    _right("a colon, and no space before the unit",
-           (_TEXT, "text = f\"{word}: {msg.data:.1f}{self.value_of('unit')}\"")),
     _right("more decimals", (":.1f", ":.3f")),
-    _right("the reading first, degrees, capital letters",
-           (_TEXT, "text = f\"{msg.data:.2f} °{self.value_of('unit')} is {word.upper()}\"")),
     _right("text put together",
            (_TEXT, 'text = word + " " + str(round(msg.data, 1)) + " " + self.value_of("unit")')),
     _right("it logs, too", (_TEXT, _TEXT + "\n        self.get_logger().info(text)")),

@@ -4,6 +4,7 @@ from bank.answer import Answer
 from bank.beyond import (
     anywhere_right,
     anywhere_wrong,
+    claims_more,
     silence_right,
     silence_wrong,
     worker_right,
@@ -24,4 +25,5 @@ ANSWERS: tuple[Answer, ...] = (
     *worker_wrong.ANSWERS,
     *anywhere_right.ANSWERS,
     *anywhere_wrong.ANSWERS,
+    *claims_more.ANSWERS,
 )

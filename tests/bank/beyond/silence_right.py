@@ -38,7 +38,6 @@ ANSWERS = (
     _right("more than three", (">= 3.0", "> 3.0"), ("0.5, self.look", "1.0, self.look")),
     _right("twenty times a second", ("0.5, self.look", "0.05, self.look")),
     _right("three and a half, looked at often", (">= 3.0", ">= 3.5"), ("0.5, ", "0.1, ")),
-    _right("capital letters", ('"lost"', '"Lost"'), ('"back"', '"BACK"')),
     right("09a", "a timer that each reading sets back", '''
         class Watchman(Node):
             def __init__(self):

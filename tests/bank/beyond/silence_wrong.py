@@ -121,6 +121,8 @@ ANSWERS = (
                 self.heard = False
     '''),
     _wrong("other words", "wrong-word", ('"lost"', '"gone"')),
+    _wrong("capital letters", "wrong-word", ('"lost"', '"Lost"'), ('"back"', '"BACK"')),
+    _wrong("a blank behind the word", "wrong-word", ('"lost"', '"lost "')),
     _wrong("a word more", "wrong-word", ('"back"', '"back again"')),
     # The thirty.
     _wrong("another topic to say it on", "wrong-topic", ('"status"', '"alarm"')),

@@ -62,6 +62,23 @@ def _either(name, mistakes, *edits, base=BASE):
     return either("09b", name, mistakes, edited(base, *edits))
 
 
+_THREAD = """
+    class Worker(Node):
+        def __init__(self):
+            super().__init__("worker")
+            self.beats = self.create_publisher(String, "beat", 10)
+            self.dones = self.create_publisher(Int32, "done", 10)
+            self.create_timer(1.0, lambda: self.beats.publish(String(data="alive")))
+            self.create_subscription(Int32, "order", self.take, 10)
+
+        def take(self, msg):
+            def work():
+                time.sleep(0.2)
+                self.dones.publish(msg)
+
+            threading.Thread(target=work).start()
+"""
+
 ANSWERS = (
     wrong("09b", "a beat that is a little too fast", "wrong-rate",
           edited(BASE, (_BEAT, "self.create_timer(0.95, self.beat)"))),
@@ -90,6 +107,21 @@ ANSWERS = (
                     "        with suppress(Exception):\n            self.report(msg)\n\n"
                     "    def report(self, msg):"),
            ("class W", "from contextlib import suppress\n\nclass W"), base=BUSY),
+    _wrong("3.9 seconds", "work-too-long", ("create_timer(3.0", "create_timer(3.9"), base=TIMED),
+    _wrong("3.4 seconds", "work-too-long", ("create_timer(3.0", "create_timer(3.4"), base=TIMED),
+    _wrong("2.9 seconds", "work-too-short", ("create_timer(3.0", "create_timer(2.9"), base=TIMED),
+    _wrong("a second", "work-too-short", ("create_timer(3.0", "create_timer(1.0"), base=TIMED),
+    _wrong("only two orders may wait", "order-lost",
+           (_APPEND, f"if len(self.waiting) < 3:\n            {_APPEND}"), base=TIMED),
+    _wrong("only one order may wait", "order-lost",
+           (_APPEND, f"if len(self.waiting) < 2:\n            {_APPEND}"), base=TIMED),
+    _wrong("the third order is dropped", "order-lost",
+           (_APPEND, "self.count = getattr(self, 'count', 0) + 1\n        if self.count != 3:\n"
+                     f"            {_APPEND}"), base=TIMED),
+    _wrong("a list that is empty now and then", "index-error",
+           ("        if not self.waiting:\n            self.oven.cancel()", "        pass"),
+           base=TIMED),
+    _wrong("threads that raise when all is over", "never-published", base=_THREAD),
     _wrong("it does not work at all", "work-too-short", (_SLEEP, "pass"), base=BUSY),
     _wrong("two seconds", "work-too-short", ("> 6", "> 3")),
     _wrong("a timer that runs on and is never begun anew", "work-too-short",

@@ -99,8 +99,8 @@ ANSWERS = (
 
             def word(self, value):
                 if value > self.get_parameter("warm").value:
-                    return "WARM"
-                return "FROST" if value < self.get_parameter("frost").value else "FINE"
+                    return "Warm"
+                return "Frost" if value < self.get_parameter("frost").value else "Fine"
     '''),
     right("04a", "the profile for sensor data, an async callback", '''
         from rclpy.qos import qos_profile_sensor_data

@@ -12,6 +12,7 @@ from bank.nodes import (
     fridge_wrong,
     greenhouse_right,
     greenhouse_wrong,
+    listening_more,
     reader_right,
     reader_wrong,
     reporter_right,
@@ -24,6 +25,7 @@ _MODULES = (
     *(reader_right, reader_wrong, reporter_right, reporter_wrong),
     *(beat_right, beat_wrong, room_right, room_wrong, greenhouse_right, greenhouse_wrong),
     *(fridge_right, fridge_wrong, alarm_right, alarm_wrong, calm_right, calm_wrong),
+    listening_more,
 )
 
 ANSWERS: tuple[Answer, ...] = tuple(one for module in _MODULES for one in module.ANSWERS)

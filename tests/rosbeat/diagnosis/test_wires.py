@@ -145,12 +145,12 @@ def test_two_types_on_a_topic_are_both_said():
     fault = Fault(1, NODE, "__init__", "RCLError", text, 3, "make()", asked)
     found = why_not_published(seen(end("subscription", node=ROOM), faults=(fault,)), WIRE)
     assert found.mistake == "type-mismatch"
-    said = f"/temperature carries {FLOAT} here, and your node asks for String."
+    said = "On /temperature, your node uses String and the other side Float32."
     assert found.evidence.endswith(said)
     other = end("subscription", "/room/temperature", ROOM, "std_msgs/msg/Int32")
     two = why_not_published(seen(end("subscription", node=ROOM), other, faults=(fault,)), WIRE)
     assert two.mistake == "type-mismatch"
-    assert "carries" not in two.evidence
+    assert "the other side" not in two.evidence
 
 
 def test_without_a_subject_it_is_the_node_that_was_made_last():
