@@ -11,6 +11,7 @@ and what can be said of any function whose result is the answer.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -172,8 +173,9 @@ def explain_subscription(wire: Wire, fault: Fault) -> Diagnosis | None:
         wire: Where it is to publish.
         fault: What was raised.
     """
-    topic = wire.topic.rpartition("/")[2]
-    if not fault.asked.startswith("create_subscription(") or topic not in fault.code:
+    topic = re.escape(wire.topic.rpartition("/")[2])
+    is_here = re.search(rf"[\"'/]{topic}[\"']", fault.code)
+    if not fault.asked.startswith("create_subscription(") or not is_here:
         return None
     return Diagnosis(
         "no-publisher",
@@ -229,6 +231,24 @@ _BEATS = (
 )
 
 
+def diagnose_wait(observation: Observation, evidence: str) -> Diagnosis | None:
+    """Name a callback of the node that waits; waits are recorded, so this needs no model.
+
+    Args:
+        observation: What was seen.
+        evidence: What has come of the wait.
+    """
+    own = next((one for one in observation.waits if one.node == observation.subject), None)
+    if own is None:
+        return None
+    seconds = (own.until_ns - own.time_ns) / NANOSECONDS
+    return Diagnosis(
+        "callback-blocks",
+        f"At {own.time:g} s {own.callback} waited for {seconds:g} s. {evidence}",
+        "While a callback waits, its node does nothing else: no other callback is called.",
+    )
+
+
 def diagnose_beat(
     observation: Observation, wire: Wire, period: float, what: str = "readings"
 ) -> Diagnosis | None:
@@ -249,19 +269,13 @@ def diagnose_beat(
         return None
     came = _FEW.get(sum(part.done), str(sum(part.done)))
     evidence = (
-        f"In {observation.time:g} seconds {len(beat.right)} {what} were due, and there were "
-        f"{counts.total()}. At {part.at / NANOSECONDS:g} s {came} came, and "
+        f"In {observation.time:g} seconds {len(beat.right)} {what} were due, and "
+        f"{counts.total()} came. At {part.at / NANOSECONDS:g} s {came} came, and "
         f"{_FEW[sum(part.right)]} was due."
     )
-    # Waits are recorded, so they need no model of an executor that falls behind.
-    own = [one for one in observation.waits if one.node == observation.subject]
-    if own:
-        seconds = (own[0].until_ns - own[0].time_ns) / NANOSECONDS
-        return Diagnosis(
-            "callback-blocks",
-            f"At {own[0].time:g} s {own[0].callback} waited for {seconds:g} s. {evidence}",
-            "While a callback waits, its node does nothing else. The timer alone makes the beat.",
-        )
+    waited = diagnose_wait(observation, evidence)
+    if waited:
+        return waited
     if observation.subject not in observation.graph.nodes:
         hint = "The program around a node destroys it in the end. Which line of the node does so?"
         return Diagnosis("node-ended", f"The node was destroyed. {evidence}", hint)

@@ -6,10 +6,10 @@ from collections import Counter
 from functools import partial
 from typing import Any
 
-from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard
 from rosbeat.exercises.exercise import Exercise, failed, failed_by, passed
-from rosbeat.exercises.model import diagnose_beat, explain_subscription, missing, on
+from rosbeat.exercises.model import diagnose_beat, diagnose_wait, explain_subscription, missing, on
 from rosbeat.exercises.scenarios import feeder, observe
 from rosbeat.records import Observation, Outcome
 
@@ -46,11 +46,10 @@ def _judge_reader(observation: Observation) -> Outcome:
             "wrong-topic",
         )
     if count < _ARTICLES:
-        return failed(
-            "00a",
-            f"The reader heard {count} of {_ARTICLES} articles on /weather.",
-            "What makes the reader stop? Look at what its callback does.",
-        )
+        evidence = f"The reader heard {count} of {_ARTICLES} articles on /weather."
+        hint = "What makes the reader stop? Look at what its callback does."
+        waited = diagnose_wait(observation, evidence)
+        return failed_by("00a", waited or Diagnosis(UNKNOWN, evidence, hint))
     return failed(
         "00a",
         f"There were {_ARTICLES} articles, and the reader's callback ran {count} times.",
@@ -60,7 +59,7 @@ def _judge_reader(observation: Observation) -> Outcome:
 
 
 _NOTHING_HEARD = Diagnosis(
-    "new-to-me",
+    UNKNOWN,
     "Three articles appeared on /weather and the reader got none.",
     'Topics match by name, letter by letter. The name is a text: write "weather", with quotes.',
 )
@@ -88,7 +87,7 @@ def _judge_reporter(observation: Observation) -> Outcome:
 
 
 _NOTHING_PUBLISHED = Diagnosis(
-    "new-to-me",
+    UNKNOWN,
     "Nobody published on /sports in nine seconds.",
     "create_publisher takes the message type, the topic's name and the queue depth, in this order.",
 )

@@ -57,7 +57,7 @@ _BEST_EFFORT = (
 # A step may be drawn in any way: with `uniform` or `choice`, by NumPy, from a generator of the
 # node's own. So nobody can foretell what a right walk, or a misunderstood one, makes of the random
 # numbers, and a walk is judged by what its readings have in common: each mistake shows in a way of
-# its own, and is a row of a table. Only where a jump leads can be foretold, by models.
+# its own, and is a row of a table.
 #
 # Random numbers drift up, then down, and then not at all. So both limits are met soon, and a walk
 # that is still beyond a limit when the drift has turned gives itself away: what is published was
@@ -86,6 +86,8 @@ class _Asked:
     low: float
     high: float
     step: float
+    start: float | None = None  # where it has to begin
+    rate_in_words: str = ""
     unit: str = "degrees"
     aside: str = ""  # a sentence after hints that name a number, with a blank before it
 
@@ -99,7 +101,9 @@ _GREENHOUSE = _Asked(
     "03c",
     Wire("/greenhouse/temperature", _FLOAT),
     4,
-    *(_fahrenheit(10.2), _fahrenheit(28.0), 0.9, "degrees Fahrenheit"),
+    *(_fahrenheit(10.2), _fahrenheit(28.0), 0.9, _fahrenheit(22.0)),
+    "Four readings a second. ",
+    "degrees Fahrenheit",
     " In Celsius, where it walks, steps go up to 0.5, and the limits are 10.2 and 28.0.",
 )
 
@@ -127,10 +131,15 @@ class _Walk:
         self.top, self.bottom = max(values), min(values)
         self.up, self.down = max(self.moves), -min(self.moves)
         self.widest = max(self.up, self.down)
-        # The numbers of the readings after steps that are far wider than nearly all.
         widths = sorted(abs(move) for move in self.moves if move) or [0.0]
         self.near = 2 * widths[int(0.95 * len(widths))]
-        self.jumps = [n for n, one in enumerate(self.moves, 1) if abs(one) > self.near + asked.step]
+        # Steps far wider than nearly all: whether they begin in the upper half, and where they end.
+        middle = (self.top + self.bottom) / 2
+        self.jumps = [
+            (before > middle, now)
+            for before, now in pairwise(values)
+            if abs(now - before) > self.near + asked.step
+        ]
         self.ends = (
             _End(self, self.top, asked.high, asked.low, self.top - asked.high, _PHASE),
             _End(self, self.bottom, asked.low, asked.high, asked.low - self.bottom, 2 * _PHASE),
@@ -161,17 +170,14 @@ class _Walk:
     def is_constant(self, value: float) -> bool:
         return self.widest == 0 and abs(self.top - value) < _ROUNDING
 
-    def jumps_to(self, high: float, low: float) -> bool:
-        """Return whether all jumps lead to one number from above, and to another from below."""
-        middle = (self.top + self.bottom) / 2
-        goals = {n: high if self.values[n - 1] > middle else low for n in self.jumps}
-        return all(abs(self.values[n] - goal) <= self.near for n, goal in goals.items())
+    def wraps_round(self) -> bool:
+        goals = [(now, self.bottom if is_high else self.top) for is_high, now in self.jumps]
+        return bool(goals) and all(abs(now - goal) <= self.near for now, goal in goals)
 
     def is_set_back(self) -> bool:
-        middle = (self.top + self.bottom) / 2
-        high = [self.values[n] for n in self.jumps if self.values[n - 1] > middle]
-        low = [self.values[n] for n in self.jumps if self.values[n - 1] <= middle]
-        return self.jumps_to(*(one[0] if one else 0.0 for one in (high, low)))
+        """Return whether all jumps from above end at one number, and all from below at another."""
+        sides = [[now for high, now in self.jumps if high is side] for side in (True, False)]
+        return any(sides) and all(max(one) - min(one) <= self.near for one in sides if one)
 
     def is_drawn_in_advance(self) -> bool:
         """Return whether the same steps come again, in the same order, away from both ends."""
@@ -263,13 +269,13 @@ _SIGNS = (
         "wraps-round",
         "Beyond one limit it goes on at the other. Cut off what is beyond a limit instead: then "
         "the walk stays there until a step leads away.",
-        lambda walk: bool(walk.jumps) and walk.jumps_to(walk.bottom, walk.top),
+        lambda walk: walk.wraps_round(),
     ),
     _Sign(
         "set-back",
         "Near a limit it is set back, by far more than a step. Cut off what is beyond a limit "
         "instead: then the walk goes on from there.",
-        lambda walk: bool(walk.jumps) and walk.is_set_back(),
+        lambda walk: walk.is_set_back(),
     ),
     _Sign(
         "jumps",
@@ -369,29 +375,40 @@ def _judge_walk(asked: _Asked, observation: Observation) -> Outcome:
     walk = _walk(asked, observation)
     if isinstance(walk, Diagnosis):
         return failed_by(asked.exercise, walk)
-    wrong = _unit(walk) if asked is _GREENHOUSE else None
-    found = walk.first_sign()
-    if wrong is None and found is not None:
-        hint = found[0].hint.format(found[1], asked=asked)
-        wrong = Diagnosis(found[0].mistake, walk.evidence() + walk.parting(), hint)
-    if wrong is None and asked is _GREENHOUSE and not _starts_right(walk):
-        wrong = Diagnosis(
-            "wrong-start",
-            f"The walk is right, and its first reading is {walk.values[0]:.2f} degrees.",
-            "It starts at 22.0 degrees Celsius, and the first reading is one step from there.",
-        )
-    if wrong is not None:
+    wrong = _unit(walk) or _shape(walk) or _start(walk)
+    if wrong:
         return failed_by(asked.exercise, wrong)
-    rate = "Four readings a second. " if asked is _GREENHOUSE else ""
-    return passed(asked.exercise, rate + walk.evidence())
+    return passed(asked.exercise, asked.rate_in_words + walk.evidence())
+
+
+def _shape(walk: _Walk) -> Diagnosis | None:
+    found = walk.first_sign()
+    if found is None:
+        return None
+    sign, seen = found
+    hint = sign.hint.format(seen, asked=walk.asked)
+    return Diagnosis(sign.mistake, walk.evidence() + walk.parting(), hint)
 
 
 def _starts_right(walk: _Walk) -> bool:
-    return abs(walk.values[0] - _fahrenheit(22.0)) <= walk.asked.step + 0.01
+    start = walk.asked.start
+    return start is None or abs(walk.values[0] - start) <= walk.asked.step + 0.01
+
+
+def _start(walk: _Walk) -> Diagnosis | None:
+    if _starts_right(walk):
+        return None
+    return Diagnosis(
+        "wrong-start",
+        f"The walk is right, and its first reading is {walk.values[0]:.2f} degrees.",
+        "It starts at 22.0 degrees Celsius, and the first reading is one step from there.",
+    )
 
 
 def _unit(walk: _Walk) -> Diagnosis | None:
-    """Say what is wrong with a unit: the first reading tells, and the limits."""
+    """Say what is wrong with the unit of 03c: the first reading tells, and the limits."""
+    if walk.asked is not _GREENHOUSE:
+        return None
     first, second = walk.values[:2]
     if len(set(walk.values[1:_PHASE])) == 1 and abs(second - first) > 1.0:
         return Diagnosis(

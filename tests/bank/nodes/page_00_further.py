@@ -200,4 +200,180 @@ ANSWERS = (
         "wrong-rate",
         edited(REPORTER, ("self.write)", "self.write)\n        self.write()")),
     ),
+    right(
+        "00a",
+        "async callback and message info",
+        edited(READER, ("def read(self, msg)", "async def read(self, msg, info)")),
+    ),
+    right(
+        "00a",
+        "best effort",
+        edited(
+            READER,
+            ("class W", "from rclpy.qos import qos_profile_sensor_data\n\nclass W"),
+            ("self.read, 10", "self.read, qos_profile_sensor_data"),
+        ),
+    ),
+    right(
+        "00a",
+        "it counts and then publishes elsewhere",
+        edited(
+            READER,
+            (
+                "self.create_sub",
+                'self.out = self.create_publisher(String, "seen", 10)\n        self.create_sub',
+            ),
+            ('self.get_logger().info(f"I read: {msg.data}")', "self.out.publish(msg)"),
+        ),
+    ),
+    either(
+        "00a",
+        "weather republished on weather",
+        ("endless-chain", "wrong-rate"),
+        edited(
+            READER,
+            (
+                "self.create_sub",
+                'self.out = self.create_publisher(String, "weather", 10)\n        self.create_sub',
+            ),
+            ('self.get_logger().info(f"I read: {msg.data}")', "self.out.publish(msg)"),
+        ),
+    ),
+    either(
+        "00a",
+        "a timer that asks for the weather",
+        ("no-subscription",),
+        edited(
+            READER,
+            (
+                'self.create_subscription(String, "weather", self.read, 10)',
+                "self.create_timer(1.0, lambda: None)",
+            ),
+        ),
+    ),
+    either(
+        "00a",
+        "a publisher instead",
+        (
+            "no-subscription",
+            "arguments-swapped",
+            "wrong-argument",
+            "not-a-message-type",
+            "argument-missing",
+        ),
+        edited(
+            READER,
+            (
+                'self.create_subscription(String, "weather", self.read, 10)',
+                'self.create_publisher(String, "weather", 10)',
+            ),
+        ),
+    ),
+    wrong(
+        "00a",
+        "it sleeps for three seconds",
+        "callback-blocks",
+        edited(
+            READER,
+            ("self.get_logger()", "import time\n        time.sleep(3)\n        self.get_logger()"),
+        ),
+    ),
+    right(
+        "00b",
+        "__call__ as the callback",
+        """
+    class SportsReporter(Node):
+        def __init__(self):
+            super().__init__("sports_reporter")
+            self.out = self.create_publisher(String, "sports", 10)
+            self.create_timer(2.0, self)
+
+        def __call__(self):
+            self.out.publish(String(data="Goal"))
+ """,
+    ),
+    right(
+        "00b",
+        "a coin decides what, not whether",
+        edited(
+            REPORTER,
+            ("class S", "import random\n\nclass S"),
+            ('"What a match"', 'random.choice(["Won", "Lost"])'),
+        ),
+    ),
+    right(
+        "00b",
+        "a numpy period",
+        edited(
+            REPORTER,
+            ("class S", "import numpy as np\n\nclass S"),
+            ("2.0", "float(np.mean([1.0, 3.0]))"),
+        ),
+    ),
+    right(
+        "00b",
+        "a new line for an article with text",
+        edited(REPORTER, ('"What a match"', '"\\nGoal\\n"')),
+    ),
+    either(
+        "00b",
+        "a coin decides whether",
+        ("wrong-rate", "new-to-me"),
+        edited(
+            REPORTER,
+            ("class S", "import random\n\nclass S"),
+            (
+                "self.publisher.publish",
+                "if random.random() < 0.5:\n            self.publisher.publish",
+            ),
+        ),
+    ),
+    either(
+        "00b",
+        "two timers of four seconds",
+        ("wrong-rate",),
+        edited(
+            REPORTER,
+            (
+                "self.timer = self.create_timer(2.0, self.write)",
+                "self.a = self.create_timer(4.0, self.write)\n"
+                "        self.b = self.create_timer(4.0, self.write)",
+            ),
+        ),
+    ),
+    either("00b", "a rate slowly drifting", ("wrong-rate",), edited(REPORTER, ("2.0", "2.001"))),
+    either(
+        "00b",
+        "a line feed for an article",
+        ("wrong-values",),
+        edited(REPORTER, ('"What a match"', '"\\n"')),
+    ),
+    either(
+        "00b",
+        "it waits for a reader",
+        ("never-published",),
+        edited(
+            REPORTER,
+            (
+                "self.publisher.publish",
+                "if self.publisher.get_subscription_count():\n            self.publisher.publish",
+            ),
+        ),
+    ),
+    right(
+        "00b",
+        "the publisher is made when it is needed",
+        edited(
+            REPORTER,
+            (
+                'self.publisher = self.create_publisher(String, "sports", 10)',
+                "self.publisher = None",
+            ),
+            (
+                "self.publisher.publish(",
+                'self.publisher = self.publisher or self.create_publisher(String, "sports", 10)\n'
+                "        self.publisher.publish(",
+            ),
+        ),
+    ),
 )

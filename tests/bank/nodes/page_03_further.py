@@ -10,6 +10,7 @@ _TIMER = "self.timer = self.create_timer(0.5, self.publish_humidity)"
 _SEND = "self.publisher_.publish(Float32(data=45.0))"
 _SUP = 'super().__init__("humidity_sensor")'
 _RS = "self.temperature += random.uniform(-0.3, 0.3)"
+_RSEND = "self.publisher_.publish(Float32(data=self.temperature))"
 _RC = "self.temperature = max(18.0, min(28.0, self.temperature))"
 _GS = "self.temperature += random.uniform(-0.5, 0.5)"
 _GC = "self.temperature = max(10.2, min(28.0, self.temperature))"
@@ -536,4 +537,335 @@ _GREENHOUSES = (
     _gw("a whole degree", "step-too-wide", ("(-0.5, 0.5)", "(-1, 1)")),
 )
 
-ANSWERS = (*_BEATS, *_ROOMS, *_GREENHOUSES)
+
+def _re(name, mistakes, *e):
+    names = (mistakes,) if isinstance(mistakes, str) else mistakes
+    return either("03b", name, names, edited(ROOM, *e))
+
+
+def _ge(name, mistakes, *e):
+    names = (mistakes,) if isinstance(mistakes, str) else mistakes
+    return either("03c", name, names, edited(GREENHOUSE, *e))
+
+
+_MORE = (
+    right("03a", "a rate object by hand", edited(BEAT, ("0.5", "1.0 / 2"))),
+    right(
+        "03a",
+        "keyword clock and autostart",
+        edited(BEAT, ("self.publish_humidity)", "self.publish_humidity, autostart=True)")),
+    ),
+    right(
+        "03a",
+        "a one-shot that re-arms by reset",
+        """
+    class HumiditySensor(Node):
+        def __init__(self):
+            super().__init__("humidity_sensor")
+            self.pub = self.create_publisher(Float32, "humidity", 5)
+            self.t = self.create_timer(0.5, self.go)
+
+        def go(self):
+            self.t.cancel()
+            self.pub.publish(Float32(data=45.0))
+            self.t.reset()
+ """,
+    ),
+    right(
+        "03a",
+        "a class decorator",
+        """
+    def named(cls):
+        cls.topic = "humidity"
+        return cls
+
+    @named
+    class HumiditySensor(Node):
+        def __init__(self):
+            super().__init__("humidity_sensor")
+            self.publisher_ = self.create_publisher(Float32, self.topic, 5)
+            self.timer = self.create_timer(0.5, self.publish_humidity)
+
+        def publish_humidity(self):
+            self.publisher_.publish(Float32(data=45.0))
+ """,
+    ),
+    either(
+        "03a",
+        "three timers in a row",
+        ("wrong-rate",),
+        edited(
+            BEAT,
+            (
+                "self.timer = self.create_timer(0.5, self.publish_humidity)",
+                "for p in (0.5, 1.0, 1.5):\n"
+                "            self.create_timer(p, self.publish_humidity)",
+            ),
+        ),
+    ),
+    either(
+        "03a",
+        "it misses every fifth",
+        ("wrong-rate",),
+        edited(
+            BEAT,
+            ("self.timer =", "self.n = 0\n        self.timer ="),
+            (
+                "self.publisher_.publish",
+                "self.n += 1\n        if self.n % 5:\n            self.publisher_.publish",
+            ),
+        ),
+    ),
+    either(
+        "03a",
+        "it begins late",
+        ("wrong-rate",),
+        edited(
+            BEAT,
+            ("self.timer =", "self.n = 0\n        self.timer ="),
+            (
+                "self.publisher_.publish",
+                "self.n += 1\n        if self.n > 2:\n            self.publisher_.publish",
+            ),
+        ),
+    ),
+    either(
+        "03a",
+        "a subscription besides, broken",
+        ("callback-parameters", "callback-missing"),
+        edited(
+            BEAT,
+            (
+                "self.timer =",
+                'self.create_subscription(Float32, "temperature", self.publish_humidity, 5)\n'
+                "        self.timer =",
+            ),
+        ),
+    ),
+    either(
+        "03a",
+        "the publisher is destroyed",
+        ("new-to-me", "gone-quiet"),
+        edited(
+            BEAT,
+            (
+                "self.publisher_.publish(Float32(data=45.0))",
+                "self.publisher_.publish(Float32(data=45.0))\n"
+                "        self.destroy_publisher(self.publisher_)",
+            ),
+        ),
+    ),
+    either(
+        "03a",
+        "spin in the callback",
+        ("callback-blocks",),
+        edited(
+            BEAT,
+            ("self.publisher_.publish", "rclpy.spin_once(self)\n        self.publisher_.publish"),
+        ),
+    ),
+    _r("momentum-free: mirrored step", (_RS, "self.temperature -= random.uniform(-0.3, 0.3)")),
+    _r(
+        "two draws, sign and width",
+        (_RS, "self.temperature += random.choice([1, -1]) * random.uniform(0.0, 0.3)"),
+    ),
+    _r(
+        "sqrt step",
+        (_RS, "self.temperature += random.choice([1, -1]) * 0.3 * random.random() ** 0.5"),
+    ),
+    _r(
+        "clamped by while",
+        (
+            _RC,
+            "while self.temperature > 28.0:\n"
+            "            self.temperature = 28.0\n"
+            "        while self.temperature < 18.0:\n"
+            "            self.temperature = 18.0",
+        ),
+    ),
+    _r(
+        "draws again until it fits",
+        (
+            f"{_RS}\n        {_RC}",
+            "while True:\n"
+            "            new = self.temperature + random.uniform(-0.3, 0.3)\n"
+            "            if 18.0 <= new <= 28.0:\n"
+            "                break\n"
+            "        self.temperature = new",
+        ),
+    ),
+    _r(
+        "a step that shrinks near a limit",
+        (
+            f"{_RS}\n        {_RC}",
+            "low = max(18.0, self.temperature - 0.3)\n"
+            "        high = min(28.0, self.temperature + 0.3)\n"
+            "        self.temperature = random.uniform(low, high)",
+        ),
+    ),
+    _r(
+        "rounded to hundredths, kept",
+        (_RC, "self.temperature = round(max(18.0, min(28.0, self.temperature)), 2)"),
+    ),
+    _r(
+        "rounded to hundredths, shown only",
+        ("data=self.temperature", "data=round(self.temperature, 2)"),
+    ),
+    _r(
+        "rounded to tenths, kept and of tenths",
+        (_RS, "self.temperature += random.randint(-3, 3) / 10"),
+        ("data=self.temperature", "data=round(self.temperature, 1)"),
+    ),
+    _r(
+        "starts at a random place",
+        ("self.temperature = 22.0", "self.temperature = random.uniform(18.0, 28.0)"),
+    ),
+    _re(
+        "rounded to whole degrees, and kept",
+        "never-changes",
+        (_RC, "self.temperature = round(max(18.0, min(28.0, self.temperature)), 0)"),
+    ),
+    _re(
+        "goes back to the limit only after a step too many",
+        "clamped-too-early",
+        (
+            f"{_RS}\n        {_RC}",
+            "if self.temperature > 28.0:\n"
+            "            self.temperature = 28.0\n"
+            "        if self.temperature < 18.0:\n"
+            f"            self.temperature = 18.0\n        {_RS}",
+        ),
+    ),
+    _re("gauss", "step-too-wide", (_RS, "self.temperature += random.gauss(0.0, 0.3)")),
+    _re(
+        "momentum",
+        ("not-random", "step-too-wide"),
+        ("self.temperature = 22.0", "self.temperature = 22.0\n        self.speed = 0.0"),
+        (
+            _RS,
+            "self.speed = max(-0.3, min(0.3, self.speed + random.uniform(-0.02, 0.02)))\n"
+            "        self.temperature += self.speed",
+        ),
+    ),
+    _re(
+        "limits in the wrong order of size, by if",
+        ("no-clamp", "clamp-swapped", "never-changes"),
+        (
+            _RC,
+            "if self.temperature < 28.0:\n"
+            "            self.temperature = 28.0\n"
+            "        if self.temperature > 18.0:\n"
+            "            self.temperature = 18.0",
+        ),
+    ),
+    _re(
+        "only the upper half is clamped low",
+        ("set-back", "other-limits"),
+        (_RC, "if self.temperature > 28.0:\n            self.temperature = 22.0\n        " + _RC),
+    ),
+    _re(
+        "set back at the upper limit, no lower one",
+        ("set-back", "no-clamp"),
+        (_RC, "if self.temperature > 28.0:\n            self.temperature = 22.0"),
+    ),
+    _re(
+        "a sign flips at the limit and stays",
+        ("no-clamp", "not-random"),
+        ("self.temperature = 22.0", "self.temperature, self.way = 22.0, 1"),
+        (
+            f"{_RS}\n        {_RC}",
+            "self.temperature += self.way * random.uniform(0.0, 0.3)\n"
+            "        if not 18.3 < self.temperature < 27.7:\n"
+            "            self.way = -self.way",
+        ),
+    ),
+    _re(
+        "it stops after ten minutes",
+        "gone-quiet",
+        ("self.temperature = 22.0", "self.temperature, self.n = 22.0, 0"),
+        (_RSEND, "self.n += 1\n        if self.n < 600:\n            " + _RSEND),
+    ),
+    _re("abs step", "one-way", (_RS, "self.temperature += abs(random.uniform(-0.3, 0.3))")),
+    _r(
+        "a step every other time only",
+        ("self.temperature = 22.0", "self.temperature, self.n = 22.0, 0"),
+        (_RS, "self.n += 1\n        if self.n % 2:\n            " + _RS),
+    ),
+    _re(
+        "starts at the lower limit in Fahrenheit",
+        ("no-clamp", "other-limits", "set-back", "jumps"),
+        ("= 22.0", "= 72.0"),
+        (_RC, "pass"),
+    ),
+    _re(
+        "the clamp on the step",
+        ("no-clamp",),
+        (
+            f"{_RS}\n        {_RC}",
+            "step = max(-0.3, min(0.3, random.uniform(-1, 1)))\n        self.temperature += step",
+        ),
+    ),
+    _re(
+        "temperature of 22 plus all steps, forgetting the clamp",
+        "clamp-not-kept",
+        ("self.temperature = 22.0", "self.temperature, self.sum = 22.0, 0.0"),
+        (
+            f"{_RS}\n        {_RC}",
+            "self.sum += random.uniform(-0.3, 0.3)\n"
+            "        self.temperature = max(18.0, min(28.0, 22.0 + self.sum))",
+        ),
+    ),
+    _re("uniform of ints", "step-too-wide", (_RS, "self.temperature += random.uniform(-3, 3) / 5")),
+    _re("randint", "wrong-values", (_RS, "self.temperature += float(random.randint(-1, 1))")),
+    _re(
+        "uniform of one sided and minus the mean",
+        ("step-too-small",),
+        (_RS, "self.temperature += random.uniform(0.0, 0.3) - 0.15"),
+    ),
+    _gr(
+        "step drawn in Fahrenheit units",
+        (_GS, "self.temperature += random.uniform(-0.9, 0.9) / 1.8"),
+    ),
+    _gr("rounded to hundredths of Fahrenheit", ("data=fahrenheit", "data=round(fahrenheit, 2)")),
+    _gr(
+        "a Decimal",
+        ("class G", "from decimal import Decimal\n\nclass G"),
+        ("self.temperature * 9 / 5 + 32", "float(Decimal(self.temperature) * 9 / 5 + 32)"),
+    ),
+    _gr(
+        "float32 of numpy",
+        ("class G", "import numpy as np\n\nclass G"),
+        ("data=fahrenheit", "data=float(np.float32(fahrenheit))"),
+    ),
+    _ge(
+        "whole Fahrenheit kept",
+        ("converted-back", "wrong-values", "step-too-wide"),
+        (
+            "fahrenheit = self.temperature * 9 / 5 + 32",
+            "fahrenheit = float(int(self.temperature * 9 / 5 + 32))",
+        ),
+    ),
+    _ge(
+        "upper limit in Fahrenheit, lower in Celsius",
+        ("other-limits", "no-clamp", "wrong-unit"),
+        ("self.temperature = 22.0", "self.temperature = 71.6"),
+        ("(-0.5, 0.5)", "(-0.9, 0.9)"),
+        ("max(10.2, min(28.0, ", "max(10.2, min(82.4, "),
+        (" * 9 / 5 + 32", ""),
+    ),
+    _ge(
+        "steps in Celsius on a walk in Fahrenheit",
+        "step-too-small",
+        ("self.temperature = 22.0", "self.temperature = 71.6"),
+        ("max(10.2, min(28.0, ", "max(50.36, min(82.4, "),
+        (" * 9 / 5 + 32", ""),
+    ),
+    _ge("limits of the room", "other-limits", ("max(10.2", "max(18.0")),
+    _ge(
+        "32 added before it is multiplied",
+        "wrong-unit",
+        ("self.temperature * 9 / 5 + 32", "(32 + self.temperature) * 1.8"),
+    ),
+)
+
+ANSWERS = (*_BEATS, *_ROOMS, *_GREENHOUSES, *_MORE)

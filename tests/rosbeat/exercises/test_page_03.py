@@ -70,7 +70,7 @@ def test_a_beat_is_told_from_every_other(name):
 
 
 def test_the_first_moment_that_differs_is_shown():
-    assert "10 readings were due, and there were 5" in beat(1, 2, 3, 4, 5).evidence
+    assert "10 readings were due, and 5 came" in beat(1, 2, 3, 4, 5).evidence
     assert "At 0.5 s none came, and one was due" in beat(1, 2, 3, 4, 5).evidence
     assert "At 0.5 s 2 came, and one was due" in beat(*sorted(TICKS * 2)).evidence
 
