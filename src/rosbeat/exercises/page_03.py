@@ -147,9 +147,9 @@ class _Walk:
 
     def first_sign(self) -> tuple[_Sign, Any] | None:
         """Return the sign that counts, and where it shows: in the walk, or at an end of it."""
-        at_ends = [(sign, end) for end in self.ends for sign in _SIGNS_AT_AN_END]
-        last = [(_NOT_MET, end) for end in self.ends]
-        signs = [*((sign, self) for sign in _SIGNS), *at_ends, *last]
+        signs: list[tuple[_Sign, Any]] = [(sign, self) for sign in _SIGNS]
+        signs += [(sign, end) for end in self.ends for sign in _SIGNS_AT_AN_END]
+        signs += [*((_NOT_MET, end) for end in self.ends), (_WRONG_START, self)]
         return next(((sign, seen) for sign, seen in signs if sign.shows(seen)), None)
 
     def evidence(self) -> str:
@@ -169,6 +169,22 @@ class _Walk:
 
     def is_constant(self, value: float) -> bool:
         return self.widest == 0 and abs(self.top - value) < _ROUNDING
+
+    def starts_elsewhere(self) -> bool:
+        start = self.asked.start
+        return start is not None and abs(self.values[0] - start) > self.asked.step + 0.01
+
+    def is_in_another_unit(self) -> bool:
+        """Return whether it starts elsewhere, walks, and meets no limit as the formula gives it."""
+        limits = (self.asked.low, self.asked.high)
+        meets = any(abs(one - limit) < _ROUNDING for one in self.values for limit in limits)
+        walks = 0 < self.widest <= 0.4 * (limits[1] - limits[0])
+        return self.starts_elsewhere() and walks and not meets
+
+    def is_converted_back(self) -> bool:
+        first, second = self.values[:2]
+        stands = self.asked is _GREENHOUSE and len(set(self.values[1:_PHASE])) == 1
+        return stands and abs(second - first) > 1.0
 
     def wraps_round(self) -> bool:
         goals = [(now, self.bottom if is_high else self.top) for is_high, now in self.jumps]
@@ -243,6 +259,28 @@ class _Sign:
 
 #: The first one that shows names the mistake.
 _SIGNS = (
+    _Sign(
+        "converted-back",
+        "After the first reading they are all {0.values[1]:.2f}. The node walks in Celsius and "
+        "speaks in Fahrenheit. Is the converted number kept where the next step begins?",
+        lambda walk: walk.is_converted_back(),
+    ),
+    _Sign(
+        "wrong-unit",
+        "{0.top:g} is a limit in degrees Celsius. Clamp first, in Celsius, and convert then.",
+        lambda walk: walk.starts_elsewhere() and (walk.is_constant(10.2) or walk.is_constant(28.0)),
+    ),
+    _Sign(
+        "wrong-unit",
+        "These are degrees Celsius still. Convert the number before you publish it.",
+        lambda walk: walk.is_in_another_unit() and abs(walk.values[0] - 22.0) <= 0.51,
+    ),
+    _Sign(
+        "wrong-unit",
+        "22 degrees Celsius are {asked.start:.1f} Fahrenheit, and the first reading is "
+        "{0.values[0]:.2f}. Compare your formula, brackets too: c * 9 / 5 + 32.",
+        lambda walk: walk.is_in_another_unit(),
+    ),
     _Sign(
         "wrong-values",
         "A new message holds 0.0. Which line puts the number into its field data?",
@@ -358,6 +396,12 @@ _NOT_MET = _Sign(
     "numbers.{asked.aside}",
     lambda end: end.beyond < -end.walk.asked.step,
 )
+_WRONG_START = _Sign(
+    "wrong-start",
+    "The walk is right, and its first reading is {0.values[0]:.2f}. It starts at 22.0 degrees "
+    "Celsius, and the first reading is one step from there.",
+    lambda walk: walk.starts_elsewhere(),
+)
 
 
 def _walk(asked: _Asked, observation: Observation) -> _Walk | Diagnosis:
@@ -375,61 +419,12 @@ def _judge_walk(asked: _Asked, observation: Observation) -> Outcome:
     walk = _walk(asked, observation)
     if isinstance(walk, Diagnosis):
         return failed_by(asked.exercise, walk)
-    wrong = _unit(walk) or _shape(walk) or _start(walk)
-    if wrong:
-        return failed_by(asked.exercise, wrong)
-    return passed(asked.exercise, asked.rate_in_words + walk.evidence())
-
-
-def _shape(walk: _Walk) -> Diagnosis | None:
     found = walk.first_sign()
     if found is None:
-        return None
+        return passed(asked.exercise, asked.rate_in_words + walk.evidence())
     sign, seen = found
-    hint = sign.hint.format(seen, asked=walk.asked)
-    return Diagnosis(sign.mistake, walk.evidence() + walk.parting(), hint)
-
-
-def _starts_right(walk: _Walk) -> bool:
-    start = walk.asked.start
-    return start is None or abs(walk.values[0] - start) <= walk.asked.step + 0.01
-
-
-def _start(walk: _Walk) -> Diagnosis | None:
-    if _starts_right(walk):
-        return None
-    return Diagnosis(
-        "wrong-start",
-        f"The walk is right, and its first reading is {walk.values[0]:.2f} degrees.",
-        "It starts at 22.0 degrees Celsius, and the first reading is one step from there.",
-    )
-
-
-def _unit(walk: _Walk) -> Diagnosis | None:
-    """Say what is wrong with the unit of 03c: the first reading tells, and the limits."""
-    if walk.asked is not _GREENHOUSE:
-        return None
-    first, second = walk.values[:2]
-    if len(set(walk.values[1:_PHASE])) == 1 and abs(second - first) > 1.0:
-        return Diagnosis(
-            "converted-back",
-            f"The first reading is {first:.2f}, and then they are all {second:.2f}.",
-            "The node walks in Celsius and speaks in Fahrenheit. Is the converted number kept "
-            "where the next step begins?",
-        )
-    if walk.is_constant(10.2) or walk.is_constant(28.0):
-        hint = "That is a limit in degrees Celsius. Clamp first, in Celsius, and convert then."
-        return Diagnosis("wrong-unit", f"All readings are {first:g}.", hint)
-    # A walk that meets a limit, and what is no walk at all, has another mistake.
-    limits = (walk.asked.low, walk.asked.high)
-    meets = any(abs(one - limit) < _ROUNDING for one in walk.values for limit in limits)
-    if _starts_right(walk) or meets or not 0 < walk.widest <= 0.4 * (limits[1] - limits[0]):
-        return None
-    hint = "Compare your formula, brackets too: c * 9 / 5 + 32."
-    if abs(first - 22.0) <= 0.51:
-        hint = "These are degrees Celsius still. Convert the number before you publish it."
-    evidence = f"The first reading is {first:.2f}, and 22 degrees Celsius are 71.6 Fahrenheit."
-    return Diagnosis("wrong-unit", evidence, hint)
+    hint = sign.hint.format(seen, asked=asked)
+    return failed(asked.exercise, walk.evidence() + walk.parting(), hint, sign.mistake)
 
 
 EXERCISES = (
