@@ -303,9 +303,13 @@ _ROOMS = (
     _r("one of three", (_RS, "self.temperature += random.choice((-0.3, 0.0, 0.3))")),
     _r("tenths", (_RS, "self.temperature += random.randint(-3, 3) / 10")),
     _r(
-        "a step from secrets",
-        ("class R", "import secrets\n\nclass R"),
-        (_RS, "self.temperature += (secrets.randbelow(601) - 300) / 1000"),
+        "a generator written by hand",
+        ("self.temperature = 22.0", "self.temperature, self.state = 22.0, 42"),
+        (
+            _RS,
+            "self.state = (self.state * 1103515245 + 12345) % 2**31\n"
+            "        self.temperature += 0.6 * self.state / 2**31 - 0.3",
+        ),
     ),
     _r(
         "SystemRandom",
