@@ -258,13 +258,14 @@ RAISING = {
         "InvalidHandle",
     ),
     "spins in the constructor": (born(rclpy.spin), "SessionError"),
+    "init in the constructor": (born(lambda _: rclpy.init()), "RuntimeError"),
+    "init in a callback": (doing(lambda _: rclpy.init()), "RuntimeError"),
     "metaclass": (NoNode, "NodeClassError"),
 }
 
 #: Those that do what they should, and something else besides.
 HARMLESS = {
     "prints without need": doing(lambda _: [print("x") for _ in range(5_000)]),
-    "init and shutdown": born(lambda _: (rclpy.init(), rclpy.shutdown())),
     "changes everything": doing(changes_everything),
     "a thread that prints": doing(threads(stubborn_prints)),
     "a thread that publishes elsewhere": doing(threads(lambda _: time.sleep(1))),

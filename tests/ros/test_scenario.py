@@ -5,6 +5,7 @@ import threading
 import time
 
 import pytest
+import rclpy
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from std_msgs.msg import Float32
@@ -224,6 +225,22 @@ def test_what_does_no_harm_is_no_fault(case):
     assert_all_is_well()
     for thread in [one for one in threading.enumerate() if one.name == "nasty"]:
         thread.join()  # what it prints meanwhile is for no other test
+
+
+def test_a_node_that_shuts_ros_down_ends():
+    assert observe(nasty.born(lambda _: rclpy.shutdown()), 5).samples == ()
+    assert len(observe(nasty.doing(lambda _: rclpy.shutdown()), 5).samples) <= 1
+    assert_all_is_well()
+
+
+def test_a_function_may_start_ros_before_it_makes_its_node():
+    def main():
+        rclpy.init()
+        return nasty.Base()
+
+    seen = observe(main, 5)
+    assert not seen.faults
+    assert [s.time for s in seen.samples] == BEATS
 
 
 BEATS = [n / 2 for n in range(1, 11)]

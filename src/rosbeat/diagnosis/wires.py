@@ -215,12 +215,15 @@ def _unused(observation: Observation, wire: Wire, besides: Collection[str]) -> D
 
 def _silent(observation: Observation, wire: Wire) -> Diagnosis:
     ran = [one for one in observation.callbacks if one.node == _subject(observation)]
+    hint = "Which line calls publish, and who calls the function that it is in?"
+    if ran:
+        hint = f"{ran[0].name} was called. Does it get as far as publishing, and when?"
+    elif any(one.node == _subject(observation) for one in observation.graph.timers):
+        hint = "Its timer never ticked. Does the constructor cancel it, or shut ROS down?"
     return (_never_called(observation, wire) if not ran else None) or Diagnosis(
         "never-published",
         f"The node has a publisher on {wire.topic}, and it was never used.",
-        f"{ran[0].name} was called. Does it get as far as publishing, and when?"
-        if ran
-        else "Which line calls publish, and who calls the function that it is in?",
+        hint,
     )
 
 

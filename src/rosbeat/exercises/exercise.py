@@ -33,6 +33,8 @@ class Exercise(Generic[Seen]):
         given: Makes what the scenario is handed besides an answer, by name, as plain data: what it
             needs where neither this room nor any file of an instructor's can be read.
         tells_hints: Whether a check says how many hints were used. They cost nothing.
+        explains: Names the mistake behind an exception that means something else here than
+            elsewhere; None leaves it to `diagnosis.faults`.
     """
 
     id: str
@@ -43,10 +45,13 @@ class Exercise(Generic[Seen]):
     hints: tuple[str, ...] = ()
     given: Callable[[], dict[str, Any]] = dict
     tells_hints: bool = False
+    explains: Callable[[Fault], Diagnosis | None] = lambda _: None
 
     def judged(self, seen: Seen) -> Outcome:
         """The outcome of what was seen, with its points; blanks and exceptions included."""
-        early = before_judging(self.id, seen) if isinstance(seen, Observation) else None
+        early = None
+        if isinstance(seen, Observation):
+            early = before_judging(self.id, seen, self.explains)
         outcome = early or self.judge(seen)
         reached = self.points if outcome.status == PASSED else 0
         if outcome.parts:  # points for each requirement, whether the whole is right or not
@@ -101,18 +106,21 @@ def is_blank(fault: Fault) -> bool:
     return fault.kind == "NameError" and f"'{BLANK}'" in fault.text
 
 
-def before_judging(exercise: str, observation: Observation) -> Outcome | None:
+def before_judging(
+    exercise: str,
+    observation: Observation,
+    explains: Callable[[Fault], Diagnosis | None] = lambda _: None,
+) -> Outcome | None:
     """What can be said whatever the exercise asks: a blank, or an exception; else None."""
     if any(is_blank(fault) for fault in observation.faults):
         return not_attempted(exercise)
     if observation.faults:
-        return _raised(exercise, observation)
+        fault = observation.faults[0]
+        return _raised(exercise, fault, explains(fault) or why_raised(observation, fault))
     return None
 
 
-def _raised(exercise: str, observation: Observation) -> Outcome:
-    fault = observation.faults[0]
-    known = why_raised(observation, fault)
+def _raised(exercise: str, fault: Fault, known: Diagnosis | None) -> Outcome:
     if known is not None:
         return failed_by(exercise, known)
     if fault.callback in ("add", "run"):  # the session itself refused; its sentence is complete

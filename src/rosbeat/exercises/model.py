@@ -11,16 +11,19 @@ and what can be said of any function whose result is the answer.
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from rosbeat.diagnosis.exceptions import line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_published
 from rosbeat.exercises.exercise import BLANK, failed, not_attempted
 from rosbeat.exercises.scenarios import Report
-from rosbeat.records import NANOSECONDS, Observation, Outcome, Sample
+from rosbeat.records import NANOSECONDS, Fault, Observation, Outcome, Sample
 
 #: What was done at each moment: a tuple of values, in order, by a key that sorts, such as
 #: nanoseconds or the number of a reading. A moment at which nothing was done has no entry.
@@ -196,10 +199,87 @@ def missing(
     return why_not_published(observation, wire, besides) or unexplained
 
 
+def explain_subscription(wire: Wire, fault: Fault) -> Diagnosis | None:
+    """Name the mistake of a node that subscribes, and fails, where it is to publish.
+
+    Args:
+        wire: Where it is to publish.
+        fault: What was raised.
+    """
+    topic = re.escape(wire.topic.rpartition("/")[2])
+    is_here = re.search(rf"[\"'/]{topic}[\"']", fault.code)
+    if not fault.asked.startswith("create_subscription(") or not is_here:
+        return None
+    return Diagnosis(
+        "no-publisher",
+        f"create_subscription makes a node listen to a topic, and this node is to publish on "
+        f"{wire.topic}.{line_of(fault)}",
+        "Publishing takes no callback. Which method of a node makes a publisher?",
+    )
+
+
 # A beat: messages that come one period apart, the first after one period.
 
 
-_WORDS = {1: "One", 2: "Two", 4: "Four"}
+@dataclass(frozen=True)
+class _Beat:
+    """What was right, what was done, and when it ended, in nanoseconds."""
+
+    right: Track
+    done: Track
+    end: int
+
+
+def _ticks(period: int, end: int) -> Track:
+    return dict.fromkeys(range(period, end + 1, period), (1,)) if period > 0 else {}
+
+
+_FEW = {0: "none", 1: "one"}
+_COUNT = (
+    "What does the first argument of create_timer count: calls in a second, or seconds between "
+    "two calls?"
+)
+_BEATS = (
+    Suspect(
+        "no-timer",
+        "The constructor runs once. What calls the method again and again?",
+        lambda beat: {0: beat.done.get(0, (1,))},
+    ),
+    Suspect(
+        "gone-quiet",
+        "Something ends the beat. Does the callback cancel its timer, or shut ROS down?",
+        lambda beat: dict(list(beat.right.items())[: len(beat.done)]),
+    ),
+    Suspect(
+        "wrong-rate",
+        "The first tick comes after one period. What publishes while the node is being made?",
+        lambda beat: {0: (1,), **beat.right},
+    ),
+    Suspect(
+        "wrong-rate",
+        "One for each tick is enough. Does anything publish twice, or are there two timers?",
+        lambda beat: dict.fromkeys(beat.right, beat.done.get(min(beat.right), (2,))),
+    ),
+    Suspect("wrong-rate", _COUNT, lambda beat: _ticks(min(beat.done), beat.end)),
+)
+
+
+def diagnose_wait(observation: Observation, evidence: str) -> Diagnosis | None:
+    """Name a callback of the node that waits; waits are recorded, so this needs no model.
+
+    Args:
+        observation: What was seen.
+        evidence: What has come of the wait.
+    """
+    own = next((one for one in observation.waits if one.node == observation.subject), None)
+    if own is None:
+        return None
+    seconds = (own.until_ns - own.time_ns) / NANOSECONDS
+    return Diagnosis(
+        "callback-blocks",
+        f"At {own.time:g} s {own.callback} waited for {seconds:g} s. {evidence}",
+        "While a callback waits, its node does nothing else: no other callback is called.",
+    )
 
 
 def diagnose_beat(
@@ -213,62 +293,26 @@ def diagnose_beat(
         period: Seconds from one message to the next.
         what: What the messages are, in the plural.
     """
-    times = [sample.time_ns for sample in on(observation, wire)]
-    wait = round(period * NANOSECONDS)
-    if times == [n * wait for n in range(1, observation.time_ns // wait + 1)]:
+    counts = Counter(sample.time_ns for sample in on(observation, wire))
+    done = {at: (count,) for at, count in counts.items()}
+    end = observation.time_ns
+    beat = _Beat(_ticks(round(period * NANOSECONDS), end), done, end)
+    part = parting(done, beat.right)
+    if part is None:
         return None
-    if not any(times):
-        return _only_at_once(len(times), what)
-    if len(set(times)) < len(times):
-        return _several_at_once(times, what)
-    if not times[0]:
-        return _from_the_start(len(times), what)
-    return _another_rate(observation, on(observation, wire), period, what)
-
-
-def _another_rate(
-    observation: Observation, heard: list[Sample], period: float, what: str
-) -> Diagnosis:
-    times = ", ".join(f"{sample.time:g}" for sample in heard[:5])
-    return Diagnosis(
-        "wrong-rate",
-        f"In {observation.time:g} seconds {len(heard)} {what} appeared, the first ones at these "
-        f"seconds: {times}.",
-        f"{_wanted(period)} is wanted. What does the first argument of create_timer count: "
-        "calls in a second, or seconds between two calls?",
+    came = _FEW.get(sum(part.done), str(sum(part.done)))
+    evidence = (
+        f"In {observation.time:g} seconds {len(beat.right)} {what} were due, and "
+        f"{counts.total()} came. At {part.at / NANOSECONDS:g} s {came} came, and "
+        f"{_FEW[sum(part.right)]} was due."
     )
-
-
-def _wanted(period: float) -> str:
-    if period > 1:
-        return f"One every {period:g} seconds"
-    rate = round(1 / period)
-    return f"{_WORDS.get(rate, str(rate))} a second"
-
-
-def _several_at_once(times: list[int], what: str) -> Diagnosis:
-    first = next(time for time in times if times.count(time) > 1)
-    return Diagnosis(
-        "wrong-rate",
-        f"At {first / NANOSECONDS:g} s, {times.count(first)} {what} were published at once.",
-        "One for each tick is enough. Does anything publish twice, or are there two timers?",
-    )
-
-
-def _from_the_start(count: int, what: str) -> Diagnosis:
-    return Diagnosis(
-        "wrong-rate",
-        f"{count} {what} appeared, and the first one at 0 s.",
-        "The first tick comes after one period. What publishes while the node is being made?",
-    )
-
-
-def _only_at_once(count: int, what: str) -> Diagnosis:
-    return Diagnosis(
-        "no-timer",
-        f"{count} {what} were published while the node was made, and none later.",
-        "The constructor runs once. What calls the method again and again?",
-    )
+    waited = diagnose_wait(observation, evidence)
+    if waited:
+        return waited
+    if observation.subject not in observation.graph.nodes:
+        hint = "The program around a node destroys it in the end. Which line of the node does so?"
+        return Diagnosis("node-ended", f"The node was destroyed. {evidence}", hint)
+    return named(evidence, fitting(beat, done, _BEATS), Diagnosis("wrong-rate", evidence, _COUNT))
 
 
 # A function whose result is the answer.

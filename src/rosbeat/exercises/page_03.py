@@ -2,45 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import groupby, pairwise
+from math import isfinite
+from operator import sub
+from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire
 from rosbeat.exercises.exercise import Exercise, failed, failed_by, passed
-from rosbeat.exercises.model import diagnose_beat, missing, on
-from rosbeat.exercises.page_03_scenarios import (
-    GREENHOUSE,
-    GREENHOUSE_RATE,
-    ROOM,
-    SCENARIOS,
-    SECONDS,
-)
-from rosbeat.exercises.walk_runs import PHASE
-from rosbeat.exercises.walks import Walk
+from rosbeat.exercises.model import diagnose_beat, explain_subscription, missing, on
+from rosbeat.exercises.scenarios import drift, observe
 from rosbeat.records import Observation, Outcome
 
 _FLOAT = "std_msgs/msg/Float32"
+
+# 03a, another sensor.
+
 _HUMIDITY = Wire("/humidity", _FLOAT)
-_ROOM, _GREENHOUSE = Wire(ROOM, _FLOAT), Wire(GREENHOUSE, _FLOAT)
-_DEPTH = 5
+_SECONDS, _DEPTH = 5, 5
 
 
-def _fahrenheit(celsius: float) -> float:
-    return celsius * 9 / 5 + 32
-
-
-_ROOM_WALK = Walk(18.0, 28.0, 0.3)
-_GREENHOUSE_WALK = Walk(
-    *(_fahrenheit(10.2), _fahrenheit(28.0), 0.9, "degrees Fahrenheit"),
-    " (In Celsius, where it walks, steps go up to 0.5, and the limits are 10.2 and 28.0.)",
-)
+def _run_alone(answer: Any) -> Observation:  # noqa: ANN401 - whatever was handed over
+    return observe(answer, _SECONDS)
 
 
 def _judge_beat(observation: Observation) -> Outcome:
     found = missing(observation, _HUMIDITY) or diagnose_beat(observation, _HUMIDITY, 0.5)
     if found:
         return failed_by("03a", found)
-    count = len(on(observation, _HUMIDITY))
     ends = observation.graph.on(_HUMIDITY.topic, "publisher")
     qos = next((end.qos for end in ends if end.qos.depth != _DEPTH), ends[0].qos)
     if qos.history == "KEEP_ALL" or qos.depth != _DEPTH:
@@ -51,9 +43,8 @@ def _judge_beat(observation: Observation) -> Outcome:
             f"A depth of {_DEPTH} is wanted. Which argument of create_publisher is that?",
             "wrong-depth",
         )
-    remark = _BEST_EFFORT if qos.reliability == "BEST_EFFORT" else ""
-    evidence = f"{count} readings in {SECONDS} seconds on /humidity."
-    return passed("03a", evidence, *([remark] if remark else []))
+    evidence = f"{len(on(observation, _HUMIDITY))} readings in {_SECONDS} seconds on /humidity."
+    return passed("03a", evidence, *([_BEST_EFFORT] if qos.reliability == "BEST_EFFORT" else []))
 
 
 _BEST_EFFORT = (
@@ -61,75 +52,385 @@ _BEST_EFFORT = (
     "for RELIABLE, as they do by default, hears nothing of it."
 )
 
+# 03b and 03c, walks between two limits.
+#
+# A step may be drawn in any way: with `uniform` or `choice`, by NumPy, from a generator of the
+# node's own. So nobody can foretell what a right walk, or a misunderstood one, makes of the random
+# numbers, and a walk is judged by what its readings have in common: each mistake shows in a way of
+# its own, and is a row of a table.
+#
+# Random numbers drift up, then down, and then not at all. So both limits are met soon, and a walk
+# that is still beyond a limit when the drift has turned gives itself away: what is published was
+# cut off, and what is kept was not. Some generators do not drift; then more readings are needed.
 
-def _judge_room(observation: Observation) -> Outcome:
-    found = missing(observation, _ROOM)
-    if found:
-        return failed_by("03b", found)
-    values = _values(observation, _ROOM)
-    walk = _ROOM_WALK.decisive(values)
-    wrong = diagnose_beat(observation, _ROOM, 1.0) or _ROOM_WALK.diagnose(walk)
-    return failed_by("03b", wrong) if wrong else passed("03b", _ROOM_WALK.evidence(walk))
+#: Readings while the drift goes in one direction, and exponents of the drift.
+_PHASE, _UP, _DOWN, _FREE = 600, 1 / 3, 3.0, 1.0
+#: Readings of a run; a longer one follows if a limit may not have been met yet. A walk without
+#: drift misses a limit in one of 10,000 runs of the last kind.
+_RUNS = (3_600, 10_800, 32_400)
+#: Seconds of wall time for a longer run; a busy machine needs a tenth of it.
+_PATIENCE = {"deadline": 30.0}
+#: Room for rounding to 32 bits, in a reading and in a step.
+_ROUNDING, _IN_A_STEP = 1e-4, 1e-3
+#: So many steps do not come again by chance, not even if there are only two to choose from.
+_WINDOW = 64
 
 
-def _judge_greenhouse(observation: Observation) -> Outcome:
-    found = missing(observation, _GREENHOUSE)
-    if found:
-        return failed_by("03c", found)
-    values = _values(observation, _GREENHOUSE)
-    walk = _GREENHOUSE_WALK.decisive(values)
-    wrong = diagnose_beat(observation, _GREENHOUSE, 1 / GREENHOUSE_RATE)
-    wrong = wrong or _unit(values) or _GREENHOUSE_WALK.diagnose(walk) or _start(values[0])
-    if wrong:
-        return failed_by("03c", wrong)
-    return passed("03c", f"Four readings a second. {_GREENHOUSE_WALK.evidence(walk)}")
+@dataclass(frozen=True)
+class _Asked:
+    """What is asked of a walk."""
+
+    exercise: str
+    wire: Wire
+    rate: int  # readings a second
+    low: float
+    high: float
+    step: float
+    start: float | None = None  # where it has to begin
+    rate_in_words: str = ""
+    unit: str = "degrees"
+    aside: str = ""  # a sentence after hints that name a number, with a blank before it
 
 
-def _unit(values: Sequence[float]) -> Diagnosis | None:
-    """Whether a walk is in Fahrenheit and stays so."""
-    start, first = _fahrenheit(22.0), values[0]
-    if len(set(values[1:PHASE])) == 1 and abs(values[1] - values[0]) > 1.0:
-        return Diagnosis(
-            "converted-back",
-            f"The first reading is {first:.2f}, and then they are all {values[1]:.2f}.",
-            "The node walks in Celsius and speaks in Fahrenheit. Is the converted number kept "
-            "where the next step begins?",
+def _fahrenheit(celsius: float) -> float:
+    return celsius * 9 / 5 + 32
+
+
+_ROOM = _Asked("03b", Wire("/temperature", _FLOAT), 1, 18.0, 28.0, 0.3)
+_GREENHOUSE = _Asked(
+    "03c",
+    Wire("/greenhouse/temperature", _FLOAT),
+    4,
+    *(_fahrenheit(10.2), _fahrenheit(28.0), 0.9, _fahrenheit(22.0)),
+    "Four readings a second. ",
+    "degrees Fahrenheit",
+    " In Celsius, where it walks, steps go up to 0.5, and the limits are 10.2 and 28.0.",
+)
+
+
+def _run_walk(asked: _Asked, answer: Any) -> Observation:  # noqa: ANN401 - whatever was handed over
+    """Run a sensor until it has met both limits, or shown that it never will."""
+    phase = _PHASE / asked.rate
+    others = [drift([(phase, _UP), (phase, _DOWN), (0, _FREE)])]
+    for readings in _RUNS:
+        options = _PATIENCE if readings > _RUNS[0] else {}
+        seen = observe(answer, readings / asked.rate, others=others, seed=3, **options)
+        walk = _walk(asked, seen)
+        found = walk.first_sign() if isinstance(walk, _Walk) else None
+        if found is None or found[0] is not _NOT_MET:
+            break
+    return seen
+
+
+class _Walk:
+    """At least two readings, and what can be seen of them."""
+
+    def __init__(self, asked: _Asked, values: Sequence[float]) -> None:
+        self.asked, self.values = asked, values
+        self.moves = list(map(sub, values[1:], values))
+        self.top, self.bottom = max(values), min(values)
+        self.up, self.down = max(self.moves), -min(self.moves)
+        self.widest = max(self.up, self.down)
+        widths = sorted(abs(move) for move in self.moves if move) or [0.0]
+        self.near = 2 * widths[int(0.95 * len(widths))]
+        # Steps far wider than nearly all: whether they begin in the upper half, and where they end.
+        middle = (self.top + self.bottom) / 2
+        self.jumps = [
+            (before > middle, now)
+            for before, now in pairwise(values)
+            if abs(now - before) > self.near + asked.step
+        ]
+        self.ends = (
+            _End(self, self.top, asked.high, asked.low, self.top - asked.high, _PHASE),
+            _End(self, self.bottom, asked.low, asked.high, asked.low - self.bottom, 2 * _PHASE),
         )
-    if len(set(values)) == 1 and min(abs(first - 10.2), abs(first - 28.0)) < 1e-4:
-        hint = "That is a limit in degrees Celsius. Clamp first, in Celsius, and convert then."
-        return Diagnosis("wrong-unit", f"All readings are {first:g}.", hint)
-    if abs(first - start) <= 0.91 or _GREENHOUSE_WALK.touches(values):
-        return None
-    if _GREENHOUSE_WALK.stands_or_jumps(values):
-        return None
-    if abs(first - 22.0) <= 0.51:
-        hint = "These are degrees Celsius still. Convert the number before you publish it."
-    else:
-        hint = "Compare your formula, brackets too: c * 9 / 5 + 32."
-    evidence = (
-        f"The first reading is {first:.2f}, and 22 degrees Celsius are {start:.1f} Fahrenheit."
-    )
-    return Diagnosis("wrong-unit", evidence, hint)
+
+    def first_sign(self) -> tuple[_Sign, Any] | None:
+        """Return the sign that counts, and where it shows: in the walk, or at an end of it."""
+        signs: list[tuple[_Sign, Any]] = [(sign, self) for sign in _SIGNS]
+        signs += [(sign, end) for end in self.ends for sign in _SIGNS_AT_AN_END]
+        signs += [*((_NOT_MET, end) for end in self.ends), (_WRONG_START, self)]
+        return next(((sign, seen) for sign, seen in signs if sign.shows(seen)), None)
+
+    def evidence(self) -> str:
+        return (
+            f"The readings went from {self.bottom:.2f} to {self.top:.2f} {self.asked.unit}, in "
+            f"steps of at most {self.widest:.2f}."
+        )
+
+    def parting(self) -> str:
+        """Say when it first did what no right walk does, if there is such a moment."""
+        asked = self.asked
+        for n, (before, now) in enumerate(pairwise(self.values), 2):
+            beyond = max(now - asked.high, asked.low - now)
+            if abs(now - before) > asked.step + _IN_A_STEP or beyond > _ROUNDING:
+                return f" At {n / asked.rate:g} s it went from {before:.2f} to {now:.2f}."
+        return ""
+
+    def is_constant(self, value: float) -> bool:
+        return self.widest == 0 and abs(self.top - value) < _ROUNDING
+
+    def starts_elsewhere(self) -> bool:
+        start = self.asked.start
+        return start is not None and abs(self.values[0] - start) > self.asked.step + 0.01
+
+    def is_in_another_unit(self) -> bool:
+        """Return whether it starts elsewhere, walks, and meets no limit as the formula gives it."""
+        limits = (self.asked.low, self.asked.high)
+        meets = any(abs(one - limit) < _ROUNDING for one in self.values for limit in limits)
+        walks = 0 < self.widest <= 0.4 * (limits[1] - limits[0])
+        return self.starts_elsewhere() and walks and not meets
+
+    def is_converted_back(self) -> bool:
+        first, second = self.values[:2]
+        stands = self.asked is _GREENHOUSE and len(set(self.values[1:_PHASE])) == 1
+        return stands and abs(second - first) > 1.0
+
+    def wraps_round(self) -> bool:
+        goals = [(now, self.bottom if is_high else self.top) for is_high, now in self.jumps]
+        return bool(goals) and all(abs(now - goal) <= self.near for now, goal in goals)
+
+    def is_set_back(self) -> bool:
+        """Return whether all jumps from above end at one number, and all from below at another."""
+        sides = [[now for high, now in self.jumps if high is side] for side in (True, False)]
+        return any(sides) and all(max(one) - min(one) <= self.near for one in sides if one)
+
+    def is_drawn_in_advance(self) -> bool:
+        """Return whether the same steps come again, in the same order, away from both ends."""
+        ends = {self.top, self.bottom}
+        steps = [
+            n if ends & {before, now} else round(now - before, 3)  # no two of these are the same
+            for n, (before, now) in enumerate(pairwise(self.values), 1000)
+        ]
+        windows = [hash(tuple(steps[n : n + _WINDOW])) for n in range(len(steps) - _WINDOW)]
+        return len(set(windows)) < len(windows)
+
+    def follows_a_rule(self) -> bool:
+        """Return whether it turns round less than half as often as chance would."""
+        moves = [move for move in self.moves[2 * _PHASE :] if move]
+        ups = sum(move > 0 for move in moves) / max(1, len(moves))
+        turns = sum((one > 0) != (next_one > 0) for one, next_one in pairwise(moves))
+        return len(moves) > 30 and turns <= ups * (1 - ups) * len(moves)
+
+    def is_clamped_too_early(self) -> bool:
+        # A whole step beyond is as far as such a walk gets; nothing cuts it off before.
+        step, beyond = self.asked.step, max(end.beyond for end in self.ends)
+        return _ROUNDING < beyond <= step + _ROUNDING and not any(
+            end.is_met_often() and _ROUNDING < end.beyond < step - _IN_A_STEP for end in self.ends
+        )
 
 
-def _start(first: float) -> Diagnosis | None:
-    if abs(first - _fahrenheit(22.0)) <= 0.91:
-        return None
-    return Diagnosis(
-        "wrong-start",
-        f"The walk is right, and its first reading is {first:.2f} degrees.",
-        "It starts at 22.0 degrees Celsius, and the first reading is one step from there.",
-    )
+@dataclass(frozen=True)
+class _End:
+    """One end of a walk."""
+
+    walk: _Walk
+    value: float
+    limit: float  # where it should be
+    other: float  # and where the other end should be
+    beyond: float
+    free: int  # the first reading that does not drift towards it
+
+    def is_met_often(self) -> bool:
+        return sum(one == self.value for one in self.walk.values) >= 5
+
+    def is_cut(self) -> bool:
+        """Return whether something cuts the walk off there, and not at the limit."""
+        # With a few widths of steps only, all numbers come again and again.
+        different = len({round(one, 4) for one in self.walk.values})
+        is_fine = different > len(self.walk.values) / 4
+        return is_fine and abs(self.beyond) > _IN_A_STEP and self.is_met_often()
+
+    def is_stuck(self) -> bool:
+        """Return whether the walk stays at the limit for longer than chance would have it."""
+        values = self.walk.values[self.free :]
+        runs = groupby(values, lambda one: abs(one - self.limit) < _ROUNDING)
+        return any(len(list(run)) > 60 for there, run in runs if there)
 
 
-def _values(observation: Observation, wire: Wire) -> list[float]:
-    return [float(sample.value) for sample in on(observation, wire)]
+@dataclass(frozen=True)
+class _Sign:
+    """How a mistake shows in a walk, or at an end of it: `{0}` in the hint."""
+
+    mistake: str
+    hint: str
+    shows: Callable[[Any], bool]
+
+
+#: The first one that shows names the mistake.
+_SIGNS = (
+    _Sign(
+        "converted-back",
+        "After the first reading they are all {0.values[1]:.2f}. The node walks in Celsius and "
+        "speaks in Fahrenheit. Is the converted number kept where the next step begins?",
+        lambda walk: walk.is_converted_back(),
+    ),
+    _Sign(
+        "wrong-unit",
+        "{0.top:g} is a limit in degrees Celsius. Clamp first, in Celsius, and convert then.",
+        lambda walk: walk.starts_elsewhere() and (walk.is_constant(10.2) or walk.is_constant(28.0)),
+    ),
+    _Sign(
+        "wrong-unit",
+        "These are degrees Celsius still. Convert the number before you publish it.",
+        lambda walk: walk.is_in_another_unit() and abs(walk.values[0] - 22.0) <= 0.51,
+    ),
+    _Sign(
+        "wrong-unit",
+        "22 degrees Celsius are {asked.start:.1f} Fahrenheit, and the first reading is "
+        "{0.values[0]:.2f}. Compare your formula, brackets too: c * 9 / 5 + 32.",
+        lambda walk: walk.is_in_another_unit(),
+    ),
+    _Sign(
+        "wrong-values",
+        "A new message holds 0.0. Which line puts the number into its field data?",
+        lambda walk: walk.is_constant(0.0),
+    ),
+    _Sign(
+        "clamp-swapped",
+        "It stays at {0.top:g} from the first reading on. Which of the two, min or max, keeps a "
+        "number below a limit?",
+        lambda walk: walk.is_constant(walk.asked.high),
+    ),
+    _Sign(
+        "never-changes",
+        "It never changes. Does each call add a new random number to the old value, or have min "
+        "and max changed places?",
+        lambda walk: walk.widest == 0,
+    ),
+    _Sign(
+        "wrong-values",
+        "All readings are whole numbers. Is something rounded, or are the steps whole numbers?",
+        lambda walk: all(one == round(one) for one in walk.values),
+    ),
+    _Sign(
+        "wraps-round",
+        "Beyond one limit it goes on at the other. Cut off what is beyond a limit instead: then "
+        "the walk stays there until a step leads away.",
+        lambda walk: walk.wraps_round(),
+    ),
+    _Sign(
+        "set-back",
+        "Near a limit it is set back, by far more than a step. Cut off what is beyond a limit "
+        "instead: then the walk goes on from there.",
+        lambda walk: walk.is_set_back(),
+    ),
+    _Sign(
+        "jumps",
+        "Most steps are small, and a few are not. Which line changes the temperature, besides the "
+        "one that adds a step?",
+        lambda walk: bool(walk.jumps),
+    ),
+    _Sign(
+        "forgets-itself",
+        "Each reading is drawn anew and does not know the one before. A walk goes on from where it "
+        "was: add the step to the old value.",
+        lambda walk: walk.widest > 0.5 * (walk.top - walk.bottom),
+    ),
+    _Sign(
+        "one-way",
+        "It goes one way only. Chance decides whether a step goes up or down.",
+        lambda walk: walk.up <= 0 or walk.down <= 0,
+    ),
+    _Sign(
+        "not-random",
+        "The same steps come again, in the same order. Draw a new number at each call, and none in "
+        "advance.",
+        lambda walk: walk.is_drawn_in_advance(),
+    ),
+    _Sign(
+        "not-random",
+        "It goes up and down by a rule of its own, every time the same way. Let a random number "
+        "decide about each step.",
+        lambda walk: walk.follows_a_rule(),
+    ),
+    _Sign(
+        "clamped-too-early",
+        "It gets past a limit, by less than a step. Which comes first, the step or the clamp?",
+        lambda walk: walk.is_clamped_too_early(),
+    ),
+    _Sign(
+        "step-too-wide",
+        "A step is too wide. random.uniform(a, b) gives a number between a and b.{asked.aside}",
+        lambda walk: walk.widest > walk.asked.step + _IN_A_STEP,
+    ),
+    _Sign(
+        "step-too-small",
+        "The steps are small. They may be as wide as {asked.step:g}, up and down.{asked.aside}",
+        lambda walk: walk.widest < 0.8 * walk.asked.step,
+    ),
+    _Sign(
+        "uneven-steps",
+        "Steps go up by at most {0.up:.2f}, and down by at most {0.down:.2f}. They may be as wide "
+        "as {asked.step:g}, up and down.{asked.aside}",
+        lambda walk: min(walk.up, walk.down) < 0.8 * walk.asked.step,
+    ),
+)
+_SIGNS_AT_AN_END = (
+    _Sign(
+        "clamp-not-kept",
+        "It stays at {0.limit:g} for minutes. What is published is cut off, and what the node "
+        "remembers is not: it has to walk all the way back.",
+        lambda end: end.is_stuck(),
+    ),
+    _Sign(
+        "clamp-swapped",
+        "It never gets past {0.value:g}. Which of the two, min or max, keeps a number below a "
+        "limit?",
+        lambda end: end.is_cut() and abs(end.value - end.other) < _ROUNDING,
+    ),
+    _Sign(
+        "other-limits",
+        "Something cuts it off at {0.value:g}, and {0.limit:g} was asked for.{asked.aside}",
+        lambda end: end.is_cut(),
+    ),
+    _Sign(
+        "no-clamp",
+        "It got past {0.limit:g}. What cuts off a number that is beyond a limit?{asked.aside}",
+        lambda end: end.beyond > _ROUNDING,
+    ),
+)
+_NOT_MET = _Sign(
+    "other-limits",
+    "It stays inside narrower limits than {asked.low:g} and {asked.high:g}. Look at the two "
+    "numbers.{asked.aside}",
+    lambda end: end.beyond < -end.walk.asked.step,
+)
+_WRONG_START = _Sign(
+    "wrong-start",
+    "The walk is right, and its first reading is {0.values[0]:.2f}. It starts at 22.0 degrees "
+    "Celsius, and the first reading is one step from there.",
+    lambda walk: walk.starts_elsewhere(),
+)
+
+
+def _walk(asked: _Asked, observation: Observation) -> _Walk | Diagnosis:
+    """Return the walk that was published at the right times, or what keeps it from being one."""
+    wrong = missing(observation, asked.wire)
+    wrong = wrong or diagnose_beat(observation, asked.wire, 1 / asked.rate)
+    values = [one.value for one in on(observation, asked.wire)]
+    if wrong is None and not all(map(isfinite, values)):
+        text = "Among the readings is one that is no finite number."
+        wrong = Diagnosis("wrong-values", text, "Which calculation gives no number?")
+    return wrong or _Walk(asked, values)
+
+
+def _judge_walk(asked: _Asked, observation: Observation) -> Outcome:
+    walk = _walk(asked, observation)
+    if isinstance(walk, Diagnosis):
+        return failed_by(asked.exercise, walk)
+    found = walk.first_sign()
+    if found is None:
+        return passed(asked.exercise, asked.rate_in_words + walk.evidence())
+    sign, seen = found
+    hint = sign.hint.format(seen, asked=asked)
+    return failed(asked.exercise, walk.evidence() + walk.parting(), hint, sign.mistake)
 
 
 EXERCISES = (
     Exercise(
         "03a",
-        SCENARIOS["03a"],
+        _run_alone,
         _judge_beat,
         "another sensor",
         2,
@@ -141,11 +442,12 @@ EXERCISES = (
             "create_timer takes the time between two calls in seconds, and then the method, "
             "without brackets. Twice a second: how long is that from one call to the next?",
         ),
+        explains=partial(explain_subscription, _HUMIDITY),
     ),
     Exercise(
         "03b",
-        SCENARIOS["03b"],
-        _judge_room,
+        partial(_run_walk, _ROOM),
+        partial(_judge_walk, _ROOM),
         "a living room",
         2,
         (
@@ -155,11 +457,12 @@ EXERCISES = (
             "other, and keep the result in self.temperature.",
             "A message is made with Float32(data=...), and self.publisher_.publish sends it.",
         ),
+        explains=partial(explain_subscription, _ROOM.wire),
     ),
     Exercise(
         "03c",
-        SCENARIOS["03c"],
-        _judge_greenhouse,
+        partial(_run_walk, _GREENHOUSE),
+        partial(_judge_walk, _GREENHOUSE),
         "a greenhouse, alone",
         4,
         (
@@ -171,5 +474,6 @@ EXERCISES = (
             "The result of a calculation such as c * 9 / 5 + 32 is a float already; put it into "
             "a variable of its own.",
         ),
+        explains=partial(explain_subscription, _GREENHOUSE.wire),
     ),
 )

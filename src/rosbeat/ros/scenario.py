@@ -334,6 +334,11 @@ class _NeverMade(BaseException):
     """Raised in a constructor that waits for longer than the run lasts."""
 
 
+def _refuse_init() -> None:
+    """Answer `rclpy.init()` of a node: the program around it has called it before."""
+    raise RuntimeError("Context.init() must only be called once")
+
+
 class _Run:
     """Runs the learner's nodes, and records what goes wrong; see `observe`."""
 
@@ -357,6 +362,7 @@ class _Run:
         self._late: Fault | None = None  # of a callback or constructor that never came to an end
         self._slept = 0  # in the constructor
         self._constructing = False
+        self._ended_early = False  # by rclpy.shutdown() in its constructor
         # What was running at the deadline, and how many faults there had been.
         self._expired: tuple[tuple[str, str], int] = ("", "run"), 0
 
@@ -406,7 +412,22 @@ class _Run:
     def add_node(self, answer: Maker) -> None:
         """Add the learner's node; of an instance, its class is used."""
         make = type(answer.make) if isinstance(answer.make, Node) else answer.make
-        self._steps.subject = self._world.name_of(self._add(replace(answer, make=make))) or ""
+        if isclass(make):  # a function may be a program's main, which calls both
+            self._world.explain_init = _refuse_init  # type: ignore[method-assign]
+            self._world.explain_shutdown = self._shut_down  # type: ignore[method-assign]
+        node = self._add(replace(answer, make=make))
+        self._steps.subject = self._world.name_of(node) or ""
+        state = self._world.state_of(node)
+        if self._ended_early and state is not None:
+            state.spinning, state.ended = False, True
+            state.process.refresh()
+
+    def _shut_down(self) -> None:
+        """Answer `rclpy.shutdown()` of a node: it ends, at the latest when it is made."""
+        if self._constructing:
+            self._ended_early = True
+        else:
+            type(self._world).explain_shutdown(self._world)
 
     def add_system(self, answer: Maker) -> None:
         """Add the nodes of a learner's system; one that cannot be made is left out."""

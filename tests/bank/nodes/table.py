@@ -13,6 +13,8 @@ from bank.nodes import (
     greenhouse_right,
     greenhouse_wrong,
     listening_more,
+    page_00_further,
+    page_03_further,
     reader_right,
     reader_wrong,
     reporter_right,
@@ -24,6 +26,7 @@ from bank.nodes import (
 _MODULES = (
     *(reader_right, reader_wrong, reporter_right, reporter_wrong),
     *(beat_right, beat_wrong, room_right, room_wrong, greenhouse_right, greenhouse_wrong),
+    *(page_00_further, page_03_further),
     *(fridge_right, fridge_wrong, alarm_right, alarm_wrong, calm_right, calm_wrong),
     listening_more,
 )

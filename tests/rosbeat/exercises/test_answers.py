@@ -25,10 +25,10 @@ WRONG = [
     ("00a", a.ReaderWithoutSubscription, "The node has no subscription"),
     ("00a", "WeatherReader", "'WeatherReader' is not a node"),
     ("00a", int, "int is a class, but not a node."),
-    ("00b", a.HastyReporter, "9 articles appeared"),
+    ("00b", a.HastyReporter, "9 came"),
     ("00b", a.ReporterOnAnotherTopic, "The node publishes on /sport,"),
     ("00b", a.SilentReporter, "and it was never used"),
-    ("03a", a.SlowHumiditySensor, "5 readings appeared, the first"),
+    ("03a", a.SlowHumiditySensor, "10 readings were due, and 5 came"),
     ("03a", a.ShallowHumiditySensor, "queue depth is 10"),
     ("03a", a.DoubleHumiditySensor, "std_msgs/msg/Float64"),
     ("03a", a.TemperatureInsteadOfHumidity, "publishes on /temperature, and not"),
@@ -43,8 +43,8 @@ WRONG = [
     ("03b", a.JumpyRoom, "too wide"),
     ("03b", a.LazyRoom, "The steps are small."),
     ("03b", a.ConstantRoom, "It never changes."),
-    ("03b", a.SwappedRoom, "or min and max have changed places"),
-    ("03b", a.RisingRoom, "It only rises."),
+    ("03b", a.SwappedRoom, "min and max changed places"),
+    ("03b", a.RisingRoom, "It goes one way only."),
     ("03b", a.WholeRoom, "18 is an int"),
 ]
 

@@ -22,9 +22,9 @@ NODES = (a.FridgeMonitor, a.UntouchedReader, a.HumidityWithSwappedArguments, Non
 
 def looked_at(exercise, place):
     """What the scenario of each exercise sees of something."""
-    kind = exercise.scenario.__name__
     if exercise.id[:2] in ("00", "03", "04"):
         return [exercise.scenario(node) for node in NODES]
+    kind = exercise.scenario.__name__
     if kind in ("call", "_call"):
         return [exercise.scenario(one) for one in (lambda *words: "=".join(words), None)]
     if exercise.id in ("01b", "06a"):
