@@ -227,6 +227,11 @@ def _marked(text: str) -> str:
     return ""
 
 
+_INIT_IN_WITH = (
+    "In this version of ROS, `rclpy.init` returns nothing, so `with` has nothing to work with.",
+    "Documentation of newer versions writes it so. Here ROS is started and ended by two calls of "
+    "their own.",
+)
 _NODE_RULES: tuple[Rule, ...] = (
     _no_node,
     Row(
@@ -297,6 +302,13 @@ _NODE_RULES: tuple[Rule, ...] = (
         "beginning of main.",
     ),
     Row(
+        "init-in-with",
+        "RuntimeError",
+        r"Context\.init\(\) must only be called once",
+        *_INIT_IN_WITH,
+        _in_line(r"\bwith\b.*\binit\("),
+    ),
+    Row(
         "initialised-twice",
         "RuntimeError",
         r"Context\.init\(\) must only be called once",
@@ -314,9 +326,7 @@ _NODE_RULES: tuple[Rule, ...] = (
         "init-in-with",
         "TypeError AttributeError",
         r"^__enter__$|'NoneType' object does not support the context manager protocol",
-        "In this version of ROS, `rclpy.init` returns nothing, so `with` has nothing to work with.",
-        "Documentation of newer versions writes it so. Here ROS is started and ended by two calls "
-        "of their own.",
+        *_INIT_IN_WITH,
         _in_line(r"\binit\("),
     ),
 )

@@ -208,7 +208,7 @@ def explain_subscription(wire: Wire, fault: Fault) -> Diagnosis | None:
     """
     topic = re.escape(wire.topic.rpartition("/")[2])
     is_here = re.search(rf"[\"'/]{topic}[\"']", fault.code)
-    if not fault.asked.startswith("create_subscription(") or not is_here:
+    if fault.asked is None or fault.asked.method != "create_subscription" or not is_here:
         return None
     return Diagnosis(
         "no-publisher",

@@ -7,6 +7,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float32, Float64
 
+from failed_calls import failed_call
 from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
 from rosbeat.records import (
     CallbackRecord,
@@ -142,7 +143,7 @@ def test_an_exception_comes_first():
 def test_two_types_on_a_topic_are_both_said():
     text = "create_publisher() called for existing topic name rt/temperature with incompatible type"
     asked = "create_publisher(message_type[String], str, int)"
-    fault = Fault(1, NODE, "__init__", "RCLError", text, 3, "make()", asked)
+    fault = Fault(1, NODE, "__init__", "RCLError", text, 3, "make()", failed_call(asked))
     found = why_not_published(seen(end("subscription", node=ROOM), faults=(fault,)), WIRE)
     assert found.mistake == "type-mismatch"
     said = "On /temperature, your node uses String and the other side Float32."

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import pytest
 
+from failed_calls import failed_call
 from rosbeat.exercises import page_03
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import (
@@ -91,7 +92,9 @@ def test_a_node_that_is_gone_is_named():
 )
 def test_a_subscription_that_fails_is_no_publisher(exercise, topic):
     code = f'self.create_subscription(Float32, "{topic}", self.tick, 5)'
-    fault = Fault(0, "", "__init__", "TypeError", "?", 4, code, "create_subscription(str)")
+    fault = Fault(
+        0, "", "__init__", "TypeError", "?", 4, code, failed_call("create_subscription(str)")
+    )
     elsewhere = replace(fault, code=code.replace(topic, "x"))
     named, other = (
         EXERCISES[exercise].judged(Observation(0, 0, faults=(one,))).mistake
