@@ -49,7 +49,9 @@ def surroundings() -> dict[str, str]:
     home = steady_home()
     if home is not None:
         found.update(dict.fromkeys(("USER", "LOGNAME", "LNAME", "USERNAME"), "you"))
-        found.update(HOME=str(home), GIT_CONFIG_GLOBAL=os.devnull, GIT_CONFIG_NOSYSTEM="1")
+        for name in ("GIT_CONFIG_GLOBAL", "XDG_CONFIG_HOME"):
+            found.pop(name, None)
+        found.update(HOME=str(home), GIT_CONFIG_NOSYSTEM="1")
     return found
 
 

@@ -41,13 +41,15 @@ _PLAIN = {
     "INPUTRC": os.devnull,  # until the start-up is through: a person may use the keys of vi
 }
 # Settings of a person, which would show in what a page prints.
-_PERSONAL = ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME", "COLCON_HOME", "ROS_LOG_DIR")
+_PERSONAL = (
+    *("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME", "COLCON_HOME", "ROS_LOG_DIR"),
+    "GIT_CONFIG_GLOBAL",  # the steady home has none, and git may make one there
+)
 _STEADY = {
     "USER": USER,
     "LOGNAME": USER,
     "TZ": "UTC",
     "LC_ALL": "C.UTF-8",
-    "GIT_CONFIG_GLOBAL": os.devnull,
     "GIT_CONFIG_NOSYSTEM": "1",
     "RCUTILS_CONSOLE_OUTPUT_FORMAT": "[{severity}] [{name}]: {message}",
 }
