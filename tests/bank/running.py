@@ -4,9 +4,8 @@ import linecache
 import warnings
 from typing import Any
 
-from rosbeat.exercises.check import check
-
 from bank.pages import imports
+from rosbeat.exercises.check import check
 from rosbeat.records import Outcome
 
 

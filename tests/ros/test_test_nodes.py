@@ -5,9 +5,9 @@ import random
 
 import pytest
 from rclpy.node import Node
-from rosbeat.exercises.scenarios import station
 
 from rosbeat import Session
+from rosbeat.exercises.scenarios import station
 from rosbeat.records import QoS
 from rosbeat.ros.test_nodes import (
     GREENHOUSE,

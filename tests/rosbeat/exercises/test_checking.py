@@ -1,9 +1,9 @@
 import pytest
 from rclpy.node import Node
-from rosbeat.exercises.check import EXERCISES
 
 from rosbeat import Session, check
 from rosbeat.errors import ExerciseError
+from rosbeat.exercises.check import EXERCISES
 from rosbeat.exercises.progress import Standing, progress_file
 
 pytestmark = pytest.mark.ros

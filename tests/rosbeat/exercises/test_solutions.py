@@ -1,5 +1,4 @@
 from rosbeat.exercises.hint import answer_to, are_here
-
 from rosbeat.exercises.registry import EXERCISES
 
 

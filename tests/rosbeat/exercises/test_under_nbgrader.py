@@ -3,9 +3,9 @@
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
+
 from rosbeat.exercises.cards import MIME, Shown
 from rosbeat.exercises.check import NotPassedError, for_nbgrader
-
 from rosbeat.records import Outcome, Part
 
 RIGHT = Outcome("03a", "passed", "Ten readings.", points=2, out_of=2)

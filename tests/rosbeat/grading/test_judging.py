@@ -4,9 +4,9 @@ import gc
 import signal
 
 import pytest
-from rosbeat.exercises.evidence import to_json
 
 from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.jobs import FORGED, LOST, Observed
 from rosbeat.grading.judging import judge, untouched

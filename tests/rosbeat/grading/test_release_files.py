@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from rosbeat.exercises.hint import answer_to
 
+from rosbeat.exercises.hint import answer_to
 from rosbeat.grading.course_pages import course_pages
 from rosbeat.grading.release import release
 from rosbeat.grading.release_files import FIRST_TO_CATCH_UP, catches_up, readme, release_files
