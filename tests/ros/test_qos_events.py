@@ -2,6 +2,7 @@
 
 import threading
 import time
+from types import SimpleNamespace
 
 import pytest
 import rclpy
@@ -518,17 +519,17 @@ def unacknowledged(ros):
     return heart
 
 
-def test_nobody_waits_for_long_for_a_volatile_subscription_that_came_late(ros, unacknowledged):
+def test_nobody_waits_for_a_volatile_subscription_that_came_late(ros, unacknowledged):
     begin = time.monotonic()
     for number in range(4, 7):
         nurse = ros.add(lambda number=number: Nurse(STORED, f"nurse{number}"))
         unacknowledged.beat(number)
         ros.run(0)
         assert nurse.heard == [number - 1, number]
-    assert time.monotonic() - begin < 5.0
+    assert time.monotonic() - begin < 1.5
 
 
-def test_then_the_queue_is_as_long_as_always(ros, unacknowledged):
+def test_what_was_taken_early_is_a_part_of_the_queue(ros, unacknowledged):
     nurse = ros.add(lambda: Nurse(quality(stored=True, depth=2)))
     ros.pause(nurse)
     for number in (4, 5):
@@ -541,7 +542,7 @@ def test_then_the_queue_is_as_long_as_always(ros, unacknowledged):
     assert nurse.heard == [4, 5, 6]
 
 
-def test_then_what_is_stored_is_heard_in_real_time(ros, unacknowledged):
+def test_what_was_taken_early_is_heard_in_real_time(ros, unacknowledged):
     nurse = ros.add(lambda: Nurse(STORED))
     ros.start()
     assert ros.wait(10, until=lambda: nurse.heard)
@@ -567,7 +568,7 @@ class Tap:
 
 def test_each_publisher_that_stores_something_is_waited_for():
     taps = [Tap(3), Tap(5, stores=False), Tap(0), Tap(2)]
-    wait_for_stored(taps, STORED)
+    wait_for_stored(taps, SimpleNamespace(entity=SimpleNamespace(qos_profile=STORED)))
     assert [tap.stores and tap.left < 0 for tap in taps] == [True, False, True, True]
     assert taps[1].left == 5
 
