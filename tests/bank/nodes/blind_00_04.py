@@ -2046,6 +2046,9 @@ _ALL: tuple[Answer, ...] = (
 
 #: Where the judge is wrong, and what it says: these answers are not in the table.
 REASONS = {
+    # The check of the page is right about these two; grading holds them for a person.
+    "04a blind: numpy selects": "held: 'reaches for select', which is numpy's here and no system's.",
+    "03b blind: random()": "held: 'hands on the module random', where the module is called.",
     "03b blind: randint": "new-to-me: a float handed to randint has no name (ValueError before"
     " Python 3.12, TypeError since).",
     "04c blind: waits for five": "wrong-rate: no rate is wrong, the means of fewer are missing.",

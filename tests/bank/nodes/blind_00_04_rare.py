@@ -695,6 +695,8 @@ _ALL: tuple[Answer, ...] = (*_RIGHT, *_WRONG)
 
 #: Where the judge is wrong, and what it says: these answers are not in the table.
 REASONS = {
+    # The check of the page is right about this one; grading holds it for a person.
+    "00b blind: made with type()": "held: 'makes a class with type'.",
     "03b blind: at most 0.3, so 0.2": "step-too-small: the page says 'at most 0.3', and 0.25 passes.",
     "03b blind: twelve tiny draws": "uneven-steps: chance is the same both ways, and no step is"
     " wider than 0.3.",

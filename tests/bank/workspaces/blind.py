@@ -329,7 +329,7 @@ _FUNCTIONS = (
     ),
     right(
         "05b",
-        "blind: format_map of locals",
+        "blind: format, of locals()",
         _DEF + "return '{executable} = {package}.{module}:{function}'.format(**locals())\n",
     ),
     right(
@@ -707,6 +707,10 @@ _HIDDEN = "entry-points-hidden: it is right when it runs, and page 05 asks for n
 
 #: Where the judge is wrong, and what it says: these answers are not in the table.
 REASONS = {
+    # The check of the page is right about these three; grading holds them for a person.
+    "05b blind: format, of locals()": "held: 'uses locals'.",
+    "05b blind: io, joined": "held: 'imports io'.",
+    "05b blind: importlib's EntryPoint": "held: 'imports importlib.metadata'.",
     "05a blind: a function of one's own": _HIDDEN,
     "05a blind: a loop that appends": _HIDDEN,
     "05a blind: a lambda and map": _HIDDEN,
