@@ -6,6 +6,9 @@ from bank.nodes import (
     alarm_wrong,
     beat_right,
     beat_wrong,
+    blind_00_04,
+    blind_00_04_more,
+    blind_00_04_rare,
     calm_right,
     calm_wrong,
     fridge_right,
@@ -29,6 +32,7 @@ _MODULES = (
     *(page_00_further, page_03_further),
     *(fridge_right, fridge_wrong, alarm_right, alarm_wrong, calm_right, calm_wrong),
     listening_more,
+    *(blind_00_04, blind_00_04_more, blind_00_04_rare),
 )
 
 ANSWERS: tuple[Answer, ...] = tuple(one for module in _MODULES for one in module.ANSWERS)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from unittest.mock import patch
 
-from bank.workspaces import entries, folders, functions, packages, programs
+from bank.workspaces import blind, entries, folders, functions, packages, programs
 from bank.workspaces.answer import Answer
 from bank.workspaces.shell import Terminal, typed
 from rosbeat.exercises import page_01
@@ -18,6 +18,7 @@ ANSWERS: tuple[Answer, ...] = (
     *entries.ANSWERS,
     *functions.ANSWERS,
     *programs.ANSWERS,
+    *blind.ANSWERS,
 )
 
 #: What no hint may hold: the part of the reference solution that fills the blank.
