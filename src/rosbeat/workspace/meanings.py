@@ -106,8 +106,8 @@ class PackageRow:
     Attributes:
         mistake: The mistake's id.
         when: What is true of the package, and of the executable that was asked for.
-        evidence: What is wrong, with `{name}`, `{executable}`, `{stem}` (the executable without
-            `.py`), `{setup.line}` and `{manifest.build_type}`.
+        evidence: What is wrong, with attributes of the package, as in `{name}`, and `{executable}`
+            or `{stem}`, the executable without `.py`.
         hint: Where to look, with the same.
     """
 
@@ -120,13 +120,8 @@ class PackageRow:
         """Return the mistake if the package has it; else None."""
         if not self.when(package, executable):
             return None
-        values = {
-            "name": package.name,
-            "setup": package.setup,
-            "manifest": package.manifest,
-            "executable": executable,
-            "stem": executable.removesuffix(".py"),
-        }
+        stem = executable.removesuffix(".py")
+        values = vars(package) | {"executable": executable, "stem": stem}
         said = (one.format_map(values) for one in (self.evidence, self.hint))
         return Diagnosis(self.mistake, *said)
 
@@ -270,7 +265,7 @@ def _near(base: Path, typed: str, folders: bool = False) -> str | None:
     return str(path.parent / meant) if meant else None
 
 
-def _folder_gone(seen: Situation, call: Call, _: Found) -> Diagnosis | None:
+def _folder_gone(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
     """Recognise that the terminal's folder was removed, perhaps by another terminal."""
     failed = seen.code or ": error: " in seen.text
     # A new folder may have the name of the old one; then only the programs notice.
@@ -475,10 +470,6 @@ def _not_executable(_: Situation, __: Call, found: Found) -> Diagnosis:
     )
 
 
-def _is_built(seen: Situation, _: Call, found: Found) -> bool:
-    return (seen.workspace / "install" / Path(found[1]).name).is_file()
-
-
 _COMMAND_RULES = (
     Row(
         "dot-slash-missing",
@@ -574,7 +565,7 @@ _FILE_RULES: Rules = (
             rf"{_BASH}({start}{_SETUP}): {_NO_FILE}",
             f"{{1}} {where}.",
             f"It lies in your workspace: go there first, with  {_way_to()}",
-            _is_built,
+            lambda seen, _, found: (seen.workspace / "install" / Path(found[1]).name).is_file(),
         )
         for start, where in (
             ("(?=/)", "does not exist"),
@@ -769,7 +760,6 @@ _OPTION_RULES = (
 
 
 # What is wrong with an entry point, and with a package.
-
 
 _FORM = "The entry point in line {entry.line} of {entry.file} "
 _NAMED = "The entry point {entry.executable} in {entry.file} names "
@@ -1052,13 +1042,8 @@ _NO_MODULE = ("ModuleNotFoundError", "ImportError")
 _UNREADABLE = ("SyntaxError", "IndentationError", "TabError")
 
 
-def _is_only_source(seen: Situation, _: Call, found: Found) -> bool:
-    package = seen.package(found[1])
-    return package is not None and package.installed is None
-
-
 def _no_such_package(seen: Situation, _: Call, found: Found) -> Diagnosis | None:
-    asked = _ASKED.search(seen.text)
+    asked = re.search(r"Did you mean '([^']+)'", seen.text)
     meant = nearest(found[1], [one.name for one in seen.packages]) or (asked and asked[1])
     if not meant:
         return None
@@ -1106,11 +1091,13 @@ def _no_such_executable(package: Package, name: str) -> Diagnosis:
     )
 
 
-def _linked_since(seen: Situation, package: Package) -> bool:
+def _linked_since(seen: Situation, call: Call, _: Found) -> bool:
     """Return whether a link has replaced the copy that this terminal was told of."""
-    lost = "PackageNotFoundError: No package metadata was found for" in seen.error
-    linked = package.installed and package.installed.linked
-    return bool(lost and linked and package.name.replace("_", "-") in seen.error)
+    return any(
+        package.installed and package.installed.linked and package.name.replace("_", "-") in lost
+        for package, _ in _asked_for(seen, call)
+        for lost in re.findall(r"PackageNotFoundError: No package metadata .+", seen.error)
+    )
 
 
 def _is_about_loading(seen: Situation, _: Package) -> bool:
@@ -1159,7 +1146,7 @@ _RUN_RULES = (
         _NO_PACKAGE,
         "The package {1} is in src and has not been built yet.",
         "In the workspace, run `colcon build` and then `source install/setup.bash`.",
-        _is_only_source,
+        lambda seen, _, found: (package := seen.package(found[1])) and not package.installed,
     ),
     Row(
         "not-sourced",
@@ -1254,17 +1241,13 @@ _LOADING_RULES = (
         "run `./environment/course shell` first.",
         lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error,
     ),
-    PackageRule(
+    Row(
+        "not-sourced",
         _RUN,
-        (
-            PackageRow(
-                "not-sourced",
-                _always,
-                "The package is installed as a link now, and this terminal was loaded before that.",
-                "Run `source install/setup.bash` again.",
-            ),
-        ),
-        when=_linked_since,
+        "",
+        "The package is installed as a link now, and this terminal was loaded before that.",
+        "Run `source install/setup.bash` again.",
+        _linked_since,
     ),
     PackageRule(
         _RUN,
