@@ -48,7 +48,7 @@ class Rule:
 
     Attributes:
         ran: A regular expression for the command's first words; `{1}` is the first group of the
-            pattern. An output that another command has only shown, as `cat` does, is not meant.
+            pattern. Output that another command merely shows, as `cat` does, does not count.
         pattern: A regular expression that is looked for in the output.
         says: What it means; None if it is not this mistake after all.
     """
@@ -59,6 +59,9 @@ class Rule:
 
     def __call__(self, seen: Situation) -> Diagnosis | None:
         """Return what the function says if command and output fit; else None."""
+        # Outputs may be long, so another command's is not searched.
+        if "{" not in self.ran and not seen.call(self.ran):
+            return None
         found = re.search(self.pattern, seen.text, re.MULTILINE)
         if not found:
             return None

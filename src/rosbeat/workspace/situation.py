@@ -97,7 +97,7 @@ class Situation:
         start = self.text.find(_TRACEBACK) if self.call(PYTHON) else -1
         return self.text[start:] if start >= 0 else ""
 
-    @property
+    @cached_property
     def error(self) -> str:
         """Return the last line of the traceback: the error's name and text."""
         lines = _ERROR.findall(self.traceback)
