@@ -10,7 +10,7 @@ from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passe
 from rosbeat.exercises.scenarios import TypedIn, Workspace, look_at_terminal, look_at_workspace
 from rosbeat.exercises.workspace_model import alike, diagnose_script, diagnosis_of
 from rosbeat.records import Outcome
-from rosbeat.workspace.meanings.flaws import diagnose_flaw
+from rosbeat.workspace.meanings import diagnose_flaw
 from rosbeat.workspace.packages import Package
 from rosbeat.workspace.place import workspace
 

@@ -8,7 +8,7 @@ from functools import partial
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
 from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
 from rosbeat.exercises.scenarios import CommandMeaning
-from rosbeat.workspace.meanings.flaws import diagnose_flaw
+from rosbeat.workspace.meanings import diagnose_flaw
 from rosbeat.workspace.packages import Package
 from rosbeat.workspace.setup_script import NO_CALL
 

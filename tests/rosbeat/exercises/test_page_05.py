@@ -11,7 +11,7 @@ from rosbeat.exercises.model import agree
 from rosbeat.exercises.page_05 import ARGUMENTS, EXERCISES
 from rosbeat.exercises.scenarios import Report
 from rosbeat.workspace import targets
-from rosbeat.workspace.meanings.flaws import MISTAKE_OF
+from rosbeat.workspace.meanings import FLAWS
 from rosbeat.workspace.stages import finished
 
 setup_05a, function_05b = EXERCISES
@@ -71,8 +71,8 @@ def test_a_wrong_script_says_what_is_wrong(judged, old, new, evidence):
 def test_every_flaw_of_an_entry_point_has_words():
     kinds = set(re.findall(r'Flaw\(\s*"([a-z-]+)"', Path(targets.__file__).read_text()))
     assert len(kinds) >= 10
-    assert kinds == set(workspace_model.FLAW_HINTS) == set(MISTAKE_OF)
-    assert set(MISTAKE_OF.values()) <= set(MISTAKES)
+    assert kinds == set(workspace_model.FLAW_HINTS) == set(FLAWS)
+    assert {one.mistake for one in FLAWS.values()} <= set(MISTAKES)
 
 
 def test_each_suspect_of_05a_calls_other_functions():

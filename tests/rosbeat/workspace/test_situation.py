@@ -1,6 +1,6 @@
 import pytest
 
-from rosbeat.workspace.meanings.situation import Situation
+from rosbeat.workspace.situation import Situation
 
 
 @pytest.fixture

@@ -1,4 +1,8 @@
-"""What is known after a command of a terminal has ended."""
+"""Hold what is known after a command of a terminal has ended.
+
+`Situation` splits what was typed into its commands, each with the folder that it ran in, and reads
+the output and the packages of the workspace when somebody asks for them.
+"""
 
 from __future__ import annotations
 
@@ -12,17 +16,19 @@ from pathlib import Path
 from rosbeat.workspace.packages import Package, find_packages, read_package
 from rosbeat.workspace.place import VARIABLE, steady_home
 
+#: A program in Python: a script, or what `ros2 run` starts.
+PYTHON = r"(?:\S*/)?python[\d.]*|\S*\.py|ros2 run"
 _SEPARATORS = {";", "&&", "||", "|", "&"}
 _SETTING = re.compile(r"[A-Za-z_]\w*=")
 _TIME = re.compile(r"\d+(\.\d*)?[smhd]?")
-_PYTHON = re.compile(r"(\S*/)?python[\d.]*|\S*\.py")
 _TRACEBACK = "Traceback (most recent call last)"
+_ERROR = re.compile(r"^[A-Za-z_][\w.]*(?:Error|Exception|Interrupt|Exit)\b.*$", re.M)
 _COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 
 
 @dataclass(frozen=True)
 class Call:
-    """One command of a line.
+    """Hold one command of a line.
 
     Attributes:
         words: The program and its arguments.
@@ -32,10 +38,15 @@ class Call:
     words: tuple[str, ...]
     place: Path
 
+    def after(self, option: str) -> list[str]:
+        """Return the words behind an option, or an empty list if it was not given."""
+        found = option in self.words
+        return list(self.words[self.words.index(option) + 1 :]) if found else []
+
 
 @dataclass(frozen=True)
 class Situation:
-    """A command that has ended, and what can be seen of it.
+    """Hold a command that has ended, and what can be seen of it.
 
     Attributes:
         command: What was typed; several lines, or several commands in a line, are fine.
@@ -53,13 +64,13 @@ class Situation:
 
     @cached_property
     def text(self) -> str:
-        """The output without colours, with one kind of line end and one kind of quote."""
+        """Return the output without colours, with one kind of line end and one kind of quote."""
         plain = _COLOUR.sub("", self.output).replace("\r\n", "\n").replace("\r", "\n")
         return plain.replace("‘", "'").replace("’", "'")
 
     @cached_property
     def calls(self) -> tuple[Call, ...]:
-        """The commands one by one, each with the folder that `cd` had led to."""
+        """Return the commands one by one, each with the folder that `cd` had led to."""
         place = self.folder
         found = []
         for words in _commands(self.command):
@@ -68,51 +79,51 @@ class Situation:
                 place = _after_cd(place, words, self.workspace)
         return tuple(found)
 
-    def call(self, *start: str) -> Call | None:
-        """Return the last command that begins with certain words, or None."""
-        count = len(start)
-        fitting = [one for one in self.calls if one.words[:count] == start]
-        return fitting[-1] if fitting else None
+    def call(self, pattern: str) -> Call | None:
+        r"""Return the last command whose first words match a regular expression, or None.
 
-    def program(self, pattern: str) -> Call | None:
-        """Return the last command whose program is as a regular expression says, or None."""
-        fitting = [one for one in self.calls if re.fullmatch(pattern, one.words[0])]
-        return fitting[-1] if fitting else None
-
-    @property
-    def ran_python(self) -> Call | None:
-        """The last command that started a program in Python: a script, or `ros2 run`."""
-        return self.program(_PYTHON.pattern) or self.call("ros2", "run")
+        Args:
+            pattern: The expression, as in `ros2 run` or `python[\d.]*`; it ends with a word.
+        """
+        start = re.compile(rf"(?:{pattern})(?= |$)")
+        return next((one for one in self.calls[::-1] if start.match(" ".join(one.words))), None)
 
     @cached_property
     def traceback(self) -> str:
-        """What a program in Python shows of its error; empty if none was started, or it has none.
+        """Return what a program in Python shows of its error, or an empty text.
 
         The text of a traceback in a file that is only read does not count.
         """
-        start = self.text.find(_TRACEBACK) if self.ran_python else -1
+        start = self.text.find(_TRACEBACK) if self.call(PYTHON) else -1
         return self.text[start:] if start >= 0 else ""
+
+    @cached_property
+    def error(self) -> str:
+        """Return the last line of the traceback: the error's name and text."""
+        lines = _ERROR.findall(self.traceback)
+        return lines[-1] if lines else ""
 
     @property
     def about_ros(self) -> bool:
         """Whether the traceback is that of a node."""
         return bool(self.traceback) and (
-            "rclpy" in self.traceback or self.call("ros2", "run") is not None
+            "rclpy" in self.traceback or self.call("ros2 run") is not None
         )
-
-    def says_meant(self, name: str) -> bool:
-        """Whether the output itself asks already if a certain name was meant."""
-        return re.search(rf"Did you mean:? '{re.escape(name)}'", self.text) is not None
 
     @cached_property
     def packages(self) -> tuple[Package, ...]:
-        """Every package of the workspace."""
+        """Return every package of the workspace."""
         folders = find_packages(self.workspace) if self.workspace.is_dir() else []
         return tuple(read_package(one, self.workspace) for one in folders)
 
     def package(self, name: str) -> Package | None:
         """Return the package of a name, or None."""
         return next((one for one in self.packages if one.name == name), None)
+
+
+def home() -> Path:
+    """Return the folder that a terminal calls `~`."""
+    return steady_home() or Path.home()
 
 
 def _commands(text: str) -> list[tuple[str, ...]]:
@@ -139,7 +150,7 @@ def _split(words: list[str]) -> list[tuple[str, ...]]:
 
 
 def _from_the_program(words: list[str]) -> list[str]:
-    """The words without `NAME=value` or `timeout 5` in front: a program with no say in it."""
+    """Return the words without `NAME=value` or `timeout 5` in front: neither is the program."""
     start = next((at for at, word in enumerate(words) if not _SETTING.match(word)), 0)
     rest = words[start:]
     if rest[0] == "timeout":
@@ -147,13 +158,8 @@ def _from_the_program(words: list[str]) -> list[str]:
     return rest or words
 
 
-def home() -> Path:
-    """Return the folder that a terminal calls `~`."""
-    return steady_home() or Path.home()
-
-
 def _after_cd(place: Path, words: tuple[str, ...], workspace: Path) -> Path:
-    """Where `cd` leads; nowhere else if there is no such folder, for then it failed."""
+    """Return where `cd` leads: the same place if there is no such folder, for then it failed."""
     typed = words[1] if len(words) > 1 else "~"
     first, _, rest = typed.partition("/")
     known = {"~": home(), f"${VARIABLE}": workspace, f"${{{VARIABLE}}}": workspace}
