@@ -728,7 +728,11 @@ def _wrong_lines(said: Mapping[float, tuple[str, ...]]) -> Diagnosis | None:
         late = sorted(said.keys() - at.keys())  # no model: a timer may publish at any time
         soon = [one for one in late if one - int(one) <= _SOON and float(int(one)) in right]
         stray = next((one for one in late if one not in soon), late[0])
-        since = f"the log line before it came at {int(stray)} s" if stray > 1 else "no log line yet"
+        since = (
+            f"the log line before it came at {int(stray)} s"
+            if stray > 1
+            else "no line had come yet"
+        )
         evidence = f"A name was published at {stray:g} s, and {since}."
         return Diagnosis("alert-too-many", evidence, _AT_ONCE)
     line = at[parted.at]

@@ -235,11 +235,10 @@ def _wrong_beats(beats: Sequence[float]) -> Diagnosis | None:
             evidence = f"Between {begin:g} s and {end:g} s there was no beat, and no work to do."
             return Diagnosis("wrong-rate", evidence, "One beat a second needs a timer of 1.0 s.")
         if end - begin > 1.1:
-            order = [number for at, number in ORDERS if at < end][-1]
             return Diagnosis(
                 "beat-starved",
-                f"Between {begin:g} s and {end:g} s there was no beat, while order {order} was "
-                "being worked on.",
+                f"Between {begin:g} s and {end:g} s there was no beat, "
+                f"{_work_between(begin, end)}.",
                 "A node runs one callback at a time. While yours waits for the work to be done, no "
                 "other can run: what could call you back when it is done?",
             )
@@ -248,6 +247,17 @@ def _wrong_beats(beats: Sequence[float]) -> Diagnosis | None:
         evidence = f"{len(beats)} beats came, every {mean:.2f} s."
         return Diagnosis("wrong-rate", evidence, hint)
     return None
+
+
+def _work_between(begin: float, end: float) -> str:
+    """Return what there was to do between two moments, for somebody who does it as asked."""
+    free = 0.0
+    for at, number in ORDERS:
+        started = max(at, free)
+        free = started + WORK
+        if begin < free and started < end:
+            return f"while order {number} was being worked on"
+    return f"after order {[number for at, number in ORDERS if at < end][-1]} had come"
 
 
 def _by_report(reports: Reports) -> Track:
