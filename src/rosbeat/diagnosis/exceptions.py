@@ -398,6 +398,13 @@ def _endless(fault: Fault) -> Meaning | None:
     )
 
 
+_HANDED_ONE = (
+    "One argument is handed to the callback of a subscription, the message; of an event, its info; "
+    "of an action, the goal's handle; of parameters, a list of them."
+)
+_HANDED_TWO = "A service's callback is handed two: the request, and a response to fill."
+
+
 def _called_with_others(fault: Fault) -> Meaning | None:
     """Recognise a timer's callback that takes a message, or no self (row 10)."""
     found = matched(fault, r"^([\w.<>]*?)(\w+)\(\) (takes|missing) (\d+)", "TypeError")
@@ -412,10 +419,9 @@ def _called_with_others(fault: Fault) -> Meaning | None:
     if found[3] == "missing":
         return Meaning(
             "callback-parameters",
-            f"{found[2]} wants more than it is given: a timer calls its callback without "
-            "arguments.",
-            "A message comes only to the callback of a subscription. Which parameters does a "
-            "timer's callback need?",
+            f"{found[2]} has more parameters than ROS fills in when it calls it.",
+            f"A timer calls its callback without arguments. {_HANDED_ONE} {_HANDED_TWO} Which one "
+            f"calls {found[2]}?",
         )
     return None
 
@@ -512,11 +518,14 @@ def _called_with_more(fault: Fault) -> Meaning | None:
     name, takes, given = found[1], int(found[2]), int(found[3])
     if name != fault.callback or takes == 0:
         return None
+    besides = ""
+    if re.match(r"[\w.<>]*(?<!<locals>)\.\w+\(\)", fault.text):  # a method
+        besides, takes, given = " besides self", takes - 1, given - 1
+    counted = f"{given} argument" if given == 1 else f"{given} arguments"
     return Meaning(
         "callback-parameters",
-        f"{name} takes {takes} arguments, and ROS calls it with {given}, self included.",
-        "A service's callback is handed the request and a response to fill; that of an action the "
-        "goal's handle; that of parameters a list of them.",
+        f"ROS calls {name} with {counted}{besides}, and it takes {takes or 'none'}.",
+        _HANDED_ONE if given == 1 else _HANDED_TWO,
     )
 
 

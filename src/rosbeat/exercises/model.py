@@ -122,6 +122,8 @@ def fitting(
 def named(evidence: str, fit: Sequence[Suspect], otherwise: Diagnosis | None = None) -> Diagnosis:
     """Return the diagnosis for what was seen; of two suspects that fit, both are named.
 
+    A sentence that both hints have is said once.
+
     Args:
         evidence: What was seen.
         fit: The suspects that reproduce it, the likely ones first.
@@ -132,7 +134,10 @@ def named(evidence: str, fit: Sequence[Suspect], otherwise: Diagnosis | None = N
             UNKNOWN, evidence, "Go through your conditions in their order with this reading."
         )
     hints = list(dict.fromkeys(one.hint for one in fit))[:2]
-    return Diagnosis(fit[0].mistake, evidence, " Or: ".join(hints))
+    if len(hints) > 1:
+        said, other = (re.split(r"(?<=[.?!]) ", hint) for hint in hints)
+        hints = [hints[0], " ".join(sentence for sentence in other if sentence not in said)]
+    return Diagnosis(fit[0].mistake, evidence, " Or: ".join(filter(None, hints)))
 
 
 def spelling(found: str, words: Iterable[str]) -> str:

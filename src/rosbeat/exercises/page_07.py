@@ -132,7 +132,8 @@ def _questions(house: Greenhouse) -> tuple[_Question, ...]:
                      "side of the topic has a queue of its own.")
              for (kind, _), depth in depths.items() if kind == "publisher"},
             "That queue has another depth.",
-            "Terminals are not told. The graph of the session is: look for depth in ros.graph()."),
+            "A terminal cannot see it. The graph of the session shows it: look for depth in "
+            "ros.graph()."),
         _Question(
             "topic without a listener", "topic", unheard, _used(listeners, unsent, "listen to"),
             "", sides),
@@ -309,6 +310,7 @@ _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 _STATUS = Wire("/status", "std_msgs/msg/String")
 #: The values before anything is set.
 _DEFAULTS = {"low": 20.0, "high": 26.0}
+_EXCHANGED = {"low": 26.0, "high": 20.0}
 #: What is set, half a second before the reading of this number; two limits are no whole numbers.
 CHANGES = ((9, {"high": 24.5}), (13, {"low": 21.5}), (17, {"low": 10.0, "high": 30.0}))
 #: One reading a second. Those before the first change, and at each limit a reading.
@@ -389,6 +391,10 @@ _SUSPECT_MONITORS = (
     Suspect("parameters-swapped", "High appears above the lower limit, and Low below the upper "
             "one. Which of the two values belongs to which name, and to which comparison?",
             _monitor(lambda value, low, high: _status(value, high, low))),
+    Suspect("parameters-swapped", "Until something is set, the statuses are right; what is set for "
+            "`low` counts as the upper limit, and what is set for `high` as the lower one. Which "
+            "value begins under which name, and which name is asked for?",
+            _monitor(lambda value, low, high: _status(value, high, low), _EXCHANGED)),
     *(
         Suspect("boundary", "A reading exactly at a limit is Normal: > and < leave the limit "
                 "itself out.", _monitor(rule))
@@ -491,9 +497,10 @@ def _mistuned(done: Track) -> Diagnosis | None:
     gave, right = (" and ".join(one) or "no status" for one in (parted.done, parted.right))
     evidence = f"At {parted.at:g} s your node published {gave}, and no reading came then."
     if parted.right:
+        # What they are in the node is unknown: its first values may be others.
         low, high = _limits(parted.at).values()
         evidence = (
-            f"With `low` at {low:g} and `high` at {high:g}, a reading of "
+            f"At {parted.at:g} s `low` should be {low:g} and `high` {high:g}: a reading of "
             f"{READINGS[int(parted.at) - 1]:g} gave {gave} instead of {right}."
         )
     known = fitting(READINGS, done, _SUSPECT_MONITORS)
@@ -573,6 +580,20 @@ def _observe_log_watcher(answer: Any) -> Observation:  # noqa: ANN401
         for second, line in enumerate(LINES, 1)
     ]
     return observe(answer, len(LINES) + 0.5, steps=steps)
+
+
+#: Within how many seconds a name may follow its line: a timer may tell what a callback heard.
+_SOON = 0.5
+
+
+def _by_line(said: Mapping[float, tuple[str, ...]]) -> dict[float, tuple[str, ...]]:
+    """Return the texts by the second of their line; those that follow none soon keep their own."""
+    found: dict[float, tuple[str, ...]] = {}
+    for at, texts in sorted(said.items()):
+        line = float(int(at))
+        second = line if line >= 1.0 and at - line <= _SOON else at
+        found[second] = (*found.get(second, ()), *texts)
+    return found
 
 
 # Which lines count and what is published for them are two questions, each with its own suspects;
@@ -687,7 +708,7 @@ _SUSPECT_TEXTS = (
 def _judge_log_watcher(observation: Observation) -> Outcome:
     wrong = _silence(observation, _ROSOUT, _WARNINGS)
     said = _texts(observation, _WARNINGS)
-    wrong = wrong or _wrong_lines(said) or _wrong_texts(said, observation.subject)
+    wrong = wrong or _wrong_lines(said) or _wrong_texts(_by_line(said), observation.subject)
     if wrong:
         return failed_by("07c", wrong)
     count = len(_warnings(LINES))
@@ -696,17 +717,26 @@ def _judge_log_watcher(observation: Observation) -> Outcome:
 
 def _wrong_lines(said: Mapping[float, tuple[str, ...]]) -> Diagnosis | None:
     """Say which line was named and does not count, or the other way round."""
-    done: Track = dict.fromkeys(said, (True,))
-    parted = parting(done, _warnings(LINES))
+    told = _by_line(said)
+    done: Track = dict.fromkeys(told, (True,))
+    right = _warnings(LINES)
+    parted = parting(done, right)
     if parted is None:
         return None
     at = {float(second): line for second, line in enumerate(LINES, 1)}
     if not at.keys() >= said.keys() and not fitting(LINES, done, _SUSPECT_LINES):
-        stray = min(said.keys() - at.keys())  # no model: a timer may publish at any time
-        evidence = f"A name was published at {stray:g} s, and no log line came then."
+        late = sorted(said.keys() - at.keys())  # no model: a timer may publish at any time
+        soon = [one for one in late if one - int(one) <= _SOON and float(int(one)) in right]
+        stray = next((one for one in late if one not in soon), late[0])
+        since = (
+            f"the log line before it came at {int(stray)} s"
+            if stray > 1
+            else "no line had come yet"
+        )
+        evidence = f"A name was published at {stray:g} s, and {since}."
         return Diagnosis("alert-too-many", evidence, _AT_ONCE)
     line = at[parted.at]
-    what = repr(said[parted.at][0]) if parted.done else "Nothing"
+    what = repr(told[parted.at][0]) if parted.done else "Nothing"
     evidence = f"{what} was published for a line of level {_LEVELS[line.level]}: {line.msg!r}."
     other = Diagnosis(UNKNOWN, evidence, "What does your method do with this line, step by step?")
     if parted.done:

@@ -152,12 +152,14 @@ _REPEATED = "A command for the mode that there is changes nothing, and needs no 
 _CHANGE = "A command for another mode is a change. Does your node keep it, and publish it?"
 _BEGIN = f"Publish {_START!r} in the constructor, as soon as there is something to publish with."
 _FIRST_MODE = f"Before the first command there is a mode, too: {_START!r}."
-_COMPARED = f"The mode may become {_START!r} again. With what does your node compare a command?"
+_COMPARED = (
+    "With which mode does your node compare a command: the one it started with, or the current one?"
+)
 _EACH_CHANGE = "Each change counts, not only the first. What does your node remember of the last?"
 KEEPERS = variants(_keep_mode, (
     ("status-repeated", _REPEATED, {"is_news": lambda *_: True}),
     ("status-repeated", _FIRST_MODE, {"is_news": lambda _, before, command: command != before}),
-    ("change-missing", _COMPARED, {"is_news": lambda _, __, command: command != _START}),
+    ("status-repeated", _COMPARED, {"is_news": lambda _, __, command: command != _START}),
     ("change-missing", _EACH_CHANGE, {"is_news": lambda mode, _, __: mode == _START}),
     ("change-missing", _CHANGE, {"is_news": lambda *_: False}),
     ("wrong-start", _BEGIN, {"begins": False}),
@@ -229,7 +231,7 @@ def _diagnose_modes(samples: Sequence[Sample]) -> Diagnosis | None:
         return None
     done_words, right_words = (_listed(words) for words in (parted.done, parted.right))
     evidence = (
-        f"At {parted.at:g} s the node published {done_words} on /mode; {right_words} was right."
+        f"At {parted.at:g} s the node published {done_words} on /mode; {right_words} was due."
     )
     return named(evidence, fitting(COMMANDS, done, KEEPERS), _other_mode(evidence, parted, right))
 
@@ -269,8 +271,8 @@ def _diagnose_displays(observation: Observation) -> Diagnosis | None:
     joins, asks = [*DISPLAYS.values()][parted.at]
     evidence = (
         f"A display joined at {joins:g} s and asked for {asks.reliability}, {asks.durability}. It "
-        f"heard {_listed(parted.done)}; {_listed(parted.right)} was right. Your publisher offers "
-        f"{_described(offers)}."
+        f"heard {_listed(parted.done)}, and should have heard {_listed(parted.right)}. Your "
+        f"publisher offers {_described(offers)}."
     )
     otherwise = Diagnosis(
         UNKNOWN, evidence, "Compare what the publisher offers with what such a display asks for."
@@ -385,10 +387,11 @@ def _diagnose_archive(observation: Observation, kept: Sequence[float]) -> Diagno
         return _diagnose_order(kept)
     asks = [end.qos for end in _ends(observation, _READING, "subscription")]
     (at, node), times = parted.at, len(parted.done)
+    found = f"in the archive {times} times" if times else "not in the archive"
     missed = sum(not counts[value] for value in FED.values())
     evidence = (
-        f"The reading {FED[at, node]:g}, which {node} published at {at:g} s, is in the archive "
-        f"{times} times, and once was right. {missed} of {len(FED)} readings are missing there; "
+        f"The reading {FED[at, node]:g}, which {node} published at {at:g} s, is {found}, and "
+        f"should be there once. {missed} of {len(FED)} readings are missing there; "
         f"the node was away from {_AWAY[0]:g} s to {_AWAY[1]:g} s. Your subscription asks for "
         f"{' and '.join(map(_described, asks)) or 'nothing'}."
     )
@@ -469,7 +472,8 @@ _RESTART = f"{_DUE} What measures that has to begin again with each reading."
 _FIRST = f"Only what was lost can be back. What does the node know before its first {LOST!r}?"
 _EVENTS = "The event comes again in each further period of silence."
 _NO_END = f"{BACK!r} has to be published, too, before {LOST!r} is news again."
-_TOTAL = "total_count goes on from one silence to the next. Which other memory is there?"
+_ONLY_END = f"{BACK!r} is the end of {LOST!r}, and only of that."
+_TOTAL = "If it looks at total_count: that goes on from one silence to the next."
 _SECOND = f"{_DUE} How long has it been silent when a later event comes?"
 
 
@@ -488,6 +492,8 @@ def _from_the_second(last: str, word: str, missed: int) -> bool:
 WATCHDOGS = variants(_watch, (
     ("status-repeated", f"{_EVENTS} {_REMEMBER}", {"is_news": _always_lost}),
     ("status-repeated", _NO_END, {"publishes": (LOST,)}),
+    ("back-too-often", _ONLY_END, {"is_news": lambda last, word, _: BACK in (word, last)}),
+    ("back-too-often", f"{_ONLY_END} {_REMEMBER}", {"is_news": lambda *_: True}),
     ("wrong-start", _FIRST, {"last": LOST}),
     ("change-missing", _EACH, {"is_news": lambda last, word, _: last != LOST == word}),
     ("change-missing", _TOTAL, {"is_news": _once_ever}),

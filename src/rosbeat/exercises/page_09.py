@@ -143,10 +143,13 @@ def _wrong_words(observation: Observation) -> Diagnosis | None:
     ]
     times = (0.0, *READINGS, _READINGS_END)[part.at :]
     due = f"{part.right[0].split()[0]} was due" if part.right else "nothing was due"
+    said_then = f"and the node said {' and '.join(said) or 'nothing'}."
     evidence = (
-        f"After {times[0]:g} s, the next reading came at {times[1]:g} s. {due.capitalize()}, and "
-        f"the node said {' and '.join(said) or 'nothing'}."
+        f"After {times[0]:g} s, the next reading came at {times[1]:g} s. {due.capitalize()}, "
+        f"{said_then}"
     )
+    if part.at == 0:
+        evidence = f"Before the first reading, at {times[1]:g} s, {due}, {said_then}"
     if part.at == len(READINGS):
         evidence = evidence.replace("the next reading came", "no reading came, and the run ended")
     for wait in observation.waits:
@@ -232,11 +235,10 @@ def _wrong_beats(beats: Sequence[float]) -> Diagnosis | None:
             evidence = f"Between {begin:g} s and {end:g} s there was no beat, and no work to do."
             return Diagnosis("wrong-rate", evidence, "One beat a second needs a timer of 1.0 s.")
         if end - begin > 1.1:
-            order = [number for at, number in ORDERS if at < end][-1]
             return Diagnosis(
                 "beat-starved",
-                f"Between {begin:g} s and {end:g} s there was no beat, while there was order "
-                f"{order}.",
+                f"Between {begin:g} s and {end:g} s there was no beat, "
+                f"{_work_between(begin, end)}.",
                 "A node runs one callback at a time. While yours waits for the work to be done, no "
                 "other can run: what could call you back when it is done?",
             )
@@ -245,6 +247,17 @@ def _wrong_beats(beats: Sequence[float]) -> Diagnosis | None:
         evidence = f"{len(beats)} beats came, every {mean:.2f} s."
         return Diagnosis("wrong-rate", evidence, hint)
     return None
+
+
+def _work_between(begin: float, end: float) -> str:
+    """Return what there was to do between two moments, for somebody who does it as asked."""
+    free = 0.0
+    for at, number in ORDERS:
+        started = max(at, free)
+        free = started + WORK
+        if begin < free and started < end:
+            return f"while order {number} was being worked on"
+    return f"after order {[number for at, number in ORDERS if at < end][-1]} had come"
 
 
 def _by_report(reports: Reports) -> Track:
@@ -322,8 +335,8 @@ WORK_SUSPECTS = (
             _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
     Suspect("order-lost", f"Only the newest order is kept. {_WAITS}",
             _worker(put=lambda waiting, order: waiting.__setitem__(slice(None), [order]))),
-    *(Suspect("order-lost", f"Not more than {most - 1} could wait. {_WAITS}", _worker(_keep(most)))
-      for most in (1, 2, 3)),
+    *(Suspect("order-lost", f"{could} could wait. {_WAITS}", _worker(_keep(most)))
+      for most, could in ((1, "No order"), (2, "Only one order"), (3, "Only two orders"))),
     Suspect("order-lost", f"When one order was done, all others were gone. {_WAITS}",
             _worker(take=_take_and_empty)),
     Suspect("order-swapped", f"The newest came first. {_FIRST_COME}",
@@ -375,6 +388,8 @@ def _wrong_reports(observation: Observation) -> Diagnosis | None:
     fit = fitting(
         work, done, suspects, lambda one, other: in_time(other, one) or in_time(one, other)
     )
+    if fit and fit[0] in (TOO_SHORT, TOO_LONG):
+        fit = fit[:1]  # which fits for every length of the work; others only for some lengths
     return named(evidence, fit, _first_report(part.done, part.right, done, evidence))
 
 
@@ -480,6 +495,7 @@ def _judge_places(observation: Observation) -> Outcome:
     for place in PLACES:
         wrong = wrong or _wrong_count(observation, place)
     for place in PLACES:
+        wrong = wrong or _unfilled(observation, place)
         wrong = wrong or _wrong_states(observation, place) or _wrong_form(observation, place)
     if wrong:
         return failed_by("09c", wrong)
@@ -607,6 +623,26 @@ def _wrong_states(observation: Observation, place: Place) -> Diagnosis | None:
     return named(evidence, fitting(place, done, PLACE_SUSPECTS), other)
 
 
+#: What an f-string or `format` fills in; the text of a set or a dict looks otherwise.
+_UNFILLED = re.compile(
+    r"\{(?!(?:High|Low|Normal)\b)"
+    r"(?:[A-Za-z_][^{}]*|[^{}]* if [^{}]*|\d?(?:![rsa])?(?::[^{}]*)?)\}"
+)
+
+
+def _unfilled(observation: Observation, place: Place) -> Diagnosis | None:
+    """Say which text still has the braces of an f-string that is none."""
+    for reading, sample in zip(place.readings, _published(observation, place), strict=True):
+        if {*_UNFILLED.findall(str(sample.value))} - {f"{{{place.unit}}}"}:
+            return Diagnosis(
+                "f-missing",
+                f"Of {reading:g} it said {str(sample.value)!r}.",
+                "The braces are still there: an f before the first quote fills in those with a "
+                "name inside, and format() the empty ones. Each piece of a text needs its own.",
+            )
+    return None
+
+
 def _undeclared(observation: Observation) -> str:
     """Return a sentence about parameters that the node does not declare, or an empty text."""
     names = [
@@ -628,6 +664,20 @@ def _form(text: str, reading: float, unit: str) -> str:
     return _ANY_WORD.sub("<word>", text)
 
 
+def _whole_numbers(observation: Observation, place: Place) -> Diagnosis | None:
+    """Say that each number shown is the whole one below or above its reading, if it is so."""
+    shown = []
+    for reading, sample in zip(place.readings, _published(observation, place), strict=True):
+        numbers = map(float, re.findall(r"[-+]?\d+(?:\.\d+)?", str(sample.value)))
+        if not any(one.is_integer() and abs(one - reading) < 1.0 for one in numbers):
+            return None
+        shown += [(reading, str(sample.value))] if round(reading, 1) % 1 else []
+    reading, text = shown[0]
+    evidence = f"Of {reading:g} it said {text!r}."
+    hint = "The reading is a decimal number: where does it lose its decimals?"
+    return Diagnosis("decimals-lost", evidence, hint)
+
+
 def _wrong_form(observation: Observation, place: Place) -> Diagnosis | None:
     for reading, sample in zip(place.readings, _published(observation, place), strict=True):
         text = str(sample.value)
@@ -642,9 +692,12 @@ def _wrong_form(observation: Observation, place: Place) -> Diagnosis | None:
             hint = f"Each text ends with the unit, here {place.unit}."
             return Diagnosis("wrong-unit", evidence, hint)
         if "<reading>" not in form:
-            hint = "The reading itself belongs into the text, with a decimal or more."
+            lost = _whole_numbers(observation, place)
+            if lost:
+                return lost
+            hint = "The reading itself belongs in the text, with a decimal or more."
             return Diagnosis("wrong-values", evidence, hint)
-        hint = "Three parts, each once, with a blank between them: word, reading, unit."
+        hint = "Three parts, each once, with a space between them: word, reading, unit."
         return Diagnosis("wrong-form", evidence, hint)
     return None
 

@@ -5820,20 +5820,6 @@ _ALL = (
 
 #: What a judge should say otherwise, and why; these are not run.
 REASONS = {
-    # The page says what is published, and not in which moment. The outcome is `alert-too-many`, and
-    # no alert is one too many; a tenth of a second later is soon enough for a log.
-    "07c lines are collected, and told by a timer a moment later",
-    # Named `wrong-state`; and "With `low` at 20" is not so: `low` is 26 in this node. It is
-    # `parameters-swapped` or `other-default`.
-    "07b first values swapped, and asked for the other way round",
-    # Named `wrong-start`, from the first message alone: it is `back-too-often`.
-    "08c back is said for each reading",
-    # Named `wrong-values`: the value is 22, and so says the text; it is `decimals-lost`.
-    "09c the reading as a whole number",
-    # Named `wrong-word`, with a hint at capitals, while '{word}' stands in the text: `f-missing`.
-    "09c the f is missing",
-    # Named `wrong-unit`: '{self.unit}' stands in the text: `f-missing`.
-    "09c the f is missing at the unit only",
     # Passed. "its limits are parameters: values that whoever starts a node can change" is not true
     # of it; but "This node has R1 and R7 to meet", and neither asks for that. May be left so.
     "13a the numbers 28 and 26 in the code, the parameters are not used",

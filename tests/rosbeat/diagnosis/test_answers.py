@@ -70,6 +70,24 @@ def test_what_a_callback_gives_back(fault, mistake):
 
 
 @pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("A.answer() takes 1 positional argument but 2 were given",
+         "ROS calls answer with 1 argument besides self, and it takes none. One argument is"),
+        ("A.answer() takes 2 positional arguments but 3 were given",
+         "ROS calls answer with 2 arguments besides self, and it takes 1. A service's callback"),
+        ("make.<locals>.answer() takes 1 positional argument but 2 were given",
+         "ROS calls answer with 2 arguments, and it takes 1. A service's callback"),
+        ("A.answer() missing 1 required positional argument: 'info'", "of an event, its info"),
+    ],
+)  # fmt: skip
+def test_what_is_said_of_a_callback_is_true_whichever_calls_it(text, said):
+    found = diagnose_fault(_fault("TypeError", text))
+    assert found is not None
+    assert said in f"{found.evidence} {found.hint}"
+
+
+@pytest.mark.parametrize(
     "fault",
     [
         _fault("TypeError", ""),

@@ -8,6 +8,7 @@ from rcl_interfaces.msg import Log
 from rclpy.node import Node
 from std_msgs.msg import Float32
 
+from bank.running import outcome_of
 from rosbeat import Session
 from rosbeat.exercises.model import agree
 from rosbeat.exercises.page_07 import CHANGES, LINES, MODELS, READINGS, Greenhouse, judge_findings
@@ -27,6 +28,39 @@ def test_what_is_fed_tells_every_mistake_from_right_and_from_every_other(fed, ri
         if one != other and agree(track, another)
     ]
     assert alike == []
+
+
+LATER = """
+class Watcher(Node):
+    def __init__(self):
+        super().__init__("watcher")
+        self.names, self.found = self.create_publisher(String, "warnings", 10), []
+        self.create_subscription(Log, "/rosout", self.hear, 10)
+        self.create_timer(PERIOD, self.tell)
+
+    def hear(self, msg):
+        if msg.level >= Log.WARN:
+            self.found.append(msg.name)
+
+    def tell(self):
+        while self.found:
+            self.names.publish(String(data=self.found.pop(0)))
+"""
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(
+    ("period", "said"),
+    [
+        ("0.01", "12 log lines"),
+        ("0.1", "12 log lines"),
+        ("0.5", "12 log lines"),
+        ("0.7", "A name was published at 7.7 s, and the log line before it came at 7 s."),
+    ],
+)
+def test_a_name_may_follow_its_line_a_moment_later(period, said):
+    outcome = outcome_of("07c", LATER.replace("PERIOD", period), "Watcher")
+    assert said in outcome.evidence, outcome
 
 
 # What scenarios feed is what the models are fed.

@@ -83,7 +83,7 @@ def test_each_policy_of_an_archive_shows_in_what_it_holds(wrong, mistake):
         ("08a", edited(KEEPER, ("depth=1,", "depth=3,")),
          ("at 2.5 s", "heard 'idle', 'drive', 'stop'", "'drive', 'stop'", "a depth of 3")),
         ("08a", edited(KEEPER, ("!= self.mode", "!= 'idle'")),
-         ("At 2 s", "'drive' on /mode; nothing was right")),
+         ("At 2 s", "'drive' on /mode; nothing was due")),
         ("08b", edited(ARCHIVE, ("depth=16", "depth=15")),
          ("23.125", "1 of 40 readings", "from 5.5 s to 13.5 s", "BEST_EFFORT, VOLATILE")),
         ("08c", edited(WATCHDOG, ("seconds=2", "seconds=3")),

@@ -53,9 +53,14 @@ TOLD = [
     ("09b", ("create_timer(3.0", "create_timer(2.9"), "The work itself takes 3 s."),
     ("09b", ("self.waiting.append(msg.data)", "self.waiting = self.waiting[:2] + [msg.data]"),
      "has to wait somewhere"),
+    ("09b", ("self.waiting.append(msg.data)", "self.waiting = self.waiting or [msg.data]"),
+     "No order could wait. An order that comes while another one is worked on has to wait "
+     "somewhere. Or: When one order was done, all others were gone."),
     ("09b", ("self.waiting.pop(0)", "self.waiting.pop()"), "The newest came first."),
     ("09c", ("{word}", "{word.upper()}"), "Capitals count."),
-    ("09c", (".1f} {", ".1f}{"), "with a blank between them"),
+    ("09c", (".1f} {", ".1f}{"), "with a space between them"),
+    ("09c", ('f"{word}', '"{word}'), "The braces are still there"),
+    ("09c", (".1f", ".0f"), "Of 27.5 it said 'High 28 C'."),
     ("09c", ('self.value_of("high")', "26.0"), "The parameter high changed nothing."),
 ]  # fmt: skip
 
