@@ -64,6 +64,7 @@ KNOWN = [
     ("callback-called", "TypeError", "'NoneType' object is not callable"),
     ("none-used", "TypeError",
      "'>' not supported between instances of 'float' and 'NoneType'"),
+    ("none-used", "TypeError", "'NoneType' object cannot be interpreted as an integer"),
     ("arguments-swapped", "TypeError",
      "First element 20.0 at index 0 in parameters list is not a str"),
     ("wrong-argument", "TypeError",
