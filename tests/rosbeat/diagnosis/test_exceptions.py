@@ -146,6 +146,12 @@ def test_init_in_a_with_statement_is_known_by_its_line():
     assert named("AttributeError", "__enter__", "with lock:") is None
 
 
+def test_a_future_that_is_asked_for_its_result_too_soon_is_known_by_its_line():
+    text = "int() argument must be a string, a bytes-like object or a real number, not 'NoneType'"
+    assert named("TypeError", text, "x = int(self.reading.result())") == "await-missing"
+    assert named("TypeError", text, "x = int(self.reading)") is None
+
+
 def test_a_call_that_was_right_says_nothing():
     asked = "create_publisher(message_type[Float32], str, QoSProfile)"
     assert named("RCLError", "out of memory", "x()", asked) is None
