@@ -592,6 +592,14 @@ _ANSWER_RULES: tuple[Rule, ...] = (
         "A future is an answer that is still to come. What does await do with it?",
     ),
     Row(
+        "await-missing",
+        "TypeError",
+        r"\bNoneType\b",
+        "A future was asked for its result before it had one, and result() gave None.",
+        "A future is an answer that is still to come. Which word waits for it?",
+        _in_line(r"\.result\(\)"),
+    ),
+    Row(
         "not-an-integer",
         "TypeError",
         r"'float' object cannot be interpreted as an integer",
@@ -1184,6 +1192,14 @@ _VALUE_RULES: tuple[Rule, ...] = (
         "One of the two things that are compared on this line is None: it has no value.",
         "Where does it get its value? A function without return gives None, and so does a "
         "parameter that was declared without a first value.",
+    ),
+    Row(
+        "none-used",
+        "TypeError",
+        r"'NoneType' object cannot be interpreted as an integer",
+        "None stands where a whole number belongs.",
+        "Where does it get its value? A function without return gives None, and so does result() "
+        "of a future that is not done.",
     ),
     Row(
         "format-code",

@@ -224,6 +224,7 @@ def _refused(name: str, why: str) -> ExerciseError:
 
 #: Names of the trials, and of the sensors.
 PLAIN, BROKEN, LOSSY, OTHER = "plain day", "broken sensors", "ending nodes", "other limits"
+DROUGHT = "drought"
 SENSORS = ("thermometer", "hygrometer")
 WET = 95.0
 #: How far beyond a limit a reading is that is clearly beyond it.
@@ -360,6 +361,22 @@ def broken_day(n: Mapping[str, float]) -> Day:
     for name, humidity in (("temperature", WET), ("both", None)):
         day.hold(long, None, humidity, f"{name} silent")
         day.hold(react + 4, cold, WET, f"{name} back")
+    return day
+
+
+#: A pump that rests for longer than so many times the shortest rest is taken for one that stopped.
+PATIENCE = 3
+
+
+def drought(n: Mapping[str, float]) -> Day:
+    """Return a day that leaves time for a long rest: dry all along, then wet, then hot and dry."""
+    day, some, react = Day(), air(n), n["react_seconds"]
+    pause = n["pump_seconds"] + PATIENCE * n["rest_seconds"] + 2 * react + 3
+    day.hold(2, some.cold, WET)
+    day.hold(pause, some.cold, some.dry, "dry")
+    day.hold(pause, some.cold, WET, "wet")
+    day.hold(react, some.cold, some.dry, "dry again")
+    day.hold(n["pump_seconds"] + 6, some.hot, some.dry, "hot again")
     return day
 
 

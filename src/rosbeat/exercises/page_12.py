@@ -288,8 +288,8 @@ MONITORS = (
     ),
     _suspect(
         "nonsense-accepted",
-        "Print what you compare, just before you compare it: are these the new values? If so, "
-        "look at the comparison; if not, at how a new value gets there, under which name.",
+        "Print the values just before you compare them. If they are the new ones, look at the "
+        "comparison. If they are not, check where each value comes from, and by which name.",
         lambda one: _is_nonsense(one) and not _is_nan(one),
         lambda one: _reaction(one, True),
     ),
@@ -637,7 +637,7 @@ THERMOSTATS = (
     ),
     _at(
         "succeed-forgotten",
-        "ROS takes a goal for given up unless the work says how it ended. Which call says so?",
+        "ROS regards a goal as aborted unless the work says how it ended. Which call says so?",
         Work.STATUS, "ABORTED", _RUNS_ON,
     ),
     _at("wrong-state", _TWO_ENDS, Work.STATUS, "CANCELED", _RUNS_ON),
@@ -810,12 +810,25 @@ def _wrong_work(seen: Observation) -> Diagnosis | None:
         parted = parting({at: done[at] for at in judged}, {at: right[at] for at in judged}, same)
         if parted is None:
             continue
-        silent = why_not_published(seen, _HEATER) if parted.at is Work.SWITCHED_ON else None
+        silent = _never_heated(seen, goal) if parted.at is Work.SWITCHED_ON else None
         evidence = points[parted.at][1]
         hint = "Does the callback of this step come to its end? Print before and after it."
         unknown = Diagnosis(UNKNOWN, evidence, hint)
         return silent or named(evidence, fitting(goal, done, THERMOSTATS, same), unknown)
     return None
+
+
+def _never_heated(seen: Observation, goal: Goal) -> Diagnosis | None:
+    """Say why nothing was published on /heater; None if something was."""
+    found = why_not_published(seen, _HEATER)
+    if found is None or found.mistake != "never-published":
+        return found
+    evidence = (
+        f"The goal {goal.order}, sent at {goal.at:g} s, was accepted, and nothing was published on "
+        f"{_HEATER.topic} while it was worked on."
+    )
+    hint = "The work has to switch the heater on and off. Which lines of `heat` do that?"
+    return Diagnosis(found.mistake, evidence, hint)
 
 
 def _blocked(seen: Observation) -> Diagnosis | None:

@@ -34,8 +34,10 @@ from rosbeat.exercises.exercise import (
 )
 from rosbeat.exercises.greenhouse import (
     BROKEN,
+    DROUGHT,
     LOSSY,
     OTHER,
+    PATIENCE,
     PLAIN,
     SENSORS,
     TOTAL,
@@ -44,6 +46,7 @@ from rosbeat.exercises.greenhouse import (
     air,
     airing,
     broken_day,
+    drought,
     lossy_day,
     matching_rubric,
     other_day,
@@ -127,6 +130,7 @@ def observe_greenhouse(answer: Any, numbers: Mapping[str, float] = USUAL) -> Tri
         ]
         runs[BROKEN] = _observe_day(answer, broken_day(numbers))
         runs[LOSSY] = _observe_day(answer, lossy, endings)
+        runs[DROUGHT] = _observe_day(answer, drought(numbers))
         runs[OTHER] = _observe_day(answer, other_day(numbers), parameters=other_limits(numbers))
     return Trials(dict(numbers), runs)
 
@@ -289,6 +293,46 @@ VENTS = (
 )
 
 
+@dataclass(frozen=True)
+class Temperatures:
+    """The temperatures of a whole day, one each second, and the limits.
+
+    Attributes:
+        values: The temperatures; None is a second without one.
+        opening: The limit above which the vent opens.
+        closing: The limit below which it closes.
+    """
+
+    values: tuple[float | None, ...]
+    opening: float
+    closing: float
+
+
+def _forgetful(is_open: bool) -> Callable[[Temperatures], Track]:
+    """Return a vent that judges each temperature as if it still stood as it did at first."""
+
+    def model(fed: Temperatures) -> Track:
+        return {
+            at: (not is_open,)
+            for at, value in enumerate(fed.values, 1)
+            if value is not None and (value < fed.closing if is_open else value > fed.opening)
+        }
+
+    return model
+
+
+#: Vents that never remember what they have done.
+FORGETFUL = tuple(
+    Suspect(
+        "status-repeated",
+        "For each reading, the node decides as if it had not given a command yet. Where does it "
+        "remember the last command, and which line changes that?",
+        _forgetful(is_open),
+    )
+    for is_open in (False, True)
+)
+
+
 def held_temperatures(
     day: Day, numbers: Mapping[str, float]
 ) -> list[tuple[int, int, HeldTemperature]]:
@@ -314,8 +358,19 @@ def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Di
                 f"{_stamp(time)} the vent was {states[done]}; it should have been "
                 f"{states[held.right]}."
             )
+            forgetful = _forgets(seen, day, numbers)
+            if forgetful:
+                repeated = f"{evidence} Every command that was published is the same."
+                return named(repeated, forgetful)
             return named(evidence, fitting(held, {0: (done,)}, VENTS))
     return None
+
+
+def _forgets(seen: Observation, day: Day, numbers: Mapping[str, float]) -> list[Suspect]:
+    """Return the suspects that never remember, and gave the commands of the whole day."""
+    limits = numbers["open_above"], numbers["close_below"]
+    commands = {time: (bool(value),) for time, value in _said(seen, "/vent")}
+    return fitting(Temperatures(tuple(day.temperature), *limits), commands, FORGETFUL)
 
 
 def _judge_vent(trials: Trials) -> Diagnosis | None:
@@ -355,6 +410,7 @@ def _judge_pump(trials: Trials) -> Diagnosis | None:
         _silent(trials.plain, "/pump")
         or _wrong_start(spans, day.marks, n)
         or _wrong_duration(spans, n)
+        or (None if len(spans) > 1 else _stopped_for_good(trials))
         or _started_in_the_wet(spans, day.marks["wet"] + n["react_seconds"])
     )
 
@@ -377,7 +433,7 @@ def _wrong_start(
 
 
 def _wrong_duration(spans: _Spans, n: Mapping[str, float]) -> Diagnosis | None:
-    wanted, rest, react = n["pump_seconds"], n["rest_seconds"], n["react_seconds"]
+    wanted, rest = n["pump_seconds"], n["rest_seconds"]
     for begin, until in spans:
         if abs(until - begin - wanted) > 1 + _EPS:
             evidence = f"The pump ran from {_stamp(begin)} to {_stamp(until)}, which is "
@@ -388,10 +444,23 @@ def _wrong_duration(spans: _Spans, n: Mapping[str, float]) -> Diagnosis | None:
             evidence = f"The pump stopped at {_stamp(off)} and ran again at {_stamp(begin)}."
             hint = f"It has to rest for {rest:g} s, counted from when it stops."
             return Diagnosis("rest-too-short", evidence, hint)
+    return None
+
+
+def _stopped_for_good(trials: Trials) -> Diagnosis | None:
+    """Name a pump that ran once on a day that stays dry: a rest may be long, and has an end."""
+    n, spans = trials.numbers, _spans(trials.runs[DROUGHT], "/pump")
+    rest, react = n["rest_seconds"], n["react_seconds"]
+    if not spans:
+        evidence = f"It was dry from {_stamp(drought(n).marks['dry'])} on, and no pump ran."
+        hint = "What has to hold before it starts? Print each of these."
+        return Diagnosis("never-switched-on", evidence, hint)
     off = spans[0][1]
-    if len(spans) > 1 and spans[1][0] <= off + rest + react + 1 + _EPS:
+    latest = off + PATIENCE * rest + react + 1
+    if len(spans) > 1 and spans[1][0] <= latest + _EPS:
         return None
-    evidence = f"The pump stopped at {_stamp(off)}. It was still dry, and it did not run again."
+    evidence = f"On a day that stays dry, the pump stopped at {_stamp(off)}, and by "
+    evidence += f"{_stamp(latest)} it had not run again."
     hint = f"After a rest of {rest:g} s it may run again. What tells it that the rest is over?"
     return Diagnosis("never-switched-on", evidence, hint)
 
@@ -407,29 +476,47 @@ def _started_in_the_wet(spans: _Spans, wet: float) -> Diagnosis | None:
 def _judge_interlock(trials: Trials) -> Diagnosis | None:
     """Judge R3: vent and pump exclude each other, and the pump comes back afterwards."""
     marks, react = plain_day(trials.numbers).marks, trials.numbers["react_seconds"]
-    vent, pump = (
-        [one for one in _spans(trials.plain, topic) if one[1] > marks["both"]]
-        for topic in ("/vent", "/pump")
-    )
-    for one in vent:
-        for other in pump:
-            begin, until = max(one[0], other[0]), min(one[1], other[1])
-            if until - begin > react + _EPS:
-                evidence = f"From {_stamp(begin)} to {_stamp(until)} the vent was open and the pump"
-                hint = "The pump's node has to know how the vent stands. Which topic carries that?"
-                if other[0] < one[0]:
-                    hint = "The pump was already running when the vent opened. What stops it then?"
-                return Diagnosis("no-interlock", f"{evidence} was running.", hint)
+    vent, pump = _vent_and_pump(trials.plain, marks["both"])
+    both = _both_on(vent, pump, react)
+    if both:
+        return both
     if not vent:
         evidence = f"It was hot from {_stamp(marks['both'])} on, and no vent was open."
         hint = "Let the vent work first; then this can be tried."
         return Diagnosis("never-switched-on", evidence, hint)
     due = marks["cool and dry"]
     if any(due <= begin <= due + 2 * react + 1 + _EPS for begin, _ in pump):
-        return None
+        # A pump with a long rest has not yet run again when it becomes hot on a plain day.
+        hot = drought(trials.numbers).marks["hot again"]
+        late = _vent_and_pump(trials.runs[DROUGHT], hot)
+        return _both_on(*late, react, "After a drought, from")
     evidence = f"It was cool and dry from {_stamp(due)} on, and the pump did not start."
     hint = "When the vent is closed again, the pump may run. Does its node hear of that?"
     return Diagnosis("never-switched-on", evidence, hint)
+
+
+def _vent_and_pump(seen: Observation, after: float) -> tuple[_Spans, _Spans]:
+    """Return when the vent was open and when the pump ran, after a time."""
+    vent, pump = (
+        [one for one in _spans(seen, topic) if one[1] > after] for topic in ("/vent", "/pump")
+    )
+    return vent, pump
+
+
+def _both_on(vent: _Spans, pump: _Spans, react: float, lead: str = "From") -> Diagnosis | None:
+    """Name a pump that runs while the vent is open, for longer than a reaction takes."""
+    for one in vent:
+        for other in pump:
+            begin, until = max(one[0], other[0]), min(one[1], other[1])
+            if until - begin > react + _EPS:
+                evidence = (
+                    f"{lead} {_stamp(begin)} to {_stamp(until)} the vent was open and the pump"
+                )
+                hint = "The pump's node has to know how the vent stands. Which topic carries that?"
+                if other[0] < one[0]:
+                    hint = "The pump was already running when the vent opened. What stops it then?"
+                return Diagnosis("no-interlock", f"{evidence} was running.", hint)
+    return None
 
 
 # R4: alarms come once, in time, with the agreed words, and only then.

@@ -3625,6 +3625,61 @@ _12C = (
         goal_handle.canceled() if canceled else goal_handle.succeed()
 """,
     ),
+    wrong(
+        "12c",
+        "the heater is never switched",
+        "never-published",
+        _HEAD_12C
+        + _DECIDE_12C
+        + """
+    async def heat(self, goal_handle):
+        degrees, canceled = [], False
+        while not canceled and (not degrees or degrees[-1] < goal_handle.request.order):
+            degrees.append(await self.reading)
+            goal_handle.publish_feedback(Fibonacci.Feedback(sequence=degrees))
+            canceled = goal_handle.is_cancel_requested
+        goal_handle.canceled() if canceled else goal_handle.succeed()
+        return Fibonacci.Result(sequence=degrees)
+""",
+    ),
+    wrong(
+        "12c",
+        "heat is no coroutine, and asks the future for its result",
+        "none-used",
+        _HEAD_12C
+        + _DECIDE_12C
+        + """
+    def heat(self, goal_handle):
+        degrees, canceled = [], False
+        self.heater.publish(Bool(data=True))
+        while not canceled and (not degrees or degrees[-1] < goal_handle.request.order):
+            degrees.append(self.reading.result())
+            goal_handle.publish_feedback(Fibonacci.Feedback(sequence=degrees))
+            canceled = goal_handle.is_cancel_requested
+        self.heater.publish(Bool(data=False))
+        goal_handle.canceled() if canceled else goal_handle.succeed()
+        return Fibonacci.Result(sequence=degrees)
+""",
+    ),
+    wrong(
+        "12c",
+        "heat is no coroutine, and asks the future for its result as a number",
+        "await-missing",
+        _HEAD_12C
+        + _DECIDE_12C
+        + """
+    def heat(self, goal_handle):
+        degrees, canceled = [], False
+        self.heater.publish(Bool(data=True))
+        while not canceled and (not degrees or degrees[-1] < goal_handle.request.order):
+            degrees.append(int(self.reading.result()))
+            goal_handle.publish_feedback(Fibonacci.Feedback(sequence=degrees))
+            canceled = goal_handle.is_cancel_requested
+        self.heater.publish(Bool(data=False))
+        goal_handle.canceled() if canceled else goal_handle.succeed()
+        return Fibonacci.Result(sequence=degrees)
+""",
+    ),
 )
 
 # --------------------------------------------------------------------------------- 13a
@@ -3772,7 +3827,7 @@ class VentControl(Node):
     either(
         "13a",
         "the state is not kept",
-        ("status-repeated", "forgets-itself", "change-missing", "left-on", "wrong-state"),
+        ("status-repeated",),
         _HEAD_13A
         + _READ_13A
         + """
@@ -5550,6 +5605,18 @@ class VentControl(Node):
         _changed("self.create_timer(0.1, self.look)", "self.create_timer(0.5, self.look)"),
     ),
     right("13b", "a pump that rests 30 seconds ('at least 20')", _changed("+ 20.0", "+ 30.0")),
+    right("13b", "a pump that rests 24 seconds", _changed("+ 20.0", "+ 24.0")),
+    right("13b", "a pump that rests 28 seconds", _changed("+ 20.0", "+ 28.0")),
+    right("13b", "a pump that rests 60 seconds", _changed("+ 20.0", "+ 60.0")),
+    wrong(
+        "13b",
+        "a pump that rests 60 seconds, and goes on when the vent opens",
+        "no-interlock",
+        _changed("+ 20.0", "+ 60.0").replace(
+            "        if msg.data and self.stop_at is not None:\n            self.switch_off()\n", ""
+        ),
+    ),
+    wrong("13b", "a pump that rests an hour", "never-switched-on", _changed("+ 20.0", "+ 3600.0")),
     right(
         "09b",
         "publishes progress on a topic of its own, and beats by name",
@@ -5826,8 +5893,6 @@ REASONS = {
     # Passed, with 5 commands. R7 wants a command "only when it changes", and the vent is closed
     # "until the first command". May be meant kindly; then R7 should say so.
     "13a False at the start, although nothing changes",
-    # Refused as `never-switched-on` from 24 or 25 s on; R2 says "rests for at least 20 s".
-    "13b a pump that rests 30 seconds ('at least 20')",
 }
 DISAGREE = tuple(answer for answer in _ALL if answer.id in REASONS)
 ANSWERS = tuple(answer for answer in _ALL if answer.id not in REASONS)

@@ -117,7 +117,7 @@ ANSWERS = (
     _wrong("never closes", "wrong-state", ("wanted = False", "wanted = self.is_open")),
     _wrong("other limits", "wrong-state", ("28.0", "30.0")),
     _wrong("a command for each reading", "status-repeated", (_IF, "if True:")),
-    _wrong("the state is not kept", "wrong-state", ("            self.is_open = wanted\n", "")),
+    _wrong("the state is not kept", "status-repeated", ("            self.is_open = wanted\n", "")),
     _wrong("a message that is no Bool", "type-mismatch", ("(Bool, ", "(Float32, "),
            ("Bool(data=wanted)", "Float32(data=float(wanted))")),
     _wrong("another topic to say", "topic-misspelled", ('"vent",', '"vents",')),

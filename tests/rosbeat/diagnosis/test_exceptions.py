@@ -64,6 +64,7 @@ KNOWN = [
     ("callback-called", "TypeError", "'NoneType' object is not callable"),
     ("none-used", "TypeError",
      "'>' not supported between instances of 'float' and 'NoneType'"),
+    ("none-used", "TypeError", "'NoneType' object cannot be interpreted as an integer"),
     ("arguments-swapped", "TypeError",
      "First element 20.0 at index 0 in parameters list is not a str"),
     ("wrong-argument", "TypeError",
@@ -143,6 +144,12 @@ def test_init_in_a_with_statement_is_known_by_its_line():
     # Python 3.10 words it so.
     assert named("AttributeError", "__enter__", "with rclpy.init():") == "init-in-with"
     assert named("AttributeError", "__enter__", "with lock:") is None
+
+
+def test_a_future_that_is_asked_for_its_result_too_soon_is_known_by_its_line():
+    text = "int() argument must be a string, a bytes-like object or a real number, not 'NoneType'"
+    assert named("TypeError", text, "x = int(self.reading.result())") == "await-missing"
+    assert named("TypeError", text, "x = int(self.reading)") is None
 
 
 def test_a_call_that_was_right_says_nothing():

@@ -16,6 +16,7 @@ from rosbeat.exercises import greenhouse
 from rosbeat.exercises.evidence import from_json, to_json
 from rosbeat.exercises.greenhouse import (
     BROKEN,
+    DROUGHT,
     KNOWN,
     LOSSY,
     OTHER,
@@ -30,11 +31,13 @@ from rosbeat.exercises.greenhouse import (
 )
 from rosbeat.exercises.model import agree
 from rosbeat.exercises.page_13 import (
+    FORGETFUL,
     JUDGES,
     REPORTERS,
     VENTS,
     Reports,
     Switch,
+    Temperatures,
     Trials,
     held_temperatures,
     is_near,
@@ -145,6 +148,7 @@ OTHERS = {
 DAYS = (
     greenhouse.plain_day,
     greenhouse.broken_day,
+    greenhouse.drought,
     greenhouse.lossy_day,
     greenhouse.other_day,
 )
@@ -259,6 +263,22 @@ def test_the_plain_day_tells_vents_from_the_right_one_and_from_each_other():
     assert_told_apart(VENTS, lambda held: {0: (held.right,)}, fed, lambda one, other: one == other)
 
 
+@pytest.mark.parametrize("numbers", [USUAL, OTHERS], ids=["usual", "others"])
+def test_a_drought_outlasts_the_longest_rest_that_is_allowed(numbers):
+    day, react = greenhouse.drought(numbers), numbers["react_seconds"]
+    stopped = day.marks["dry"] + react + numbers["pump_seconds"] + 1
+    assert stopped + greenhouse.PATIENCE * numbers["rest_seconds"] + react + 1 < day.marks["wet"]
+    dry = day.humidity[day.marks["dry"] - 1 : day.marks["wet"] - 1]
+    assert set(dry) == {numbers["dry_below"] - 10}
+
+
+def test_a_vent_that_remembers_nothing_gives_one_command_again_and_again():
+    fed = Temperatures((29.0, None, 29.0, 27.0, 25.0, 28.0, 26.0), 28.0, 26.0)
+    closed, opened = (one.model(fed) for one in FORGETFUL)
+    assert closed == {1: (True,), 3: (True,)}
+    assert opened == {5: (False,)}
+
+
 def test_the_plain_day_tells_reports_from_the_right_one_and_from_each_other():
     day = greenhouse.plain_day(USUAL)
     fed = Reports(day, tuple(range(10, day.seconds, 10)))
@@ -293,7 +313,7 @@ EMPTY = Observation(
 
 
 def trials(plain=EMPTY):
-    return Trials(USUAL, {PLAIN: plain, BROKEN: EMPTY, LOSSY: EMPTY, OTHER: EMPTY})
+    return Trials(USUAL, {PLAIN: plain, **dict.fromkeys((BROKEN, LOSSY, DROUGHT, OTHER), EMPTY)})
 
 
 def raised(kind, text, callback="__init__", node=""):
@@ -357,7 +377,7 @@ def test_a_vent_is_run_in_the_weather_of_the_numbers_that_are_handed_over(number
 @pytest.mark.ros
 def test_a_system_goes_through_every_trial_and_something_else_through_one():
     seen = observe_greenhouse(lambda: [Listener])
-    assert list(seen.runs) == [PLAIN, BROKEN, LOSSY, OTHER]
+    assert list(seen.runs) == [PLAIN, BROKEN, LOSSY, DROUGHT, OTHER]
     assert from_json(to_json(seen)).numbers == seen.numbers == observe_vent(Listener).numbers
     none = observe_greenhouse(lambda: 3)
     assert list(none.runs) == [PLAIN]
