@@ -35,7 +35,7 @@ class Row:
 
     Attributes:
         mistake: The mistake's id.
-        kinds: Names of exception classes, with blanks between them; empty for every class.
+        kinds: Names of exception classes, with spaces between them; empty for every class.
         pattern: A regular expression that is looked for in the exception's text.
         means: What happened; `{1}` is the first group of the pattern.
         to_try: Where to look, with groups as well.
@@ -214,7 +214,7 @@ def _reason(text: str) -> str:
             return words
     character = _marked(text)
     if character == " ":
-        return "it holds a blank"
+        return "it holds a space"
     return f"it holds the character {character}" if character else "ROS does not allow it"
 
 
@@ -818,6 +818,10 @@ _TO_MAKE = {
     "float, and so does float(...).",
     "str": "A text stands in quotes; str(...) or an f-string makes one of a number.",
 }
+_NO_RETURN = (
+    "Where does this value come from? A function that ends without return gives None. Does each "
+    "way through it end with a return?"
+)
 _PLAIN_KINDS = ("int", "bool", "str", "float", "bytes", "list", "tuple", "dict")
 
 
@@ -831,7 +835,19 @@ def _field_of_another_type(fault: Fault) -> Meaning | None:
     means = f"The field {name} of the message takes {article(wanted)}, and {got}."
     if is_message:
         return Meaning("message-for-value", means, _ENVELOPE)
+    if not _constant_for(fault.code, name) and _is_none(fault):
+        means = f"The field {name} of the message takes {article(wanted)}, and it was given None."
+        return Meaning("none-used", means, _NO_RETURN)
     return Meaning("not-a-float", means, _TO_MAKE.get(wanted, f"Give it {article(wanted)}."))
+
+
+def _is_none(fault: Fault) -> bool:
+    call = fault.asked
+    return (
+        call is not None
+        and call.method == "field"
+        and [one.kind for one in call.given] == ["NoneType"]
+    )
 
 
 def _given_to_field(fault: Fault, name: str) -> tuple[str, bool]:
@@ -946,6 +962,14 @@ _FIELD_RULES: tuple[Rule, ...] = (
         r"^(\w+)\.__init__\(\) takes 1 positional argument but \d",
         "{1}(...) was given a value without the name of the field it belongs in.",
         f"A message can have many fields, so each value is given by its field's name. {_SHOW}",
+        _about_a_message,
+    ),
+    Row(
+        "no-publisher",
+        "AttributeError",
+        r"'(\w+)' object has no attribute 'publish'",
+        "A message of type {1} stands where a publisher is meant.",
+        "A message only carries a value. Which method of a node makes a publisher?",
         _about_a_message,
     ),
     Row(
