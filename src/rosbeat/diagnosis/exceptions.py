@@ -582,6 +582,20 @@ _ANSWER_RULES: tuple[Rule, ...] = (
         "A future stands where its result is meant.",
         "A future is an answer that is still to come. What does await do with it?",
     ),
+    *(
+        Row(
+            "wrong-argument",
+            kind,
+            pattern,
+            "random.randint was given a number with a decimal point, and draws whole numbers only.",
+            "Which function of random draws a number with decimals?",
+            _in_line(r"\brandint\("),
+        )
+        for kind, pattern in (
+            ("ValueError", "non-integer .*(?:range|randrange)"),
+            ("TypeError", "'float' object cannot be interpreted as an integer"),
+        )
+    ),
     Row(
         "not-an-integer",
         "TypeError",
@@ -836,7 +850,7 @@ def _field_of_another_type(fault: Fault) -> Meaning | None:
     if is_message:
         return Meaning("message-for-value", means, _ENVELOPE)
     if not _constant_for(fault.code, name) and _is_none(fault):
-        means = f"The field {name} of the message takes {article(wanted)}, and it was given None."
+        means = f"The field {name} of the message takes {article(wanted)}, and {got}."
         return Meaning("none-used", means, _NO_RETURN)
     return Meaning("not-a-float", means, _TO_MAKE.get(wanted, f"Give it {article(wanted)}."))
 
@@ -1159,6 +1173,30 @@ _NAME_RULES: tuple[Rule, ...] = (
         "Take another name for your own attribute; an underscore at its end is enough.",
     ),
     Row(
+        "name-taken",
+        "AttributeError",
+        r"^(\w+) cannot be modified after node creation",
+        "{1} is something that every node has already, and it cannot be replaced.",
+        "Take another name for your own attribute; an underscore at its end is enough.",
+    ),
+    Row(
+        "name-taken",
+        "TypeError",
+        r"^'method' object is not iterable$",
+        "A method of the class has a name that every node needs for something else, such as "
+        "clients, services or timers.",
+        "Give the method another name, at its def and wherever it is handed over.",
+        lambda fault, _: fault.callback in ("add", "run"),  # the session failed, not a callback
+    ),
+    Row(
+        "name-taken",
+        "TypeError AttributeError",
+        r"^'method' object does not support the context manager protocol|^__enter__$",
+        "A method of the class has the name handle, and every node has a handle of its own.",
+        "Give the method another name, at its def and wherever it is handed over.",
+        _in_line(r"\bsuper\(\)\.__init__\("),
+    ),
+    Row(
         "none-used",
         "AttributeError",
         r"'NoneType' object has no attribute '(\w+)'",
@@ -1199,6 +1237,16 @@ _VALUE_RULES: tuple[Rule, ...] = (
         "One of the two things that are compared on this line is None: it has no value.",
         "Where does it get its value? A function without return gives None, and so does a "
         "parameter that was declared without a first value.",
+    ),
+    Row(
+        "none-used",
+        "TypeError",
+        r"object of type 'NoneType' has no len\(\)"
+        r"|'NoneType' object is not (?:iterable|subscriptable)",
+        "What this line takes for a list is None.",
+        "Where does it get its value? A function without return gives None, and so do append and "
+        "sort, which change the list itself.",
+        _in_line(r"\bself\.\w+"),
     ),
     Row(
         "format-code",

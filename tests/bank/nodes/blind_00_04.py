@@ -2049,8 +2049,6 @@ REASONS = {
     # The check of the page is right about these two; grading holds them for a person.
     "04a blind: numpy selects": "held: 'reaches for select', which is numpy's here and no system's.",
     "03b blind: random()": "held: 'hands on the module random', where the module is called.",
-    "03b blind: randint": "new-to-me: a float handed to randint has no name (ValueError before"
-    " Python 3.12, TypeError since).",
 }
 ANSWERS = tuple(one for one in _ALL if one.id not in REASONS)
 DISAGREE = tuple(one for one in _ALL if one.id in REASONS)

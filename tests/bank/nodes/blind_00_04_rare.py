@@ -697,11 +697,6 @@ _ALL: tuple[Answer, ...] = (*_RIGHT, *_WRONG)
 REASONS = {
     # The check of the page is right about this one; grading holds it for a person.
     "00b blind: made with type()": "held: 'makes a class with type'.",
-    "04a blind: a method handle": "new-to-me, and a hint that does not help; name-taken is meant.",
-    "04a blind: a method clients": "new-to-me, with the false hint 'Hand over the class that you"
-    " wrote, by its name.'",
-    "00b blind: self.handle": "new-to-me; name-taken is meant.",
-    "04c blind: = append": "new-to-me; append gives back None, and None is used (none-used).",
 }
 ANSWERS = tuple(one for one in _ALL if one.id not in REASONS)
 DISAGREE = tuple(one for one in _ALL if one.id in REASONS)

@@ -16,6 +16,7 @@ MISTAKE_OF = {
     "slash": "slash-in-module",
     "suffix": "entry-point-target",
     "no-function-part": "entry-point-target",
+    "called": "entry-point-form",
     "no-module": "entry-point-target",
     "no-function": "entry-point-target",
     "syntax-error": "syntax-error",
@@ -85,6 +86,14 @@ def _no_function_part(flaw: Flaw) -> tuple[str, str]:
     )
 
 
+def _called(flaw: Flaw) -> tuple[str, str]:
+    return (
+        f"The entry point {flaw.entry.executable} in {flaw.entry.file} ends with {flaw.wrong}: an "
+        "entry point names a function, and does not call it.",
+        f"Leave out the brackets: write {flaw.right}",
+    )
+
+
 def _no_module(flaw: Flaw) -> tuple[str, str]:
     hint = (
         f"Did you mean {flaw.right}?"
@@ -135,6 +144,7 @@ _WORDS: dict[str, Callable[[Flaw], tuple[str, str]]] = {
     "slash": _slash,
     "suffix": _suffix,
     "no-function-part": _no_function_part,
+    "called": _called,
     "no-module": _no_module,
     "syntax-error": _syntax_error,
     "no-function": _no_function,

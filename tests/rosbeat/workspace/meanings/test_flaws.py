@@ -7,7 +7,7 @@ from rosbeat.workspace.targets import Flaw
 
 ENTRY = EntryPoint("sensor = p.a:main", 26, "sensor", "p.a", "main")
 KINDS = ("missing-comma", "no-equals", "bad-name", "slash", "suffix", "no-function-part",
-         "no-module", "syntax-error", "no-function")  # fmt: skip
+         "called", "no-module", "syntax-error", "no-function")  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", KINDS)
