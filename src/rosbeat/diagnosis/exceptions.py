@@ -35,7 +35,7 @@ class Row:
 
     Attributes:
         mistake: The mistake's id.
-        kinds: Names of exception classes, with blanks between them; empty for every class.
+        kinds: Names of exception classes, with spaces between them; empty for every class.
         pattern: A regular expression that is looked for in the exception's text.
         means: What happened; `{1}` is the first group of the pattern.
         to_try: Where to look, with groups as well.
@@ -214,7 +214,7 @@ def _reason(text: str) -> str:
             return words
     character = _marked(text)
     if character == " ":
-        return "it holds a blank"
+        return "it holds a space"
     return f"it holds the character {character}" if character else "ROS does not allow it"
 
 
@@ -591,6 +591,20 @@ _ANSWER_RULES: tuple[Rule, ...] = (
         "A future stands where its result is meant.",
         "A future is an answer that is still to come. What does await do with it?",
     ),
+    *(
+        Row(
+            "wrong-argument",
+            kind,
+            pattern,
+            "random.randint was given a number with a decimal point, and draws whole numbers only.",
+            "Which function of random draws a number with decimals?",
+            _in_line(r"\brandint\("),
+        )
+        for kind, pattern in (
+            ("ValueError", "non-integer .*(?:range|randrange)"),
+            ("TypeError", "'float' object cannot be interpreted as an integer"),
+        )
+    ),
     Row(
         "await-missing",
         "TypeError",
@@ -835,6 +849,10 @@ _TO_MAKE = {
     "float, and so does float(...).",
     "str": "A text stands in quotes; str(...) or an f-string makes one of a number.",
 }
+_NO_RETURN = (
+    "Where does this value come from? A function that ends without return gives None. Does each "
+    "way through it end with a return?"
+)
 _PLAIN_KINDS = ("int", "bool", "str", "float", "bytes", "list", "tuple", "dict")
 
 
@@ -848,7 +866,19 @@ def _field_of_another_type(fault: Fault) -> Meaning | None:
     means = f"The field {name} of the message takes {article(wanted)}, and {got}."
     if is_message:
         return Meaning("message-for-value", means, _ENVELOPE)
+    if not _constant_for(fault.code, name) and _is_none(fault):
+        means = f"The field {name} of the message takes {article(wanted)}, and {got}."
+        return Meaning("none-used", means, _NO_RETURN)
     return Meaning("not-a-float", means, _TO_MAKE.get(wanted, f"Give it {article(wanted)}."))
+
+
+def _is_none(fault: Fault) -> bool:
+    call = fault.asked
+    return (
+        call is not None
+        and call.method == "field"
+        and [one.kind for one in call.given] == ["NoneType"]
+    )
 
 
 def _given_to_field(fault: Fault, name: str) -> tuple[str, bool]:
@@ -963,6 +993,14 @@ _FIELD_RULES: tuple[Rule, ...] = (
         r"^(\w+)\.__init__\(\) takes 1 positional argument but \d",
         "{1}(...) was given a value without the name of the field it belongs in.",
         f"A message can have many fields, so each value is given by its field's name. {_SHOW}",
+        _about_a_message,
+    ),
+    Row(
+        "no-publisher",
+        "AttributeError",
+        r"'(\w+)' object has no attribute 'publish'",
+        "A message of type {1} stands where a publisher is meant.",
+        "A message only carries a value. Which method of a node makes a publisher?",
         _about_a_message,
     ),
     Row(
@@ -1152,6 +1190,30 @@ _NAME_RULES: tuple[Rule, ...] = (
         "Take another name for your own attribute; an underscore at its end is enough.",
     ),
     Row(
+        "name-taken",
+        "AttributeError",
+        r"^(\w+) cannot be modified after node creation",
+        "{1} is something that every node has already, and it cannot be replaced.",
+        "Take another name for your own attribute; an underscore at its end is enough.",
+    ),
+    Row(
+        "name-taken",
+        "TypeError",
+        r"^'method' object is not iterable$",
+        "A method of the class has a name that every node needs for something else, such as "
+        "clients, services or timers.",
+        "Give the method another name, at its def and wherever it is handed over.",
+        lambda fault, _: fault.callback in ("add", "run"),  # the session failed, not a callback
+    ),
+    Row(
+        "name-taken",
+        "TypeError AttributeError",
+        r"^'method' object does not support the context manager protocol|^__enter__$",
+        "A method of the class has the name handle, and every node has a handle of its own.",
+        "Give the method another name, at its def and wherever it is handed over.",
+        _in_line(r"\bsuper\(\)\.__init__\("),
+    ),
+    Row(
         "none-used",
         "AttributeError",
         r"'NoneType' object has no attribute '(\w+)'",
@@ -1200,6 +1262,16 @@ _VALUE_RULES: tuple[Rule, ...] = (
         "None stands where a whole number belongs.",
         "Where does it get its value? A function without return gives None, and so does result() "
         "of a future that is not done.",
+    ),
+    Row(
+        "none-used",
+        "TypeError",
+        r"object of type 'NoneType' has no len\(\)"
+        r"|'NoneType' object is not (?:iterable|subscriptable)",
+        "What this line takes for a list is None.",
+        "Where does it get its value? A function without return gives None, and so do append and "
+        "sort, which change the list itself.",
+        _in_line(r"\bself\.\w+"),
     ),
     Row(
         "format-code",

@@ -138,6 +138,8 @@ def why_raised(observation: Observation, fault: Fault) -> Diagnosis | None:
     found, call = diagnose_fault(fault), fault.asked
     if found is None or found.mistake != "type-mismatch" or not call or not call.given:
         return found
+    if call.method not in ("create_publisher", "create_subscription"):
+        return found  # a message that was published says nothing of another node
     own, sides = call.given[0].name, ("publisher", "subscription")
     others = {
         end.name: short_type(end.type_name)

@@ -141,7 +141,7 @@ def named(evidence: str, fit: Sequence[Suspect], otherwise: Diagnosis | None = N
 
 
 def spelling(found: str, words: Iterable[str]) -> str:
-    """Return a hint if a word differs from one that is right only in capitals or blanks.
+    """Return a hint if a word differs from one that is right only in capitals or spaces.
 
     Words are compared exactly as the page writes them.
 
@@ -155,7 +155,7 @@ def spelling(found: str, words: Iterable[str]) -> str:
     near = {word.strip().casefold(): word for word in words}.get(found.strip().casefold(), found)
     if near == found:
         return ""
-    return f"Capitals and blanks count: the page writes {near!r}, and your node {found!r}."
+    return f"Capitals and spaces count: the page writes {near!r}, and your node {found!r}."
 
 
 # Messages on a topic.
@@ -241,7 +241,7 @@ def _ticks(period: int, end: int) -> Track:
 
 _FEW = {0: "none", 1: "one"}
 _COUNT = (
-    "What does the first argument of create_timer count: calls in a second, or seconds between "
+    "What does the first argument of create_timer count: calls per second, or seconds between "
     "two calls?"
 )
 _BEATS = (

@@ -54,7 +54,7 @@ def _judge_reader(observation: Observation) -> Outcome:
         "00a",
         f"There were {_ARTICLES} articles, and the reader's callback ran {count} times.",
         "One subscription is enough. Is create_subscription there twice?",
-        "wrong-rate",
+        "heard-twice",
     )
 
 

@@ -74,6 +74,9 @@ _PATIENCE = {"deadline": 30.0}
 _ROUNDING, _IN_A_STEP = 1e-4, 1e-3
 #: So many steps do not come again by chance, not even if there are only two to choose from.
 _WINDOW = 64
+#: Steps of two directions are alike if they differ by less than this factor; and so many of each
+#: direction tell more than the widest two.
+_EVEN, _ENOUGH = 0.8, 100
 
 
 @dataclass(frozen=True)
@@ -89,14 +92,15 @@ class _Asked:
     start: float | None = None  # where it has to begin
     rate_in_words: str = ""
     unit: str = "degrees"
-    aside: str = ""  # a sentence after hints that name a number, with a blank before it
+    aside: str = ""  # a sentence after hints that name a number, with a space before it
+    smallest: float = 0.8  # the widest step is at least this part of the widest allowed one
 
 
 def _fahrenheit(celsius: float) -> float:
     return celsius * 9 / 5 + 32
 
 
-_ROOM = _Asked("03b", Wire("/temperature", _FLOAT), 1, 18.0, 28.0, 0.3)
+_ROOM = _Asked("03b", Wire("/temperature", _FLOAT), 1, 18.0, 28.0, 0.3, smallest=0.16 / 0.3)
 _GREENHOUSE = _Asked(
     "03c",
     Wire("/greenhouse/temperature", _FLOAT),
@@ -152,9 +156,10 @@ class _Walk:
         signs += [*((_NOT_MET, end) for end in self.ends), (_WRONG_START, self)]
         return next(((sign, seen) for sign, seen in signs if sign.shows(seen)), None)
 
-    def evidence(self) -> str:
+    def evidence(self, mistake: str = "") -> str:
+        unit = "" if mistake == "wrong-unit" else f" {self.asked.unit}"
         return (
-            f"The readings went from {self.bottom:.2f} to {self.top:.2f} {self.asked.unit}, in "
+            f"The readings went from {self.bottom:.2f} to {self.top:.2f}{unit}, in "
             f"steps of at most {self.widest:.2f}."
         )
 
@@ -204,6 +209,20 @@ class _Walk:
         ]
         windows = [hash(tuple(steps[n : n + _WINDOW])) for n in range(len(steps) - _WINDOW)]
         return len(set(windows)) < len(windows)
+
+    def is_uneven(self) -> bool:
+        """Return whether steps in one direction are narrower than those in the other."""
+        if min(self.up, self.down) >= _EVEN * self.widest:
+            return False
+        # The drift makes steps uneven, too, and so does a limit that cuts a step off.
+        low, high = self.bottom + self.widest, self.top - self.widest
+        free = pairwise(self.values[2 * _PHASE :])
+        moves = [now - before for before, now in free if low < before < high]
+        sides = [sorted(m for m in moves if m > 0), sorted(-m for m in moves if m < 0)]
+        if min(map(len, sides)) < _ENOUGH:
+            return True
+        up, down = (side[int(0.95 * len(side))] for side in sides)
+        return min(up, down) < _EVEN * max(up, down)
 
     def follows_a_rule(self) -> bool:
         """Return whether it turns round less than half as often as chance would."""
@@ -357,13 +376,13 @@ _SIGNS = (
     _Sign(
         "step-too-small",
         "The steps are small. They may be as wide as {asked.step:g}, up and down.{asked.aside}",
-        lambda walk: walk.widest < 0.8 * walk.asked.step,
+        lambda walk: walk.widest < walk.asked.smallest * walk.asked.step,
     ),
     _Sign(
         "uneven-steps",
         "Steps go up by at most {0.up:.2f}, and down by at most {0.down:.2f}. They may be as wide "
         "as {asked.step:g}, up and down.{asked.aside}",
-        lambda walk: min(walk.up, walk.down) < 0.8 * walk.asked.step,
+        lambda walk: walk.is_uneven(),
     ),
 )
 _SIGNS_AT_AN_END = (
@@ -424,7 +443,7 @@ def _judge_walk(asked: _Asked, observation: Observation) -> Outcome:
         return passed(asked.exercise, asked.rate_in_words + walk.evidence())
     sign, seen = found
     hint = sign.hint.format(seen, asked=asked)
-    return failed(asked.exercise, walk.evidence() + walk.parting(), hint, sign.mistake)
+    return failed(asked.exercise, walk.evidence(sign.mistake) + walk.parting(), hint, sign.mistake)
 
 
 EXERCISES = (

@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from itertools import pairwise
+from itertools import chain, combinations, pairwise
 from math import inf
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, why_not_heard
 from rosbeat.exercises.exercise import Exercise, failed_by, passed
-from rosbeat.exercises.model import Suspect, Track, fitting, missing, named, on, parting
+from rosbeat.exercises.model import (
+    Suspect,
+    Track,
+    agree,
+    fitting,
+    missing,
+    named,
+    on,
+    parting,
+    spelling,
+)
 from rosbeat.exercises.scenarios import feeder, observe
 from rosbeat.records import Observation, Outcome
 
@@ -85,13 +95,36 @@ FRIDGE_SUSPECTS = (
 )  # fmt: skip
 
 
+#: The state in the form that the page asks for, and a remark behind it.
+_FORM = re.compile(rf"(?i)\bstatus\s*:\s*({_STATE.pattern.removeprefix('(?i)')})")
+_REMARK = re.compile(r"\([^()]*\)")
+
+
+def _states(lines: Sequence[str]) -> list[str]:
+    """Return the states that log lines name; lines without the form count if none has it."""
+    with_form = [line for line in lines if _FORM.search(line)]
+    return [state for line in with_form or lines for state in _STATE.findall(_bare(line))]
+
+
+def _bare(line: str) -> str:
+    """Return a line without a remark in parentheses, unless the remark names all states."""
+    found = _FORM.search(line)
+    if not found:
+        return line
+    remark = _REMARK.search(line, found.end())
+    if not remark or len(set(_STATE.findall(remark[0]))) == len(_OTHER_STATES):
+        return line
+    return line[: remark.start()] + line[remark.end() :]
+
+
 def _logged(observation: Observation) -> Track:
     """Return the states in the log lines of each second, or the whole text if it has none."""
     found = {}
     for second in range(1, len(FRIDGE) + 1):
-        text = "\n".join(log.text for log in observation.logs if log.time == second)
+        lines = [log.text for log in observation.logs if log.time == second]
+        text = "\n".join(lines)
         if text:
-            found[second] = tuple(dict.fromkeys(_STATE.findall(text))) or (text,)
+            found[second] = tuple(dict.fromkeys(_states(lines))) or (text,)
     return found
 
 
@@ -111,12 +144,18 @@ def _judge_states(observation: Observation) -> Outcome:
     evidence = f"For a reading of {value:g} the node said {' and '.join(part.done)}."
     strange = next((one for one in part.done if one not in _OTHER_STATES), None)
     if strange is not None:
-        hint = "The three words are Warm, Frost and Fine, letter by letter: capitals count, and a "
-        hint += "list with a word in it is not the word."
-        return failed_by("04a", Diagnosis("wrong-word", evidence, hint))
+        return failed_by("04a", Diagnosis("wrong-word", evidence, _about_word(strange)))
     hint = f"It should be {wanted}. Which of your conditions is true for {value:g}?"
     other = Diagnosis("wrong-state", evidence, hint)
     return failed_by("04a", named(evidence, fitting(FRIDGE, done, FRIDGE_SUSPECTS), other))
+
+
+def _about_word(strange: str) -> str:
+    """Return a hint that fits what stands in the place of a state."""
+    if re.search(r"\bNone\b", strange):
+        return "None came instead of a word. A function that ends without return gives None."
+    hint = "The three words are Warm, Frost and Fine, letter by letter: capitals count."
+    return f"{hint} A list with a word in it is not the word." if strange[0] in "[({" else hint
 
 
 # 04b: raise the alarm.
@@ -155,8 +194,9 @@ ROOM_SUSPECTS = (
             "came before it.", lambda fed: dict([*_alerts()(fed).items()][:1])),
     Suspect("alert-missing", "Only the first of several bad readings in a row got an alert. Each "
             "one should, whatever came before it.", _alerts(first=True)),
-    Suspect("alert-too-many", "Every reading got an alert. Is your condition always true? A number "
-            "on one side of `or` counts as true.", _alerts(-inf)),
+    Suspect("alert-too-many", "Every reading got an alert. Is your condition true for 22, too? "
+            "Compare its limits; and each side of `or` needs a comparison of its own.",
+            _alerts(-inf)),
     Suspect("alert-too-many", "One alert for each reading is enough.", _alerts(times=2)),
 )  # fmt: skip
 
@@ -199,15 +239,36 @@ def _wrong_alerts(observation: Observation) -> Diagnosis | None:
         )
     value = ROOM[round(part.at) - 1]
     fit = fitting(ROOM, done, ROOM_SUSPECTS)
+    if fit and fit[0].mistake == "alert-too-many" and _says_fine(texts):
+        fit = []
     if len(part.done) > 1 and part.right:
         total, due = sum(map(len, done.values())), len(_alerts()(ROOM))
         evidence, other = f"{total} alerts for {due} readings.", "One alert for each is enough."
     elif part.done:
         evidence, other = f"An alert was published for a reading of {value:g}.", _LIMITS_ARE_FINE
+        if _says_fine(texts):
+            evidence = f"{texts[part.at][0]!r} was published on /alert for a reading of {value:g}."
+            other = "Whatever comes on /alert is an alert. For a reading that is fine, publish "
+            other += "nothing."
     else:
         evidence, other = f"No alert for a reading of {value:g}.", _BOTH_COUNT
     mistake = "alert-too-many" if part.done else "alert-missing"
     return named(evidence, fit, Diagnosis(mistake, evidence, other))
+
+
+def _says_fine(texts: Track) -> bool:
+    """Return whether readings that are fine got a text of their own, whatever numbers are in it."""
+    due = _alerts()(ROOM)
+    good, bad = (
+        {
+            re.sub(r"[-\d.]+", "", one)
+            for at, found in texts.items()
+            if (at in due) is is_due
+            for one in found
+        }
+        for is_due in (False, True)
+    )
+    return bool(good and bad) and not good & bad
 
 
 # 04c: a calm monitor: the mean of the last five readings, and a status with hysteresis.
@@ -217,10 +278,15 @@ CALM = (
     *(22.0, 25.5, 20.5, 26.0, 26.015625, 25.5, 26.25, 25.0, 24.984375, 25.5, 20.0, 19.984375),
     *(20.5, 21.0, 21.015625, 20.5, 41.0, -3.5, 30.0, 23.0, 19.0, 25.5, 27.0, 20.5),
 )
+_STATUSES = ("High", "Low", "Normal")
 _MEAN, _STATUS = Wire("/mean", "std_msgs/msg/Float32"), Wire("/status", "std_msgs/msg/String")
 
 
-def _means(width: int = 5, begin: Readings = (), divisor: int = 0, late: int = 0) -> Model:
+#: How many readings count.
+_WIDTH = 5
+
+
+def _means(width: int = _WIDTH, begin: Readings = (), divisor: int = 0, late: int = 0) -> Model:
     """Return the model of a node that publishes a running mean.
 
     Args:
@@ -303,13 +369,27 @@ _NOTHING_KEEPS = (
     "variable is gone when the callback returns: keep the new status in self."
 )
 _ONLY_CHANGES = "Compare the new status with the old one, and publish only a change."
+#: A reading at a limit, and the limit of a node that counts it to the wrong side.
+_AT_A_LIMIT = (
+    *((26, {"high": 25.99}), (20, {"low": 20.01})),
+    *((25, {"back_high": 25.01}), (21, {"back_low": 20.99})),
+)
+
+
+def _on_the_wrong_side() -> Iterator[Suspect]:
+    """Generate a suspect for each limit, and for each set of them, single ones first."""
+    for slips in chain.from_iterable(combinations(_AT_A_LIMIT, count) for count in (1, 2, 3, 4)):
+        at = " and exactly ".join(str(reading) for reading, _ in slips)
+        change = "changes" if len(slips) == 1 else "change"
+        limits = {name: limit for _, one in slips for name, limit in one.items()}
+        hint = f"Exactly {at} {change} nothing: above and below leave the limit out."
+        yield Suspect("boundary", hint, _statuses(limits))
+
+
 STATUS_SUSPECTS = (
     Suspect("status-repeated", _NOTHING_KEEPS, _statuses(keeps=False)),
     Suspect("no-hysteresis", _NOTHING_KEEPS, _statuses(keeps=False, compares=False)),
-    *(Suspect("boundary", f"Exactly {at} changes nothing: above and below leave the limit out.",
-              _statuses(limit))
-      for at, limit in ((26, {"high": 25.99}), (20, {"low": 20.01}), (25, {"back_high": 25.01}),
-                        (21, {"back_low": 20.99}))),
+    *_on_the_wrong_side(),
     Suspect("hysteresis-lost", "From High, nothing leads back to Normal.",
             _statuses({"back_high": -inf})),
     Suspect("hysteresis-lost", "From Low, nothing leads back to Normal.",
@@ -343,12 +423,18 @@ def _wrong_means(done: Track) -> Diagnosis | None:
     part = parting(done, _means()(CALM))
     if part is None:
         return None
+    if agree(done, {at: mean for at, mean in _means()(CALM).items() if at >= _WIDTH}):
+        return Diagnosis(
+            "wrong-window",
+            f"The first mean was published after reading {_WIDTH}; those before it got none.",
+            "While there are fewer than five readings, it is the mean of those that are there.",
+        )
     if len(part.done) != len(part.right):
         count = sum(map(len, done.values()))
         return Diagnosis(
             "wrong-rate",
             f"{len(CALM)} readings arrived, and {count} means were published: at {part.at:g} s "
-            f"{len(part.done)}, and {len(part.right)} was due.",
+            f"there were {len(part.done)}, and {len(part.right)} was due.",
             "Publish one mean for each reading, also while there are fewer than five.",
         )
     last = [f"{value:g}" for value in CALM[: round(part.at)][-6:]]
@@ -363,18 +449,19 @@ def _wrong_means(done: Track) -> Diagnosis | None:
 
 def _wrong_statuses(done: Track) -> Diagnosis | None:
     words = [word for found in done.values() for word in found]
-    strange = next((word for word in words if word not in ("High", "Low", "Normal")), None)
+    strange = next((word for word in words if word not in _STATUSES), None)
     if strange is not None:
-        hint = "The status is High, Low or Normal, letter by letter: capitals and blanks count."
-        return Diagnosis("wrong-state", f"On /status appeared {strange!r}.", hint)
+        hint = spelling(strange, _STATUSES) or "The status is one word, High, Low or Normal."
+        return Diagnosis("wrong-word", f"On /status appeared {strange!r}.", hint)
     right = _statuses()(CALM)
     part = parting(done, right)
     if part is None:
         return None
     before = [("Normal",), *(right[at] for at in sorted(right) if at < part.at)][-1][0]
     value = CALM[max(0, min(len(CALM), int(part.at)) - 1)]
+    after = f"after a reading of {value:g}" if part.at >= 1 else "before the first reading"
     evidence = (
-        f"The status was {before}. At {part.at:g} s, after a reading of {value:g}, "
+        f"The status was {before}. At {part.at:g} s, {after}, "
         f"{_quoted(part.done)} was published, and {_quoted(part.right)} was due."
     )
     other = _unmodelled(before, part.done, part.right, evidence)

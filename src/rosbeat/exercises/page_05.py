@@ -82,7 +82,24 @@ def _call(answer: Any) -> Report:  # noqa: ANN401 - whatever a learner hands ove
     """Call a function that writes entry points, with several arguments."""
     if not callable(answer):
         return Report("", _NO_FUNCTION)
-    return report(lambda: [answer(*arguments) for arguments in ARGUMENTS])
+    return report(lambda: [_plain(answer(*arguments)) for arguments in ARGUMENTS])
+
+
+#: The key under which a tuple is written down, which JSON would make a list of.
+_TUPLE = "tuple"
+
+
+def _plain(result: object) -> object:
+    """Return a result as plain data that tells a tuple of texts from a list."""
+    is_tuple = type(result) is tuple and all(type(one) is str for one in result)
+    return {_TUPLE: result} if is_tuple else result
+
+
+def _shown(result: object) -> str:
+    """Return a result as Python writes it."""
+    if isinstance(result, dict) and list(result) == [_TUPLE]:
+        return repr(tuple(result[_TUPLE]))
+    return repr(result)
 
 
 _GIVES_TEXT = 'The function gives back one text. f"{executable} ..." puts values into a text.'
@@ -130,7 +147,7 @@ def _diagnose_problem(problem: str) -> Diagnosis:
 
 def _diagnose_texts(results: list[Any]) -> Diagnosis | None:
     for arguments, result in zip(ARGUMENTS, results, strict=True):
-        evidence = f"entry_point{arguments} gives {result!r}."
+        evidence = f"entry_point{arguments} gives {_shown(result)}."
         if result is None:
             hint = "Nothing came back: the function needs a return, and print gives back nothing."
             return Diagnosis("returns-nothing", evidence, hint)
@@ -154,7 +171,7 @@ _RIGHT = {
     "before": "", "executable": "{0}", "equals": "=", "package": "{1}", "dot": ".",
     "module": "{2}", "colon": ":", "function": "{3}", "after": "",
 }  # fmt: skip
-_BLANKS = re.compile(r"[ \t]*([=:]+)[ \t]*")
+_SPACES = re.compile(r"[ \t]*([=:]+)[ \t]*")
 
 
 def _entry_points(parts: Mapping[str, str], calls: Sequence[tuple[str, ...]] = ARGUMENTS) -> Track:
@@ -164,12 +181,12 @@ def _entry_points(parts: Mapping[str, str], calls: Sequence[tuple[str, ...]] = A
 
 
 def _same_entry(one: str, other: str) -> bool:
-    """Return whether two entry points are the same, whatever blanks are around their signs."""
-    return _without_blanks(one) == _without_blanks(other)
+    """Return whether two entry points are the same, whatever spaces are around their signs."""
+    return _without_spaces(one) == _without_spaces(other)
 
 
-def _without_blanks(text: str) -> str:
-    return _BLANKS.sub(r"\1", text)
+def _without_spaces(text: str) -> str:
+    return _SPACES.sub(r"\1", text)
 
 
 _FIRST = "What is typed after ros2 run comes first, then an equals sign."
@@ -177,7 +194,7 @@ _ONE_SIGN = "One equals sign is enough: it is no comparison."
 _DOT = "Between the equals sign and the colon stands package.module, with a dot."
 _COLON = "After a colon comes the name of the function that was handed over."
 _USE_ALL = "The text has to change with what the function is given: put its parameters in."
-_ENOUGH = "Return the bare text: no quotes, brackets or blanks around it."
+_ENOUGH = "Return the bare text: no quotes, brackets or spaces around it."
 _NO_MORE = "Nothing stands after the name of the function: no brackets, no comma."
 _AS_GIVEN = "Names count letter by letter: put the parameters in as they are."
 _COMPARE = "Compare it with the parts in the table of the page, sign by sign and in their order."
@@ -189,9 +206,9 @@ def _slips() -> Iterator[tuple[str, str, Mapping[str, str]]]:
     yield "swallowed-parameter", f"{_COLON} It is not always main.", {"function": "main"}
     for pair in ("''", '""', "``", "()", "[]", "<>"):
         yield "stray-characters", _ENOUGH, {"before": pair[0], "after": pair[1]}
-    for blank in (" ", "\n", "\t"):
-        yield "stray-characters", _ENOUGH, {"before": blank}
-        yield "stray-characters", _ENOUGH, {"after": blank}
+    for space in (" ", "\n", "\t"):
+        yield "stray-characters", _ENOUGH, {"before": space}
+        yield "stray-characters", _ENOUGH, {"after": space}
     for end in ("()", ",", ";", ".", ":", "(", ")", ".py"):
         yield "stray-characters", _NO_MORE, {"after": end}
     yield "entry-point-form", _ONE_SIGN, {"equals": "=="}
@@ -267,7 +284,7 @@ def _with_fixed_parts(first: str) -> Iterator[Suspect]:
     for names in chain.from_iterable(combinations(_PARAMETERS, count) for count in (1, 2, 3)):
         fixed = {name: rf"(?P<{name}>[\w.]+)" for name in names}
         pattern = "".join({**_RIGHT, "dot": r"\.", **given, **fixed}.values())
-        shown = re.fullmatch(pattern, _without_blanks(first))
+        shown = re.fullmatch(pattern, _without_spaces(first))
         if shown:
             yield _suspect("swallowed-parameter", _USE_ALL, shown.groupdict())
 

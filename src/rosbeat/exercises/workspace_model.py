@@ -47,9 +47,10 @@ FLAW_HINTS = {
     "slash": "Modules are written with dots: package.module.",
     "suffix": "Leave out .py: a module is named without it.",
     "no-function-part": "After the module comes a colon and the name of the function.",
+    "called": "The name of the function is enough: no brackets behind it.",
     "no-module": "The module is package.file: the folder with __init__.py, a dot, the file's name.",
     "syntax-error": "Mend the file, on page 03 or 04, and run its cell again.",
-    "no-function": "Look for `def` in the file. The name stands without brackets here.",
+    "no-function": "Look for `def` in the file. Compare the two names letter by letter.",
 }
 
 

@@ -811,6 +811,12 @@ FLAWS = {
         f"{_NAMED}a module and no function in it.",
         "Put the function behind a colon: {wrong}:main",
     ),
+    "called": Diagnosis(
+        "entry-point-form",
+        "The entry point {entry.executable} in {entry.file} ends with {wrong}: an entry point names "
+        "a function, and does not call it.",
+        "Leave out the brackets: write {right}",
+    ),
     "no-module": Diagnosis(
         "entry-point-target",
         "The entry point {entry.executable} in line {entry.line} of {entry.file} names the module "

@@ -20,7 +20,7 @@ class Flaw:
 
     Attributes:
         kind: `missing-comma`, `no-equals`, `two-equals`, `bad-name`, `slash`, `suffix`,
-            `no-function-part`, `no-module`, `syntax-error` or `no-function`.
+            `no-function-part`, `called`, `no-module`, `syntax-error` or `no-function`.
         entry: The entry point.
         wrong: The part that is wrong.
         right: What was probably meant, or empty.
@@ -60,6 +60,8 @@ def _written_wrong(entry: EntryPoint) -> Flaw | None:
         return Flaw("suffix", entry, entry.module, entry.module.removesuffix(".py"))
     if not entry.function:
         return Flaw("no-function-part", entry, entry.module, "main")
+    if entry.function.endswith("()"):
+        return Flaw("called", entry, entry.function, entry.function.removesuffix("()"))
     return None
 
 

@@ -2049,14 +2049,6 @@ REASONS = {
     # The check of the page is right about these two; grading holds them for a person.
     "04a blind: numpy selects": "held: 'reaches for select', which is numpy's here and no system's.",
     "03b blind: random()": "held: 'hands on the module random', where the module is called.",
-    "03b blind: randint": "new-to-me: a float handed to randint has no name (ValueError before"
-    " Python 3.12, TypeError since).",
-    "04c blind: waits for five": "wrong-rate: no rate is wrong, the means of fewer are missing.",
-    "04c blind: 25 and 21 come back": "no-hysteresis: there are two borders; only the limits are"
-    " counted to the wrong side, at both. One alone is called boundary.",
-    "04c blind: capitals": "wrong-state: the state is right, its word is not; 04a says wrong-word.",
-    "04c blind: the wrong publisher": "The evidence ends with a sentence that is false: 'On"
-    " /temperature, your node uses String and the other side Float32.'",
 }
 ANSWERS = tuple(one for one in _ALL if one.id not in REASONS)
 DISAGREE = tuple(one for one in _ALL if one.id in REASONS)

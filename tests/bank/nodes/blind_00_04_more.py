@@ -692,13 +692,6 @@ _MONITORS = (
 _ALL: tuple[Answer, ...] = (*_NEWSROOM, *_SENSORS, *_MONITORS)
 
 #: Where the judge is wrong, and what it says: these answers are not in the table.
-REASONS = {
-    "00a blind: subscribed twice": "wrong-rate: the rate is the reporter's; heard-twice is meant.",
-    "04b blind: a String for a publisher": "wrong-field: nobody reads a field; a message stands"
-    " where a publisher belongs, and the hint leads to the fields of a String.",
-    "04c blind: a sentence": "wrong-state: the state is right, the word is not.",
-    "04c blind: Normal said at first": "The evidence is false: 'At 0 s, after a reading of 22'; the"
-    " first reading comes at 1 s.",
-}
+REASONS = {}
 ANSWERS = tuple(one for one in _ALL if one.id not in REASONS)
 DISAGREE = tuple(one for one in _ALL if one.id in REASONS)

@@ -697,25 +697,6 @@ _ALL: tuple[Answer, ...] = (*_RIGHT, *_WRONG)
 REASONS = {
     # The check of the page is right about this one; grading holds it for a person.
     "00b blind: made with type()": "held: 'makes a class with type'.",
-    "03b blind: at most 0.3, so 0.2": "step-too-small: the page says 'at most 0.3', and 0.25 passes.",
-    "03b blind: twelve tiny draws": "uneven-steps: chance is the same both ways, and no step is"
-    " wider than 0.3.",
-    "03b blind: a narrow bell, cut off": "step-too-small: 'at most 0.3' is kept.",
-    "04a blind: tells of changes, too": "wrong-state: a line more is no status; the page forbids none.",
-    "04a blind: an arrow at each change": "wrong-state: as above.",
-    "04a blind: a remark near the limit": "wrong-state: 'the node said Fine and Frost'.",
-    "04a blind: with the limits in the line": "wrong-state: 'Status:Warm (Fine is from 2 to 8)' says Warm.",
-    "04a blind: a method handle": "new-to-me, and a hint that does not help; name-taken is meant.",
-    "04a blind: a method clients": "new-to-me, with the false hint 'Hand over the class that you"
-    " wrote, by its name.'",
-    "00b blind: self.handle": "new-to-me; name-taken is meant.",
-    "04c blind: = append": "new-to-me; append gives back None, and None is used (none-used).",
-    "04c blind: 26 is High and 20 is Low": "wrong-state: each limit alone is called boundary.",
-    "04c blind: judge ends without a return": "not-a-float, and the hint says 'str(...) makes one"
-    " of a number': that would publish 'None'.",
-    "03b blind: a clamp without a return": "not-a-float, with a hint about 18 being an int.",
-    "04b blind: a Float32 publisher and a String": "The evidence ends with a sentence that is"
-    " false: 'On /temperature, your node uses String and the other side Float32.'",
 }
 ANSWERS = tuple(one for one in _ALL if one.id not in REASONS)
 DISAGREE = tuple(one for one in _ALL if one.id in REASONS)

@@ -715,8 +715,6 @@ REASONS = {
     "05a blind: a loop that appends": _HIDDEN,
     "05a blind: a lambda and map": _HIDDEN,
     "05a blind: names from variables": _HIDDEN,
-    "05a blind: main()": "entry-point-target: page 05 says that brackets stop the build, so it is the"
-    " form; the evidence looks for a function called 'main()'.",
     "05b blind: quotes and a comma": "new-to-me: stray-characters; either of the two alone has it.",
 }
 ANSWERS = tuple(one for one in _ALL if one.id not in REASONS)

@@ -272,7 +272,7 @@ ANSWERS = (
     _first("a file", "entry-point-target", ":main", ".py:main"),
     _first("no function", "entry-point-target", ":main", ""),
     _first("a dot for the colon", "entry-point-target", ":main", ".main"),
-    _first("brackets", "entry-point-target", ":main", ":main()"),
+    _first("brackets", "entry-point-form", ":main", ":main()"),
     _first("another function", "entry-point-target", ":main", ":start"),
     _first("a capital function", "entry-point-target", ":main", ":Main"),
     _first(

@@ -154,6 +154,15 @@ def test_two_types_on_a_topic_are_both_said():
     assert "the other side" not in two.evidence
 
 
+def test_a_message_of_another_type_says_nothing_of_other_topics():
+    text = "Expected <class 'std_msgs.msg._float32.Float32'>, got <class 'std_msgs.msg._string."
+    asked = failed_call("publish(message[String])")
+    fault = Fault(1, NODE, "listen", "TypeError", f"{text}String'>", 3, "publish(msg)", asked)
+    found = why_not_published(seen(end("publisher", node=ROOM), faults=(fault,)), WIRE)
+    assert found.mistake == "type-mismatch"
+    assert "the other side" not in found.evidence
+
+
 def test_without_a_subject_it_is_the_node_that_was_made_last():
     observation = replace(seen(end("publisher", node=ROOM)), subject="")
     assert why_not_published(observation, WIRE).mistake == "no-publisher"

@@ -30,7 +30,7 @@ def written(*articles):
     [
         (["weather"] * 3, ""),
         (["weather"] * 2, "new-to-me"),
-        (["weather"] * 6, "wrong-rate"),
+        (["weather"] * 6, "heard-twice"),
         (["sports"] * 3, "wrong-topic"),
         (["weather", "sports"] * 3, "wrong-topic"),
         ([], "no-subscription"),

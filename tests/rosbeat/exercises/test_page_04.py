@@ -39,6 +39,11 @@ TOLD = [
     ("04c", ("[-5:]", "[-4:]"), "It is the mean of the last 4 readings."),
     ("04c", ("self.status = new\n", "pass\n"), "Normal was published, and High was due"),
     ("04c", ("value < 25.0", "value < 24.0"), "far enough back"),
+    ("04a", ("{status}", "None"), "A function that ends without return gives None."),
+    ("04a", ("{status}", "{[status]}"), "A list with a word in it is not the word."),
+    ("04b", (alarm_right._SEND, f"{alarm_right._SEND}\n            return\n        self.alerts."
+             "publish(String(data='OK'))"), "'OK' was published on /alert for a reading of 22."),
+    ("04b", ("msg.data < 20.0", "20.0"), "each side of `or` needs a comparison of its own"),
 ]  # fmt: skip
 
 

@@ -86,7 +86,7 @@ def test_each_suspect_of_05b_is_told_from_the_right_one_and_from_other_mistakes(
     for suspect in page_05._SUSPECTS:
         track = suspect.model(None)
         assert not agree(track, right, page_05._same_entry), suspect
-        texts = tuple(page_05._without_blanks(text) for (text,) in track.values())
+        texts = tuple(page_05._without_spaces(text) for (text,) in track.values())
         by_text.setdefault(texts, set()).add(suspect.mistake)
     assert [mistakes for mistakes in by_text.values() if len(mistakes) > 1] == []
 
@@ -116,6 +116,12 @@ class Shy:
 def test_what_is_no_function_or_gives_no_text(answer, mistake):
     outcome = function_05b.judged(function_05b.scenario(answer))
     assert (outcome.status, outcome.mistake) == ("failed", mistake)
+
+
+@pytest.mark.parametrize("result", [("a", "b"), ["a", "b"], {"a": "b"}])
+def test_what_was_returned_is_shown_as_it_was(result):
+    outcome = function_05b.judged(function_05b.scenario(lambda *_: result))
+    assert f"gives {result!r}." in outcome.evidence
 
 
 def test_evidence_of_fewer_calls_than_were_made_is_refused():

@@ -19,6 +19,7 @@ def entry(target, executable="sensor"):
         (f"{NAME}:maine", "no-function", "main"),
         (f"{NAME}", "no-function-part", "main"),
         (f"{NAME}.py:main", "suffix", NAME),
+        (f"{NAME}:main()", "called", "main"),
         ("sensor_simulator/temperature_publisher:main", "slash", NAME),
         ("sensor_simulator.temprature_publisher:main", "no-module", NAME),
         ("temperature_publisher:main", "no-module", NAME),
