@@ -91,6 +91,8 @@ def agree(one: Track, other: Track, same: Same = equal) -> bool:
 
 def parting(done: Track, right: Track, same: Same = equal) -> Parting | None:
     """Return the first moment at which two tracks part; None if they never do."""
+    if done == right:  # the usual case, and quick to see
+        return None
     for at in sorted({*done, *right}):
         found, wanted = done.get(at, ()), right.get(at, ())
         if len(found) != len(wanted) or not all(map(same, found, wanted)):

@@ -256,9 +256,10 @@ class _End:
     def is_cut(self) -> bool:
         """Return whether something cuts the walk off there, and not at the limit."""
         # With a few widths of steps only, all numbers come again and again.
+        if abs(self.beyond) <= _IN_A_STEP or not self.is_met_often():
+            return False
         different = len({round(one, 4) for one in self.walk.values})
-        is_fine = different > len(self.walk.values) / 4
-        return is_fine and abs(self.beyond) > _IN_A_STEP and self.is_met_often()
+        return different > len(self.walk.values) / 4
 
     def is_stuck(self) -> bool:
         """Return whether the walk stays at the limit for longer than chance would have it."""

@@ -813,8 +813,8 @@ FLAWS = {
     ),
     "called": Diagnosis(
         "entry-point-form",
-        "The entry point {entry.executable} in {entry.file} ends with {wrong}: an entry point names "
-        "a function, and does not call it.",
+        "The entry point {entry.executable} in {entry.file} ends with {wrong}: an entry point "
+        "names a function, and does not call it.",
         "Leave out the brackets: write {right}",
     ),
     "no-module": Diagnosis(
