@@ -417,7 +417,7 @@ class ExternalMessages:
         self._observer, self._recorder, self._now = observer, recorder, now
         self._own: defaultdict[str, list[PublicationLog]] = defaultdict(list)
         self._known: set[tuple[str, int, int]] = set()
-        self._channels: dict[tuple[str, str], Channel] = {}
+        self._channels: dict[tuple[str, frozenset[bytes]], Channel] = {}
         self._last: dict[str, Channel] = {}
         self._memories: dict[str, Memory] = {}
 
@@ -454,16 +454,21 @@ class ExternalMessages:
             self._recorder.add_sample(self._channel(topic).number, self._now(), copy)
 
     def _channel(self, topic: str) -> Channel:
-        outside = filter(self._observer.is_outside, self._observer.publishers(topic))
+        outside = list(filter(self._observer.is_outside, self._observer.publishers(topic)))
+        if not outside and topic in self._last:
+            return self._last[topic]  # the publisher has left
+        # By their addresses: the name of a node comes some 0.1 s after its publisher.
+        key = topic, frozenset(bytes(one.endpoint_gid) for one in outside)
         names = {owner(one) for one in outside}
-        if names or topic not in self._last:  # else the publisher has left
-            (name,) = names if len(names) == 1 else (_UNKNOWN_PUBLISHER,)
-            name = _UNKNOWN_PUBLISHER if _UNKNOWN_NODE in name else name
-            if (topic, name) not in self._channels:
-                made = self._recorder.channel(topic, name, self._memories[topic])
-                self._channels[topic, name] = made
-            self._last[topic] = self._channels[topic, name]
-        return self._last[topic]
+        is_known = len(names) == 1 and outside[0].node_name != _UNKNOWN_NODE
+        name = names.pop() if is_known else _UNKNOWN_PUBLISHER
+        channel = self._channels.get(key)
+        if channel is None:
+            channel = self._recorder.channel(topic, name, self._memories[topic])
+        elif channel.node != name:
+            channel = self._recorder.rename(channel, name)
+        self._channels[key] = self._last[topic] = channel
+        return channel
 
 
 def _with_message_info(
