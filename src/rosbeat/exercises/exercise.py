@@ -102,7 +102,7 @@ def not_attempted(exercise: str, evidence: str = _STILL_BLANK) -> Outcome:
 
 
 def is_blank(fault: Fault) -> bool:
-    """Whether an exception came from a blank that was not filled in."""
+    """Return whether an exception came from a blank that was not filled in."""
     return fault.kind == "NameError" and f"'{BLANK}'" in fault.text
 
 
@@ -111,7 +111,7 @@ def before_judging(
     observation: Observation,
     explains: Callable[[Fault], Diagnosis | None] = lambda _: None,
 ) -> Outcome | None:
-    """What can be said whatever the exercise asks: a blank, or an exception; else None."""
+    """Return what can be said whatever the exercise asks: a blank, or an exception; else None."""
     if any(is_blank(fault) for fault in observation.faults):
         return not_attempted(exercise)
     if observation.faults:

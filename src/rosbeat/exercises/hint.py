@@ -28,7 +28,7 @@ def answer_to(exercise: str) -> str:
 
 
 def are_here() -> bool:
-    """Whether there are answers at all; what an instructor releases to a class has none."""
+    """Return whether there are answers at all; what an instructor releases to a class has none."""
     return (files("rosbeat.exercises") / _FOLDER).is_dir()
 
 

@@ -230,7 +230,7 @@ def explain_subscription(wire: Wire, fault: Fault) -> Diagnosis | None:
 
 @dataclass(frozen=True)
 class _Beat:
-    """What was right, what was done, and when it ended, in nanoseconds."""
+    """Hold what was right, what was done, and when it ended, in nanoseconds."""
 
     right: Track
     done: Track
@@ -326,7 +326,7 @@ def diagnose_beat(
 
 
 def before_reading(exercise: str, seen: Report, example: str) -> Outcome | None:
-    """What can be said of a report whatever was asked: a blank, an exception, no result; or None.
+    """Return what can be said of a report whatever was asked: a blank, an exception; or None.
 
     Args:
         exercise: The exercise's id.

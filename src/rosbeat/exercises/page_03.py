@@ -81,7 +81,7 @@ _EVEN, _ENOUGH = 0.8, 100
 
 @dataclass(frozen=True)
 class _Asked:
-    """What is asked of a walk."""
+    """Hold what is asked of a walk."""
 
     exercise: str
     wire: Wire
@@ -270,7 +270,7 @@ class _End:
 
 @dataclass(frozen=True)
 class _Sign:
-    """How a mistake shows in a walk, or at an end of it: `{0}` in the hint."""
+    """Say how a mistake shows in a walk, or at an end of it: `{0}` in the hint."""
 
     mistake: str
     hint: str

@@ -74,7 +74,7 @@ _STATUS = ((3, "Normal"), (9.5, "Low"), (10.5, "High"), (11.5, "Normal"))
 
 @dataclass(frozen=True)
 class BagReports:
-    """What a function found in several recordings.
+    """Hold what a function found in several recordings.
 
     Attributes:
         reports: One for each, up to the first that has no result.

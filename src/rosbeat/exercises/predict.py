@@ -53,7 +53,7 @@ _TO = re.compile(r"\s*(?:[^\W\d]+\s*)??(?:-|\N{EN DASH}|\N{EM DASH}|\.{2,3}|\u20
 
 
 def truth_in(text: str) -> bool | None:
-    """Whether a text says yes or no, at its beginning or its end; None if neither or both."""
+    """Return whether a text says yes or no, first or last; None if neither or both."""
     text = _lowered(text)
     said = re.findall(r"[^\W_]+", text)
     if len(text) > _LONGEST or not said or _SHRUG.search(text):
@@ -112,14 +112,14 @@ _ADDRESS = re.compile(r" at 0x[0-9a-f]+", re.IGNORECASE)
 
 
 def is_blank(guess: object) -> bool:
-    """Whether nothing was filled in: an empty text, underscores only, or nothing at all."""
+    """Return whether nothing was filled in: an empty text, underscores only, or nothing at all."""
     if isinstance(guess, str):
         return not guess.strip(" \t\n_\"'")
     return guess is None or guess is Ellipsis
 
 
 def agree(guess: object, happened: object, tolerance: object = 0.0) -> bool:
-    """Whether a guess says what happened. Never raises, whatever it is given.
+    """Return whether a guess says what happened. Never raises, whatever it is given.
 
     Numbers compare by value, texts without regard to case and blanks, yes and no as True and
     False, lists element by element.
@@ -133,7 +133,7 @@ def agree(guess: object, happened: object, tolerance: object = 0.0) -> bool:
 
 
 def compared(guess: object, happened: object, tolerance: object = 0.0) -> bool | None:
-    """Whether a guess says what happened, as `agree`; None if the two cannot be compared.
+    """Return whether a guess says what happened, as `agree`; None if the two cannot be compared.
 
     A text may say a number or a yes or no in other words: `63 messages`, `about 26`, `No, it does
     not`; and a range, `20-30`, says every number in it.
@@ -184,7 +184,7 @@ def _compared(guess: object, happened: object, tolerance: float) -> bool | None:
 
 
 def _says_number(guess: object, happened: Real, tolerance: float) -> bool | None:
-    """Whether something that is no plain number says the one that happened."""
+    """Return whether something that is no plain number says the one that happened."""
     if isinstance(guess, (list, tuple)) and len(guess) == 1:
         return _compared(_plain(guess[0]), happened, tolerance)
     if isinstance(guess, Real) and not isinstance(guess, bool):
@@ -206,7 +206,7 @@ def _compared_all(guesses: list[object], happened: list[object], tolerance: floa
 
 
 def _is_like(guess: object, happened: object) -> bool:
-    """Whether two elements can be compared at all."""
+    """Return whether two elements can be compared at all."""
     return _compared(_plain(guess), _plain(happened), 0.0) is not None
 
 
@@ -291,7 +291,7 @@ class Prediction:
 
     @property
     def was_right(self) -> bool:
-        """Whether it happened as predicted."""
+        """Return whether it happened as predicted."""
         return self.sign == RIGHT
 
     def __str__(self) -> str:
