@@ -8,11 +8,10 @@ from itertools import chain, combinations, product
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.exercises.exercise import BLANK, Exercise, failed_by, not_attempted, passed
-from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
-from rosbeat.exercises.scenarios import Report, Workspace, look_at_workspace, report
+from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
+from rosbeat.exercises.model import Suspect, Track, first_mismatch, matching, name_mistake
+from rosbeat.exercises.scenarios import Answer, Report, Workspace, look_at_workspace, report
 from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script
-from rosbeat.records import Outcome
 from rosbeat.workspace.packages import Package
 
 # 05a, two programs: a setup.py, which is read and never run.
@@ -21,19 +20,19 @@ _PACKAGE = "sensor_simulator"
 _PROGRAMS = ("temperature_publisher", "temperature_subscriber")
 
 
-def _judge_setup(seen: Workspace) -> Outcome:
+def _judge_setup(seen: Workspace) -> Verdict:
     package = seen.packages.get(_PACKAGE)
     if package is None:
-        return not_attempted("05a", f"There is no package {_PACKAGE} in src yet.")
+        return not_attempted(f"There is no package {_PACKAGE} in src yet.")
     found = diagnose_script(package)
     entries = package.setup.entry_points
     if not found and not package.setup.incomplete and all(BLANK in one.text for one in entries):
-        return not_attempted("05a", "setup.py has no entry points yet.")
+        return not_attempted("setup.py has no entry points yet.")
     found = found or diagnose_entries(package, _PROGRAMS) or _diagnose_data_files(package)
     if found:
-        return failed_by("05a", found)
+        return found
     said = f"setup.py names {' and '.join(_PROGRAMS)}."
-    return passed("05a", said, *_remarks_on_texts(package))
+    return passed(said, *_remarks_on_texts(package))
 
 
 def _diagnose_data_files(package: Package) -> Diagnosis | None:
@@ -78,7 +77,7 @@ ARGUMENTS = (
 _NO_FUNCTION = "NoFunction"
 
 
-def _call(answer: Any) -> Report:  # noqa: ANN401 - whatever a learner hands over
+def _call(answer: Answer) -> Report:
     """Call a function that writes entry points, with several arguments."""
     if not callable(answer):
         return Report("", _NO_FUNCTION)
@@ -128,11 +127,11 @@ _PROBLEMS = (
 )
 
 
-def _judge_calls(seen: Report) -> Outcome:
+def _judge_calls(seen: Report) -> Verdict:
     if f"'{BLANK}'" in seen.problem:
-        return not_attempted("05b")
+        return not_attempted()
     found = _diagnose_problem(seen.problem) if seen.problem else _diagnose_texts(seen.value)
-    return failed_by("05b", found) if found else passed("05b", f"For example {seen.value[0]!r}.")
+    return found if found else passed(f"For example {seen.value[0]!r}.")
 
 
 def _diagnose_problem(problem: str) -> Diagnosis:
@@ -157,13 +156,13 @@ def _diagnose_texts(results: list[Any]) -> Diagnosis | None:
             hint = "The braces are still there: an f before the first quote fills them in."
             return Diagnosis("f-missing", evidence, hint)
     done: Track = {call: (result,) for call, result in enumerate(results)}
-    parted = parting(done, _entry_points(_RIGHT), _same_entry)
-    if parted is None:
+    mismatch = first_mismatch(done, _entry_points(_RIGHT), _same_entry)
+    if mismatch is None:
         return None
-    evidence = f"entry_point{ARGUMENTS[parted.at]} gives {parted.done[0]!r}."
+    evidence = f"entry_point{ARGUMENTS[mismatch.at]} gives {mismatch.done[0]!r}."
     single = chain(_SUSPECTS, _with_fixed_parts(results[0]))
-    fit = fitting(None, done, single, _same_entry) or fitting(None, done, _pairs(), _same_entry)
-    return named(evidence, fit[:1], Diagnosis(UNKNOWN, evidence, _COMPARE))
+    fit = matching(None, done, single, _same_entry) or matching(None, done, _pairs(), _same_entry)
+    return name_mistake(fit[:1], Diagnosis(UNKNOWN, evidence, _COMPARE))
 
 
 #: The parts of an entry point in their order; `{0}` to `{3}` are the arguments.
