@@ -1,7 +1,7 @@
 """Say why nothing was published on a topic, or nothing received from one.
 
-The node was run and raised nothing. What it made is in the graph of the observation, and that
-says why.
+The node was run and raised nothing; what is said of an exception comes before. What it made is in
+the graph of the observation, and that says why.
 """
 
 from __future__ import annotations
@@ -48,9 +48,6 @@ def diagnose_unpublished(
         (one.topic, one.type_name) == (wire.topic, wire.type_name) for one in observation.samples
     ):
         return None
-    found = _raised(observation)
-    if found:
-        return found
     made = _made(observation, "publisher")
     here = [end for end in made if end.name == wire.topic]
     if here:
@@ -80,9 +77,6 @@ def diagnose_unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
     listened = [one for one in observation.callbacks if one.kind == "subscription"]
     if any((one.node, one.source) == (node, wire.topic) for one in listened):
         return None
-    found = _raised(observation)
-    if found:
-        return found
     made = _made(observation, "subscription")
     # Not of `made`: a node may be asked to listen to a topic that every node brings along.
     there = observation.graph.on(wire.topic, "subscription")
@@ -129,13 +123,6 @@ def _published(observation: Observation) -> dict[str, int]:
         if sample.node == _subject(observation):
             counts[sample.topic] = counts.get(sample.topic, 0) + 1
     return counts
-
-
-def _raised(observation: Observation) -> Diagnosis | None:
-    """Return the mistake behind the first exception of the node, if it is known."""
-    # A node that could not be made has no name.
-    own = [one for one in observation.faults if one.node in ("", _subject(observation))]
-    return why_raised(observation, own[0]) if own else None
 
 
 def why_raised(observation: Observation, fault: Fault) -> Diagnosis | None:

@@ -8,7 +8,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float32, Float64
 
 from failed_calls import failed_call
-from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished, why_raised
 from rosbeat.records import (
     CallbackRecord,
     Endpoint,
@@ -128,25 +128,16 @@ def test_a_second_publisher_that_is_used_in_its_place():
     assert found.mistake == "never-published"
 
 
-def test_an_exception_comes_first():
-    fault = Fault(1, NODE, "tick", "SystemExit", "", 3, "sys.exit()")
-    observation = seen(end("publisher"), faults=(fault,))
-    assert diagnose_unpublished(observation, WIRE).mistake == "exits"
-    assert diagnose_unheard(observation, WIRE).mistake == "exits"
-    others = replace(observation, faults=(replace(fault, node=ROOM),))
-    assert diagnose_unpublished(others, WIRE).mistake == "no-timer"
-
-
 def test_two_types_on_a_topic_are_both_said():
     text = "create_publisher() called for existing topic name rt/temperature with incompatible type"
     asked = "create_publisher(message_type[String], str, int)"
     fault = Fault(1, NODE, "__init__", "RCLError", text, 3, "make()", failed_call(asked))
-    found = diagnose_unpublished(seen(end("subscription", node=ROOM), faults=(fault,)), WIRE)
+    found = why_raised(seen(end("subscription", node=ROOM)), fault)
     assert found.mistake == "type-mismatch"
     said = "On /temperature, your node uses String and the other side Float32."
     assert found.evidence.endswith(said)
     other = end("subscription", "/room/temperature", ROOM, "std_msgs/msg/Int32")
-    two = diagnose_unpublished(seen(end("subscription", node=ROOM), other, faults=(fault,)), WIRE)
+    two = why_raised(seen(end("subscription", node=ROOM), other), fault)
     assert two.mistake == "type-mismatch"
     assert "the other side" not in two.evidence
 
@@ -155,7 +146,7 @@ def test_a_message_of_another_type_says_nothing_of_other_topics():
     text = "Expected <class 'std_msgs.msg._float32.Float32'>, got <class 'std_msgs.msg._string."
     asked = failed_call("publish(message[String])")
     fault = Fault(1, NODE, "listen", "TypeError", f"{text}String'>", 3, "publish(msg)", asked)
-    found = diagnose_unpublished(seen(end("publisher", node=ROOM), faults=(fault,)), WIRE)
+    found = why_raised(seen(end("publisher", node=ROOM)), fault)
     assert found.mistake == "type-mismatch"
     assert "the other side" not in found.evidence
 
