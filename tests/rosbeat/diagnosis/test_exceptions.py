@@ -73,8 +73,6 @@ KNOWN = [
     ("index-error", "IndexError", "pop from empty list"),
     ("wrong-rate", "EndlessChainError", "A timer of /s fired 10000 times and no time passed."),
     ("endless-chain", "EndlessChainError", "Messages go round without end: a -> b -> a."),
-    ("type-mismatch", "RCLError", "failed to create service: create_service() called for existing "
-     "request topic name rq/aRequest with incompatible type std_srvs::srv::dds_::SetBool_Request_"),
     ("constructor-parameters", "TypeError",
      "AlarmNode.__init__() missing 1 required positional argument: 'node_name'"),
 ]  # fmt: skip
