@@ -1081,17 +1081,12 @@ _VALUE_RULES: tuple[Rule, ...] = (
     ),
     Row(
         "none-used",
-        r"not supported between instances of (?:'NoneType' and '\w+'|'\w+' and 'NoneType')",
-        "One of the two things that are compared on this line is None: it has no value.",
-        "Where does it get its value? A function without return gives None, and so does a "
-        "parameter that was declared without a first value.",
-    ),
-    Row(
-        "none-used",
-        r"'NoneType' object cannot be interpreted as an integer",
-        "None stands where a whole number belongs.",
-        "Where does it get its value? A function without return gives None, and so does result() "
-        "of a future that is not done.",
+        r"supported .*'NoneType'|real number, not '?NoneType"
+        r"|'NoneType' object cannot be interpreted as an integer",
+        "Something on this line is None: it has no value, and a number belongs there.",
+        "Where does it get its value, and has it got one before the first message comes? A "
+        "function without return gives None, and so does a parameter that was declared without a "
+        "first value.",
     ),
     Row(
         "none-used",
