@@ -15,7 +15,7 @@ from rosbeat.ros.test_nodes import (
     add_greenhouse,
     drift,
     feeder,
-    hearer,
+    listener,
     observe_greenhouse,
 )
 
@@ -47,7 +47,7 @@ def test_every_node_begins_at_the_beginning(ros):
 def test_who_keeps_an_answer_company_offers_nothing_for_parameters(ros):
     ros.add(station("gauge", "level", [1.0]))
     ros.add(feeder("feeder", "word", "std_msgs/msg/String", ["a"]))
-    ros.add(hearer("hearer", "word", "std_msgs/msg/String"))
+    ros.add(listener("listener", "word", "std_msgs/msg/String"))
     ros.add(drift([(1.0, 1.0)]))
     assert len(ros.graph().nodes) == 4
     assert not [
@@ -62,7 +62,7 @@ def heard(*, joins, qos, offers=KEPT, words=("a", "b", "c", "d")):
     with Session() as ros:
         ros.add(feeder("speaker", "word", STRING, words, qos=offers))
         ros.run(joins)
-        ros.add(hearer("ear", "word", STRING, qos))
+        ros.add(listener("ear", "word", STRING, qos))
         ros.run(len(words) + 1 - joins)
         return [line.text for line in ros.logs("ear")]
 

@@ -1,7 +1,7 @@
-"""Why nothing arrives where something should: silence, made loud.
+"""Say why nothing was published on a topic, or nothing received from one.
 
-A node was run and raised nothing, and yet the topic stayed silent, or the node deaf. What it made
-is in the graph of the observation, and that says why.
+The node was run and raised nothing. What it made is in the graph of the observation, and that
+says why.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from rosbeat.diagnosis.exceptions import diagnose_fault
-from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
 from rosbeat.diagnosis.silence import difference, nearest, short_type
 from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Fault, Observation
@@ -30,8 +30,8 @@ class Wire:
     type_name: str
 
 
-def why_not_published(
-    observation: Observation, wire: Wire, besides: Collection[str] = ()
+def diagnose_unpublished(
+    observation: Observation, wire: Wire, besides: Collection[str] = (), hint: str = ""
 ) -> Diagnosis | None:
     """Say why the node that was looked at published nothing on a topic.
 
@@ -39,17 +39,22 @@ def why_not_published(
         observation: What it did; without a `subject` it is the node that was made last.
         wire: Where it should have published, and what.
         besides: Full names of other topics on which it is to publish as well.
+        hint: Where to look if it has a publisher there and never uses it, although it runs.
 
     Returns:
-        The mistake; None if it has published there, or if nothing shows why it has not.
+        The mistake; None if messages of the right type were published there, by whatever node.
     """
+    if any(
+        (one.topic, one.type_name) == (wire.topic, wire.type_name) for one in observation.samples
+    ):
+        return None
     found = _raised(observation)
     if found:
         return found
     made = _made(observation, "publisher")
     here = [end for end in made if end.name == wire.topic]
     if here:
-        return _wrong_type(here[0], wire) or _unused(observation, wire, besides)
+        return _wrong_type(here[0], wire) or _unused(observation, wire, besides, hint)
     others = [end for end in made if end.name not in besides]
     if others:
         return _elsewhere(others, wire, "publishes", _published(observation))
@@ -61,28 +66,33 @@ def why_not_published(
     )
 
 
-def why_not_heard(observation: Observation, wire: Wire) -> Diagnosis | None:
-    """Say why the node that was looked at got nothing from a topic.
+def diagnose_unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
+    """Say why the node that was looked at got nothing from a topic on which messages came.
 
     Args:
         observation: What it did; without a `subject` it is the node that was made last.
         wire: What it should have listened to.
 
     Returns:
-        The mistake; None if it has heard something, or if nothing shows why it has not.
+        The mistake; None if a callback of the node ran for the topic.
     """
+    node = _subject(observation)
+    listened = [one for one in observation.callbacks if one.kind == "subscription"]
+    if any((one.node, one.source) == (node, wire.topic) for one in listened):
+        return None
     found = _raised(observation)
     if found:
         return found
     made = _made(observation, "subscription")
     # Not of `made`: a node may be asked to listen to a topic that every node brings along.
     there = observation.graph.on(wire.topic, "subscription")
-    here = [end for end in there if end.node == _subject(observation)]
+    here = next((end for end in there if end.node == node), None)
     if here:
-        return (
-            _wrong_type(here[0], wire)
-            or _unfit(observation, here[0])
-            or _not_run(observation, here[0])
+        found = _wrong_type(here, wire) or _unfit(observation, here) or _not_run(observation, here)
+        return found or Diagnosis(
+            UNKNOWN,
+            f"Messages were published on {wire.topic}, and the node got none of them.",
+            "Is it connected? Compare what it asks for with what the publisher offers.",
         )
     if made:
         return _elsewhere(made, wire, "listens", {})
@@ -108,12 +118,12 @@ def _made(observation: Observation, kind: str) -> list[Endpoint]:
 
 
 def _subject(observation: Observation) -> str:
-    """The node that was looked at; without a name the one that was made last."""
+    """Return the node that was looked at; without a name the one that was made last."""
     return observation.subject or (observation.graph.nodes or ("",))[-1]
 
 
 def _published(observation: Observation) -> dict[str, int]:
-    """How many messages the node published, by topic."""
+    """Return how many messages the node published, by topic."""
     counts: dict[str, int] = {}
     for sample in observation.samples:
         if sample.node == _subject(observation):
@@ -122,7 +132,7 @@ def _published(observation: Observation) -> dict[str, int]:
 
 
 def _raised(observation: Observation) -> Diagnosis | None:
-    """The first exception of the node, if its mistake is known."""
+    """Return the mistake behind the first exception of the node, if it is known."""
     # A node that could not be made has no name.
     own = [one for one in observation.faults if one.node in ("", _subject(observation))]
     return why_raised(observation, own[0]) if own else None
@@ -206,19 +216,19 @@ def _wrong_type(end: Endpoint, wire: Wire) -> Diagnosis | None:
 # A publisher without messages.
 
 
-def _unused(observation: Observation, wire: Wire, besides: Collection[str]) -> Diagnosis | None:
+def _unused(observation: Observation, wire: Wire, besides: Collection[str], hint: str) -> Diagnosis:
     counts = _published(observation)
-    if counts.get(wire.topic):
-        return None
     used = [end for end in _made(observation, "publisher") if counts.get(end.name)]
     used = [end for end in used if end.name not in besides]
-    return _elsewhere(used, wire, "publishes", counts) if used else _silent(observation, wire)
+    return _elsewhere(used, wire, "publishes", counts) if used else _silent(observation, wire, hint)
 
 
-def _silent(observation: Observation, wire: Wire) -> Diagnosis:
+def _silent(observation: Observation, wire: Wire, known: str) -> Diagnosis:
     ran = [one for one in observation.callbacks if one.node == _subject(observation)]
     hint = "Which line calls publish, and who calls the function that it is in?"
-    if ran:
+    if known:
+        hint = known
+    elif ran:
         hint = f"{ran[0].name} was called. Does it get as far as publishing, and when?"
     elif any(one.node == _subject(observation) for one in observation.graph.timers):
         hint = "Its timer never ticked. Does the constructor cancel it, or shut ROS down?"

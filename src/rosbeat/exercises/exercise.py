@@ -1,10 +1,10 @@
-"""Define an exercise, and the outcomes of a check."""
+"""Define an exercise, and what a judge says of an answer."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from rosbeat.diagnosis.exceptions import first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
@@ -14,6 +14,9 @@ from rosbeat.records import Fault, Observation, Outcome
 # What an exercise is.
 
 Seen = TypeVar("Seen")
+#: What a judge says: that the answer passed or was not attempted, or the mistake that it shows. The
+#: exercise's id and the points are filled in by `Exercise.outcome`.
+Verdict: TypeAlias = Outcome | Diagnosis
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ class Exercise(Generic[Seen]):
         id: Page number and a letter, such as `03a`.
         scenario: Runs an answer, or looks at what it left, and writes down what is there as plain
             data. The only part that runs foreign code.
-        judge: A pure function from that to an outcome. Of a node it is asked only if the answer has
+        judge: A pure function from that to a verdict. Of a node it is asked only if the answer has
             no blank left and raised nothing.
         title: What it is about, a few words, such as `another sensor`.
         points: What a right answer is worth.
@@ -39,7 +42,7 @@ class Exercise(Generic[Seen]):
 
     id: str
     scenario: Callable[..., Seen]
-    judge: Callable[[Seen], Outcome]
+    judge: Callable[[Seen], Verdict]
     title: str = ""
     points: int = 1
     hints: tuple[str, ...] = ()
@@ -48,18 +51,21 @@ class Exercise(Generic[Seen]):
     explains: Callable[[Fault], Diagnosis | None] = lambda _: None
 
     def judged(self, seen: Seen) -> Outcome:
-        """The outcome of what was seen, with its points; blanks and exceptions included."""
-        early = None
-        if isinstance(seen, Observation):
-            early = before_judging(self.id, seen, self.explains)
-        outcome = early or self.judge(seen)
-        reached = self.points if outcome.status == PASSED else 0
-        if outcome.parts:  # points for each requirement, whether the whole is right or not
-            reached = sum(part.points for part in outcome.parts)
-        return replace(outcome, points=reached, out_of=self.points)
+        """Return the outcome of what was seen, blanks and exceptions included."""
+        early = before_judging(seen, self.explains) if isinstance(seen, Observation) else None
+        return self.outcome(early or self.judge(seen))
+
+    def outcome(self, verdict: Verdict) -> Outcome:
+        """Return a verdict as an outcome of this exercise, with its points."""
+        if isinstance(verdict, Diagnosis):
+            verdict = failed(self.id, verdict.evidence, verdict.hint, verdict.mistake)
+        reached = self.points if verdict.status == PASSED else 0
+        if verdict.parts:  # points for each requirement, whether the whole is right or not
+            reached = sum(part.points for part in verdict.parts)
+        return replace(verdict, exercise=self.id, points=reached, out_of=self.points)
 
 
-# The three outcomes, and the reasons that every exercise shares.
+# What judges return, and the reasons that every exercise shares.
 
 PASSED, FAILED, NOT_ATTEMPTED = "passed", "failed", "not attempted"
 
@@ -74,13 +80,18 @@ NEW_TO_ME = (
 _STILL_BLANK = f"There is still a blank, {BLANK}, in the cell above."
 
 
-def passed(exercise: str, evidence: str, *remarks: str) -> Outcome:
-    """The answer does what was asked; `remarks` are worth knowing all the same."""
-    return Outcome(exercise, PASSED, evidence, remarks=remarks)
+def passed(evidence: str, *remarks: str) -> Outcome:
+    """Return the verdict on a right answer; `remarks` are worth knowing all the same."""
+    return Outcome("", PASSED, evidence, remarks=remarks)
+
+
+def not_attempted(evidence: str = _STILL_BLANK) -> Outcome:
+    """Return the verdict if a blank is still a blank, or what was asked for is not there."""
+    return Outcome("", NOT_ATTEMPTED, evidence)
 
 
 def failed(exercise: str, evidence: str, hint: str, mistake: str = UNKNOWN) -> Outcome:
-    """The answer does something else; `evidence` says what, `hint` where to look.
+    """Return a failed outcome; judges return a `Diagnosis` instead.
 
     Args:
         exercise: The exercise's id.
@@ -91,42 +102,25 @@ def failed(exercise: str, evidence: str, hint: str, mistake: str = UNKNOWN) -> O
     return Outcome(exercise, FAILED, evidence, hint, mistake)
 
 
-def failed_by(exercise: str, diagnosis: Diagnosis) -> Outcome:
-    """The answer failed, and the mistake was recognised."""
-    return failed(exercise, diagnosis.evidence, diagnosis.hint, diagnosis.mistake)
-
-
-def not_attempted(exercise: str, evidence: str = _STILL_BLANK) -> Outcome:
-    """Nothing was tried yet: a blank is still a blank, or what was asked for is not there."""
-    return Outcome(exercise, NOT_ATTEMPTED, evidence)
-
-
 def is_blank(fault: Fault) -> bool:
     """Return whether an exception came from a blank that was not filled in."""
     return fault.kind == "NameError" and f"'{BLANK}'" in fault.text
 
 
 def before_judging(
-    exercise: str,
-    observation: Observation,
-    explains: Callable[[Fault], Diagnosis | None] = lambda _: None,
-) -> Outcome | None:
+    observation: Observation, explains: Callable[[Fault], Diagnosis | None] = lambda _: None
+) -> Verdict | None:
     """Return what can be said whatever the exercise asks: a blank, or an exception; else None."""
     if any(is_blank(fault) for fault in observation.faults):
-        return not_attempted(exercise)
-    if observation.faults:
-        fault = observation.faults[0]
-        return _raised(exercise, fault, explains(fault) or why_raised(observation, fault))
-    return None
+        return not_attempted()
+    if not observation.faults:
+        return None
+    fault = observation.faults[0]
+    return explains(fault) or why_raised(observation, fault) or _unexplained(fault)
 
 
-def _raised(exercise: str, fault: Fault, known: Diagnosis | None) -> Outcome:
-    if known is not None:
-        return failed_by(exercise, known)
+def _unexplained(fault: Fault) -> Diagnosis:
     if fault.callback in ("add", "run"):  # the session itself refused; its sentence is complete
-        return failed(exercise, fault.text, "Hand over the class that you wrote, by its name.")
-    return failed(
-        exercise,
-        f"{fault.callback} raised {fault.kind}: {first_sentence(fault.text)}.{line_of(fault)}",
-        NEW_TO_ME,
-    )
+        return Diagnosis(UNKNOWN, fault.text, "Hand over the class that you wrote, by its name.")
+    raised = f"{fault.callback} raised {fault.kind}: {first_sentence(fault.text)}.{line_of(fault)}"
+    return Diagnosis(UNKNOWN, raised, NEW_TO_ME)

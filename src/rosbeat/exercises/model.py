@@ -2,11 +2,13 @@
 
 A wrong answer is a model, too. A judge simulates the right model and each *suspect*, which is a
 small model of a misunderstanding, on what the answer was fed. A suspect that does exactly what the
-answer did names the mistake. So a new mistake costs three lines, and what no suspect reproduces is
-honestly unknown: the first moment at which right and done part is shown, with both values there.
+answer did names the mistake. So a new mistake costs a row in a table, and what no suspect
+reproduces is honestly unknown: the first moment at which the answer differs from the right model is
+shown, with both values there. `diagnose` does all of that in one call.
 
-Below stand what the judges of several pages share: the messages on a topic, the beat of a timer,
-and what can be said of any function whose result is the answer.
+Below it are the parts that the judges of several pages share: the messages on a topic by time, the
+words of a status, the beat of a timer, and what can be said of any function whose result is the
+answer.
 """
 
 from __future__ import annotations
@@ -16,25 +18,27 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, TypeAlias
 
 from rosbeat.diagnosis.exceptions import line_of
-from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_published
-from rosbeat.exercises.exercise import BLANK, failed, not_attempted
-from rosbeat.exercises.scenarios import Report
-from rosbeat.records import NANOSECONDS, Fault, Observation, Outcome, Sample
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.wires import Wire
+from rosbeat.exercises.exercise import BLANK, Verdict, not_attempted
+from rosbeat.exercises.scenarios import Report, Value
+from rosbeat.records import NANOSECONDS, Fault, Observation, Sample
 
 #: What was done at each moment: a tuple of values, in order, by a key that sorts, such as
 #: nanoseconds or the number of a reading. A moment at which nothing was done has no entry.
-Track = Mapping[Any, tuple[Any, ...]]
+Track: TypeAlias = Mapping[Any, tuple[Any, ...]]
+#: Returns what a node does, from what it is fed.
+Model: TypeAlias = Callable[[Any], Track]
 #: Tells whether two values are the same for a judge.
-Same = Callable[[Any, Any], bool]
+Same: TypeAlias = Callable[[Any, Any], bool]
 
 
 @dataclass(frozen=True)
 class Suspect:
-    """A misunderstanding, as a model of the node that somebody with it would write.
+    """Hold a misunderstanding, as a model of the node that somebody with it would write.
 
     Attributes:
         mistake: Its id, from `diagnosis.mistakes`.
@@ -45,7 +49,14 @@ class Suspect:
 
     mistake: str
     hint: str
-    model: Callable[[Any], Track]
+    model: Model
+
+
+def suspects(*rows: tuple[Any, ...]) -> tuple[Suspect, ...]:
+    """Return suspects from rows of a mistake, a hint, and one model or more."""
+    return tuple(
+        Suspect(mistake, hint, model) for mistake, hint, *models in rows for model in models
+    )
 
 
 def variants(model: Callable[..., Track], rows: Iterable[Any]) -> tuple[Suspect, ...]:
@@ -55,16 +66,14 @@ def variants(model: Callable[..., Track], rows: Iterable[Any]) -> tuple[Suspect,
         model: Does what is right by its defaults.
         rows: A mistake, a hint, and one dict of options or more for each.
     """
-    return tuple(
-        Suspect(mistake, hint, partial(model, **options))
-        for mistake, hint, *many in rows
-        for options in many
+    return suspects(
+        *((*row[:2], *(partial(model, **options) for options in row[2:])) for row in rows)
     )
 
 
 @dataclass(frozen=True)
-class Parting:
-    """The first moment at which an answer and the right model part.
+class Mismatch:
+    """Hold a moment at which an answer and the right model differ.
 
     Attributes:
         at: The moment.
@@ -77,7 +86,7 @@ class Parting:
     right: tuple[Any, ...]
 
 
-def equal(one: Any, other: Any) -> bool:  # noqa: ANN401 - values of any message
+def equal(one: Value, other: Value) -> bool:
     """Return whether two values are equal, numbers up to the rounding of a `Float32`."""
     if isinstance(one, float) and isinstance(other, float | int):
         return abs(one - other) <= 1e-3 or (one != one and other != other)
@@ -86,25 +95,22 @@ def equal(one: Any, other: Any) -> bool:  # noqa: ANN401 - values of any message
 
 def agree(one: Track, other: Track, same: Same = equal) -> bool:
     """Return whether two tracks are the same at every moment."""
-    return parting(one, other, same) is None
+    return first_mismatch(one, other, same) is None
 
 
-def parting(done: Track, right: Track, same: Same = equal) -> Parting | None:
-    """Return the first moment at which two tracks part; None if they never do."""
+def first_mismatch(done: Track, right: Track, same: Same = equal) -> Mismatch | None:
+    """Return the first moment at which two tracks differ; None if they never do."""
     if done == right:  # the usual case, and quick to see
         return None
     for at in sorted({*done, *right}):
         found, wanted = done.get(at, ()), right.get(at, ())
         if len(found) != len(wanted) or not all(map(same, found, wanted)):
-            return Parting(at, found, wanted)
+            return Mismatch(at, found, wanted)
     return None
 
 
-def fitting(
-    fed: Any,  # noqa: ANN401 - whatever the models take
-    done: Track,
-    suspects: Iterable[Suspect],
-    same: Same = equal,
+def matching(
+    fed: Value, done: Track, suspects: Iterable[Suspect], same: Same = equal
 ) -> list[Suspect]:
     """Return the suspects that do exactly what was done, one for each mistake and hint.
 
@@ -121,25 +127,106 @@ def fitting(
     return list(found.values())
 
 
-def named(evidence: str, fit: Sequence[Suspect], otherwise: Diagnosis | None = None) -> Diagnosis:
-    """Return the diagnosis for what was seen; of two suspects that fit, both are named.
+def name_mistake(matches: Sequence[Suspect], otherwise: Diagnosis) -> Diagnosis:
+    """Return the diagnosis for what was seen; of two suspects that match, both hints are given.
 
     A sentence that both hints have is said once.
 
     Args:
-        evidence: What was seen.
-        fit: The suspects that reproduce it, the likely ones first.
-        otherwise: What to say if none does; by default that the mistake is unknown.
+        matches: The suspects that reproduce it, the likely ones first.
+        otherwise: What was seen as its evidence, and what to say if no suspect matches.
     """
-    if not fit:
-        return otherwise or Diagnosis(
-            UNKNOWN, evidence, "Go through your conditions in their order with this reading."
-        )
-    hints = list(dict.fromkeys(one.hint for one in fit))[:2]
+    if not matches:
+        return otherwise
+    hints = list(dict.fromkeys(one.hint for one in matches))[:2]
     if len(hints) > 1:
         said, other = (re.split(r"(?<=[.?!]) ", hint) for hint in hints)
         hints = [hints[0], " ".join(sentence for sentence in other if sentence not in said)]
-    return Diagnosis(fit[0].mistake, evidence, " Or: ".join(filter(None, hints)))
+    return Diagnosis(matches[0].mistake, otherwise.evidence, " Or: ".join(filter(None, hints)))
+
+
+def diagnose(
+    fed: Value,
+    done: Track,
+    right: Track,
+    suspects: Iterable[Suspect],
+    describe: Callable[[Mismatch], Diagnosis],
+    same: Same = equal,
+) -> Diagnosis | None:
+    """Compare what was done with what was right, and name the mistake by the suspects.
+
+    Args:
+        fed: What the answer was fed.
+        done: What it did.
+        right: What the right model does.
+        suspects: Those to try, the likely ones first.
+        describe: Describes the first mismatch. Its evidence is shown in any case; its mistake and
+            its hint are for an answer that no suspect reproduces.
+        same: Tells whether two values are the same.
+
+    Returns:
+        The mistake; None if there is no mismatch.
+    """
+    mismatch = first_mismatch(done, right, same)
+    if mismatch is None:
+        return None
+    return name_mistake(matching(fed, done, suspects, same), describe(mismatch))
+
+
+# Messages on a topic, and words.
+
+
+def samples_on(observation: Observation, wire: Wire) -> list[Sample]:
+    """Return all messages on a topic, of whatever type, in order."""
+    return [sample for sample in observation.samples if sample.topic == wire.topic]
+
+
+def grouped(pairs: Iterable[tuple[Value, Value]]) -> dict[Any, tuple[Any, ...]]:
+    """Return the values of pairs by their keys, in order, as a track."""
+    found: dict[Any, tuple[Any, ...]] = {}
+    for key, value in pairs:
+        found[key] = (*found.get(key, ()), value)
+    return found
+
+
+def track(
+    observation: Observation, wire: Wire, read: Callable[[Any], Any] = lambda value: value
+) -> dict[float, tuple[Any, ...]]:
+    """Return what was published on a topic, by time in seconds.
+
+    Args:
+        observation: What was seen.
+        wire: The topic.
+        read: Returns what counts of a message's value.
+    """
+    return grouped((one.time, read(one.value)) for one in samples_on(observation, wire))
+
+
+def numbered(values: Iterable[Any]) -> dict[int, tuple[Any, ...]]:
+    """Return a track of one value for each reading, by its number from 1 on."""
+    return {number: (value,) for number, value in enumerate(values, 1)}
+
+
+def status_of(value: float, low: float, high: float) -> str:
+    """Return `High` above the upper limit, `Low` below the lower one, and else `Normal`."""
+    return "High" if value > high else "Low" if value < low else "Normal"
+
+
+#: The words that `status_of` returns.
+STATUSES = ("High", "Low", "Normal")
+
+
+def diagnose_words(
+    observation: Observation, wire: Wire, words: Collection[str]
+) -> Diagnosis | None:
+    """Name the first text on a topic that is none of the words that are asked for."""
+    for sample in samples_on(observation, wire):
+        if sample.value not in words:
+            evidence = f"At {sample.time:g} s, {sample.value!r} was published on {wire.topic}."
+            *first, last = words
+            hint = f"The only words are {', '.join(first)} and {last}."
+            return Diagnosis("wrong-word", evidence, spelling(str(sample.value), words) or hint)
+    return None
 
 
 def spelling(found: str, words: Iterable[str]) -> str:
@@ -158,52 +245,6 @@ def spelling(found: str, words: Iterable[str]) -> str:
     if near == found:
         return ""
     return f"Capitals and spaces count: the page writes {near!r}, and your node {found!r}."
-
-
-# Messages on a topic.
-
-
-_SILENT = Diagnosis(
-    "new-to-me",
-    "Nothing was published on {topic}.",
-    "Follow the data: what calls the callback, and does the callback call publish?",
-)
-
-
-def on(observation: Observation, wire: Wire) -> list[Sample]:
-    """All messages on a topic, of whatever type, in order."""
-    return [sample for sample in observation.samples if sample.topic == wire.topic]
-
-
-def missing(
-    observation: Observation,
-    wire: Wire,
-    besides: Collection[str] = (),
-    otherwise: Diagnosis = _SILENT,
-) -> Diagnosis | None:
-    """Say why there is too little to judge on a topic.
-
-    Args:
-        observation: What the node did.
-        wire: Where it should have published, and what.
-        besides: Full names of other topics on which it is to publish as well.
-        otherwise: What is said of a silence that nothing explains; `{topic}` stands for the name.
-
-    Returns:
-        The mistake; None if messages of the right type were published there.
-    """
-    heard = on(observation, wire)
-    if heard and heard[0].type_name != wire.type_name:
-        return Diagnosis(
-            "type-mismatch",
-            f"The messages on {wire.topic} are of type {heard[0].type_name}.",
-            f"Both sides of a topic have to agree on the type: here it is {wire.type_name}.",
-        )
-    if heard:
-        return None
-    evidence = otherwise.evidence.format(topic=wire.topic)
-    unexplained = Diagnosis(otherwise.mistake, evidence, otherwise.hint)
-    return why_not_published(observation, wire, besides) or unexplained
 
 
 def explain_subscription(wire: Wire, fault: Fault) -> Diagnosis | None:
@@ -246,28 +287,28 @@ _COUNT = (
     "What does the first argument of create_timer count: calls per second, or seconds between "
     "two calls?"
 )
-_BEATS = (
-    Suspect(
+_BEATS = suspects(
+    (
         "no-timer",
         "The constructor runs once. What calls the method again and again?",
         lambda beat: {0: beat.done.get(0, (1,))},
     ),
-    Suspect(
+    (
         "gone-quiet",
         "Something ends the beat. Does the callback cancel its timer, or shut ROS down?",
         lambda beat: dict(list(beat.right.items())[: len(beat.done)]),
     ),
-    Suspect(
+    (
         "wrong-rate",
         "The first tick comes after one period. What publishes while the node is being made?",
         lambda beat: {0: (1,), **beat.right},
     ),
-    Suspect(
+    (
         "wrong-rate",
         "One for each tick is enough. Does anything publish twice, or are there two timers?",
         lambda beat: dict.fromkeys(beat.right, beat.done.get(min(beat.right), (2,))),
     ),
-    Suspect("wrong-rate", _COUNT, lambda beat: _ticks(min(beat.done), beat.end)),
+    ("wrong-rate", _COUNT, lambda beat: _ticks(min(beat.done), beat.end)),
 )
 
 
@@ -300,18 +341,18 @@ def diagnose_beat(
         period: Seconds from one message to the next.
         what: What the messages are, in the plural.
     """
-    counts = Counter(sample.time_ns for sample in on(observation, wire))
+    counts = Counter(sample.time_ns for sample in samples_on(observation, wire))
     done = {at: (count,) for at, count in counts.items()}
     end = observation.time_ns
     beat = _Beat(_ticks(round(period * NANOSECONDS), end), done, end)
-    part = parting(done, beat.right)
-    if part is None:
+    mismatch = first_mismatch(done, beat.right)
+    if mismatch is None:
         return None
-    came = _FEW.get(sum(part.done), str(sum(part.done)))
+    came = _FEW.get(sum(mismatch.done), str(sum(mismatch.done)))
     evidence = (
         f"In {observation.time:g} seconds {len(beat.right)} {what} were due, and "
-        f"{counts.total()} came. At {part.at / NANOSECONDS:g} s {came} came, and "
-        f"{_FEW[sum(part.right)]} was due."
+        f"{counts.total()} came. At {mismatch.at / NANOSECONDS:g} s {came} came, and "
+        f"{_FEW[sum(mismatch.right)]} was due."
     )
     waited = diagnose_wait(observation, evidence)
     if waited:
@@ -319,38 +360,36 @@ def diagnose_beat(
     if observation.subject not in observation.graph.nodes:
         hint = "The program around a node destroys it in the end. Which line of the node does so?"
         return Diagnosis("node-ended", f"The node was destroyed. {evidence}", hint)
-    return named(evidence, fitting(beat, done, _BEATS), Diagnosis("wrong-rate", evidence, _COUNT))
+    return name_mistake(matching(beat, done, _BEATS), Diagnosis("wrong-rate", evidence, _COUNT))
 
 
 # A function whose result is the answer.
 
 
-def before_reading(exercise: str, seen: Report, example: str) -> Outcome | None:
+def before_reading(seen: Report, example: str) -> Verdict | None:
     """Return what can be said of a report whatever was asked: a blank, an exception; or None.
 
     Args:
-        exercise: The exercise's id.
         seen: The report.
         example: What the check cell should say, such as `check("07a", findings)`.
     """
-    if f"'{BLANK}'" in seen.problem and seen.problem.startswith("NameError"):
-        return not_attempted(exercise)
-    if seen.problem.startswith("Deadline"):
-        said = seen.problem.partition(": ")[2]
+    kind, _, said = seen.problem.partition(": ")
+    if kind == "NameError" and f"'{BLANK}'" in said:
+        return not_attempted()
+    if kind == "Deadline":
         hint = "It only has to return what you found."
-        return failed(exercise, f"The function does not end: {said}.", hint, "does-not-return")
-    if "object is not callable" in seen.problem:
+        return Diagnosis("does-not-return", f"The function does not end: {said}.", hint)
+    if "object is not callable" in said:
         hint = f"Hand over the function itself, by its name: {example}."
-        return failed(exercise, "What was handed over is no function.", hint, "no-function")
-    if seen.problem.startswith("NotPlain"):
-        said = seen.problem.partition(": ")[2]
+        return Diagnosis("no-function", "What was handed over is no function.", hint)
+    if kind == "NotPlain":
         hint = "Give back numbers, texts, lists and dicts only."
-        return failed(exercise, f"The result cannot be read: {said}.", hint, "not-plain")
-    if seen.problem:
+        return Diagnosis("not-plain", f"The result cannot be read: {said}.", hint)
+    if kind:
         hint = "What is to be a text stands in quotes; numbers stand without."
-        name = "name-error" if seen.problem.startswith("NameError") else "raised"
-        return failed(exercise, f"The function raised {seen.problem}.", hint, name)
+        name = "name-error" if kind == "NameError" else "raised"
+        return Diagnosis(name, f"The function raised {seen.problem}.", hint)
     if seen.type_name == "NoneType":
         hint = "The function needs a return: print gives back nothing."
-        return failed(exercise, "The function gave nothing back.", hint, "returns-nothing")
+        return Diagnosis("returns-nothing", "The function gave nothing back.", hint)
     return None

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from functools import partial
-from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_heard
-from rosbeat.exercises.exercise import Exercise, failed, failed_by, passed
-from rosbeat.exercises.model import diagnose_beat, diagnose_wait, explain_subscription, missing, on
-from rosbeat.exercises.scenarios import feeder, observe
-from rosbeat.records import Observation, Outcome
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.exercise import Exercise, Verdict, passed
+from rosbeat.exercises.model import (
+    diagnose_beat,
+    diagnose_wait,
+    explain_subscription,
+    samples_on,
+)
+from rosbeat.exercises.scenarios import Answer, feeder, observe
+from rosbeat.records import Observation
 
 _STRING = "std_msgs/msg/String"
 
@@ -22,47 +26,41 @@ _WEATHER = Wire("/weather", _STRING)
 _ARTICLES = 3
 
 
-def _run_among_reporters(answer: Any) -> Observation:  # noqa: ANN401 - whatever was handed over
+def _run_among_reporters(answer: Answer) -> Observation:
     reporters = [
-        feeder(f"{topic}_reporter", topic, _STRING, [f"{topic} {n}" for n in range(_ARTICLES)])
+        feeder(
+            f"{topic}_reporter", Wire(topic, _STRING), [f"{topic} {n}" for n in range(_ARTICLES)]
+        )
         for topic in ("weather", "sports", "politics")
     ]
     return observe(answer, 5, others=reporters)
 
 
-def _judge_reader(observation: Observation) -> Outcome:
+def _judge_reader(observation: Observation) -> Verdict:
     heard = Counter(call.source for call in observation.callbacks if call.kind == "subscription")
     count = heard.total()
     if heard == {_WEATHER.topic: _ARTICLES}:
-        return passed("00a", f"The reader got all {_ARTICLES} articles on /weather and no others.")
-    if not heard:
-        return failed_by("00a", why_not_heard(observation, _WEATHER) or _NOTHING_HEARD)
+        return passed(f"The reader got all {_ARTICLES} articles on /weather and no others.")
+    unheard = None if heard else diagnose_unheard(observation, _WEATHER)
+    if unheard:
+        return unheard
     if set(heard) != {_WEATHER.topic}:
-        return failed(
-            "00a",
+        return Diagnosis(
+            "wrong-topic",
             f"The reader's callback ran {count} times, for messages on {', '.join(sorted(heard))}.",
             "It should run for /weather only. The second argument of create_subscription is the "
             "topic.",
-            "wrong-topic",
         )
     if count < _ARTICLES:
         evidence = f"The reader heard {count} of {_ARTICLES} articles on /weather."
         hint = "What makes the reader stop? Look at what its callback does."
-        waited = diagnose_wait(observation, evidence)
-        return failed_by("00a", waited or Diagnosis(UNKNOWN, evidence, hint))
-    return failed(
-        "00a",
+        return diagnose_wait(observation, evidence) or Diagnosis(UNKNOWN, evidence, hint)
+    return Diagnosis(
+        "heard-twice",
         f"There were {_ARTICLES} articles, and the reader's callback ran {count} times.",
         "One subscription is enough. Is create_subscription there twice?",
-        "heard-twice",
     )
 
-
-_NOTHING_HEARD = Diagnosis(
-    UNKNOWN,
-    "Three articles appeared on /weather and the reader got none.",
-    'Topics match by name, letter by letter. The name is a text: write "weather", with quotes.',
-)
 
 # 00b, report on sports.
 
@@ -71,30 +69,21 @@ _SPORTS = Wire("/sports", _STRING)
 _PERIOD = 2.0
 
 
-def _run_alone(answer: Any) -> Observation:  # noqa: ANN401 - whatever was handed over
+def _run_alone(answer: Answer) -> Observation:
     return observe(answer, 9)
 
 
-def _judge_reporter(observation: Observation) -> Outcome:
-    wrong = (
-        missing(observation, _SPORTS, otherwise=_NOTHING_PUBLISHED)
+def _judge_reporter(observation: Observation) -> Verdict:
+    return (
+        diagnose_unpublished(observation, _SPORTS)
         or diagnose_beat(observation, _SPORTS, _PERIOD, "articles")
         or _empty_article(observation)
+        or passed("Four articles in nine seconds on /sports, one every two seconds.")
     )
-    if wrong:
-        return failed_by("00b", wrong)
-    return passed("00b", "Four articles in nine seconds on /sports, one every two seconds.")
-
-
-_NOTHING_PUBLISHED = Diagnosis(
-    UNKNOWN,
-    "Nobody published on /sports in nine seconds.",
-    "create_publisher takes the message type, the topic's name and the queue depth, in this order.",
-)
 
 
 def _empty_article(observation: Observation) -> Diagnosis | None:
-    empty = next((one for one in on(observation, _SPORTS) if not one.value.strip()), None)
+    empty = next((one for one in samples_on(observation, _SPORTS) if not one.value.strip()), None)
     if empty is None:
         return None
     return Diagnosis(

@@ -12,9 +12,10 @@ from pathlib import Path
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
-from rosbeat.exercises.model import Suspect, named
+from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
+from rosbeat.exercises.model import Suspect, name_mistake
 from rosbeat.exercises.scenarios import (
+    Answer,
     CommandMeaning,
     TypedIn,
     Workspace,
@@ -22,7 +23,6 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
-from rosbeat.records import Outcome
 from rosbeat.workspace.place import NAME, workspace
 from rosbeat.workspace.stages import FOLDERS
 
@@ -91,7 +91,7 @@ def page_terminals() -> Iterable[Any]:
     return terminals_of(shell) if shell else ()
 
 
-def _look_at_making(answer: Any) -> FolderMaking:  # noqa: ANN401 - whatever a learner hands over
+def _look_at_making(answer: Answer) -> FolderMaking:
     found, root = look_at_workspace(answer), Path(answer)
     tried: tuple[tuple[str, str], ...] = ()
     meaning = None
@@ -132,30 +132,30 @@ def _made_by(place: str, line: str) -> set[str] | None:
             if one not in options}  # fmt: skip
 
 
-def _judge_folder(seen: FolderMaking) -> Outcome:
+def _judge_folder(seen: FolderMaking) -> Verdict:
     simulated = [_made_by(*one) for one in seen.tried]
     certain = [one for paths in simulated if paths is not None for one in paths]
     # Of a folder from before, what was typed now counts, if it is certain what that makes.
     is_old = seen.is_older and bool(seen.tried) and None not in simulated
     is_old = is_old and not any(f"{one}/".startswith(f"{_ALARM}/") for one in certain)
     if _ALARM in seen.workspace.folders and not is_old:
-        return passed("01a", f"{_ALARM} is there.")
+        return passed(f"{_ALARM} is there.")
     typed = {one for one in (simulated[-1] or () if simulated else ()) if _is_near(one)}
     there = {one for one in seen.workspace.folders if _is_near(one) and one != _ALARM}
     known = diagnosis_of(seen.meaning)
     if seen.obstacle:
         said = f"{_ALARM} is a {seen.obstacle}, and a folder was asked for."
         hint = "Remove it with `rm`, and make the folder with `mkdir`: it makes a new, empty one."
-        return failed_by("01a", Diagnosis("not-a-folder", said, hint))
+        return Diagnosis("not-a-folder", said, hint)
     if known and known.mistake != "folder-exists":  # which is no mistake here
         hint = _PWD if _ALARM in known.hint else known.hint
-        return failed_by("01a", Diagnosis(known.mistake, known.evidence, hint))
+        return Diagnosis(known.mistake, known.evidence, hint)
     if typed or there:
-        return failed_by("01a", _diagnose_making(typed, there, seen))
+        return _diagnose_making(typed, there, seen)
     if not seen.tried:
-        return not_attempted("01a", f"There is no folder {_ALARM} yet.")
+        return not_attempted(f"There is no folder {_ALARM} yet.")
     said = f"You typed `{seen.tried[-1][1]}`, and there is no folder {_ALARM} in the workspace."
-    return failed_by("01a", Diagnosis(UNKNOWN, said, _PWD))
+    return Diagnosis(UNKNOWN, said, _PWD)
 
 
 def _is_near(folder: str) -> bool:
@@ -218,7 +218,7 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
         evidence = f"What you typed makes {near}. {_ALARM} is there from before."
     # Only what a suspect makes counts: a workspace keeps what was tried before, too.
     fit = [one for one in _SUSPECTS if near in one.model(None) and one.model(None).keys() <= there]
-    found = named(evidence, fit[:1], Diagnosis(*_of_spelling(near, evidence)))
+    found = name_mistake(fit[:1], Diagnosis(*_of_spelling(near, evidence)))
     return Diagnosis(found.mistake, evidence, found.hint + _advice_to_remove(there, seen.workspace))
 
 
@@ -270,11 +270,11 @@ def _advice_to_remove(near: set[str], seen: Workspace) -> str:
 _START, _GOAL = "resources/images", "src"
 
 
-def _look_at_way(answer: Any) -> TypedIn:  # noqa: ANN401 - whatever a learner hands over
+def _look_at_way(answer: Answer) -> TypedIn:
     return look_at_terminal(answer, workspace())
 
 
-def _judge_way(seen: TypedIn) -> Outcome:
+def _judge_way(seen: TypedIn) -> Verdict:
     tried = _tried(seen)
     place = "the workspace itself" if seen.folder == "." else seen.folder
     if seen.folder == _GOAL:
@@ -282,14 +282,14 @@ def _judge_way(seen: TypedIn) -> Outcome:
         left = max((at for at, (place, _) in enumerate(tried) if place.endswith(_START)), default=0)
         return _judge_kind_of_path([text for _, text in tried[left:]])
     if not tried and seen.folder == _START:
-        return not_attempted("01b", f"The terminal is still in {_START}.")
+        return not_attempted(f"The terminal is still in {_START}.")
     if not tried:
         said = f"The terminal is in {place}, and no way from {_START} has been typed yet."
-        return not_attempted("01b", said)
+        return not_attempted(said)
     words = [words for _, text in tried for words in _commands(text)] or [[""]]
     mistake, hint = _of_words(words[-1], seen.folder)
     evidence = f"The terminal is in {place} now, and {_GOAL} was the goal."
-    return failed_by("01b", Diagnosis(mistake, evidence, hint))
+    return Diagnosis(mistake, evidence, hint)
 
 
 def _tried(seen: TypedIn) -> list[tuple[str, str]]:
@@ -304,15 +304,15 @@ def _tried(seen: TypedIn) -> list[tuple[str, str]]:
     ]
 
 
-def _judge_kind_of_path(lines: list[str]) -> Outcome:
+def _judge_kind_of_path(lines: list[str]) -> Verdict:
     went = [words[1:] for line in lines for words in _commands(line) if words[0] in ("cd", "pushd")]
     if any(_is_absolute(words) for words in went):
         evidence = f"The terminal is in {_GOAL}, by an absolute path."
-        return failed_by("01b", Diagnosis("absolute-path", evidence, _RELATIVE))
+        return Diagnosis("absolute-path", evidence, _RELATIVE)
     if len(went) > 1:
         said = f"You went in {len(went)} steps. One path may name all of them, joined with `/`."
-        return passed("01b", f"The terminal is in {_GOAL}.", said)
-    return passed("01b", f"The terminal is in {_GOAL}.")
+        return passed(f"The terminal is in {_GOAL}.", said)
+    return passed(f"The terminal is in {_GOAL}.")
 
 
 def _is_absolute(words: Sequence[str]) -> bool:

@@ -10,10 +10,9 @@ from typing import Any
 from packaging.licenses import InvalidLicenseExpression, canonicalize_license_expression
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.exercises.exercise import BLANK, Exercise, failed_by, not_attempted, passed
+from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.scenarios import Workspace, look_at_workspace
 from rosbeat.exercises.workspace_model import alike
-from rosbeat.records import Outcome
 from rosbeat.workspace.manifest import Manifest
 from rosbeat.workspace.packages import Package
 
@@ -41,20 +40,20 @@ _LICENSES = (
 )  # fmt: skip
 
 
-def _judge_manifest(seen: Workspace) -> Outcome:
+def _judge_manifest(seen: Workspace) -> Verdict:
     here = [one for one in seen.packages.values() if one.folder.as_posix() == f"src/{_FIRST}"]
     if not here:
-        return not_attempted("02a", f"There is no package {_FIRST} in src yet.")
+        return not_attempted(f"There is no package {_FIRST} in src yet.")
     manifest = here[0].manifest
     todo = _open_texts(manifest)
     slip = next(_slips_of_form(manifest, _MANIFEST), None)
     if not slip and len(todo) == 2:
-        return not_attempted("02a", f"{_MANIFEST} has no description and no licence yet.")
+        return not_attempted(f"{_MANIFEST} has no description and no licence yet.")
     slip = slip or next(_slips_of_values(manifest, todo), None)
     if slip:
-        return failed_by("02a", slip)
+        return slip
     said = f"Licensed under {manifest.license}: {manifest.description}"
-    return passed("02a", said, *_remark_on_license(manifest.license))
+    return passed(said, *_remark_on_license(manifest.license))
 
 
 def _open_texts(manifest: Manifest) -> list[str]:
@@ -190,15 +189,15 @@ def _is_known_license(text: str) -> bool:
 _SECOND, _NEEDS = "room_display", ("rclpy", "sensor_msgs")
 
 
-def _judge_second(seen: Workspace) -> Outcome:
+def _judge_second(seen: Workspace) -> Verdict:
     package = seen.packages.get(_SECOND)
     slips = _slips_of_absence(seen) if package is None else _slips_of_package(seen, package)
     slip = next(slips, None)
     if slip:
-        return failed_by("02b", slip)
+        return slip
     if package is None:
-        return not_attempted("02b", f"There is no package {_SECOND} yet.")
-    return passed("02b", f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}.")
+        return not_attempted(f"There is no package {_SECOND} yet.")
+    return passed(f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}.")
 
 
 def _misplaced(place: str) -> Diagnosis:

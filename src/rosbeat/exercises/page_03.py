@@ -11,11 +11,11 @@ from operator import sub
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire
-from rosbeat.exercises.exercise import Exercise, failed, failed_by, passed
-from rosbeat.exercises.model import diagnose_beat, explain_subscription, missing, on
-from rosbeat.exercises.scenarios import drift, observe
-from rosbeat.records import Observation, Outcome
+from rosbeat.diagnosis.wires import Wire, diagnose_unpublished
+from rosbeat.exercises.exercise import Exercise, Verdict, passed
+from rosbeat.exercises.model import diagnose_beat, explain_subscription, samples_on
+from rosbeat.exercises.scenarios import Answer, drift, observe
+from rosbeat.records import Observation
 
 _FLOAT = "std_msgs/msg/Float32"
 
@@ -25,26 +25,29 @@ _HUMIDITY = Wire("/humidity", _FLOAT)
 _SECONDS, _DEPTH = 5, 5
 
 
-def _run_alone(answer: Any) -> Observation:  # noqa: ANN401 - whatever was handed over
+def _run_alone(answer: Answer) -> Observation:
     return observe(answer, _SECONDS)
 
 
-def _judge_beat(observation: Observation) -> Outcome:
-    found = missing(observation, _HUMIDITY) or diagnose_beat(observation, _HUMIDITY, 0.5)
+def _judge_beat(observation: Observation) -> Verdict:
+    found = diagnose_unpublished(observation, _HUMIDITY) or diagnose_beat(
+        observation, _HUMIDITY, 0.5
+    )
     if found:
-        return failed_by("03a", found)
+        return found
     ends = observation.graph.on(_HUMIDITY.topic, "publisher")
     qos = next((end.qos for end in ends if end.qos.depth != _DEPTH), ends[0].qos)
     if qos.history == "KEEP_ALL" or qos.depth != _DEPTH:
         depth = "without end" if qos.history == "KEEP_ALL" else str(qos.depth)
-        return failed(
-            "03a",
+        return Diagnosis(
+            "wrong-depth",
             f"The beat is right, and the publisher's queue depth is {depth}.",
             f"A depth of {_DEPTH} is wanted. Which argument of create_publisher is that?",
-            "wrong-depth",
         )
-    evidence = f"{len(on(observation, _HUMIDITY))} readings in {_SECONDS} seconds on /humidity."
-    return passed("03a", evidence, *([_BEST_EFFORT] if qos.reliability == "BEST_EFFORT" else []))
+    evidence = (
+        f"{len(samples_on(observation, _HUMIDITY))} readings in {_SECONDS} seconds on /humidity."
+    )
+    return passed(evidence, *([_BEST_EFFORT] if qos.reliability == "BEST_EFFORT" else []))
 
 
 _BEST_EFFORT = (
@@ -112,7 +115,7 @@ _GREENHOUSE = _Asked(
 )
 
 
-def _run_walk(asked: _Asked, answer: Any) -> Observation:  # noqa: ANN401 - whatever was handed over
+def _run_walk(asked: _Asked, answer: Answer) -> Observation:
     """Run a sensor until it has met both limits, or shown that it never will."""
     phase = _PHASE / asked.rate
     others = [drift([(phase, _UP), (phase, _DOWN), (0, _FREE)])]
@@ -163,7 +166,7 @@ class _Walk:
             f"steps of at most {self.widest:.2f}."
         )
 
-    def parting(self) -> str:
+    def first_mismatch(self) -> str:
         """Say when it first did what no right walk does, if there is such a moment."""
         asked = self.asked
         for n, (before, now) in enumerate(pairwise(self.values), 2):
@@ -426,25 +429,25 @@ _WRONG_START = _Sign(
 
 def _walk(asked: _Asked, observation: Observation) -> _Walk | Diagnosis:
     """Return the walk that was published at the right times, or what keeps it from being one."""
-    wrong = missing(observation, asked.wire)
+    wrong = diagnose_unpublished(observation, asked.wire)
     wrong = wrong or diagnose_beat(observation, asked.wire, 1 / asked.rate)
-    values = [one.value for one in on(observation, asked.wire)]
+    values = [one.value for one in samples_on(observation, asked.wire)]
     if wrong is None and not all(map(isfinite, values)):
         text = "Among the readings is one that is no finite number."
         wrong = Diagnosis("wrong-values", text, "Which calculation gives no number?")
     return wrong or _Walk(asked, values)
 
 
-def _judge_walk(asked: _Asked, observation: Observation) -> Outcome:
+def _judge_walk(asked: _Asked, observation: Observation) -> Verdict:
     walk = _walk(asked, observation)
     if isinstance(walk, Diagnosis):
-        return failed_by(asked.exercise, walk)
+        return walk
     found = walk.first_sign()
     if found is None:
-        return passed(asked.exercise, asked.rate_in_words + walk.evidence())
+        return passed(asked.rate_in_words + walk.evidence())
     sign, seen = found
     hint = sign.hint.format(seen, asked=asked)
-    return failed(asked.exercise, walk.evidence(sign.mistake) + walk.parting(), hint, sign.mistake)
+    return Diagnosis(sign.mistake, walk.evidence(sign.mistake) + walk.first_mismatch(), hint)
 
 
 EXERCISES = (

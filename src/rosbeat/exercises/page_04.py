@@ -1,4 +1,4 @@
-"""Page 04, write a subscriber: watch a fridge, raise the alarm, a calm monitor with hysteresis."""
+"""Page 04, write a subscriber: watch a fridge, raise the alarm, a monitor with hysteresis."""
 
 from __future__ import annotations
 
@@ -7,61 +7,39 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain, combinations, pairwise
 from math import inf
-from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_heard
-from rosbeat.exercises.exercise import Exercise, failed_by, passed
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
-    Suspect,
+    STATUSES,
+    Mismatch,
+    Model,
     Track,
-    agree,
-    fitting,
-    missing,
-    named,
-    on,
-    parting,
-    spelling,
+    diagnose,
+    diagnose_words,
+    numbered,
+    samples_on,
+    status_of,
+    suspects,
+    track,
 )
-from rosbeat.exercises.scenarios import feeder, observe
-from rosbeat.records import Observation, Outcome
+from rosbeat.exercises.scenarios import Answer, feeder, observe
+from rosbeat.records import Observation
 
 _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 #: The readings that an answer is fed, one a second, the first at 1 s.
 Readings = Sequence[float]
-Model = Callable[[Readings], Track]
 
 
-def _fed(readings: Readings) -> Callable[[Any], Observation]:
-    def run(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
-        sensor = feeder("sensor", _TEMPERATURE.topic, _TEMPERATURE.type_name, readings)
-        return observe(answer, len(readings) + 1, others=[sensor])
-
-    return run
+def _feed(readings: Readings, answer: Answer) -> Observation:
+    sensor = feeder("sensor", _TEMPERATURE, readings)
+    return observe(answer, len(readings) + 1, others=[sensor])
 
 
-def _unheard(observation: Observation, readings: Readings) -> Diagnosis | None:
-    """Say why the node received no reading, or None if it received some."""
-    if any(call.source == _TEMPERATURE.topic for call in observation.callbacks):
-        return None
-    return why_not_heard(observation, _TEMPERATURE) or Diagnosis(
-        "new-to-me",
-        f"{len(readings)} readings were published on /temperature and the node got none.",
-        'Does it call create_subscription, with the topic "temperature"?',
-    )
-
-
-def _track(observation: Observation, wire: Wire) -> Track:
-    """Return what was published on a topic, by the second."""
-    found: dict[float, tuple[Any, ...]] = {}
-    for sample in on(observation, wire):
-        found[sample.time] = (*found.get(sample.time, ()), sample.value)
-    return found
-
-
-def _each(rule: Callable[[float], Any]) -> Model:
-    """Return the model of a node that does `rule(reading)` with each reading."""
-    return lambda readings: {second: (rule(one),) for second, one in enumerate(readings, 1)}
+def _each(rule: Callable[[float], str]) -> Model:
+    """Return the model of a node that says `rule(reading)` of each reading."""
+    return lambda readings: numbered(map(rule, readings))
 
 
 # 04a: watch a fridge. A float32 holds each of the numbers below exactly.
@@ -73,27 +51,26 @@ FRIDGE = (
 )
 #: A state in a log line, of whatever capitals; with its brackets if it is an item of a list.
 _STATE = re.compile(r"(?i)[\[({]['\"](?:warm|frost|fine)['\"],?[\])}]|\b(?:warm|frost|fine)\b")
+_STATE_OF = {"High": "Warm", "Low": "Frost", "Normal": "Fine"}
 
 
 def _state(value: float, high: float = 8.0, low: float = 2.0) -> str:
-    return "Warm" if value > high else "Frost" if value < low else "Fine"
+    return _STATE_OF[status_of(value, low, high)]
 
 
-_OTHER_STATES = {"Warm": "Frost", "Frost": "Warm", "Fine": "Fine"}
-FRIDGE_SUSPECTS = (
-    *(Suspect("boundary", "Exactly 8 and exactly 2 are Fine: above 8 is Warm, below 2 is Frost.",
-              _each(partial(_state, **limits)))
-      for limits in ({"high": 7.99}, {"low": 2.01}, {"high": 7.99, "low": 2.01})),
-    Suspect("wrong-state", "These are the monitor's limits. A fridge has limits of its own.",
-            _each(partial(_state, high=26.0, low=20.0))),
-    Suspect("wrong-state", "Warm and Frost have changed places.",
-            _each(lambda value: _OTHER_STATES[_state(value)])),
-    Suspect("wrong-state", "Whole degrees are too coarse: compare the reading as it comes.",
-            _each(lambda value: _state(int(value)))),
-    Suspect("wrong-state", "It is the state of the reading before. Which comes first, to keep a "
-            "reading or to judge it?", lambda fed: _each(_state)([fed[0], *fed[:-1]])),
+FRIDGE_SUSPECTS = suspects(
+    ("boundary", "Exactly 8 and exactly 2 are Fine: above 8 is Warm, below 2 is Frost.",
+     _each(partial(_state, high=7.99)), _each(partial(_state, low=2.01)),
+     _each(partial(_state, high=7.99, low=2.01))),
+    ("wrong-state", "These are the monitor's limits. A fridge has limits of its own.",
+     _each(partial(_state, high=26.0, low=20.0))),
+    ("wrong-state", "Warm and Frost have changed places.",
+     _each(lambda value: {"Warm": "Frost", "Frost": "Warm"}.get(_state(value), "Fine"))),
+    ("wrong-state", "Whole degrees are too coarse: compare the reading as it comes.",
+     _each(lambda value: _state(int(value)))),
+    ("wrong-state", "It is the state of the reading before. Which comes first, to keep a reading "
+     "or to judge it?", lambda fed: _each(_state)([fed[0], *fed[:-1]])),
 )  # fmt: skip
-
 
 #: The state in the form that the page asks for, and a remark behind it.
 _FORM = re.compile(rf"(?i)\bstatus\s*:\s*({_STATE.pattern.removeprefix('(?i)')})")
@@ -112,7 +89,7 @@ def _bare(line: str) -> str:
     if not found:
         return line
     remark = _REMARK.search(line, found.end())
-    if not remark or len(set(_STATE.findall(remark[0]))) == len(_OTHER_STATES):
+    if not remark or len(set(_STATE.findall(remark[0]))) == len(_STATE_OF):
         return line
     return line[: remark.start()] + line[remark.end() :]
 
@@ -128,26 +105,27 @@ def _logged(observation: Observation) -> Track:
     return found
 
 
-def _judge_states(observation: Observation) -> Outcome:
-    unheard = _unheard(observation, FRIDGE)
-    if unheard:
-        return failed_by("04a", unheard)
+def _judge_states(observation: Observation) -> Verdict:
     done, right = _logged(observation), _each(_state)(FRIDGE)
-    part = parting(done, right)
-    if part is None:
-        return passed("04a", f"All {len(FRIDGE)} readings got the right state, 8.0 and 2.0 too.")
-    value, (wanted,) = FRIDGE[part.at - 1], part.right
-    if not part.done:
+    return (
+        diagnose_unheard(observation, _TEMPERATURE)
+        or diagnose(FRIDGE, done, right, FRIDGE_SUSPECTS, _describe_state)
+        or passed(f"All {len(FRIDGE)} readings got the right state, 8.0 and 2.0 too.")
+    )
+
+
+def _describe_state(mismatch: Mismatch) -> Diagnosis:
+    value, (wanted,) = FRIDGE[mismatch.at - 1], mismatch.right
+    if not mismatch.done:
         evidence = f"A reading of {value:g} arrived and nothing was logged."
         hint = "End the callback with self.get_logger().info(...)."
-        return failed_by("04a", Diagnosis("nothing-logged", evidence, hint))
-    evidence = f"For a reading of {value:g} the node said {' and '.join(part.done)}."
-    strange = next((one for one in part.done if one not in _OTHER_STATES), None)
+        return Diagnosis("nothing-logged", evidence, hint)
+    evidence = f"For a reading of {value:g} the node said {' and '.join(mismatch.done)}."
+    strange = next((one for one in mismatch.done if one not in _STATE_OF.values()), None)
     if strange is not None:
-        return failed_by("04a", Diagnosis("wrong-word", evidence, _about_word(strange)))
+        return Diagnosis("wrong-word", evidence, _about_word(strange))
     hint = f"It should be {wanted}. Which of your conditions is true for {value:g}?"
-    other = Diagnosis("wrong-state", evidence, hint)
-    return failed_by("04a", named(evidence, fitting(FRIDGE, done, FRIDGE_SUSPECTS), other))
+    return Diagnosis("wrong-state", evidence, hint)
 
 
 def _about_word(strange: str) -> str:
@@ -185,75 +163,65 @@ def _alerts(high: float = 26.0, low: float = 20.0, first: bool = False, times: i
 
 _LIMITS_ARE_FINE = "Publish only if the reading is above 26 or below 20; the limits are still fine."
 _BOTH_COUNT = "Both above 26 and below 20 count."
-ROOM_SUSPECTS = (
-    *(Suspect("boundary", _LIMITS_ARE_FINE, _alerts(*limits))
-      for limits in ((25.99, 20.0), (26.0, 20.01), (25.99, 20.01), (25.99, -inf), (inf, 20.01))),
-    Suspect("alert-missing", f"Low readings got no alert. {_BOTH_COUNT}", _alerts(low=-inf)),
-    Suspect("alert-missing", f"High readings got no alert. {_BOTH_COUNT}", _alerts(high=inf)),
-    Suspect("alert-missing", "Only the first bad reading got an alert. Each one should, whatever "
-            "came before it.", lambda fed: dict([*_alerts()(fed).items()][:1])),
-    Suspect("alert-missing", "Only the first of several bad readings in a row got an alert. Each "
-            "one should, whatever came before it.", _alerts(first=True)),
-    Suspect("alert-too-many", "Every reading got an alert. Is your condition true for 22, too? "
-            "Compare its limits; and each side of `or` needs a comparison of its own.",
-            _alerts(-inf)),
-    Suspect("alert-too-many", "One alert for each reading is enough.", _alerts(times=2)),
+_EACH_ONE = "Each one should, whatever came before it."
+ROOM_SUSPECTS = suspects(
+    ("boundary", _LIMITS_ARE_FINE, _alerts(25.99), _alerts(low=20.01), _alerts(25.99, 20.01),
+     _alerts(25.99, -inf), _alerts(inf, 20.01)),
+    ("alert-missing", f"Low readings got no alert. {_BOTH_COUNT}", _alerts(low=-inf)),
+    ("alert-missing", f"High readings got no alert. {_BOTH_COUNT}", _alerts(high=inf)),
+    ("alert-missing", f"Only the first bad reading got an alert. {_EACH_ONE}",
+     lambda fed: dict([*_alerts()(fed).items()][:1])),
+    ("alert-missing", f"Only the first of several bad readings in a row got an alert. {_EACH_ONE}",
+     _alerts(first=True)),
+    ("alert-too-many", "Every reading got an alert. Is your condition true for 22, too? Compare "
+     "its limits; and each side of `or` needs a comparison of its own.", _alerts(-inf)),
+    ("alert-too-many", "One alert for each reading is enough.", _alerts(times=2)),
 )  # fmt: skip
+_NEVER_TRUE = (
+    "Is your condition ever true? No reading is above 26 and below 20 at once. And is there a "
+    "publish behind it?"
+)
 
 
-def _judge_alarm(observation: Observation) -> Outcome:
-    wrong = _unheard(observation, ROOM) or _silent(observation) or _wrong_alerts(observation)
-    if wrong:
-        return failed_by("04b", wrong)
-    alerts = len(on(observation, _ALERT))
-    return passed("04b", f"{len(ROOM)} readings, {alerts} alerts: none too many.")
-
-
-def _silent(observation: Observation) -> Diagnosis | None:
-    bad = "Readings were too high and too low, and"
-    made = any(end.name == _ALERT.topic for end in observation.graph.endpoints)
-    if made and not on(observation, _ALERT):
-        return Diagnosis(
-            "never-published",
-            f"{bad} no alert was published.",
-            "Is your condition ever true? No reading is above 26 and below 20 at once. And is "
-            "there a publish behind it?",
+def _judge_alarm(observation: Observation) -> Verdict:
+    return (
+        diagnose_unheard(observation, _TEMPERATURE)
+        or diagnose_unpublished(observation, _ALERT, hint=_NEVER_TRUE)
+        or _wrong_alerts(track(observation, _ALERT))
+        or passed(
+            f"{len(ROOM)} readings, {len(samples_on(observation, _ALERT))} alerts: none too many."
         )
-    hint = "Make a publisher in __init__ and call its publish in the callback."
-    nothing = Diagnosis("no-publisher", f"{bad} nothing was published on /alert.", hint)
-    return missing(observation, _ALERT, otherwise=nothing)
+    )
 
 
-def _wrong_alerts(observation: Observation) -> Diagnosis | None:
+def _wrong_alerts(texts: Track) -> Diagnosis | None:
     """Say what is wrong with the alerts; what they say is free."""
-    texts = _track(observation, _ALERT)
-    done: Track = {at: ("alert",) * len(found) for at, found in texts.items()}
-    part = parting(done, _alerts()(ROOM))
-    if part is None:
-        return None
-    if part.at not in range(1, len(ROOM) + 1):
-        return Diagnosis(
-            "alert-too-many",
-            f"An alert was published at {part.at:g} s, and no reading came then.",
-            "Publish in the callback of the subscription: it runs when a reading comes.",
-        )
-    value = ROOM[round(part.at) - 1]
-    fit = fitting(ROOM, done, ROOM_SUSPECTS)
-    if fit and fit[0].mistake == "alert-too-many" and _says_fine(texts):
-        fit = []
-    if len(part.done) > 1 and part.right:
-        total, due = sum(map(len, done.values())), len(_alerts()(ROOM))
-        evidence, other = f"{total} alerts for {due} readings.", "One alert for each is enough."
-    elif part.done:
-        evidence, other = f"An alert was published for a reading of {value:g}.", _LIMITS_ARE_FINE
-        if _says_fine(texts):
-            evidence = f"{texts[part.at][0]!r} was published on /alert for a reading of {value:g}."
-            other = "Whatever comes on /alert is an alert. For a reading that is fine, publish "
-            other += "nothing."
-    else:
-        evidence, other = f"No alert for a reading of {value:g}.", _BOTH_COUNT
-    mistake = "alert-too-many" if part.done else "alert-missing"
-    return named(evidence, fit, Diagnosis(mistake, evidence, other))
+    due = _alerts()(ROOM)
+    # A text of its own for readings that are fine is another mistake than an alert for each.
+    other = "fine" if _says_fine(texts) else "alert"
+    done = {at: ("alert" if at in due else other,) * len(found) for at, found in texts.items()}
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        if mismatch.at not in range(1, len(ROOM) + 1):
+            return Diagnosis(
+                "alert-too-many",
+                f"An alert was published at {mismatch.at:g} s, and no reading came then.",
+                "Publish in the callback of the subscription: it runs when a reading comes.",
+            )
+        value = ROOM[round(mismatch.at) - 1]
+        if not mismatch.done:
+            return Diagnosis("alert-missing", f"No alert for a reading of {value:g}.", _BOTH_COUNT)
+        if mismatch.right and len(mismatch.done) > 1:
+            evidence = f"{sum(map(len, done.values()))} alerts for {len(due)} readings."
+            return Diagnosis("alert-too-many", evidence, "One alert for each is enough.")
+        said, hint = "An alert was published", _LIMITS_ARE_FINE
+        if other == "fine":
+            said = f"{texts[mismatch.at][0]!r} was published on /alert"
+            hint = "Whatever comes on /alert is an alert. For a reading that is fine, publish "
+            hint += "nothing."
+        return Diagnosis("alert-too-many", f"{said} for a reading of {value:g}.", hint)
+
+    return diagnose(ROOM, done, due, ROOM_SUSPECTS, describe)
 
 
 def _says_fine(texts: Track) -> bool:
@@ -271,15 +239,32 @@ def _says_fine(texts: Track) -> bool:
     return bool(good and bad) and not good & bad
 
 
-# 04c: a calm monitor: the mean of the last five readings, and a status with hysteresis.
+# 04c: the mean of the last five readings, and a status with hysteresis.
 
 #: Every border of a status with hysteresis, from both sides, and jumps across.
-CALM = (
+HYSTERESIS = (
     *(22.0, 25.5, 20.5, 26.0, 26.015625, 25.5, 26.25, 25.0, 24.984375, 25.5, 20.0, 19.984375),
     *(20.5, 21.0, 21.015625, 20.5, 41.0, -3.5, 30.0, 23.0, 19.0, 25.5, 27.0, 20.5),
 )
-_STATUSES = ("High", "Low", "Normal")
 _MEAN, _STATUS = Wire("/mean", "std_msgs/msg/Float32"), Wire("/status", "std_msgs/msg/String")
+_BOTH = (_MEAN.topic, _STATUS.topic)
+_OF_THE_MEAN = "Find the status from the reading itself, and not from the mean."
+_NO_STATUS = f"Does the callback come to the line that publishes? {_OF_THE_MEAN}"
+
+
+def _judge_hysteresis(observation: Observation) -> Verdict:
+    return (
+        diagnose_unheard(observation, _TEMPERATURE)
+        or diagnose_unpublished(observation, _MEAN, _BOTH)
+        or _wrong_means(track(observation, _MEAN))
+        or diagnose_unpublished(observation, _STATUS, _BOTH, _NO_STATUS)
+        or diagnose_words(observation, _STATUS, STATUSES)
+        or _wrong_statuses(track(observation, _STATUS))
+        or passed(
+            f"{len(HYSTERESIS)} readings, as many means, "
+            f"{len(samples_on(observation, _STATUS))} changes."
+        )
+    )
 
 
 #: How many readings count.
@@ -297,31 +282,51 @@ def _means(width: int = _WIDTH, begin: Readings = (), divisor: int = 0, late: in
     """
 
     def model(readings: Readings) -> Track:
-        found = {}
-        for second in range(1, len(readings) + 1):
-            last = [*begin, *readings[: second - late]][-width:]
-            found[second] = (sum(last) / (divisor or len(last) or 1),)
-        return found
+        windows = (
+            [*begin, *readings[: second - late]][-width:] for second in range(1, len(readings) + 1)
+        )
+        return numbered(sum(last) / (divisor or len(last) or 1) for last in windows)
 
     return model
 
 
-MEAN_SUSPECTS = (
-    Suspect("wrong-window", "It is the last reading alone. The last five count.", _means(1)),
-    Suspect("wrong-window", "It is the mean of all readings so far. The last five count.",
-            _means(len(CALM))),
-    Suspect("wrong-window", "While there are fewer than five, divide by how many there are.",
-            _means(divisor=5)),
-    Suspect("wrong-window", "It is the sum. A mean is divided by how many there are.",
-            _means(divisor=1)),
-    Suspect("wrong-window", "The newest reading is not in it. Which comes first, to keep it or to "
-            "calculate?", _means(late=1)),
-    *(Suspect("wrong-window", f"It is the mean of the last {width} readings. The last five count.",
-              _means(width)) for width in (2, 3, 4, 6, 7, 8, 10)),
-    *(Suspect("wrong-window", f"The list begins with five times {value:g}, and these are no "
-              "readings. Begin with an empty one.", _means(begin=(value,) * 5))
-      for value in (0.0, 22.0)),
+MEAN_SUSPECTS = suspects(
+    ("wrong-window", "It is the last reading alone. The last five count.", _means(1)),
+    ("wrong-window", "It is the mean of all readings so far. The last five count.",
+     _means(len(HYSTERESIS))),
+    ("wrong-window", "While there are fewer than five, divide by how many there are.",
+     _means(divisor=5)),
+    ("wrong-window", "While there are fewer than five readings, it is the mean of those that are "
+     "there.", lambda fed: {at: mean for at, mean in _means()(fed).items() if at >= _WIDTH}),
+    ("wrong-window", "It is the sum. A mean is divided by how many there are.", _means(divisor=1)),
+    ("wrong-window", "The newest reading is not in it. Which comes first, to keep it or to "
+     "calculate?", _means(late=1)),
+    *(("wrong-window", f"It is the mean of the last {width} readings. The last five count.",
+       _means(width)) for width in (2, 3, 4, 6, 7, 8, 10)),
+    *(("wrong-window", f"The list begins with five times {value:g}, and these are no readings. "
+       "Begin with an empty one.", _means(begin=(value,) * 5)) for value in (0.0, 22.0)),
 )  # fmt: skip
+
+
+def _wrong_means(done: Track) -> Diagnosis | None:
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        if len(mismatch.done) != len(mismatch.right):
+            return Diagnosis(
+                "wrong-rate",
+                f"{len(HYSTERESIS)} readings arrived, and {sum(map(len, done.values()))} means "
+                f"were published: at {mismatch.at:g} s there were {len(mismatch.done)}, and "
+                f"{len(mismatch.right)} was due.",
+                "Publish one mean for each reading, also while there are fewer than five.",
+            )
+        last = [f"{value:g}" for value in HYSTERESIS[: round(mismatch.at)][-6:]]
+        return Diagnosis(
+            "wrong-window",
+            f"After reading {mismatch.at:g} the mean was {mismatch.done[0]:.3f}; of the last five "
+            f"it is {mismatch.right[0]:.3f}. The last readings were {', '.join(last)}.",
+            "The sum of the last five, divided by how many they are. Print both to compare.",
+        )
+
+    return diagnose(HYSTERESIS, done, _means()(HYSTERESIS), MEAN_SUSPECTS, describe)
 
 
 def _next_status(
@@ -332,10 +337,9 @@ def _next_status(
     back_high: float = 25.0,
     back_low: float = 21.0,
 ) -> str:
-    if value > high:
-        return "High"
-    if value < low:
-        return "Low"
+    status = status_of(value, low, high)
+    if status != "Normal":
+        return status
     stays = (before == "High" and value >= back_high) or (before == "Low" and value <= back_low)
     return before if stays else "Normal"
 
@@ -363,7 +367,6 @@ def _statuses(
     return model
 
 
-_OF_THE_MEAN = "Find the status from the reading itself, and not from the mean."
 _NOTHING_KEEPS = (
     "The limits may be right, but nothing keeps the status from one reading to the next. A local "
     "variable is gone when the callback returns: keep the new status in self."
@@ -376,100 +379,45 @@ _AT_A_LIMIT = (
 )
 
 
-def _on_the_wrong_side() -> Iterator[Suspect]:
+def _on_the_wrong_side() -> Iterator[tuple[str, str, Model]]:
     """Generate a suspect for each limit, and for each set of them, single ones first."""
     for slips in chain.from_iterable(combinations(_AT_A_LIMIT, count) for count in (1, 2, 3, 4)):
         at = " and exactly ".join(str(reading) for reading, _ in slips)
         change = "changes" if len(slips) == 1 else "change"
         limits = {name: limit for _, one in slips for name, limit in one.items()}
         hint = f"Exactly {at} {change} nothing: above and below leave the limit out."
-        yield Suspect("boundary", hint, _statuses(limits))
+        yield "boundary", hint, _statuses(limits)
 
 
-STATUS_SUSPECTS = (
-    Suspect("status-repeated", _NOTHING_KEEPS, _statuses(keeps=False)),
-    Suspect("no-hysteresis", _NOTHING_KEEPS, _statuses(keeps=False, compares=False)),
+STATUS_SUSPECTS = suspects(
+    ("status-repeated", _NOTHING_KEEPS, _statuses(keeps=False)),
+    ("no-hysteresis", _NOTHING_KEEPS, _statuses(keeps=False, compares=False)),
     *_on_the_wrong_side(),
-    Suspect("hysteresis-lost", "From High, nothing leads back to Normal.",
-            _statuses({"back_high": -inf})),
-    Suspect("hysteresis-lost", "From Low, nothing leads back to Normal.",
-            _statuses({"back_low": inf})),
-    Suspect("hysteresis-lost", "The two limits of the way back have changed places: 25 belongs to "
-            "High, and 21 to Low.", _statuses({"back_high": 21.0, "back_low": 25.0})),
-    Suspect("wrong-state", _OF_THE_MEAN,
-            lambda readings: _statuses()([mean for (mean,) in _means()(readings).values()])),
+    ("hysteresis-lost", "From High, nothing leads back to Normal.", _statuses({"back_high": -inf})),
+    ("hysteresis-lost", "From Low, nothing leads back to Normal.", _statuses({"back_low": inf})),
+    ("hysteresis-lost", "The two limits of the way back have changed places: 25 belongs to High, "
+     "and 21 to Low.", _statuses({"back_high": 21.0, "back_low": 25.0})),
+    ("wrong-state", _OF_THE_MEAN,
+     lambda readings: _statuses()([mean for (mean,) in _means()(readings).values()])),
 )  # fmt: skip
 
 
-def _judge_calm(observation: Observation) -> Outcome:
-    wrong = _unheard(observation, CALM) or _unpublished(observation, _MEAN)
-    wrong = wrong or _wrong_means(_track(observation, _MEAN)) or _unpublished(observation, _STATUS)
-    wrong = wrong or _wrong_statuses(_track(observation, _STATUS))
-    if wrong:
-        return failed_by("04c", wrong)
-    changes = len(on(observation, _STATUS))
-    return passed("04c", f"{len(CALM)} readings, as many means, {changes} changes.")
-
-
-def _unpublished(observation: Observation, wire: Wire) -> Diagnosis | None:
-    evidence = "Readings arrived, and nothing was published on {topic}."
-    hint = "Does the callback come to the line that publishes?"
-    hint += f" {_OF_THE_MEAN}" * (wire == _STATUS)
-    silent = Diagnosis("never-published", evidence, hint)
-    return missing(observation, wire, (_MEAN.topic, _STATUS.topic), silent)
-
-
-def _wrong_means(done: Track) -> Diagnosis | None:
-    part = parting(done, _means()(CALM))
-    if part is None:
-        return None
-    if agree(done, {at: mean for at, mean in _means()(CALM).items() if at >= _WIDTH}):
-        return Diagnosis(
-            "wrong-window",
-            f"The first mean was published after reading {_WIDTH}; those before it got none.",
-            "While there are fewer than five readings, it is the mean of those that are there.",
-        )
-    if len(part.done) != len(part.right):
-        count = sum(map(len, done.values()))
-        return Diagnosis(
-            "wrong-rate",
-            f"{len(CALM)} readings arrived, and {count} means were published: at {part.at:g} s "
-            f"there were {len(part.done)}, and {len(part.right)} was due.",
-            "Publish one mean for each reading, also while there are fewer than five.",
-        )
-    last = [f"{value:g}" for value in CALM[: round(part.at)][-6:]]
-    evidence = (
-        f"After reading {part.at:g} the mean was {part.done[0]:.3f}; of the last five it is "
-        f"{part.right[0]:.3f}. The last readings were {', '.join(last)}."
-    )
-    hint = "The sum of the last five, divided by how many they are. Print both to compare."
-    other = Diagnosis("wrong-window", evidence, hint)
-    return named(evidence, fitting(CALM, done, MEAN_SUSPECTS), other)
-
-
 def _wrong_statuses(done: Track) -> Diagnosis | None:
-    words = [word for found in done.values() for word in found]
-    strange = next((word for word in words if word not in _STATUSES), None)
-    if strange is not None:
-        hint = spelling(strange, _STATUSES) or "The status is one word, High, Low or Normal."
-        return Diagnosis("wrong-word", f"On /status appeared {strange!r}.", hint)
-    right = _statuses()(CALM)
-    part = parting(done, right)
-    if part is None:
-        return None
-    before = [("Normal",), *(right[at] for at in sorted(right) if at < part.at)][-1][0]
-    value = CALM[max(0, min(len(CALM), int(part.at)) - 1)]
-    after = f"after a reading of {value:g}" if part.at >= 1 else "before the first reading"
-    evidence = (
-        f"The status was {before}. At {part.at:g} s, {after}, "
-        f"{_quoted(part.done)} was published, and {_quoted(part.right)} was due."
-    )
-    other = _unmodelled(before, part.done, part.right, evidence)
-    return named(evidence, fitting(CALM, done, STATUS_SUSPECTS), other)
+    right = _statuses()(HYSTERESIS)
 
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        at = mismatch.at
+        before = [("Normal",), *(right[second] for second in sorted(right) if second < at)][-1][0]
+        value = HYSTERESIS[max(0, min(len(HYSTERESIS), int(at)) - 1)]
+        after = f"after a reading of {value:g}" if at >= 1 else "before the first reading"
+        said, due = (" and ".join(one) or "nothing" for one in (mismatch.done, mismatch.right))
+        evidence = (
+            f"The status was {before}. At {at:g} s, {after}, {said} was published, and {due} was "
+            "due."
+        )
+        return _unmodelled(before, mismatch.done, mismatch.right, evidence)
 
-def _quoted(words: Sequence[str]) -> str:
-    return " and ".join(words) or "nothing"
+    return diagnose(HYSTERESIS, done, right, STATUS_SUSPECTS, describe)
 
 
 def _unmodelled(before: str, done: Sequence[str], right: Sequence[str], evidence: str) -> Diagnosis:
@@ -492,7 +440,7 @@ def _unmodelled(before: str, done: Sequence[str], right: Sequence[str], evidence
 EXERCISES = (
     Exercise(
         "04a",
-        _fed(FRIDGE),
+        partial(_feed, FRIDGE),
         _judge_states,
         "watch a fridge",
         1,
@@ -503,7 +451,7 @@ EXERCISES = (
     ),
     Exercise(
         "04b",
-        _fed(ROOM),
+        partial(_feed, ROOM),
         _judge_alarm,
         "raise the alarm",
         2,
@@ -517,8 +465,8 @@ EXERCISES = (
     ),
     Exercise(
         "04c",
-        _fed(CALM),
-        _judge_calm,
+        partial(_feed, HYSTERESIS),
+        _judge_hysteresis,
         "a calm monitor, alone",
         4,
         (

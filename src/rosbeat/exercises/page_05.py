@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.exercises.exercise import BLANK, Exercise, failed_by, not_attempted, passed
-from rosbeat.exercises.scenarios import Report, Workspace, look_at_workspace, report
+from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
+from rosbeat.exercises.scenarios import Answer, Report, Workspace, look_at_workspace, report
 from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script
-from rosbeat.records import Outcome
 from rosbeat.workspace.packages import Package
 
 # 05a, two programs: a setup.py, which is read and never run.
@@ -19,19 +18,19 @@ _PACKAGE = "sensor_simulator"
 _PROGRAMS = ("temperature_publisher", "temperature_subscriber")
 
 
-def _judge_setup(seen: Workspace) -> Outcome:
+def _judge_setup(seen: Workspace) -> Verdict:
     package = seen.packages.get(_PACKAGE)
     if package is None:
-        return not_attempted("05a", f"There is no package {_PACKAGE} in src yet.")
+        return not_attempted(f"There is no package {_PACKAGE} in src yet.")
     found = diagnose_script(package)
     entries = package.setup.entry_points
     if not found and not package.setup.incomplete and all(BLANK in one.text for one in entries):
-        return not_attempted("05a", "setup.py has no entry points yet.")
+        return not_attempted("setup.py has no entry points yet.")
     found = found or diagnose_entries(package, _PROGRAMS) or _diagnose_data_files(package)
     if found:
-        return failed_by("05a", found)
+        return found
     said = f"setup.py names {' and '.join(_PROGRAMS)}."
-    return passed("05a", said, *_remarks_on_texts(package))
+    return passed(said, *_remarks_on_texts(package))
 
 
 def _diagnose_data_files(package: Package) -> Diagnosis | None:
@@ -76,7 +75,7 @@ ARGUMENTS = (
 _NO_FUNCTION = "NoFunction"
 
 
-def _call(answer: Any) -> Report:  # noqa: ANN401 - whatever a learner hands over
+def _call(answer: Answer) -> Report:
     """Call a function that writes entry points, with several arguments."""
     if not callable(answer):
         return Report("", _NO_FUNCTION)
@@ -126,11 +125,11 @@ _PROBLEMS = (
 )
 
 
-def _judge_calls(seen: Report) -> Outcome:
+def _judge_calls(seen: Report) -> Verdict:
     if f"'{BLANK}'" in seen.problem:
-        return not_attempted("05b")
+        return not_attempted()
     found = _diagnose_problem(seen.problem) if seen.problem else _diagnose_texts(seen.value)
-    return failed_by("05b", found) if found else passed("05b", f"For example {seen.value[0]!r}.")
+    return found if found else passed(f"For example {seen.value[0]!r}.")
 
 
 def _diagnose_problem(problem: str) -> Diagnosis:

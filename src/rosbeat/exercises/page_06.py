@@ -6,10 +6,15 @@ import re
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
-from rosbeat.exercises.scenarios import TypedIn, Workspace, look_at_terminal, look_at_workspace
+from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
+from rosbeat.exercises.scenarios import (
+    Answer,
+    TypedIn,
+    Workspace,
+    look_at_terminal,
+    look_at_workspace,
+)
 from rosbeat.exercises.workspace_model import alike, diagnose_script, diagnosis_of
-from rosbeat.records import Outcome
 from rosbeat.workspace.meanings import diagnose_flaw
 from rosbeat.workspace.packages import Package
 from rosbeat.workspace.place import workspace
@@ -24,34 +29,34 @@ _LOG = re.compile(r"^\[[A-Z]+\] (?:\[[\d.]+\] )?\[([\w./]+)\]: (.*)", re.MULTILI
 _SENSOR = "Publishing"
 
 
-def _look_at_run(answer: Any) -> TypedIn:  # noqa: ANN401 - whatever a learner hands over
+def _look_at_run(answer: Answer) -> TypedIn:
     return look_at_terminal(answer, workspace(), _RUN)
 
 
-def _judge_monitor(seen: TypedIn) -> Outcome:
+def _judge_monitor(seen: TypedIn) -> Verdict:
     runs = [text for _, text in seen.commands if _RUN in text]
     if not runs:
         # Nothing was run: perhaps because what was typed was not a command.
         typed = seen.commands[-1][1] if seen.commands else ""
         meaning = diagnosis_of(seen.meaning)
         if meaning and alike(typed[: len(_RUN)], _RUN):
-            return failed_by("06a", meaning)
-        return not_attempted("06a", "Nothing was run in this terminal yet.")
+            return meaning
+        return not_attempted("Nothing was run in this terminal yet.")
     # What the nodes have said since a command was typed for the last time.
     said = _LOG.findall(seen.text.rpartition(runs[-1])[2])
     heard = [text for name, text in said if name == _NAME]
     if any(re.search(r"\d", text) and not text.startswith(_SENSOR) for text in heard):
-        return passed("06a", f"{_NAME} hears what the first monitor hears.")
+        return passed(f"{_NAME} hears what the first monitor hears.")
     if heard:
-        return failed_by("06a", _diagnose_silence(heard))
+        return _diagnose_silence(heard)
     if said:
         names = ", ".join(sorted({name for name, _ in said}))
         mistake, hint = _diagnose_renaming(runs[-1])
         evidence = f"The node that runs here is called {names}."
-        return failed_by("06a", Diagnosis(mistake, evidence, hint))
+        return Diagnosis(mistake, evidence, hint)
     evidence = f"No node has started here. The last line typed: {runs[-1]}"
     hint = "After ros2 run come two names: the package, and the executable from setup.py."
-    return failed_by("06a", diagnosis_of(seen.meaning) or Diagnosis(UNKNOWN, evidence, hint))
+    return diagnosis_of(seen.meaning) or Diagnosis(UNKNOWN, evidence, hint)
 
 
 def _diagnose_silence(said: list[str]) -> Diagnosis:
@@ -101,18 +106,18 @@ def _diagnose_renaming(command: str) -> tuple[str, str]:
 _PACKAGE = "sensor_simulator"
 
 
-def _judge_links(seen: Workspace) -> Outcome:
+def _judge_links(seen: Workspace) -> Verdict:
     package = seen.packages.get(_PACKAGE)
     if package is None:
-        return not_attempted("06b", f"There is no package {_PACKAGE} in src yet.")
+        return not_attempted(f"There is no package {_PACKAGE} in src yet.")
     if package.installed and package.installed.linked:
-        return passed("06b", f"{_PACKAGE} is installed as a link to src.")
+        return passed(f"{_PACKAGE} is installed as a link to src.")
     found = _diagnose_build(seen, package)
     if found:
-        return failed_by("06b", found)
+        return found
     if package.installed is None:
-        return not_attempted("06b", f"{_PACKAGE} is not built yet.")
-    return not_attempted("06b", f"{_PACKAGE} is installed as a copy so far.")
+        return not_attempted(f"{_PACKAGE} is not built yet.")
+    return not_attempted(f"{_PACKAGE} is installed as a copy so far.")
 
 
 def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:

@@ -10,27 +10,19 @@ from itertools import product
 from typing import Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_heard
-from rosbeat.exercises.exercise import (
-    BLANK,
-    Exercise,
-    failed,
-    failed_by,
-    not_attempted,
-    passed,
-)
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import (
     Suspect,
     Track,
     before_reading,
-    fitting,
-    missing,
-    named,
-    on,
-    parting,
+    first_mismatch,
+    matching,
+    name_mistake,
+    samples_on,
 )
-from rosbeat.exercises.scenarios import Report, feeder, observe, report
-from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Outcome, QoS
+from rosbeat.exercises.scenarios import Answer, Report, feeder, observe, report
+from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, QoS
 
 # 07a: findings about a greenhouse that somebody else wrote.
 
@@ -173,32 +165,32 @@ def _used(nodes: Mapping[str, list[str]], confused: set[str], does: str) -> dict
     } | dict.fromkeys(INFRASTRUCTURE_TOPICS, ("finding-wrong", brought))  # fmt: skip
 
 
-def judge_findings(said: Report, greenhouse: Greenhouse | None = None) -> Outcome:
+def judge_findings(said: Report, greenhouse: Greenhouse | None = None) -> Verdict:
     """Compare what somebody found out with a greenhouse.
 
     Args:
         said: What the learner's function returned.
         greenhouse: The greenhouse; by default that of the page, which runs here.
     """
-    early = before_reading("07a", said, 'check("07a", findings)')
+    early = before_reading(said, 'check("07a", findings)')
     if early:
         return early
     findings, house = said.value, greenhouse or _greenhouse()
     if not isinstance(findings, dict):
         evidence = f"The function returned a {said.type_name} instead of the dict."
-        return failed("07a", evidence, "Leave the dict with its keys as it was.", "other-kind")
+        return Diagnosis("other-kind", evidence, "Leave the dict with its keys as it was.")
     questions = _questions(house)
     wrong = [found for one in questions if (found := _compared(house, one, findings))]
     if wrong:
         more = f" And {len(wrong) - 1} more to look at again." if len(wrong) > 1 else ""
-        return failed("07a", wrong[0].evidence + more, wrong[0].hint, wrong[0].mistake)
+        return Diagnosis(wrong[0].mistake, wrong[0].evidence + more, wrong[0].hint)
     count, blank = len(questions), [one.key for one in questions if _is_blank(findings[one.key])]
     if not blank:
-        return passed("07a", f"All {count} findings agree with what the greenhouse does.")
+        return passed(f"All {count} findings agree with what the greenhouse does.")
     if len(blank) == count:
-        return not_attempted("07a")
+        return not_attempted()
     right = f"{count - len(blank)} of {count} are found, and right."
-    return not_attempted("07a", f"{right} Still open: {', '.join(blank)}.")
+    return not_attempted(f"{right} Still open: {', '.join(blank)}.")
 
 
 def _is_blank(given: object) -> bool:
@@ -285,21 +277,13 @@ _FINDINGS = Exercise(
 
 def _silence(observation: Observation, heard: Wire, said: Wire) -> Diagnosis | None:
     """Say why a node did not listen to one topic, or published nothing on the other."""
-    # A step that publishes, or sets a parameter, is a callback of another kind.
-    sources = [one.source for one in observation.callbacks if one.kind == "subscription"]
-    silent = Diagnosis(
-        "never-published",
-        f"Messages came on {heard.topic}, and nothing was published on {said.topic}.",
-        "Does the callback come to the line that publishes?",
-    )
-    unheard = None if heard.topic in sources else why_not_heard(observation, heard)
-    return unheard or missing(observation, said, otherwise=silent)
+    return diagnose_unheard(observation, heard) or diagnose_unpublished(observation, said)
 
 
 def _texts(observation: Observation, wire: Wire) -> dict[float, tuple[str, ...]]:
     """Return the texts on a topic by the second at which they were published."""
     found: dict[float, tuple[str, ...]] = {}
-    for one in on(observation, wire):
+    for one in samples_on(observation, wire):
         found[one.time] = (*found.get(one.time, ()), str(one.value).strip())
     return found
 
@@ -322,10 +306,10 @@ READINGS = (
 )
 
 
-def _observe_tuning(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+def _observe_tuning(answer: Answer) -> Observation:
     from rosbeat.ros.scenario import SetParameter
 
-    sensor = feeder("temperature_sensor", _TEMPERATURE.topic, _TEMPERATURE.type_name, READINGS)
+    sensor = feeder("temperature_sensor", _TEMPERATURE, READINGS)
     steps = [
         SetParameter(second - 0.5, name=name, value=value)
         for second, values in CHANGES
@@ -451,16 +435,16 @@ _SUSPECT_MONITORS = (
 )  # fmt: skip
 
 
-def _judge_tuning(observation: Observation) -> Outcome:
+def _judge_tuning(observation: Observation) -> Verdict:
     wrong = (
         _silence(observation, _TEMPERATURE, _STATUS)
         or _refused(observation)
         or _mistuned(_texts(observation, _STATUS))
     )
     if wrong:
-        return failed_by("07b", wrong)
+        return wrong
     changes = sum(len(values) for _, values in CHANGES)
-    return passed("07b", f"{len(READINGS)} readings, {changes} changes of a parameter, no slip.")
+    return passed(f"{len(READINGS)} readings, {changes} changes of a parameter, no slip.")
 
 
 #: Reasons of rclpy, and what they mean; they say more than a model could.
@@ -491,20 +475,20 @@ def _refused(observation: Observation) -> Diagnosis | None:
 
 
 def _mistuned(done: Track) -> Diagnosis | None:
-    parted = parting(done, _right(READINGS))
-    if parted is None:
+    mismatch = first_mismatch(done, _right(READINGS))
+    if mismatch is None:
         return None
-    gave, right = (" and ".join(one) or "no status" for one in (parted.done, parted.right))
-    evidence = f"At {parted.at:g} s your node published {gave}, and no reading came then."
-    if parted.right:
+    gave, right = (" and ".join(one) or "no status" for one in (mismatch.done, mismatch.right))
+    evidence = f"At {mismatch.at:g} s your node published {gave}, and no reading came then."
+    if mismatch.right:
         # What they are in the node is unknown: its first values may be others.
-        low, high = _limits(parted.at).values()
+        low, high = _limits(mismatch.at).values()
         evidence = (
-            f"At {parted.at:g} s `low` should be {low:g} and `high` {high:g}: a reading of "
-            f"{READINGS[int(parted.at) - 1]:g} gave {gave} instead of {right}."
+            f"At {mismatch.at:g} s `low` should be {low:g} and `high` {high:g}: a reading of "
+            f"{READINGS[int(mismatch.at) - 1]:g} gave {gave} instead of {right}."
         )
-    known = fitting(READINGS, done, _SUSPECT_MONITORS)
-    return named(evidence, known, _unlike_any_monitor(done, evidence))
+    known = matching(READINGS, done, _SUSPECT_MONITORS)
+    return name_mistake(known, _unlike_any_monitor(done, evidence))
 
 
 def _unlike_any_monitor(done: Track, evidence: str) -> Diagnosis:
@@ -566,7 +550,7 @@ LINES = (
 )
 
 
-def _observe_log_watcher(answer: Any) -> Observation:  # noqa: ANN401
+def _observe_log_watcher(answer: Answer) -> Observation:
     from rosbeat.ros.scenario import Publish
 
     steps = [
@@ -705,14 +689,14 @@ _SUSPECT_TEXTS = (
 )  # fmt: skip
 
 
-def _judge_log_watcher(observation: Observation) -> Outcome:
+def _judge_log_watcher(observation: Observation) -> Verdict:
     wrong = _silence(observation, _ROSOUT, _WARNINGS)
     said = _texts(observation, _WARNINGS)
     wrong = wrong or _wrong_lines(said) or _wrong_texts(_by_line(said), observation.subject)
     if wrong:
-        return failed_by("07c", wrong)
+        return wrong
     count = len(_warnings(LINES))
-    return passed("07c", f"{len(LINES)} log lines, {count} warnings or worse, each one named.")
+    return passed(f"{len(LINES)} log lines, {count} warnings or worse, each one named.")
 
 
 def _wrong_lines(said: Mapping[float, tuple[str, ...]]) -> Diagnosis | None:
@@ -720,11 +704,11 @@ def _wrong_lines(said: Mapping[float, tuple[str, ...]]) -> Diagnosis | None:
     told = _by_line(said)
     done: Track = dict.fromkeys(told, (True,))
     right = _warnings(LINES)
-    parted = parting(done, right)
-    if parted is None:
+    mismatch = first_mismatch(done, right)
+    if mismatch is None:
         return None
     at = {float(second): line for second, line in enumerate(LINES, 1)}
-    if not at.keys() >= said.keys() and not fitting(LINES, done, _SUSPECT_LINES):
+    if not at.keys() >= said.keys() and not matching(LINES, done, _SUSPECT_LINES):
         late = sorted(said.keys() - at.keys())  # no model: a timer may publish at any time
         soon = [one for one in late if one - int(one) <= _SOON and float(int(one)) in right]
         stray = next((one for one in late if one not in soon), late[0])
@@ -735,28 +719,28 @@ def _wrong_lines(said: Mapping[float, tuple[str, ...]]) -> Diagnosis | None:
         )
         evidence = f"A name was published at {stray:g} s, and {since}."
         return Diagnosis("alert-too-many", evidence, _AT_ONCE)
-    line = at[parted.at]
-    what = repr(told[parted.at][0]) if parted.done else "Nothing"
+    line = at[mismatch.at]
+    what = repr(told[mismatch.at][0]) if mismatch.done else "Nothing"
     evidence = f"{what} was published for a line of level {_LEVELS[line.level]}: {line.msg!r}."
     other = Diagnosis(UNKNOWN, evidence, "What does your method do with this line, step by step?")
-    if parted.done:
+    if mismatch.done:
         other = Diagnosis("level-too-low", evidence, _BY_NUMBER)
-    return named(evidence, fitting(LINES, done, _SUSPECT_LINES), other)
+    return name_mistake(matching(LINES, done, _SUSPECT_LINES), other)
 
 
 def _wrong_texts(said: Mapping[float, tuple[str, ...]], node: str) -> Diagnosis | None:
     """Say what is wrong with the texts for the right lines."""
     fed = {at: (LINES[int(at) - 1], node) for at in said}
     done: Track = {at: texts[:1] for at, texts in said.items()}
-    parted = parting(done, _names(fed))
-    if parted:
-        text, name = parted.done[0], parted.right[0]
+    mismatch = first_mismatch(done, _names(fed))
+    if mismatch:
+        text, name = mismatch.done[0], mismatch.right[0]
         evidence = f"For a line of {name}, {text!r} was published."
         other = Diagnosis("wrong-values", evidence, _FIELD)  # no model: a text may be anything
         if name in text:
             hint = "Publish the name, and nothing around it."
             other = Diagnosis("stray-characters", evidence, hint)
-        return named(evidence, fitting(fed, done, _SUSPECT_TEXTS), other)
+        return name_mistake(matching(fed, done, _SUSPECT_TEXTS), other)
     count = sum(map(len, said.values()))
     if count == len(said):
         return None

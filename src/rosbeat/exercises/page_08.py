@@ -15,23 +15,22 @@ from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import POLICY_ALONE, incompatible, rule
-from rosbeat.diagnosis.wires import Wire, why_not_heard
-from rosbeat.exercises.exercise import Exercise, failed_by, passed
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
-    Parting,
+    Mismatch,
     Suspect,
     Track,
     agree,
-    fitting,
-    missing,
-    named,
-    on,
-    parting,
+    first_mismatch,
+    matching,
+    name_mistake,
+    samples_on,
     spelling,
     variants,
 )
-from rosbeat.exercises.scenarios import feeder, hearer, observe
-from rosbeat.records import NANOSECONDS, Endpoint, Observation, Outcome, QoS, Sample
+from rosbeat.exercises.scenarios import Answer, feeder, listener, observe
+from rosbeat.records import NANOSECONDS, Endpoint, Observation, QoS, Sample
 
 _FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
 #: A time in seconds, and the word that was said then.
@@ -42,14 +41,7 @@ _Word = tuple[float, str]
 
 def _unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
     """Say why no callback of the node ran for a topic; None if one did."""
-    mine = [one for one in observation.callbacks if one.node == observation.subject]
-    if any(one.source == wire.topic for one in mine):
-        return None
-    return why_not_heard(observation, wire) or Diagnosis(
-        UNKNOWN,
-        f"Messages were published on {wire.topic}, and the node got none of them.",
-        "Is it connected? Compare what it asks for with what the publisher offers.",
-    )
+    return diagnose_unheard(observation, wire)
 
 
 def _ends(observation: Observation, wire: Wire, kind: str) -> list[Endpoint]:
@@ -113,12 +105,10 @@ DISPLAYS = {
 _START = "idle"
 
 
-def _run_mode_keeper(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+def _run_mode_keeper(answer: Answer) -> Observation:
     from rosbeat.ros.scenario import Add, Publish
 
-    displays = [
-        (joins, hearer(name, _MODE.topic, _STRING, qos)) for name, (joins, qos) in DISPLAYS.items()
-    ]
+    displays = [(joins, listener(name, _MODE, qos)) for name, (joins, qos) in DISPLAYS.items()]
     steps = [
         Publish(at, topic=_COMMAND.topic, type_name=_STRING, values=(word,))
         for at, word in COMMANDS
@@ -208,32 +198,29 @@ def offer_suspects(words: Sequence[_Word], offers: QoS) -> list[Suspect]:
     return _suspects_by_policy(_MODE_POLICIES, _heard_by_displays, words, _ONE_STORED, offers)
 
 
-def _judge_mode_keeper(observation: Observation) -> Outcome:
+def _judge_mode_keeper(observation: Observation) -> Verdict:
     wrong = (
-        missing(observation, _MODE)
+        diagnose_unpublished(observation, _MODE)
         or _unheard(observation, _COMMAND)
-        or _diagnose_modes(on(observation, _MODE))
+        or _diagnose_modes(samples_on(observation, _MODE))
         or _diagnose_displays(observation)
     )
-    if wrong:
-        return failed_by("08a", wrong)
-    return passed(
-        "08a",
+    return wrong or passed(
         f"{len(DISPLAYS)} displays came at different times. Each one that asked for it got the "
-        "mode of that moment, and only that one.",
+        "mode of that moment, and only that one."
     )
 
 
 def _diagnose_modes(samples: Sequence[Sample]) -> Diagnosis | None:
     right, done = _keep_mode(COMMANDS), _by_time(samples)
-    parted = parting(done, right)
-    if parted is None:
+    mismatch = first_mismatch(done, right)
+    if mismatch is None:
         return None
-    done_words, right_words = (_listed(words) for words in (parted.done, parted.right))
+    done_words, right_words = (_listed(words) for words in (mismatch.done, mismatch.right))
     evidence = (
-        f"At {parted.at:g} s the node published {done_words} on /mode; {right_words} was due."
+        f"At {mismatch.at:g} s the node published {done_words} on /mode; {right_words} was due."
     )
-    return named(evidence, fitting(COMMANDS, done, KEEPERS), _other_mode(evidence, parted, right))
+    return name_mistake(matching(COMMANDS, done, KEEPERS), _other_mode(evidence, mismatch, right))
 
 
 def _by_time(samples: Iterable[Sample]) -> Track:
@@ -243,41 +230,41 @@ def _by_time(samples: Iterable[Sample]) -> Track:
     return found
 
 
-def _other_mode(evidence: str, parted: Parting, right: Track) -> Diagnosis:
-    """Name what no model reproduces by the moment at which it parted from the right one."""
-    modes = [word for at in sorted(right) if at <= parted.at for word in right[at]]
-    if not parted.right:
+def _other_mode(evidence: str, mismatch: Mismatch, right: Track) -> Diagnosis:
+    """Name what no model reproduces by the moment at which it mismatch from the right one."""
+    modes = [word for at in sorted(right) if at <= mismatch.at for word in right[at]]
+    if not mismatch.right:
         modes = [*modes[:-1], modes[-1], modes[-1]]
-    if parted.at == 0 and parted.done[:1] != parted.right:
+    if mismatch.at == 0 and mismatch.done[:1] != mismatch.right:
         return Diagnosis("wrong-start", evidence, _BEGIN)
-    if not parted.done:
+    if not mismatch.done:
         return Diagnosis("change-missing", evidence, _CHANGE)
-    if set(parted.right) <= set(parted.done) <= set(modes[-2:]):
+    if set(mismatch.right) <= set(mismatch.done) <= set(modes[-2:]):
         return Diagnosis("status-repeated", evidence, _REPEATED)
-    hint = spelling(parted.done[0], modes) or "The mode is the command's text, unchanged."
+    hint = spelling(mismatch.done[0], modes) or "The mode is the command's text, unchanged."
     return Diagnosis("wrong-values", evidence, hint)
 
 
 def _diagnose_displays(observation: Observation) -> Diagnosis | None:
-    words = [(one.time, str(one.value)) for one in on(observation, _MODE)]
+    words = [(one.time, str(one.value)) for one in samples_on(observation, _MODE)]
     texts = {name: tuple(log.text for log in observation.logs if log.name == name)
              for name in DISPLAYS}  # fmt: skip
     done = {number: heard for number, heard in enumerate(texts.values()) if heard}
-    parted = parting(done, _heard_by_displays(words, _ONE_STORED))
-    if parted is None:
+    mismatch = first_mismatch(done, _heard_by_displays(words, _ONE_STORED))
+    if mismatch is None:
         return None
     # A publisher that was destroyed is no longer in the graph.
     offers = next((end.qos for end in _ends(observation, _MODE, "publisher")), _ONE_STORED)
-    joins, asks = [*DISPLAYS.values()][parted.at]
+    joins, asks = [*DISPLAYS.values()][mismatch.at]
     evidence = (
         f"A display joined at {joins:g} s and asked for {asks.reliability}, {asks.durability}. It "
-        f"heard {_listed(parted.done)}, and should have heard {_listed(parted.right)}. Your "
+        f"heard {_listed(mismatch.done)}, and should have heard {_listed(mismatch.right)}. Your "
         f"publisher offers {_described(offers)}."
     )
     otherwise = Diagnosis(
         UNKNOWN, evidence, "Compare what the publisher offers with what such a display asks for."
     )
-    return named(evidence, fitting(words, done, offer_suspects(words, offers)), otherwise)
+    return name_mistake(matching(words, done, offer_suspects(words, offers)), otherwise)
 
 
 def _listed(words: Iterable[str]) -> str:
@@ -305,11 +292,11 @@ FED: _Readings = {
 _ROOMY = QoS("BEST_EFFORT", depth=len(FED))
 
 
-def _run_archive(answer: Any) -> Observation:  # noqa: ANN401
+def _run_archive(answer: Answer) -> Observation:
     from rosbeat.ros.scenario import Pause, Resume
 
     sensors = [
-        feeder(name.strip("/"), _READING.topic, _FLOAT, values, qos=_OFFERED[name])
+        feeder(name.strip("/"), _READING, values, qos=_OFFERED[name])
         for name, values in READINGS.items()
     ]
     return observe(answer, 21.0, others=sensors, steps=[Pause(_AWAY[0]), Resume(_AWAY[1])])
@@ -356,18 +343,17 @@ def archive_suspects(asks: Sequence[QoS]) -> list[Suspect]:
     ]
 
 
-def _judge_archive(observation: Observation) -> Outcome:
+def _judge_archive(observation: Observation) -> Verdict:
     wrong = (
         _unheard(observation, _READING)
-        or missing(observation, _ARCHIVE)
-        or _diagnose_archive(observation, [float(one.value) for one in on(observation, _ARCHIVE)])
+        or diagnose_unpublished(observation, _ARCHIVE)
+        or _diagnose_archive(
+            observation, [float(one.value) for one in samples_on(observation, _ARCHIVE)]
+        )
     )
-    if wrong:
-        return failed_by("08b", wrong)
-    return passed(
-        "08b",
+    return wrong or passed(
         f"{len(READINGS)} sensors, {len(FED)} readings, {len(FED)} in the archive: it heard "
-        "everybody, and nothing was lost while it was away.",
+        "everybody, and nothing was lost while it was away."
     )
 
 
@@ -382,11 +368,11 @@ def _diagnose_archive(observation: Observation, kept: Sequence[float]) -> Diagno
         )
     counts = Counter(kept)
     done = {one: (value,) * counts[value] for one, value in FED.items()}
-    parted = parting(done, _archive(FED, _ROOMY))
-    if parted is None:
+    mismatch = first_mismatch(done, _archive(FED, _ROOMY))
+    if mismatch is None:
         return _diagnose_order(kept)
     asks = [end.qos for end in _ends(observation, _READING, "subscription")]
-    (at, node), times = parted.at, len(parted.done)
+    (at, node), times = mismatch.at, len(mismatch.done)
     found = f"in the archive {times} times" if times else "not in the archive"
     missed = sum(not counts[value] for value in FED.values())
     evidence = (
@@ -396,7 +382,7 @@ def _diagnose_archive(observation: Observation, kept: Sequence[float]) -> Diagno
         f"{' and '.join(map(_described, asks)) or 'nothing'}."
     )
     otherwise = Diagnosis("wrong-values", evidence, "Publish each reading once, when it comes.")
-    return named(evidence, fitting(FED, done, archive_suspects(asks)), otherwise)
+    return name_mistake(matching(FED, done, archive_suspects(asks)), otherwise)
 
 
 def _diagnose_order(kept: Sequence[float]) -> Diagnosis | None:
@@ -425,7 +411,7 @@ _END = 25.0
 _LATE, _EXACT = 0.45, 1e-6
 
 
-def _run_watchdog(answer: Any) -> Observation:  # noqa: ANN401
+def _run_watchdog(answer: Answer) -> Observation:
     from rosbeat.ros.scenario import Publish
 
     qos = QoS(deadline_ns=round(LIMIT * NANOSECONDS))
@@ -510,21 +496,20 @@ def deadline_suspects(asks: Sequence[QoS]) -> list[Suspect]:
     return [Suspect("wrong-deadline", _DUE, partial(_watch, limit=limit)) for limit in limits]
 
 
-def _judge_watchdog(observation: Observation) -> Outcome:
-    said = on(observation, _HEALTH)
+def _judge_watchdog(observation: Observation) -> Verdict:
+    said = samples_on(observation, _HEALTH)
     wrong = (
         _unheard(observation, _TEMPERATURE)
         or (None if said else _unmeasured(observation))
-        or missing(observation, _HEALTH)
+        or diagnose_unpublished(observation, _HEALTH)
         or _diagnose_words(observation, [(one.time, str(one.value)) for one in said])
     )
     if wrong:
-        return failed_by("08c", wrong)
+        return wrong
     silences = sum(one[0][1] == LOST for one in _watch(TIMES).values())
     return passed(
-        "08c",
         f"{len(TIMES)} readings, {silences} silences: {LOST!r} once in each of them, and {BACK!r} "
-        "once after each that ended.",
+        "once after each that ended."
     )
 
 
@@ -546,22 +531,24 @@ def _diagnose_words(observation: Observation, said: Sequence[_Word]) -> Diagnosi
         return one[1] == other[1] and abs(one[0] - other[0]) <= late
 
     done = {number: (one,) for number, one in enumerate(said)}
-    parted = parting(done, _watch(TIMES), in_time)
-    if parted is None:
+    mismatch = first_mismatch(done, _watch(TIMES), in_time)
+    if mismatch is None:
         return None
     asks = [end.qos for end in _ends(observation, _TEMPERATURE, "subscription")]
-    fit = fitting(TIMES, done, [*WATCHDOGS, *deadline_suspects(asks)], near)
-    otherwise = _other_word(parted)
+    fit = matching(TIMES, done, [*WATCHDOGS, *deadline_suspects(asks)], near)
+    otherwise = _other_word(mismatch)
     deadlines = [_seconds(qos.deadline_ns) for qos in asks if qos.deadline_ns]
     own = f" Your subscription has a deadline of {deadlines[0]}." if deadlines else ""
     otherwise = replace(otherwise, evidence=otherwise.evidence + own)
-    return named(otherwise.evidence, fit, otherwise)
+    return name_mistake(fit, otherwise)
 
 
-def _other_word(parted: Parting) -> Diagnosis:
+def _other_word(mismatch: Mismatch) -> Diagnosis:
     """Name what no model reproduces by the first message that is not as it should be."""
-    number = parted.at + 1
-    (at, word), (due, wanted) = ((said or ((0.0, ""),))[0] for said in (parted.done, parted.right))
+    number = mismatch.at + 1
+    (at, word), (due, wanted) = (
+        (said or ((0.0, ""),))[0] for said in (mismatch.done, mismatch.right)
+    )
     if not word:
         evidence = f"{wanted!r} was due at {due:g} s, and the node did not say it."
         return Diagnosis("change-missing", evidence, _EACH)

@@ -10,11 +10,18 @@ from itertools import pairwise
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_heard
-from rosbeat.exercises.exercise import Exercise, failed_by, passed
-from rosbeat.exercises.model import Suspect, Track, fitting, missing, named, on, parting
-from rosbeat.exercises.scenarios import feeder, observe, started
-from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Observation, Outcome, Sample
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.exercise import Exercise, Verdict, passed
+from rosbeat.exercises.model import (
+    Suspect,
+    Track,
+    first_mismatch,
+    matching,
+    name_mistake,
+    samples_on,
+)
+from rosbeat.exercises.scenarios import Answer, feeder, observe, started
+from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Observation, Sample
 
 _FLOAT, _INT, _STRING = (f"std_msgs/msg/{name}" for name in ("Float32", "Int32", "String"))
 _STATUS = Wire("/status", _STRING)
@@ -22,22 +29,14 @@ _STATUS = Wire("/status", _STRING)
 
 def _unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
     """Say why the node received nothing from a topic, or None if it received something."""
-    if (observation.subject, wire.topic) in {
-        (one.node, one.source) for one in observation.callbacks
-    }:
-        return None
-    return why_not_heard(observation, wire) or Diagnosis(
-        "no-subscription",
-        f"Messages were published on {wire.topic}, and the node got none.",
-        "What listens to them, and under which name?",
-    )
+    return diagnose_unheard(observation, wire)
 
 
 def _silent(
     observation: Observation, wire: Wire, besides: Iterable[str] = (), hint: str = ""
 ) -> Diagnosis | None:
     """Say why the node published nothing on a topic, or None if it did."""
-    found = missing(observation, wire, tuple(besides))
+    found = diagnose_unpublished(observation, wire, tuple(besides))
     if found is None or found.mistake not in ("never-published", "new-to-me"):
         return found
     evidence = f"Nothing was published on {wire.topic} in {observation.time:g} s."
@@ -58,7 +57,7 @@ _ROOM = 0.05
 Words = Iterable[tuple[float, str]]
 
 
-def _run_with_silences(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+def _run_with_silences(answer: Answer) -> Observation:
     from rosbeat.ros.scenario import Publish
 
     steps = [Publish(at, topic=_TEMPERATURE.topic, values=(22.0,)) for at in READINGS]
@@ -115,27 +114,24 @@ SILENCE_SUSPECTS = (
 )  # fmt: skip
 
 
-def _judge_silence(observation: Observation) -> Outcome:
+def _judge_silence(observation: Observation) -> Verdict:
     wrong = _unheard(observation, _TEMPERATURE) or _silent(observation, _STATUS)
     if wrong is None or wrong.mistake == "never-published":
         wrong = _wrong_words(observation)
-    if wrong:
-        return failed_by("09a", wrong)
-    return passed(
-        "09a",
+    return wrong or passed(
         f"{len(READINGS)} readings, {len(_watch()(READINGS)) // 2} silences: each was noticed "
-        "once, and its end too.",
+        "once, and its end too."
     )
 
 
 def _wrong_words(observation: Observation) -> Diagnosis | None:
-    words = [(sample.time, str(sample.value)) for sample in on(observation, _STATUS)]
+    words = [(sample.time, str(sample.value)) for sample in samples_on(observation, _STATUS)]
     for at, word in words:
         if word not in ("lost", "back"):
             hint = "The status is lost or back, letter by letter: capitals and blanks count."
             return Diagnosis("wrong-word", f"On /status appeared {word!r}, at {at:g} s.", hint)
     done = _by_reading(words)
-    part = parting(done, _watch()(READINGS))
+    part = first_mismatch(done, _watch()(READINGS))
     if part is None:
         return None
     said = [
@@ -158,8 +154,8 @@ def _wrong_words(observation: Observation) -> Diagnosis | None:
             evidence += f" {wait.callback} slept for {seconds:g} s from {wait.time:g} s on."
             hint = "While a callback sleeps, the node receives nothing and no timer runs."
             return Diagnosis("callback-blocks", evidence, hint)
-    fit = fitting(READINGS, done, SILENCE_SUSPECTS)
-    return named(evidence, fit, _first_word(part.at, part.done, part.right, evidence))
+    fit = matching(READINGS, done, SILENCE_SUSPECTS)
+    return name_mistake(fit, _first_word(part.at, part.done, part.right, evidence))
 
 
 def _first_word(at: int, done: Sequence[str], right: Sequence[str], evidence: str) -> Diagnosis:
@@ -196,7 +192,7 @@ _LOOK = 1.0
 Reports = Sequence[tuple[float, int]]
 
 
-def _run_with_orders(answer: Any) -> Observation:  # noqa: ANN401
+def _run_with_orders(answer: Answer) -> Observation:
     from rosbeat.ros.scenario import Publish
 
     steps = [
@@ -205,21 +201,18 @@ def _run_with_orders(answer: Any) -> Observation:  # noqa: ANN401
     return observe(answer, _ORDERS_END, steps=steps)
 
 
-def _judge_work(observation: Observation) -> Outcome:
+def _judge_work(observation: Observation) -> Verdict:
     thread = " A thread of its own counts real time, which does not pass here."
     wrong = (
         _unheard(observation, _ORDER)
         or _silent(observation, _BEAT, [_DONE.topic])
-        or _wrong_beats([beat.time for beat in on(observation, _BEAT)])
+        or _wrong_beats([beat.time for beat in samples_on(observation, _BEAT)])
         or _silent(observation, _DONE, [_BEAT.topic], thread)
         or _wrong_reports(observation)
     )
-    if wrong:
-        return failed_by("09b", wrong)
-    return passed(
-        "09b",
+    return wrong or passed(
         f"{len(ORDERS)} orders, each done after {WORK:g} s, one after the other; meanwhile "
-        f"{len(on(observation, _BEAT))} beats, none of them late.",
+        f"{len(samples_on(observation, _BEAT))} beats, none of them late."
     )
 
 
@@ -351,7 +344,7 @@ TOO_LONG = Suspect(
 
 def _lateness(observation: Observation) -> float:
     """Return the period of a timer that ran at each report: a report may be late by that."""
-    reports = {report.time_ns for report in on(observation, _DONE)}
+    reports = {report.time_ns for report in samples_on(observation, _DONE)}
     runs: dict[tuple[str, str], set[int]] = {}
     for one in observation.callbacks:
         if (one.node, one.kind) == (observation.subject, "timer"):
@@ -361,7 +354,7 @@ def _lateness(observation: Observation) -> float:
 
 
 def _wrong_reports(observation: Observation) -> Diagnosis | None:
-    reports = [(report.time, int(report.value)) for report in on(observation, _DONE)]
+    reports = [(report.time, int(report.value)) for report in samples_on(observation, _DONE)]
     done = _by_report(reports)
     late = _lateness(observation)
     room = min(late, 0.1) + 0.01  # a counter of small steps may be off by one
@@ -371,7 +364,7 @@ def _wrong_reports(observation: Observation) -> Diagnosis | None:
             isinstance(found, float) and -room <= found - wanted <= late + room
         )
 
-    part = parting(done, _worker()(WORK), in_time)
+    part = first_mismatch(done, _worker()(WORK), in_time)
     if part is None:
         return None
     place = part.at
@@ -385,12 +378,12 @@ def _wrong_reports(observation: Observation) -> Diagnosis | None:
     evidence = f"{evidence}; {said}."
     work = done[0][1]
     suspects = (TOO_SHORT if work < WORK else TOO_LONG, *WORK_SUSPECTS)
-    fit = fitting(
+    fit = matching(
         work, done, suspects, lambda one, other: in_time(other, one) or in_time(one, other)
     )
     if fit and fit[0] in (TOO_SHORT, TOO_LONG):
         fit = fit[:1]  # which fits for every length of the work; others only for some lengths
-    return named(evidence, fit, _first_report(part.done, part.right, done, evidence))
+    return name_mistake(fit, _first_report(part.done, part.right, done, evidence))
 
 
 def _first_report(
@@ -464,13 +457,13 @@ PLACES = (HOME, GREENHOUSE, PORCH)
 _PARAMETERS = {"low": LOW, "high": HIGH, "unit": UNIT}
 
 
-def _run_everywhere(answer: Any) -> Observation:  # noqa: ANN401
+def _run_everywhere(answer: Answer) -> Observation:
     """Start an answer in three places at once; the one without arguments is looked at."""
     from rosbeat.ros.scenario import SetParameters
 
     seconds = len(HOME.readings) + 1
     feeds = [
-        feeder(f"sensor_{number}", one.listens, _FLOAT, one.readings)
+        feeder(f"sensor_{number}", Wire(one.listens, _FLOAT), one.readings)
         for number, one in enumerate(PLACES, 1)
     ]
     elsewhere = [
@@ -488,7 +481,7 @@ def _run_everywhere(answer: Any) -> Observation:  # noqa: ANN401
     return observe(answer, seconds, others=[*feeds, *elsewhere], steps=steps)
 
 
-def _judge_places(observation: Observation) -> Outcome:
+def _judge_places(observation: Observation) -> Verdict:
     wrong = _unheard(observation, Wire(HOME.listens, _FLOAT)) or _silent(observation, _STATUS)
     for place in PLACES[1:]:
         wrong = wrong or _wrong_names(observation, place)
@@ -497,13 +490,10 @@ def _judge_places(observation: Observation) -> Outcome:
     for place in PLACES:
         wrong = wrong or _unfilled(observation, place)
         wrong = wrong or _wrong_states(observation, place) or _wrong_form(observation, place)
-    if wrong:
-        return failed_by("09c", wrong)
-    return passed(
-        "09c",
+    return wrong or passed(
         f"One class in {len(PLACES)} places at once, with other topics, limits and units "
         f"({', '.join(place.unit for place in PLACES)}): "
-        f"{sum(len(place.readings) for place in PLACES)} readings, no wrong word.",
+        f"{sum(len(place.readings) for place in PLACES)} readings, no wrong word."
     )
 
 
@@ -533,7 +523,7 @@ def _wrong_names(observation: Observation, place: Place) -> Diagnosis | None:
 
 def _published(observation: Observation, place: Place) -> list[Sample]:
     node = place.node or observation.subject
-    return [one for one in on(observation, Wire(place.speaks, _STRING)) if one.node == node]
+    return [one for one in samples_on(observation, Wire(place.speaks, _STRING)) if one.node == node]
 
 
 def _wrong_count(observation: Observation, place: Place) -> Diagnosis | None:
@@ -605,7 +595,7 @@ def _said(observation: Observation, place: Place) -> Track:
 
 def _wrong_states(observation: Observation, place: Place) -> Diagnosis | None:
     done = _said(observation, place)
-    part = parting(done, _words()(place))
+    part = first_mismatch(done, _words()(place))
     if part is None:
         return None
     text = _published(observation, place)[part.at - 1].value
@@ -620,7 +610,7 @@ def _wrong_states(observation: Observation, place: Place) -> Diagnosis | None:
         hint = f"Where it is told no limits, they are {LOW:g} and {HIGH:g}: the default values."
         return Diagnosis("other-default", f"{evidence} Where it was told, it kept them.", hint)
     other = Diagnosis("wrong-state", evidence, "Which of your conditions is true for it?")
-    return named(evidence, fitting(place, done, PLACE_SUSPECTS), other)
+    return name_mistake(matching(place, done, PLACE_SUSPECTS), other)
 
 
 #: What an f-string or `format` fills in; the text of a set or a dict looks otherwise.

@@ -16,10 +16,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.silence import listing
-from rosbeat.exercises.exercise import BLANK, Exercise, failed, failed_by, not_attempted, passed
+from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import before_reading
 from rosbeat.exercises.scenarios import Report, report
-from rosbeat.records import Outcome
 
 if TYPE_CHECKING:
     from rosbeat.clinic.charts import Chart
@@ -162,30 +161,30 @@ def _half(chart: Chart, claims: Sequence[Claim]) -> Diagnosis | None:
 # All patients of an exercise.
 
 
-def _judge(exercise: str, patients: Sequence[int], seen: Report) -> Outcome:
-    early = before_reading(exercise, seen, f'check("{exercise}", diagnoses)')
+def _judge(exercise: str, patients: Sequence[int], seen: Report) -> Verdict:
+    early = before_reading(seen, f'check("{exercise}", diagnoses)')
     if early:
         return early
     value = seen.value
     unreadable = _unreadable(value, patients)
     if unreadable:
-        return failed_by(exercise, unreadable)
+        return unreadable
     claims = {number: _claims(value.get(str(number), [])) or [] for number in patients}
     if not any(claims.values()):
-        return not_attempted(exercise, "No patient has a diagnosis yet.")
+        return not_attempted("No patient has a diagnosis yet.")
     ward = value.get(_KEY, WARD)
     weighed = {number: weigh(_chart(ward, number), claims[number]) for number in patients}
     right = [str(number) for number, found in weighed.items() if not found]
     wrong = {number: found for number, found in weighed.items() if found}
     head = f"Patient{'s' * (len(right) > 1)} {listing(right)}"
     if not wrong:
-        return passed(exercise, f"{head} are diagnosed.")
+        return passed(f"{head} are diagnosed.")
     # Nobody has to have seen all patients before the first one is judged.
     told = [(n, found) for n, found in wrong.items() if claims[n]] or [*wrong.items()][:1]
     evidence = [f"Patient {number}: {found.evidence}" for number, found in told]
     if right:
         evidence.insert(0, f"{head} {'are' if len(right) > 1 else 'is'} right.")
-    return failed(exercise, " ".join(evidence), told[0][1].hint, told[0][1].mistake)
+    return Diagnosis(told[0][1].mistake, " ".join(evidence), told[0][1].hint)
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (

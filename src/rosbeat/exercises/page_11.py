@@ -20,23 +20,22 @@ from typing import Any
 
 from rosbeat import bags
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.diagnosis.wires import Wire, why_not_heard
-from rosbeat.exercises.exercise import Exercise, before_judging, failed, failed_by, passed
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.exercise import Exercise, Verdict, before_judging, passed
 from rosbeat.exercises.model import (
     Suspect,
     Track,
     agree,
     before_reading,
-    fitting,
-    missing,
-    named,
-    on,
-    parting,
+    first_mismatch,
+    matching,
+    name_mistake,
+    samples_on,
     spelling,
     variants,
 )
-from rosbeat.exercises.scenarios import Report, observe, report
-from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Observation, Outcome, Sample
+from rosbeat.exercises.scenarios import Answer, Report, observe, report
+from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Observation, Sample
 
 _FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
 _TEMPERATURE, _REFERENCE = Wire("/temperature", _FLOAT), Wire("/reference", _FLOAT)
@@ -83,7 +82,7 @@ class BagReports:
     reports: tuple[Report, ...]
 
 
-def _look_into_bags(answer: Any) -> BagReports:  # noqa: ANN401 - whatever a learner hands over
+def _look_into_bags(answer: Answer) -> BagReports:
     found: list[Report] = []
     with TemporaryDirectory(prefix="rosbeat-") as folder:
         for number, readings in enumerate(RECORDINGS):
@@ -194,29 +193,26 @@ _RAISED = (
 )  # fmt: skip
 
 
-def _judge_bag_reports(seen: BagReports) -> Outcome:
+def _judge_bag_reports(seen: BagReports) -> Verdict:
     for one in seen.reports:
         example = 'check("11a", look_into)'
-        early = _raised_in_function(one) or before_reading("11a", one, example)
+        early = _raised_in_function(one) or before_reading(one, example)
         if early:
             return early
     numbers = (_diagnose_number(seen, key) for key in ASKED)
     wrong = _diagnose_shape(seen) or next(filter(None, numbers), None)
-    if wrong:
-        return failed_by("11a", wrong)
-    return passed(
-        "11a",
+    return wrong or passed(
         f"{len(RECORDINGS)} recordings that this page has not seen: all three numbers are right "
-        "in each.",
+        "in each."
     )
 
 
-def _raised_in_function(one: Report) -> Outcome | None:
+def _raised_in_function(one: Report) -> Verdict | None:
     kind, _, text = one.problem.partition(": ")
     for name, part, mistake, hint in _RAISED:
         if kind == name and part in text:
             said = text.splitlines()[0].rstrip(".") if text else "without a word"
-            return failed("11a", f"The function raised {kind}: {said}.", hint, mistake)
+            return Diagnosis(mistake, f"The function raised {kind}: {said}.", hint)
     return None
 
 
@@ -249,19 +245,19 @@ def _diagnose_number(seen: BagReports, key: str) -> Diagnosis | None:
         return Diagnosis("no-number", f"For {key!r} the function gave back {odd[0]!r}.", hint)
     done = {number: (one,) for number, one in enumerate(found)}
     right, suspects = ASKED[key]
-    parted = parting(done, _in_each(RECORDINGS, right), _near)
-    if parted is None:
+    mismatch = first_mismatch(done, _in_each(RECORDINGS, right), _near)
+    if mismatch is None:
         return None
-    readings = ", ".join(f"{value:g} at {at:g} s" for at, value in RECORDINGS[parted.at])
+    readings = ", ".join(f"{value:g} at {at:g} s" for at, value in RECORDINGS[mismatch.at])
     evidence = (
-        f"In a recording with the readings {readings}, {key!r} is {parted.right[0]:g}, and the "
-        f"function found {parted.done[0]:g}."
+        f"In a recording with the readings {readings}, {key!r} is {mismatch.right[0]:g}, and the "
+        f"function found {mismatch.done[0]:g}."
     )
     if all(one == found[0] for one in found):
         hint = "The result is the same for every bag. Calculate it from the messages of this one."
         return Diagnosis("fixed-answer", evidence, hint)
     otherwise = Diagnosis("wrong-values", evidence, "Print the list from which you calculate it.")
-    return named(evidence, fitting(RECORDINGS, done, suspects, _near), otherwise)
+    return name_mistake(matching(RECORDINGS, done, suspects, _near), otherwise)
 
 
 def _near(one: float, other: float) -> bool:
@@ -295,7 +291,7 @@ class Replayed:
     def said(self) -> Track:
         """Return what the node said, by time in nanoseconds."""
         found: dict[int, tuple[str, ...]] = {}
-        for one in on(self.observation, _FAULT):
+        for one in samples_on(self.observation, _FAULT):
             found[one.time_ns] = (*found.get(one.time_ns, ()), str(one.value))
         return found
 
@@ -345,7 +341,7 @@ def _walk(seed: int, count: int, start: float = 22.0) -> list[float]:
     return found
 
 
-def _replay(recordings: Iterable[Recording], answer: Any) -> Replays:  # noqa: ANN401
+def _replay(recordings: Iterable[Recording], answer: Answer) -> Replays:
     """Play recordings to an answer, each in a session of its own."""
     runs: list[Replayed] = []
     for one in recordings:
@@ -380,9 +376,9 @@ class Task:
     context: Callable[[Sequence[Sample], int], str]
 
 
-def _judge_alarms(exercise: str, task: Task, seen: Replays) -> Outcome:
+def _judge_alarms(exercise: str, task: Task, seen: Replays) -> Verdict:
     for run in seen.runs:
-        early = _none_used(exercise, run) or before_judging(exercise, run.observation)
+        early = _none_used(exercise, run) or before_judging(run.observation)
         if early:
             return early
     wrong = (
@@ -392,26 +388,24 @@ def _judge_alarms(exercise: str, task: Task, seen: Replays) -> Outcome:
         or _diagnose_alarms(seen.runs, task)
     )
     if wrong:
-        return failed_by(exercise, wrong)
+        return wrong
     count = sum(len(task.right(run.heard)) for run in seen.runs)
     return passed(
-        exercise,
         f"{len(seen.runs)} recordings, {sum(len(run.heard) for run in seen.runs)} readings: "
-        f"{count} alarms where there was something wrong, and none where all was well.",
+        f"{count} alarms where there was something wrong, and none where all was well."
     )
 
 
-def _none_used(exercise: str, run: Replayed) -> Outcome | None:
+def _none_used(exercise: str, run: Replayed) -> Verdict | None:
     """Name a calculation with the None that stands for a reading which has not come yet."""
     none = re.compile(r"supported .*'NoneType'|must be real number, not NoneType")
     for fault in run.observation.faults[:1]:
         if fault.kind == "TypeError" and none.search(fault.text):
-            return failed(
-                exercise,
+            return Diagnosis(
+                "none-used",
                 f"{_in(run)} {fault.callback} calculated with None at {fault.time:g} s, in line "
                 f"{fault.line}: {fault.code}",
                 "What is in your node's memory before the first reading has come? Ask for that.",
-                "none-used",
             )
     return None
 
@@ -429,18 +423,14 @@ def _unheard(runs: Sequence[Replayed], wire: Wire, task: Task) -> Diagnosis | No
             f"The node listens to {' and '.join(sorted(heard))} only; {wire.topic} passes it by.",
             "A node may have as many subscriptions as it needs, each with its own callback.",
         )
-    return why_not_heard(seen, wire) or Diagnosis(
-        "new-to-me",
-        f"Messages were published on {wire.topic}, and the node got none of them.",
-        f"Does it call create_subscription, with the topic {wire.topic.strip('/')!r}?",
-    )
+    return diagnose_unheard(seen, wire)
 
 
 def _silent(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
     """Say why there is nothing to judge: silence in all recordings, or another type."""
     due = next(run for run in runs if task.right(run.heard))
     run = next((run for run in runs if run.said), due)
-    return missing(run.observation, _FAULT)
+    return diagnose_unpublished(run.observation, _FAULT)
 
 
 def _strange(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
@@ -457,11 +447,11 @@ def _strange(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
 
 
 def _diagnose_alarms(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
-    parted = [parting(run.said, task.right(run.heard)) for run in runs]
-    first = next((number for number, one in enumerate(parted) if one), None)
+    mismatch = [first_mismatch(run.said, task.right(run.heard)) for run in runs]
+    first = next((number for number, one in enumerate(mismatch) if one), None)
     if first is None:
         return None
-    run, found = runs[first], parted[first]
+    run, found = runs[first], mismatch[first]
     assert found is not None
     otherwise = _other_alarm(run, task, found.at, found.done, found.right)
     # With two mistakes, no suspect may reproduce all recordings. Then those count that reproduce
@@ -474,7 +464,7 @@ def _diagnose_alarms(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
         one for one, some in explained.items() if run in some and any(other.said for other in some)
     ]
     most = max((len(explained[one]) for one in fit), default=0)
-    return named(otherwise.evidence, [one for one in fit if len(explained[one]) == most], otherwise)
+    return name_mistake([one for one in fit if len(explained[one]) == most], otherwise)
 
 
 def _other_alarm(
@@ -549,7 +539,7 @@ _SAYS: dict[str, Callable[[int, int, bool], bool]] = {
 }
 
 
-def _play_sick(answer: Any) -> Replays:  # noqa: ANN401 - whatever a learner hands over
+def _play_sick(answer: Answer) -> Replays:
     return _replay(SICK, answer)
 
 
@@ -730,7 +720,7 @@ TWO = (
 )
 
 
-def _play_two(answer: Any) -> Replays:  # noqa: ANN401 - whatever a learner hands over
+def _play_two(answer: Answer) -> Replays:
     return _replay(TWO, answer)
 
 

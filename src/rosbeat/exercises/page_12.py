@@ -15,21 +15,20 @@ from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.silence import difference, nearest
-from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
-from rosbeat.exercises.exercise import Exercise, failed_by, passed
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
-    Parting,
+    Mismatch,
     Suspect,
     Track,
     agree,
-    fitting,
-    missing,
-    named,
-    on,
-    parting,
+    first_mismatch,
+    matching,
+    name_mistake,
+    samples_on,
 )
-from rosbeat.exercises.scenarios import feeder, observe
-from rosbeat.records import Observation, Outcome
+from rosbeat.exercises.scenarios import Answer, feeder, observe
+from rosbeat.records import Observation
 
 _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 _STATUS = Wire("/status", "std_msgs/msg/String")
@@ -164,7 +163,7 @@ BY_PARAMETER = _requests(
 _SERVICE, _BASIC = "/set_high", "test_msgs/srv/BasicTypes"
 
 
-def observe_service(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+def observe_service(answer: Answer) -> Observation:
     """Run a monitor, and call its service between the readings."""
     from rosbeat.ros.scenario import Call
 
@@ -175,7 +174,7 @@ def observe_service(answer: Any) -> Observation:  # noqa: ANN401 - whatever a le
     return _observe_requests(answer, BY_SERVICE, call)
 
 
-def observe_parameters(answer: Any) -> Observation:  # noqa: ANN401
+def observe_parameters(answer: Answer) -> Observation:
     """Run a monitor, and set its parameters between the readings."""
     from rosbeat.ros.scenario import SetParameters
 
@@ -185,7 +184,7 @@ def observe_parameters(answer: Any) -> Observation:  # noqa: ANN401
 
 
 def _observe_requests(
-    answer: Any,  # noqa: ANN401
+    answer: Answer,
     requests: Sequence[Request],
     step: Callable[[float, dict[str, float]], Any],
 ) -> Observation:
@@ -196,7 +195,7 @@ def _observe_requests(
         if request.values:
             steps.append(step(len(readings) + 0.5, request.values))
         readings += request.readings
-    sensor = feeder("temperature_sensor", "temperature", _TEMPERATURE.type_name, readings)
+    sensor = feeder("temperature_sensor", _TEMPERATURE, readings)
     return observe(answer, len(readings) + 1, others=[sensor], steps=steps)
 
 
@@ -350,24 +349,24 @@ def _wrong_monitor(
         track = dict(_reaction(request, answer.accepted, reason=bool(answer.reason.strip())))
         did.append((request, answer, track | {Reaction.STATUSES: statuses}))
     for request, answer, done in did:
-        parted = parting(done, right_monitor(request), same)
-        if parted is None:
+        mismatch = first_mismatch(done, right_monitor(request), same)
+        if mismatch is None:
             continue
         fit = [
             suspect
             for suspect in (whole if request.values else ())
             if all(agree(suspect.model(one), track, same) for one, _, track in did[1:])
         ]
-        evidence = _reaction_evidence(request, answer, parted)
-        fit = fit or fitting(request, done, MONITORS, same)
-        return named(evidence, fit, _other(request, evidence))
+        evidence = _reaction_evidence(request, answer, mismatch)
+        fit = fit or matching(request, done, MONITORS, same)
+        return name_mistake(fit, _other(request, evidence))
     return None
 
 
 def _statuses(seen: Observation, requests: Sequence[Request]) -> Iterator[tuple[str, ...]]:
     """Yield the statuses of each request's readings; `-` for none, or for more than one."""
     said: dict[float, list[str]] = {}
-    for sample in on(seen, _STATUS):
+    for sample in samples_on(seen, _STATUS):
         said.setdefault(sample.time, []).append(str(sample.value).strip())
     second = 0
     for request in requests:
@@ -376,17 +375,17 @@ def _statuses(seen: Observation, requests: Sequence[Request]) -> Iterator[tuple[
         yield tuple(one[0] if len(one) == 1 else "-" for one in here)
 
 
-def _reaction_evidence(request: Request, answer: _Answer, parted: Parting) -> str:
+def _reaction_evidence(request: Request, answer: _Answer, mismatch: Mismatch) -> str:
     """Return what was right and what was done where the two part."""
-    if parted.at is Reaction.STATUSES:
-        pairs = zip(request.readings, parted.done, parted.right, strict=True)
+    if mismatch.at is Reaction.STATUSES:
+        pairs = zip(request.readings, mismatch.done, mismatch.right, strict=True)
         reading, word, right = next(one for one in pairs if not same(*one[1:]))
         word = "nothing, or more than one thing" if word == "-" else word
         when = f"After {request.text} was {'accepted' if answer.accepted else 'refused'}"
         when = when if request.values else "Before any change"
         return f"{when}, the status for {reading:g} was {word}; it should be {right}."
     task = f"The request for {request.text} was"
-    if parted.at is Reaction.REASON:
+    if mismatch.at is Reaction.REASON:
         return f"{task} refused without a reason."
     if answer.accepted is None:
         return f"{task} never answered."
@@ -410,23 +409,10 @@ def _other(request: Request, evidence: str) -> Diagnosis:
 
 def _unheard_or_silent(seen: Observation) -> Diagnosis | None:
     """Say why no reading was heard, or no status published; None if both were."""
-    if not any(call.source == _TEMPERATURE.topic for call in seen.callbacks):
-        return why_not_heard(seen, _TEMPERATURE) or Diagnosis(
-            "no-subscription",
-            "Readings were published on /temperature, and the node got none.",
-            "The subscription was part of what you were given.",
-        )
-    if on(seen, _STATUS):
-        return None
-    otherwise = Diagnosis(
-        "never-published",
-        "Readings arrived, and nothing was published on {topic}.",
-        "The status of each reading was part of what you were given.",
-    )
-    return missing(seen, _STATUS, otherwise=otherwise)
+    return diagnose_unheard(seen, _TEMPERATURE) or diagnose_unpublished(seen, _STATUS)
 
 
-def _judge_service(seen: Observation) -> Outcome:
+def _judge_service(seen: Observation) -> Verdict:
     # What is given comes before what is asked for.
     found = _unheard_or_silent(seen) or _wrong_monitor(seen, BY_SERVICE[:1])
     found = found or _no_server(seen, "server", _SERVICE, _BASIC)
@@ -443,12 +429,10 @@ def _judge_service(seen: Observation) -> Outcome:
         )
     answers = [replies.get(number, _Answer()) for number in range(1, len(BY_SERVICE))]
     found = found or _wrong_monitor(seen, BY_SERVICE, answers, [NOT_FILLED])
-    if found:
-        return failed_by("12a", found)
-    return passed("12a", _all_right("calls", "values kept,", BY_SERVICE))
+    return found or passed(_all_right("calls", "values kept,", BY_SERVICE))
 
 
-def _judge_parameters(seen: Observation) -> Outcome:
+def _judge_parameters(seen: Observation) -> Verdict:
     found = _unheard_or_silent(seen) or _wrong_monitor(seen, BY_PARAMETER[:1])
     answers = [
         _Answer(one.data["successful"], one.data["reason"])
@@ -458,9 +442,9 @@ def _judge_parameters(seen: Observation) -> Outcome:
     found = found or _refused_by_ros(answers)
     found = found or _wrong_monitor(seen, BY_PARAMETER, answers, [NOT_FILLED, NOT_VALIDATED])
     if found:
-        return failed_by("12b", found)
+        return found
     kept = "made, two of them of both at once, and"
-    return passed("12b", _all_right("changes", kept, BY_PARAMETER))
+    return passed(_all_right("changes", kept, BY_PARAMETER))
 
 
 def _all_right(what: str, kept: str, requests: Sequence[Request]) -> str:
@@ -532,7 +516,7 @@ _START = 18
 _HEAT, _FIBONACCI = "/heat", "test_msgs/action/Fibonacci"
 
 
-def observe_heating(answer: Any) -> Observation:  # noqa: ANN401 - whatever a learner hands over
+def observe_heating(answer: Answer) -> Observation:
     """Run a thermostat in a room, and send it goals."""
     from rosbeat.ros.scenario import SendGoal
     from rosbeat.ros.test_nodes import Room
@@ -672,7 +656,7 @@ class _Heating:
 
     def __init__(self, seen: Observation, goal: Goal) -> None:
         self._goal, self._canceled_at = goal, goal.at + (goal.cancel_after or inf)
-        self._heater = [(one.time, bool(one.value)) for one in on(seen, _HEATER)]
+        self._heater = [(one.time, bool(one.value)) for one in samples_on(seen, _HEATER)]
         replies = [one for one in seen.replies if one.number == GOALS.index(goal) + 1]
         self._feedback = [one for one in replies if one.word == "feedback"]
         got = {one.word: one for one in replies}
@@ -683,7 +667,7 @@ class _Heating:
         self.end = got["result"].time if "result" in got else None
         result = got["result"].data if "result" in got else {"status": "", "sequence": ()}
         self._status, self._degrees = str(result["status"]), list(result["sequence"])
-        room = [(one.time, int(one.value)) for one in on(seen, _TEMPERATURE)]
+        room = [(one.time, int(one.value)) for one in samples_on(seen, _TEMPERATURE)]
         start = next((value for at, value in reversed(room) if at < goal.at), _START)
         self._wanted = list(range(start + 1, goal.order + 1))
         self._right = (self._wanted, [start, *self._wanted])
@@ -785,17 +769,16 @@ class _Heating:
         return self.end is not None and states[-1:] == [True]
 
 
-def _judge_heating(seen: Observation) -> Outcome:
+def _judge_heating(seen: Observation) -> Verdict:
     found = (
         _no_server(seen, "action server", _HEAT, _FIBONACCI) or _blocked(seen) or _wrong_work(seen)
     )
     if found:
-        return failed_by("12c", found)
+        return found
     rejected = sum(not one.is_good for one in GOALS)
     return passed(
-        "12c",
         f"Heated to {_FIRST.order}, with a report each second; stopped when it was canceled; "
-        f"{rejected} goals that make no sense were rejected.",
+        f"{rejected} goals that make no sense were rejected."
     )
 
 
@@ -807,20 +790,22 @@ def _wrong_work(seen: Observation) -> Diagnosis | None:
     for goal, points, judged in rounds:
         done = {at: (value,) for at, (value, _) in points.items()}
         right = right_thermostat(goal)
-        parted = parting({at: done[at] for at in judged}, {at: right[at] for at in judged}, same)
-        if parted is None:
+        mismatch = first_mismatch(
+            {at: done[at] for at in judged}, {at: right[at] for at in judged}, same
+        )
+        if mismatch is None:
             continue
-        silent = _never_heated(seen, goal) if parted.at is Work.SWITCHED_ON else None
-        evidence = points[parted.at][1]
+        silent = _never_heated(seen, goal) if mismatch.at is Work.SWITCHED_ON else None
+        evidence = points[mismatch.at][1]
         hint = "Does the callback of this step come to its end? Print before and after it."
         unknown = Diagnosis(UNKNOWN, evidence, hint)
-        return silent or named(evidence, fitting(goal, done, THERMOSTATS, same), unknown)
+        return silent or name_mistake(matching(goal, done, THERMOSTATS, same), unknown)
     return None
 
 
 def _never_heated(seen: Observation, goal: Goal) -> Diagnosis | None:
     """Say why nothing was published on /heater; None if something was."""
-    found = why_not_published(seen, _HEATER)
+    found = diagnose_unpublished(seen, _HEATER)
     if found is None or found.mistake != "never-published":
         return found
     evidence = (

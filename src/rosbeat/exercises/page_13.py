@@ -20,15 +20,14 @@ from typing import Any
 from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.silence import difference, nearest
-from rosbeat.diagnosis.wires import Wire, why_not_heard, why_not_published
+from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.exercises.exercise import (
     FAILED,
     NEW_TO_ME,
     PASSED,
     Exercise,
+    Verdict,
     before_judging,
-    failed,
-    failed_by,
     not_attempted,
     passed,
 )
@@ -54,8 +53,17 @@ from rosbeat.exercises.greenhouse import (
     plain_day,
     read_rubric,
 )
-from rosbeat.exercises.model import Suspect, Track, fitting, named, on
-from rosbeat.exercises.scenarios import adding, hearer, observe, observe_system, removing, station
+from rosbeat.exercises.model import Suspect, Track, matching, name_mistake, samples_on
+from rosbeat.exercises.scenarios import (
+    Answer,
+    Value,
+    adding,
+    listener,
+    observe,
+    observe_system,
+    removing,
+    station,
+)
 from rosbeat.records import Fault, GraphSnapshot, Observation, Outcome, Part, QoS
 
 _BOOL, _FLOAT = "std_msgs/msg/Bool", "std_msgs/msg/Float32"
@@ -96,7 +104,7 @@ class Trials:
         return self.runs[PLAIN]
 
 
-def observe_vent(answer: Any, numbers: Mapping[str, float] = USUAL) -> Trials:  # noqa: ANN401
+def observe_vent(answer: Answer, numbers: Mapping[str, float] = USUAL) -> Trials:
     """Run a vent alone through the first part of the plain day.
 
     Args:
@@ -108,7 +116,7 @@ def observe_vent(answer: Any, numbers: Mapping[str, float] = USUAL) -> Trials:  
     return Trials(dict(numbers), {PLAIN: observe(answer, day.seconds, others=[sensor])})
 
 
-def observe_greenhouse(answer: Any, numbers: Mapping[str, float] = USUAL) -> Trials:  # noqa: ANN401
+def observe_greenhouse(answer: Answer, numbers: Mapping[str, float] = USUAL) -> Trials:
     """Run a greenhouse through all trials.
 
     Args:
@@ -118,7 +126,7 @@ def observe_greenhouse(answer: Any, numbers: Mapping[str, float] = USUAL) -> Tri
     day, lossy = plain_day(numbers), lossy_day(numbers)
     qos = QoS(durability="TRANSIENT_LOCAL", depth=1)
     late = [
-        adding(day.seconds - 1, hearer(name, topic, _BOOL, qos))
+        adding(day.seconds - 1, listener(name, Wire(topic, _BOOL), qos))
         for name, topic in zip(_LATE, ("vent", "pump"), strict=True)
     ]
     runs = {PLAIN: _observe_day(answer, day, late)}
@@ -135,7 +143,9 @@ def observe_greenhouse(answer: Any, numbers: Mapping[str, float] = USUAL) -> Tri
     return Trials(dict(numbers), runs)
 
 
-def _observe_day(answer: Any, day: Day, steps: Iterable[Any] = (), **options: Any) -> Observation:  # noqa: ANN401
+def _observe_day(
+    answer: Answer, day: Day, steps: Iterable[Any] = (), **options: Value
+) -> Observation:
     readings = (("temperature", day.temperature), ("humidity", day.humidity))
     sensors = [
         station(name, topic, values)
@@ -184,7 +194,7 @@ class Switch:
 
 def _said(seen: Observation, topic: str) -> list[tuple[float, Any]]:
     """Return when what was published on an output."""
-    return [(one.time, one.value) for one in on(seen, Wire(topic, OUTPUTS[topic]))]
+    return [(one.time, one.value) for one in samples_on(seen, Wire(topic, OUTPUTS[topic]))]
 
 
 def _switch(seen: Observation, topic: str) -> Switch:
@@ -361,16 +371,21 @@ def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Di
             forgetful = _forgets(seen, day, numbers)
             if forgetful:
                 repeated = f"{evidence} Every command that was published is the same."
-                return named(repeated, forgetful)
-            return named(evidence, fitting(held, {0: (done,)}, VENTS))
+                return name_mistake(forgetful, Diagnosis(UNKNOWN, repeated, _CONDITIONS))
+            return name_mistake(
+                matching(held, {0: (done,)}, VENTS), Diagnosis(UNKNOWN, evidence, _CONDITIONS)
+            )
     return None
+
+
+_CONDITIONS = "Go through your conditions in their order with this reading."
 
 
 def _forgets(seen: Observation, day: Day, numbers: Mapping[str, float]) -> list[Suspect]:
     """Return the suspects that never remember, and gave the commands of the whole day."""
     limits = numbers["open_above"], numbers["close_below"]
     commands = {time: (bool(value),) for time, value in _said(seen, "/vent")}
-    return fitting(Temperatures(tuple(day.temperature), *limits), commands, FORGETFUL)
+    return matching(Temperatures(tuple(day.temperature), *limits), commands, FORGETFUL)
 
 
 def _judge_vent(trials: Trials) -> Diagnosis | None:
@@ -378,25 +393,24 @@ def _judge_vent(trials: Trials) -> Diagnosis | None:
     return _silent(seen, "/vent") or _wrong_vent(seen, plain_day(numbers), numbers)
 
 
-def _judge_vent_alone(trials: Trials) -> Outcome:
+def _judge_vent_alone(trials: Trials) -> Verdict:
     seen, numbers = trials.plain, matching_rubric(trials.numbers).numbers
-    early = before_judging("13a", seen)
+    early = before_judging(seen)
     if early:
         return early
     temperature, vent = Wire("/temperature", _FLOAT), Wire("/vent", _BOOL)
-    heard = any(call.source == temperature.topic for call in seen.callbacks)
     day = airing(numbers)
     wrong = (
-        (None if heard else why_not_heard(seen, temperature))
-        or why_not_published(seen, vent)
+        diagnose_unheard(seen, temperature)
+        or diagnose_unpublished(seen, vent)
         or _silent(seen, "/vent")
         or _wrong_vent(seen, day, numbers)
         or _repeated(seen, "/vent")
     )
     if wrong:
-        return failed_by("13a", wrong)
+        return wrong
     count = len(_said(seen, "/vent"))
-    return passed("13a", f"{len(day.held)} temperatures, and {count} commands.")
+    return passed(f"{len(day.held)} temperatures, and {count} commands.")
 
 
 # R2 and R3: the pump runs when it should, and only then.
@@ -744,7 +758,7 @@ def _judge_reports(trials: Trials) -> Diagnosis | None:
         hint = "Which readings are in it? Those of the last report are not."
         fed, done = Reports(day, tuple(times)), {time: (value,) for time, value in reports}
         otherwise = Diagnosis("wrong-window", evidence, hint)
-        return named(evidence, fitting(fed, done, REPORTERS, is_near), otherwise)
+        return name_mistake(matching(fed, done, REPORTERS, is_near), otherwise)
     return None
 
 
@@ -929,7 +943,7 @@ JUDGES: dict[str, Callable[[Trials], Diagnosis | None]] = {
 }
 
 
-def _judge_greenhouse(trials: Trials) -> Outcome:
+def _judge_greenhouse(trials: Trials) -> Verdict:
     """Judge a greenhouse; the outcome has a part for each requirement if there is a greenhouse."""
     requirements = matching_rubric(trials.numbers).requirements
     early = _before_judging(trials.plain)
@@ -954,20 +968,20 @@ def _judge_greenhouse(trials: Trials) -> Outcome:
     return Outcome("13b", FAILED, evidence, first.hint, first.mistake, parts=parts)
 
 
-def _before_judging(seen: Observation) -> Outcome | None:
+def _before_judging(seen: Observation) -> Verdict | None:
     """Return the outcome if there is a blank, no list, or a list that is never made."""
     if any("'____'" in fault.text for fault in seen.faults):
-        return not_attempted("13b")
+        return not_attempted()
     if not _is_hopeless(seen):
         return None
     fault = next((one for one in seen.faults if one.kind == "DeadlinePassed"), seen.faults[0])
     if fault.kind not in ("NoSystemError", "SessionError"):
-        return failed_by("13b", _raised(fault))
+        return _raised(fault)
     hint = (
         'The check wants the function: check("13b", greenhouse). It returns a list of classes, or '
         "of pairs of a class and a dict that says how to start it."
     )
-    return failed("13b", fault.text, hint, "no-system")
+    return Diagnosis("no-system", fault.text, hint)
 
 
 def _raised(fault: Fault) -> Diagnosis:

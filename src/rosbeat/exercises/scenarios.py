@@ -6,9 +6,11 @@ import json
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
+from rosbeat.diagnosis.wires import Wire
 from rosbeat.errors import ExerciseError
 from rosbeat.records import Observation, QoS
 from rosbeat.ros.isolation import Deadline
@@ -17,73 +19,80 @@ from rosbeat.workspace.packages import Package, find_packages, read_package
 
 # What `ros` runs answers with, imported when the first one runs.
 
-#: A node, or what makes one; its type is rclpy's, which is not imported here.
-Node = Any
+#: An answer: whatever a learner handed over.
+Answer: TypeAlias = Any
+#: Any value, such as an option or the data of a message.
+Value: TypeAlias = Any
+#: A node of rclpy, and a step of `rosbeat.ros.scenario`; neither is imported here.
+Node: TypeAlias = Any
+Step: TypeAlias = Any
 
 
-def observe(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
+def observe(answer: Answer, seconds: float, **options: Value) -> Observation:
     """Run an answer in virtual time; see `rosbeat.ros.scenario.observe`."""
     from rosbeat.ros import scenario
 
     return scenario.observe(answer, seconds, **options)
 
 
-def feeder(
-    name: str,
-    topic: str,
-    type_name: str,
-    values: Iterable[Any],
-    **options: Any,  # noqa: ANN401
-) -> Callable[[], Node]:
-    """A node that publishes one value a second; see `rosbeat.ros.scenario.feeder`."""
-    from rosbeat.ros import scenario
-
-    return scenario.feeder(name, topic, type_name, values, **options)
-
-
-def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
-    """A node that logs what it hears; see `rosbeat.ros.test_nodes.hearer`."""
-    from rosbeat.ros import test_nodes
-
-    return test_nodes.hearer(name, topic, type_name, qos)
-
-
-def started(make: Any, **start: Any) -> Any:  # noqa: ANN401
-    """A node to run beside an answer, started like `Session.add(make, **start)`."""
-    from rosbeat.ros import launch
-
-    return launch.Maker(make, launch.checked(**start))
-
-
-def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
-    """A node that tilts random numbers; see `rosbeat.ros.test_nodes.drift`."""
-    from rosbeat.ros import test_nodes
-
-    return test_nodes.drift(phases)
-
-
-def observe_system(answer: Any, seconds: float, **options: Any) -> Observation:  # noqa: ANN401
+def observe_system(answer: Answer, seconds: float, **options: Value) -> Observation:
     """Run several nodes in virtual time; see `rosbeat.ros.scenario.observe_system`."""
     from rosbeat.ros import scenario
 
     return scenario.observe_system(answer, seconds, **options)
 
 
+def feeder(name: str, wire: Wire, values: Iterable[Value], **options: Value) -> Callable[[], Node]:
+    """Return what makes a node that publishes one value a second; see `test_nodes.feeder`."""
+    from rosbeat.ros import test_nodes
+
+    return test_nodes.feeder(name, wire.topic, wire.type_name, values, **options)
+
+
+def listener(name: str, wire: Wire, qos: QoS | int = 10) -> Callable[[], Node]:
+    """Return what makes a node that logs the messages on a topic; see `test_nodes.listener`."""
+    from rosbeat.ros import test_nodes
+
+    return test_nodes.listener(name, wire.topic, wire.type_name, qos)
+
+
 def station(name: str, topic: str, readings: Iterable[float | None]) -> Callable[[], Node]:
-    """A sensor that publishes a `Float32` each second; None is a second without a message."""
+    """Return what makes a sensor of one `Float32` a second; None is a second without a message."""
     values = [None if reading is None else float(reading) for reading in readings]
-    return feeder(name, topic, "std_msgs/msg/Float32", values)
+    return feeder(name, Wire(topic, "std_msgs/msg/Float32"), values)
 
 
-def adding(at: float, make: Callable[[], Node]) -> Any:  # noqa: ANN401
-    """A step that adds a node."""
+def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
+    """Return what makes a node that tilts random numbers; see `test_nodes.drift`."""
+    from rosbeat.ros import test_nodes
+
+    return test_nodes.drift(phases)
+
+
+def started(make: Answer, **start: Value) -> Answer:
+    """Return an answer to run beside another, started like `Session.add(make, **start)`."""
+    from rosbeat.ros import launch
+
+    return launch.Maker(make, launch.checked(**start))
+
+
+def publishing(wire: Wire, said: Iterable[tuple[float, Any]], qos: QoS | None = None) -> list[Step]:
+    """Return steps that publish values, each at its time in seconds."""
+    from rosbeat.ros.scenario import Publish
+
+    make = partial(Publish, topic=wire.topic, type_name=wire.type_name, qos=qos or QoS())
+    return [make(at, values=(value,)) for at, value in said]
+
+
+def adding(at: float, make: Callable[[], Node]) -> Step:
+    """Return a step that adds a node at a time in seconds."""
     from rosbeat.ros.scenario import Add
 
     return Add(at, make=make)
 
 
-def removing(at: float, node: str) -> Any:  # noqa: ANN401
-    """A step that destroys a node."""
+def removing(at: float, node: str) -> Step:
+    """Return a step that destroys a node at a time in seconds."""
     from rosbeat.ros.scenario import Remove
 
     return Remove(at, node)
@@ -113,12 +122,12 @@ class Report:
     type_name: str = ""
 
     @property
-    def value(self) -> Any:  # noqa: ANN401 - any plain data
-        """The result; None if there is none."""
+    def value(self) -> Value:
+        """Return the result, any plain data; None if there is none."""
         return json.loads(self.result) if self.result else None
 
 
-def report(answer: Any, *arguments: Any) -> Report:  # noqa: ANN401 - whatever a learner hands over
+def report(answer: Answer, *arguments: Value) -> Report:
     """Call a function and write down what it gives back.
 
     Args:
@@ -135,7 +144,7 @@ def report(answer: Any, *arguments: Any) -> Report:  # noqa: ANN401 - whatever a
     return Report("", late) if deadline.passed else seen
 
 
-def _written(value: Any) -> Report:  # noqa: ANN401
+def _written(value: Value) -> Report:
     kind = type(value).__name__
     if value is None:
         return Report("", "", kind)
@@ -169,7 +178,7 @@ class Workspace:
     packages: dict[str, Package]
 
     def place_of(self, name: str, root: str = "src") -> str:
-        """Where a package lies that is not in `root`, or an empty text."""
+        """Return where a package lies that is not in `root`, or an empty text."""
         package = self.packages.get(name)
         parent = package.folder.parent.as_posix() if package else root
         return "" if parent == root else parent.replace(".", "the workspace itself")
@@ -211,7 +220,7 @@ class TypedIn:
     meaning: CommandMeaning | None = None
 
 
-def look_at_workspace(answer: Any) -> Workspace:  # noqa: ANN401 - whatever a learner hands over
+def look_at_workspace(answer: Answer) -> Workspace:
     """Look at a workspace.
 
     Args:
@@ -234,7 +243,7 @@ def look_at_workspace(answer: Any) -> Workspace:  # noqa: ANN401 - whatever a le
     return Workspace(_folders(root), {package.name: package for package in packages})
 
 
-def look_at_terminal(answer: Any, root: Path, about: str = "") -> TypedIn:  # noqa: ANN401
+def look_at_terminal(answer: Answer, root: Path, about: str = "") -> TypedIn:
     """Look at a terminal of the page.
 
     Args:
@@ -283,7 +292,7 @@ def meaning_of(
 def _meaning(
     lines: list[re.Match[str]], text: str, code: int | None, folder: Path, root: Path
 ) -> CommandMeaning | None:
-    """What the first of some lines has led to. Of an earlier one the exit code is not known."""
+    """Return what the first of some lines has led to; of earlier ones no exit code is known."""
     end = lines[1].start() if len(lines) > 1 else len(text)
     output = text[lines[0].end() : end]
     return meaning_of(lines[0][2], output, 1 if len(lines) > 1 else code or 0, folder, root)

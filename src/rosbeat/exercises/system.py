@@ -21,11 +21,11 @@ from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.programs import diagnose_output
-from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
-from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
-from rosbeat.exercises.scenarios import CommandMeaning, look_at_workspace, meaning_of
+from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
+from rosbeat.exercises.model import Suspect, Track, first_mismatch, matching, name_mistake
+from rosbeat.exercises.scenarios import Answer, CommandMeaning, look_at_workspace, meaning_of
 from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script, diagnosis_of
-from rosbeat.records import Endpoint, Outcome, ProgramRun
+from rosbeat.records import Endpoint, ProgramRun
 from rosbeat.ros.programs import (
     DomainProbe,
     Program,
@@ -104,7 +104,7 @@ class SystemRun:
     repeated: str = ""
 
 
-def run_system(answer: Any) -> SystemRun:  # noqa: ANN401 - whatever a learner hands over
+def run_system(answer: Answer) -> SystemRun:
     """Build the package and run its two programs.
 
     Args:
@@ -239,21 +239,18 @@ _BEAT = (0.7, 1.4)
 _ENDINGS = ("rcl_shutdown already called", "ExternalShutdownException")
 
 
-def _judge(seen: SystemRun) -> Outcome:
+def _judge(seen: SystemRun) -> Verdict:
     package = seen.package
     if package is None:
-        return not_attempted(ID, f"There is no package {PACKAGE} in src yet.")
+        return not_attempted(f"There is no package {PACKAGE} in src yet.")
     if not any(one.ends for one in seen.sources) and not package.setup.entry_points:
-        return not_attempted(ID, f"The package {PACKAGE} has no programs yet.")
+        return not_attempted(f"The package {PACKAGE} has no programs yet.")
     wrong = (
         _diagnose_package(seen, package) or _diagnose_build(seen) or _diagnose_start(seen)
         or _diagnose_monitor(seen) or _diagnose_sensor(seen) or _diagnose_crossing(seen)
         or next(filter(None, map(_diagnose_end, _runs(seen))), None)
     )  # fmt: skip
-    if wrong:
-        return failed_by(ID, wrong)
-    return passed(
-        ID,
+    return wrong or passed(
         f"{PACKAGE} was built, and both programs ran: {len(seen.heard)} readings crossed, with "
         "the right status each.",
         *_remarks(seen),
@@ -378,14 +375,14 @@ def _diagnose_monitor(seen: SystemRun) -> Diagnosis | None:
 
 def _diagnose_statuses(done: Track) -> Diagnosis | None:
     """Return what is wrong with the statuses that a monitor gave to readings."""
-    parted = parting(done, {value: (_status(value),) for value in done})
-    if parted is None:
+    mismatch = first_mismatch(done, {value: (_status(value),) for value in done})
+    if mismatch is None:
         return None
-    said = " and ".join(parted.done) or "no status"
-    evidence = f"For a reading of {parted.at:g}, {MONITOR} said {said}."
-    hint = f"Which of your conditions is true for {parted.at:g}?"
+    said = " and ".join(mismatch.done) or "no status"
+    evidence = f"For a reading of {mismatch.at:g}, {MONITOR} said {said}."
+    hint = f"Which of your conditions is true for {mismatch.at:g}?"
     unlike = Diagnosis("wrong-state", evidence, hint)
-    return named(evidence, fitting(tuple(done), done, _SUSPECTS), unlike)
+    return name_mistake(matching(tuple(done), done, _SUSPECTS), unlike)
 
 
 # The sensor.

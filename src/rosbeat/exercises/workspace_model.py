@@ -6,7 +6,7 @@ from difflib import SequenceMatcher
 from functools import partial
 
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
-from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
+from rosbeat.exercises.model import Suspect, Track, first_mismatch, matching, name_mistake
 from rosbeat.exercises.scenarios import CommandMeaning
 from rosbeat.workspace.meanings import diagnose_flaw
 from rosbeat.workspace.packages import Package
@@ -129,15 +129,15 @@ def diagnose_entries(package: Package, programs: tuple[str, str]) -> Diagnosis |
              for one in package.setup.entry_points}  # fmt: skip
     right = {program: (f"{package.name}.{program}:main",) for program in programs}
     done = {program: targets[program] for program in programs if program in targets}
-    parted = parting(done, right)
-    if parted is None:
+    mismatch = first_mismatch(done, right)
+    if mismatch is None:
         return _diagnose_installation(package)
-    if not parted.done:
-        return _diagnose_missing(package, parted.at, parted.right in targets.values())
-    evidence = f"{parted.at} would call {parted.done[0]}."
+    if not mismatch.done:
+        return _diagnose_missing(package, mismatch.at, mismatch.right in targets.values())
+    evidence = f"{mismatch.at} would call {mismatch.done[0]}."
     other = "It should call main in the file of the same name."
-    fit = fitting(right, done, _SUSPECTS)
-    return named(evidence, fit, Diagnosis("entry-point-target", evidence, other))
+    fit = matching(right, done, _SUSPECTS)
+    return name_mistake(fit, Diagnosis("entry-point-target", evidence, other))
 
 
 def _diagnose_missing(package: Package, program: str, is_renamed: bool) -> Diagnosis:

@@ -45,19 +45,19 @@ def judge(exercise: Exercise[Any], observed: Observed) -> Outcome:
         exercise: The exercise.
         observed: What came out of the sandbox; not trusted.
     """
-    outcome = _before_reading(exercise.id, observed) or _read(exercise, observed)
+    outcome = _before_reading(exercise, observed) or _read(exercise, observed)
     return replace(outcome, out_of=exercise.points)
 
 
-def _before_reading(exercise: str, observed: Observed) -> Outcome | None:
+def _before_reading(exercise: Exercise[Any], observed: Observed) -> Outcome | None:
     """What can be said without evidence; None if there is some."""
     if observed.changed and observed.how == "ended":
-        return _tampered(exercise, observed.changed)
+        return _tampered(exercise.id, observed.changed)
     if observed.how == "ended" and observed.evidence:
         return None
     if observed.how == "ended" and observed.raised:
         return _raised(exercise, observed)
-    return _ENDINGS.get(observed.how, _left)(exercise, observed)
+    return _ENDINGS.get(observed.how, _left)(exercise.id, observed)
 
 
 def _read(exercise: Exercise[Any], observed: Observed) -> Outcome:
@@ -82,16 +82,16 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def _raised(exercise: str, observed: Observed) -> Outcome:
+def _raised(exercise: Exercise[Any], observed: Observed) -> Outcome:
     """The cell itself could not be run; what is said is what is said of any exception."""
     if observed.raised in _UNREAD:
-        return _unread(exercise, observed)
+        return _unread(exercise.id, observed)
     fault = Fault(
         *(0, "", _WHERE, observed.raised, observed.text, observed.line, observed.code),
     )
-    outcome = before_judging(exercise, Observation(0, 0, faults=(fault,)))
-    assert outcome is not None  # there is an exception
-    return outcome
+    verdict = before_judging(Observation(0, 0, faults=(fault,)))
+    assert verdict is not None  # there is an exception
+    return exercise.outcome(verdict)
 
 
 def _unread(exercise: str, observed: Observed) -> Outcome:
@@ -179,4 +179,4 @@ _ENDINGS: dict[str, Callable[[str, Observed], Outcome]] = {
 
 def untouched(exercise: Exercise[Any]) -> Outcome:
     """The outcome of a cell that nobody has filled in."""
-    return replace(not_attempted(exercise.id), out_of=exercise.points)
+    return exercise.outcome(not_attempted())

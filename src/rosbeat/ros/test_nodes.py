@@ -93,7 +93,7 @@ def feeder(
     return _node(name, prepare)
 
 
-def hearer(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
+def listener(name: str, topic: str, type_name: str, qos: QoS | int = 10) -> Callable[[], Node]:
     """Return a function that makes a node that logs the field `data` of each message."""
 
     def prepare(node: Node) -> None:

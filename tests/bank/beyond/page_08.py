@@ -2,12 +2,12 @@
 
 from bank.answer import Answer
 from bank.beyond import (
-    everybody_right,
-    everybody_wrong,
-    last_word_right,
-    last_word_wrong,
-    news_of_silence_right,
-    news_of_silence_wrong,
+    archive_right,
+    archive_wrong,
+    deadline_right,
+    deadline_wrong,
+    mode_keeper_right,
+    mode_keeper_wrong,
     qos_more,
 )
 
@@ -19,11 +19,11 @@ SECRETS: dict[str, tuple[str, ...]] = {
 }
 
 ANSWERS: tuple[Answer, ...] = (
-    *last_word_right.ANSWERS,
-    *last_word_wrong.ANSWERS,
-    *everybody_right.ANSWERS,
-    *everybody_wrong.ANSWERS,
-    *news_of_silence_right.ANSWERS,
-    *news_of_silence_wrong.ANSWERS,
+    *mode_keeper_right.ANSWERS,
+    *mode_keeper_wrong.ANSWERS,
+    *archive_right.ANSWERS,
+    *archive_wrong.ANSWERS,
+    *deadline_right.ANSWERS,
+    *deadline_wrong.ANSWERS,
     *qos_more.ANSWERS,
 )

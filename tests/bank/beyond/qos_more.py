@@ -1,9 +1,9 @@
 """08a, 08b and 08c: more answers, written from the page alone."""
 
 from bank.answer import edited, right, wrong
-from bank.beyond.everybody_right import BASE as ARCHIVE
-from bank.beyond.last_word_right import BASE as KEEPER
-from bank.beyond.news_of_silence_right import BASE as WATCHDOG
+from bank.beyond.archive_right import BASE as ARCHIVE
+from bank.beyond.deadline_right import BASE as WATCHDOG
+from bank.beyond.mode_keeper_right import BASE as KEEPER
 
 _KEPT = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 _ASKS = "QoSProfile(depth=16, reliability=ReliabilityPolicy.BEST_EFFORT)"

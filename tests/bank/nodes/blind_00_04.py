@@ -1689,7 +1689,7 @@ _CALM = """
 """
 
 
-def _calm(*edits: tuple[str, str]) -> str:
+def _hysteresis(*edits: tuple[str, str]) -> str:
     return edited(_CALM, *edits)
 
 
@@ -1727,7 +1727,7 @@ def _mean(imports: str, expression: str) -> str:
 
 
 _CALMS = (
-    right("04c", "blind: pop and returns", _calm()),
+    right("04c", "blind: pop and returns", _hysteresis()),
     right(
         "04c",
         "blind: deque, match, fmean",
@@ -1897,20 +1897,20 @@ _CALMS = (
         """,
     ),
     # Four instead of five.
-    wrong("04c", "blind: four", "wrong-window", _calm(("> 5:", "> 4:"))),
+    wrong("04c", "blind: four", "wrong-window", _hysteresis(("> 5:", "> 4:"))),
     # Divided by five from the beginning.
     either(
         "04c",
         "blind: by five",
         ("wrong-window", "wrong-share"),
-        _calm(("/ len(self.values)", "/ 5")),
+        _hysteresis(("/ len(self.values)", "/ 5")),
     ),
     # The mean of all that ever came.
     wrong(
         "04c",
         "blind: of all",
         "wrong-window",
-        _calm(
+        _hysteresis(
             (
                 "if len(self.values) > 5:\n            self.values.pop(0)\n",
                 "if False:\n            pass\n",
@@ -1918,85 +1918,85 @@ _CALMS = (
         ),
     ),
     # pop() takes the newest out.
-    wrong("04c", "blind: pop()", "wrong-window", _calm(("pop(0)", "pop()"))),
+    wrong("04c", "blind: pop()", "wrong-window", _hysteresis(("pop(0)", "pop()"))),
     # Nothing until there are five.
     either(
         "04c",
         "blind: waits for five",
         ("wrong-window",),
-        _calm(("self.means.publish", "if len(self.values) == 5: self.means.publish")),
+        _hysteresis(("self.means.publish", "if len(self.values) == 5: self.means.publish")),
     ),
     # One border only.
     wrong(
         "04c",
         "blind: one border",
         "no-hysteresis",
-        _calm(("value >= 25.0", "False"), ("value <= 21.0", "False")),
+        _hysteresis(("value >= 25.0", "False"), ("value <= 21.0", "False")),
     ),
     # The comparison is forgotten.
     wrong(
         "04c",
         "blind: each time",
         "status-repeated",
-        _calm(("if status != self.status:", "if True:")),
+        _hysteresis(("if status != self.status:", "if True:")),
     ),
     # The new status is not kept.
     either(
         "04c",
         "blind: not kept",
         ("status-repeated", "wrong-state", "no-hysteresis", "hysteresis-lost", "new-to-me"),
-        _calm(("            self.status = status\n", "")),
+        _hysteresis(("            self.status = status\n", "")),
     ),
     # The start is published.
     wrong(
         "04c",
         "blind: the start, too",
         "status-repeated",
-        _calm(('self.status = "Normal"', 'self.status = ""')),
+        _hysteresis(('self.status = "Normal"', 'self.status = ""')),
     ),
     # Below 25 read as 25 and below.
     wrong(
         "04c",
         "blind: 25 and 21 come back",
         "boundary",
-        _calm((">= 25.0", "> 25.0"), ("<= 21.0", "< 21.0")),
+        _hysteresis((">= 25.0", "> 25.0"), ("<= 21.0", "< 21.0")),
     ),
     # The mean is judged, not the reading.
     either(
         "04c",
         "blind: judges the mean",
         ("wrong-state", "new-to-me"),
-        _calm(("self.judge(msg.data)", "self.judge(sum(self.values) / len(self.values))")),
+        _hysteresis(("self.judge(msg.data)", "self.judge(sum(self.values) / len(self.values))")),
     ),
     # The way back is left out on the cold side.
     either(
         "04c",
         "blind: Low comes back at 20",
         ("no-hysteresis", "wrong-state"),
-        _calm(("value <= 21.0", "value < 20.0")),
+        _hysteresis(("value <= 21.0", "value < 20.0")),
     ),
     # From Low it goes back only when it is High.
     wrong(
         "04c",
         "blind: Low stays",
         "hysteresis-lost",
-        _calm(('self.status == "Low" and value <= 21.0', 'self.status == "Low"')),
+        _hysteresis(('self.status == "Low" and value <= 21.0', 'self.status == "Low"')),
     ),
     # The words of the fridge's author: capital letters.
     wrong(
         "04c",
         "blind: capitals",
         "wrong-word",
-        _calm(('"High"', '"HIGH"'), ('"Low"', '"LOW"'), ('"Normal"', '"NORMAL"')),
+        _hysteresis(('"High"', '"HIGH"'), ('"Low"', '"LOW"'), ('"Normal"', '"NORMAL"')),
     ),
     # means for mean.
-    wrong("04c", "blind: means", "topic-misspelled", _calm(('"mean"', '"means"'))),
+    wrong("04c", "blind: means", "topic-misspelled", _hysteresis(('"mean"', '"means"'))),
     # The mean is made before the reading is added.
     wrong(
         "04c",
         "blind: mean first",
         "division-by-zero",
-        _calm(
+        _hysteresis(
             (
                 "self.values.append(msg.data)",
                 "self.means.publish(Float32(data=sum(self.values) / len(self.values))); self.values.append(msg.data)",
@@ -2008,28 +2008,28 @@ _CALMS = (
         "04c",
         "blind: a new list each time",
         "wrong-window",
-        _calm(("self.values.append(msg.data)", "self.values = [msg.data]")),
+        _hysteresis(("self.values.append(msg.data)", "self.values = [msg.data]")),
     ),
     # Whole degrees.
     either(
         "04c",
         "blind: //",
         ("decimals-lost", "wrong-window", "wrong-values", "new-to-me", "other-mean"),
-        _calm((") / len", ") // len")),
+        _hysteresis((") / len", ") // len")),
     ),
     # The list holds messages.
     either(
         "04c",
         "blind: messages in the list",
         ("message-for-value",),
-        _calm(("append(msg.data)", "append(msg)")),
+        _hysteresis(("append(msg.data)", "append(msg)")),
     ),
     # A status as number's message.
     either(
         "04c",
         "blind: the wrong publisher",
         ("type-mismatch", "wrong-argument"),
-        _calm(
+        _hysteresis(
             (
                 "self.statuses.publish(String(data=status))",
                 "self.means.publish(String(data=status))",

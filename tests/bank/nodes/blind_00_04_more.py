@@ -417,7 +417,7 @@ def _alarm(*edits: tuple[str, str]) -> str:
     return edited(_ALARM, *edits)
 
 
-def _calm(*edits: tuple[str, str]) -> str:
+def _hysteresis(*edits: tuple[str, str]) -> str:
     return edited(_CALM, *edits)
 
 
@@ -555,12 +555,12 @@ _MONITORS = (
     # The name of another topic.
     wrong("04b", "blind: listens to alert", "wrong-topic", _alarm(('"temperature"', '"temp"'))),
     # One border at its place.
-    wrong("04c", "blind: 25 comes back", "boundary", _calm((">= 25.0", "> 25.0"))),
-    wrong("04c", "blind: 21 comes back", "boundary", _calm(("<= 21.0", "< 21.0"))),
+    wrong("04c", "blind: 25 comes back", "boundary", _hysteresis((">= 25.0", "> 25.0"))),
+    wrong("04c", "blind: 21 comes back", "boundary", _hysteresis(("<= 21.0", "< 21.0"))),
     # 26 is High.
-    wrong("04c", "blind: 26 is High", "boundary", _calm(("> 26.0", ">= 26.0"))),
+    wrong("04c", "blind: 26 is High", "boundary", _hysteresis(("> 26.0", ">= 26.0"))),
     # 20 is Low.
-    wrong("04c", "blind: 20 is Low", "boundary", _calm(("< 20.0", "<= 20.0"))),
+    wrong("04c", "blind: 20 is Low", "boundary", _hysteresis(("< 20.0", "<= 20.0"))),
     # From High one has to pass Normal first.
     either(
         "04c",
@@ -601,14 +601,14 @@ _MONITORS = (
         "04c",
         "blind: a sentence",
         "wrong-word",
-        _calm(("String(data=status)", 'String(data=f"Status: {status}")')),
+        _hysteresis(("String(data=status)", 'String(data=f"Status: {status}")')),
     ),
     # The start said in the constructor.
     either(
         "04c",
         "blind: Normal said at first",
         ("status-repeated", "first-messages-lost"),
-        _calm(
+        _hysteresis(
             (
                 'self.status = "Normal"',
                 'self.status = "Normal"; self.statuses.publish(String(data=self.status))',
@@ -616,29 +616,31 @@ _MONITORS = (
         ),
     ),
     # Six.
-    wrong("04c", "blind: six", "wrong-window", _calm(("> 5:", "> 6:"))),
+    wrong("04c", "blind: six", "wrong-window", _hysteresis(("> 5:", "> 6:"))),
     # The two ways back are swapped.
     either(
         "04c",
         "blind: 21 and 25 swapped",
         ("hysteresis-lost", "no-hysteresis", "wrong-state", "new-to-me"),
-        _calm((">= 25.0", ">= 21.0"), ("<= 21.0", "<= 25.0")),
+        _hysteresis((">= 25.0", ">= 21.0"), ("<= 21.0", "<= 25.0")),
     ),
     # No mean.
-    either("04c", "blind: no mean", ("never-published", "no-publisher"), _calm((_MEANS, "pass"))),
+    either(
+        "04c", "blind: no mean", ("never-published", "no-publisher"), _hysteresis((_MEANS, "pass"))
+    ),
     # The reading is told on, as it is.
     wrong(
         "04c",
         "blind: the reading for the mean",
         "wrong-window",
-        _calm((_MEANS, "self.means.publish(msg)")),
+        _hysteresis((_MEANS, "self.means.publish(msg)")),
     ),
     # The status is not in self.
     wrong(
         "04c",
         "blind: status without self",
         "no-value-yet",
-        _calm(
+        _hysteresis(
             ("if status != self.status", "if old != status"),
             ("self.status = status", "old = status"),
         ),
@@ -648,12 +650,12 @@ _MONITORS = (
         "04c",
         "blind: topics swapped",
         ("type-mismatch", "wrong-topic"),
-        _calm(('"mean"', '"XX"'), ('"status"', '"mean"'), ('"XX"', '"status"')),
+        _hysteresis(('"mean"', '"XX"'), ('"status"', '"mean"'), ('"XX"', '"status"')),
     ),
     right(
         "04c",
         "blind: the last five with a slice assigned",
-        _calm(
+        _hysteresis(
             (
                 "if len(self.values) > 5:\n            self.values.pop(0)\n",
                 "self.values[:] = self.values[-5:]\n",
@@ -663,7 +665,7 @@ _MONITORS = (
     right(
         "04c",
         "blind: first the status, then the mean",
-        _calm(
+        _hysteresis(
             (_MEANS, ""),
             (
                 "status = self.judge(msg.data)\n",

@@ -1,7 +1,7 @@
 """Page 04: answers that were written from the page alone, and neighbours of those found wanting."""
 
 from bank.answer import edited, right, wrong
-from bank.nodes import alarm_right, calm_right, fridge_right
+from bank.nodes import alarm_right, fridge_right, hysteresis_right
 
 
 def _fridge(name, mistake, *edits):
@@ -12,8 +12,8 @@ def _alarm(name, mistake, *edits):
     return wrong("04b", name, mistake, edited(alarm_right.BASE, *edits))
 
 
-def _calm(name, mistake, *edits):
-    return wrong("04c", name, mistake, edited(calm_right.BASE, *edits))
+def _hysteresis(name, mistake, *edits):
+    return wrong("04c", name, mistake, edited(hysteresis_right.BASE, *edits))
 
 
 _SUPER = 'super().__init__("alarm")'
@@ -216,19 +216,19 @@ ANSWERS = (
                     self.pub_status.publish(String(data=self.status))
     '''),
     # 04c, wrong.
-    _calm("a local variable for the status", "no-hysteresis",
+    _hysteresis("a local variable for the status", "no-hysteresis",
           ("new = self.next_status(msg.data)", 'self.status = "Normal"\n        '
            "new = self.next_status(msg.data)"),
           ("if new != self.status:\n            self.status = new\n            "
            "self.statuses.publish(String(data=self.status))",
            "self.statuses.publish(String(data=new))")),
-    _calm("the new status is not kept, and the limits are right", "status-repeated",
+    _hysteresis("the new status is not kept, and the limits are right", "status-repeated",
           ("self.status = new\n            self.statuses.publish(String(data=self.status))",
            "self.statuses.publish(String(data=new))")),
-    _calm("capital letters", "wrong-word",
+    _hysteresis("capital letters", "wrong-word",
           ("String(data=self.status)", "String(data=self.status.upper())")),
-    _calm("a space behind the word", "wrong-word",
+    _hysteresis("a space behind the word", "wrong-word",
           ("String(data=self.status)", 'String(data=f"{self.status} ")')),
-    _calm("the mean is judged", "wrong-state",
+    _hysteresis("the mean is judged", "wrong-state",
           ("self.next_status(msg.data)", "self.next_status(sum(last) / len(last))")),
 )  # fmt: skip

@@ -38,7 +38,7 @@ def test_the_mistake_is_named(broken):
     if fault.line:
         assert fault.code == text.splitlines()[fault.line - 1].strip()
         assert f"Line {fault.line}: `{fault.code}`." in found.evidence
-    assert before_judging("03a", observation).mistake in MISTAKES
+    assert before_judging(observation).mistake in MISTAKES
 
 
 @pytest.mark.parametrize("broken", UNKNOWN, ids=lambda one: one.name)
@@ -46,7 +46,7 @@ def test_what_nobody_knows_stays_unnamed(broken):
     observation, _ = observation_of(broken)
     fault = observation.faults[0]
     assert diagnose_fault(fault) is None
-    outcome = before_judging("03a", observation)
+    outcome = before_judging(observation)
     assert outcome.mistake == "new-to-me"
     assert fault.kind in outcome.evidence
     assert "new to me" not in outcome.hint  # what shows an outcome says that

@@ -2,7 +2,8 @@
 
 import pytest
 
-from rosbeat.exercises.exercise import Exercise, failed, passed
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.exercises.exercise import Exercise, passed
 from rosbeat.records import Outcome, Part
 
 MET, MISSED = Part("R1", "It opens.", True, "", 3), Part("R2", "It closes.", False, "No.", 2)
@@ -17,8 +18,8 @@ def judged(outcome):
 @pytest.mark.parametrize(
     ("outcome", "points"),
     [
-        (passed("13b", "Good."), 6),
-        (failed("13b", "No.", "Look."), 0),
+        (passed("Good."), 6),
+        (Diagnosis("new-to-me", "No.", "Look."), 0),
         (Outcome("13b", "failed", "No.", parts=(MET, MISSED, EXTRA)), 3),
         (Outcome("13b", "passed", "Good.", parts=(MET, EXTRA)), 3),
     ],

@@ -7,15 +7,15 @@ import pytest
 from suspects import assert_told_apart  # the folder is put on the path by conftest.py
 
 from bank.answer import edited
-from bank.nodes import alarm_right, calm_right, fridge_right
+from bank.nodes import alarm_right, fridge_right, hysteresis_right
 from bank.running import outcome_of
 from rosbeat.exercises import page_04
 
 MODELS = {
     "04a": (page_04.FRIDGE, page_04._each(page_04._state), page_04.FRIDGE_SUSPECTS),
     "04b": (page_04.ROOM, page_04._alerts(), page_04.ROOM_SUSPECTS),
-    "04c mean": (page_04.CALM, page_04._means(), page_04.MEAN_SUSPECTS),
-    "04c status": (page_04.CALM, page_04._statuses(), page_04.STATUS_SUSPECTS),
+    "04c mean": (page_04.HYSTERESIS, page_04._means(), page_04.MEAN_SUSPECTS),
+    "04c status": (page_04.HYSTERESIS, page_04._statuses(), page_04.STATUS_SUSPECTS),
 }
 
 
@@ -24,7 +24,7 @@ def test_each_suspect_differs_from_the_right_model_and_from_other_mistakes(name)
     assert_told_apart(*MODELS[name])
 
 
-BASES = {"04a": fridge_right.BASE, "04b": alarm_right.BASE, "04c": calm_right.BASE}
+BASES = {"04a": fridge_right.BASE, "04b": alarm_right.BASE, "04c": hysteresis_right.BASE}
 TOLD = [
     ("04a", ("temp > 8.0", "temp >= 8.0"), "For a reading of 8 the node said Warm. Exactly 8"),
     ("04a", ("{status}", "Warm or Frost"), "For a reading of 5 the node said Warm and Frost."),

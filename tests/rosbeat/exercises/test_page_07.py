@@ -152,7 +152,8 @@ KEYS = list(TRUTH)
 
 
 def judged(changes=()):
-    return judge_findings(Report(json.dumps({**TRUTH, **dict(changes)}), "", "dict"), HOUSE)
+    found = Report(json.dumps({**TRUTH, **dict(changes)}), "", "dict")
+    return EXERCISES["07a"].outcome(judge_findings(found, HOUSE))
 
 
 def test_the_truth_comes_from_the_greenhouse_and_is_never_told():

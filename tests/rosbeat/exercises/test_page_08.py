@@ -6,13 +6,13 @@ from itertools import combinations
 import pytest
 
 from bank.answer import edited
-from bank.beyond.everybody_right import BASE as ARCHIVE
-from bank.beyond.last_word_right import BASE as KEEPER
-from bank.beyond.news_of_silence_right import BASE as WATCHDOG
+from bank.beyond.archive_right import BASE as ARCHIVE
+from bank.beyond.deadline_right import BASE as WATCHDOG
+from bank.beyond.mode_keeper_right import BASE as KEEPER
 from bank.running import outcome_of
 from rosbeat.exercises import page_08 as page
 from rosbeat.exercises.evidence import from_json, to_json
-from rosbeat.exercises.model import agree, fitting
+from rosbeat.exercises.model import agree, matching
 from rosbeat.records import Endpoint, GraphSnapshot, Observation, QoS
 
 ONE, ROOMY = QoS(depth=1, durability="TRANSIENT_LOCAL"), QoS("BEST_EFFORT", depth=16)
@@ -53,7 +53,7 @@ def test_each_policy_of_a_publisher_of_modes_shows_in_what_displays_hear(wrong, 
     offers = replace(ONE, **wrong)
     done = page._heard_by_displays(MODES, offers)
     assert not agree(done, page._heard_by_displays(MODES, ONE))
-    found = fitting(MODES, done, page.offer_suspects(MODES, offers))
+    found = matching(MODES, done, page.offer_suspects(MODES, offers))
     assert {one.mistake for one in found} == {mistake}
 
 
@@ -72,7 +72,7 @@ def test_each_policy_of_an_archive_shows_in_what_it_holds(wrong, mistake):
     asks = replace(ROOMY, **wrong)
     done = page._archive(page.FED, asks)
     assert not agree(done, page._archive(page.FED, ROOMY))
-    found = fitting(page.FED, done, page.archive_suspects([asks]))
+    found = matching(page.FED, done, page.archive_suspects([asks]))
     assert {one.mistake for one in found} == {mistake}
 
 

@@ -15,7 +15,7 @@ from rosbeat.exercises.registry import EXERCISES, PAGES
 def _home(tmp_path, monkeypatch):
     monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
     file = progress_file()
-    right = replace(passed("00a", ""), points=1)
+    right = replace(passed(""), points=1)
     file.change("00a", lambda before: before.after(right))
     file.change("00b", lambda before: before.after(failed("00b", "", "", "wrong-rate")))
     file.change("00b", lambda before: replace(before, hints=2, answer=True))

@@ -1,7 +1,7 @@
 """04c, a calm monitor: wrong answers."""
 
 from bank.answer import edited, either, wrong
-from bank.nodes.calm_right import BASE
+from bank.nodes.hysteresis_right import BASE
 
 _SUPER = 'super().__init__("calm_monitor")'
 _CALL = 'self.create_subscription(Float32, "temperature", self.temperature_callback, 10)'

@@ -1,7 +1,7 @@
 """08c, silence is news: wrong answers."""
 
 from bank.answer import edited, either, wrong
-from bank.beyond.news_of_silence_right import BASE
+from bank.beyond.deadline_right import BASE
 
 _QOS = "qos = QoSProfile(depth=10, deadline=Duration(seconds=2))"
 _MAKE = 'self.health = self.create_publisher(String, "health", 10)'

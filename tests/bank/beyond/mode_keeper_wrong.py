@@ -1,7 +1,7 @@
 """08a, the last word waits: wrong answers."""
 
 from bank.answer import edited, either, wrong
-from bank.beyond.last_word_right import BASE
+from bank.beyond.mode_keeper_right import BASE
 
 _QOS = "qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 _CALL = 'self.create_subscription(String, "command", self.obey, 10)'

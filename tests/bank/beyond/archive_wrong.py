@@ -1,7 +1,7 @@
 """08b, listen to everybody: wrong answers."""
 
 from bank.answer import edited, either, wrong
-from bank.beyond.everybody_right import BASE
+from bank.beyond.archive_right import BASE
 
 _QOS = "qos = QoSProfile(depth=16, reliability=ReliabilityPolicy.BEST_EFFORT)"
 _CALL = 'self.create_subscription(Float32, "reading", self.copy, qos)'
