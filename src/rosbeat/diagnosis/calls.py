@@ -1,4 +1,4 @@
-"""Calls of rclpy that fail: arguments that are missing, swapped, or of another kind.
+"""Name the mistake in a call of rclpy: arguments missing, swapped, or of another kind.
 
 rclpy's own text is the same for a missing callback and a missing queue depth. So a call that fails
 is recorded as data, with the types of what it was given (`records.FailedCall`). In a terminal,

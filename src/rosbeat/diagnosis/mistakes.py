@@ -1,4 +1,4 @@
-"""The names of mistakes.
+"""Name the mistakes that learners make.
 
 The first thirty are those that learners of this tutorial make most; `row` is their number in the
 course's table (docs/mistakes.md). A row that holds several mistakes has several names. The others

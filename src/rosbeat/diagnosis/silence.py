@@ -135,7 +135,7 @@ def link(end: Endpoint, *words: str) -> Mark:
 
 
 def listing(names: Iterable[str], last: str = "and") -> str:
-    """Names as a sentence has them, each once: `a`, `a and b`, `a, b and c`."""
+    """Return names as a sentence has them, each once: `a`, `a and b`, `a, b and c`."""
     items = list(dict.fromkeys(names))
     if len(items) < 2:
         return "".join(items)

@@ -48,7 +48,7 @@ _OWN = "rubrics/greenhouse.json"
 
 @dataclass(frozen=True)
 class Requirement:
-    """One thing that a greenhouse has to do.
+    """Hold one thing that a greenhouse has to do.
 
     Attributes:
         id: Its name, such as `R1`.
@@ -65,7 +65,7 @@ class Requirement:
 
 @dataclass(frozen=True)
 class Rubric:
-    """All that a greenhouse has to do.
+    """Hold all that a greenhouse has to do.
 
     Attributes:
         numbers: The limits and times that stand in the requirements, by name.

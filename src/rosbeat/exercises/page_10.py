@@ -31,7 +31,7 @@ _KEY = "ward"
 
 
 class Claim(NamedTuple):
-    """One diagnosis: the id of a fault, and the node or topic where it is said to be."""
+    """Hold one diagnosis: the id of a fault, and the node or topic where it is said to be."""
 
     mistake: str
     place: str
@@ -161,8 +161,8 @@ def _half(chart: Chart, claims: Sequence[Claim]) -> Diagnosis | None:
 # All patients of an exercise.
 
 
-def _judge(exercise: str, patients: Sequence[int], seen: Report) -> Verdict:
-    early = before_reading(seen, f'check("{exercise}", diagnoses)')
+def _judge(patients: Sequence[int], seen: Report) -> Verdict:
+    early = before_reading(seen, "diagnoses")
     if early:
         return early
     value = seen.value
@@ -191,7 +191,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "10a",
         report,
-        partial(_judge, "10a", range(1, 5)),
+        partial(_judge, range(1, 5)),
         "four patients, and something is silent",
         2,
         (
@@ -209,7 +209,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "10b",
         report,
-        partial(_judge, "10b", range(5, 9)),
+        partial(_judge, range(5, 9)),
         "four patients, and nothing is silent",
         3,
         (
@@ -227,7 +227,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "10c",
         report,
-        partial(_judge, "10c", range(9, 12)),
+        partial(_judge, range(9, 12)),
         "three patients with two faults each",
         4,
         (
