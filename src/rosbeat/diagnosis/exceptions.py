@@ -13,7 +13,6 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
-from itertools import pairwise
 
 from rosbeat.diagnosis import calls
 from rosbeat.diagnosis.calls import MESSAGES, article, called_by_ros, matched
@@ -171,49 +170,6 @@ def _wrong_name_argument(fault: Fault) -> Meaning | None:
     return Meaning("wrong-argument", means, _NAME)
 
 
-_LETTERS = "Names hold letters of the English alphabet, digits and `_`, and begin with a letter."
-_REASONS = (
-    ("must not be empty", "it is empty"),
-    ("must not end with a forward slash", "it ends with a slash"),
-    ("must not start with a number", "a digit stands at the beginning of it or of a part"),
-    ("must not contain repeated '/'", "two slashes stand side by side"),
-)
-
-
-def _invalid_name(fault: Fault) -> Meaning | None:
-    """Recognise a name with characters that ROS does not allow (row 12)."""
-    found = re.match(r"Invalid(Node|Topic|Service|Namespace|Handle)Name\w*", fault.kind)
-    if not found:
-        return None
-    name = matched(fault, r"\n\s*'(.*)'")
-    subject = f"'{name[1]}'" if name and name[1] else "That"
-    slash = "" if found[1] == "Node" else " A slash may stand between two parts, not at the end."
-    return Meaning(
-        "invalid-name",
-        f"{subject} cannot be the name of a {found[1].lower()}: {_reason(fault.text)}.",
-        f"{_LETTERS}{slash}",
-    )
-
-
-def _reason(text: str) -> str:
-    for sign, words in _REASONS:
-        if sign in text:
-            return words
-    character = _marked(text)
-    if character == " ":
-        return "it holds a space"
-    return f"it holds the character {character}" if character else "ROS does not allow it"
-
-
-def _marked(text: str) -> str:
-    """Return the character under which the message of ROS puts its `^`."""
-    for row, below in pairwise(text.split("\n")):
-        at = below.find("^")
-        if at >= 0 and not below.strip("^ ") and at < len(row):
-            return row[at]
-    return ""
-
-
 _NODE_RULES: tuple[Rule, ...] = (
     _no_node,
     Row(
@@ -248,7 +204,13 @@ _NODE_RULES: tuple[Rule, ...] = (
         "The topic's name holds braces, and nothing is known that belongs in them.",
         "An f-string has an f before its quotes; in a plain text braces stay braces.",
     ),
-    _invalid_name,
+    Row(  # row 12; ROS says in a sentence what is wrong with the name, and then the name
+        "invalid-name",
+        r"^Invalid(?:NodeName|TopicName|ServiceName|Namespace)\w*: [\w ]+: (.+):\n\s*'(.*)'",
+        "ROS does not allow the name '{2}': {1}.",
+        "Names hold letters of the English alphabet, digits and `_`, and begin with a letter. In "
+        "the name of a topic or a service, a slash may stand between two parts, not at the end.",
+    ),
     Row(
         "type-mismatch",
         r"invalid allocator|existing topic name .* incompatible type",
