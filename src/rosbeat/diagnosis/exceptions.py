@@ -513,32 +513,14 @@ _ANSWER_RULES: tuple[Rule, ...] = (
 
 # Parameters.
 
-_PARAMETER_KINDS = {
-    "DOUBLE": "a decimal number",
-    "INTEGER": "a whole number",
-    "STRING": "a text",
-    "BOOL": "True or False",
-}
-
-
-def _parameter_of_another_type(fault: Fault) -> Meaning | None:
-    """Recognise `declare_parameter("low", 20)` for a node started with `-p low:=40.0`."""
-    refused = r"parameter '([^']+)' to '(.*)' of type '(\w+)', expecting type '(\w+)'"
-    found = matched(fault, refused)
-    if not found:
-        return None
-    name, value, *words = found.groups()
-    got, declared = (_PARAMETER_KINDS.get(w, w.lower().replace("_", " ")) for w in words)
-    return Meaning(
-        "parameter-type",
-        f"The parameter {name} got {value}, {got}, and it was declared with {declared}.",
-        "The first value that declare_parameter gets decides about the type: 20 is a whole "
-        "number, 20.0 is a decimal one.",
-    )
-
-
 _PARAMETER_RULES: tuple[Rule, ...] = (
-    _parameter_of_another_type,
+    Row(
+        "parameter-type",
+        r"parameter '([^']+)' to '(.*)' of type '(\w+)', expecting type '(\w+)'",
+        "The parameter {1} got {2}, of type {3}, and it was declared with a value of type {4}.",
+        "The first value that declare_parameter gets decides about the type: 20 is an INTEGER, a "
+        "whole number, and 20.0 is a DOUBLE, a decimal one.",
+    ),
     Row(
         "parameter-type",
         r"not one of the allowed types",
