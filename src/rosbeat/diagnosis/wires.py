@@ -19,7 +19,7 @@ from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Fault,
 
 @dataclass(frozen=True)
 class Wire:
-    """A topic and its type.
+    """Name a topic and its type.
 
     Attributes:
         topic: Full name.

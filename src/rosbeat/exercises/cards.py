@@ -86,7 +86,7 @@ LOOKS = {
 
 @dataclass(frozen=True)
 class Shown:
-    """An outcome with the ways in which Jupyter and a terminal show it.
+    """Hold an outcome, with the ways in which Jupyter and a terminal show it.
 
     Attributes:
         outcome: The outcome.
@@ -101,13 +101,13 @@ class Shown:
         return str(self)
 
     def html(self) -> str:
-        """The outcome as HTML."""
+        """Return the outcome as HTML."""
         head = f"{words(self._head, 'strong')} {words(self.outcome.evidence)}"
         rows = (_labelled(label, text) for label, text in self._details())
         return framed(self._look[0], head, *rows)
 
     def record(self) -> dict[str, Any]:
-        """The outcome as JSON-like data, with the version of its form."""
+        """Return the outcome as JSON-like data, with the version of its form."""
         said = {"version": VERSION, **asdict(self.outcome), "remarks": list(self.outcome.remarks)}
         parts = list(said.pop("parts"))
         return {**said, "parts": parts} if parts else said
@@ -131,7 +131,7 @@ class Shown:
             yield f"  {f'{label}: ' if label else ''}{indented(text, '    ')}"
 
     def _details(self) -> Iterator[tuple[str, str]]:
-        """What comes below the head: a label, which may be empty, and a text."""
+        """Generate what comes below the head: a label, which may be empty, and a text."""
         for part in self.outcome.parts:
             yield _looked_at(part)
         if self.outcome.status == FAILED:
@@ -148,7 +148,7 @@ class Shown:
 
 
 def _looked_at(part: Part) -> tuple[str, str]:
-    """A requirement: what is required if it is met, and what was seen instead if it is not."""
+    """Return what a requirement asks for if it is met, and what was seen instead if it is not."""
     word = "met" if part.met else "not yet"
     extra = ", optional" if part.optional else ""
     head = f"{RIGHT if part.met else WRONG} {part.id} {word}, {part.points} of {part.out_of}{extra}"

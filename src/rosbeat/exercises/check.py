@@ -13,6 +13,7 @@ from rosbeat.exercises.cards import Shown
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
 from rosbeat.exercises.registry import find, which_exercise
+from rosbeat.exercises.scenarios import Answer
 from rosbeat.records import Outcome
 from rosbeat.workspace import graded_runs
 
@@ -23,7 +24,7 @@ from rosbeat.workspace import graded_runs
 _NOTHING = object()
 
 
-def check(exercise: str = "", answer: Any = _NOTHING) -> Shown:  # noqa: ANN401 - a learner's
+def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
     """Run the answer to an exercise and say what is right or what is missing.
 
     A node runs in a session of its own, in virtual time; nothing on the page changes. How far you
@@ -57,7 +58,7 @@ def check(exercise: str = "", answer: Any = _NOTHING) -> Shown:  # noqa: ANN401 
 
 
 def _with_hints(outcome: Outcome, hints: int) -> Outcome:
-    """The outcome, and how many hints were used."""
+    """Return the outcome with the number of hints that were used."""
     said = f" (With {hints} hint{'' if hints == 1 else 's'}.)" if hints else ""
     return replace(outcome, evidence=f"{outcome.evidence}{said}")
 
@@ -69,22 +70,22 @@ _WIDTH = 80
 
 
 class NotPassedError(ExerciseError):
-    """An answer does not get all points; this is how nbgrader is told."""
+    """Tell nbgrader that an answer does not get all points."""
 
     def _render_traceback_(self) -> list[str]:
-        """The text alone (IPython calls this): where in rosbeat it was raised helps nobody."""
+        """Return the text alone, for IPython: where in rosbeat it was raised helps nobody."""
         return self.what.splitlines()
 
 
 class AllPoints(Shown):
-    """An outcome with all points: it is shown, and there is no result to be taken for a number."""
+    """Show an outcome with all points; the cell has no result that could be taken for a number."""
 
     def _ipython_display_(self) -> None:
         display(Shown(self.outcome))
 
 
 class SomePoints(Shown):
-    """An outcome with some of the points: the result is their number, the words are for readers."""
+    """Show an outcome with some of the points; their number is the result of the cell."""
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {**super()._repr_mimebundle_(), "text/plain": f"{self.outcome.points:g}"}
@@ -116,6 +117,6 @@ def for_nbgrader(outcome: Outcome, execution: str) -> Shown:
 
 
 def _lines(row: str) -> list[str]:
-    """A row in lines that nbgrader does not cut, set in as the row is."""
+    """Return a row in lines that nbgrader does not cut, indented as the row is."""
     inside = " " * (len(row) - len(row.lstrip()) + 2)
     return wrap(row, _WIDTH, subsequent_indent=inside) or [""]

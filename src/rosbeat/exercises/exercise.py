@@ -21,7 +21,7 @@ Verdict: TypeAlias = Outcome | Diagnosis
 
 @dataclass(frozen=True)
 class Exercise(Generic[Seen]):
-    """One exercise.
+    """Define one exercise.
 
     Attributes:
         id: Page number and a letter, such as `03a`.

@@ -46,7 +46,7 @@ _LAST = "This was the last one. Who teaches the course can tell you more."
 
 @dataclass(frozen=True)
 class Hint:
-    """Hints as Jupyter and a terminal show them.
+    """Hold hints as Jupyter and a terminal show them.
 
     Attributes:
         exercise: The exercise's id.
@@ -71,7 +71,7 @@ class Hint:
         return str(self)
 
     def html(self) -> str:
-        """The hints as HTML."""
+        """Return the hints as HTML."""
         rows = [f"{words(f'{HELP} {head}', 'strong')} {words(text)}" for head, text in self.hints]
         if self.answer:
             rows += [words(f"{HELP} {self._answer_head}", "strong"), code(self.answer)]
@@ -86,7 +86,7 @@ class Hint:
 
 
 def hint(exercise: str = "", *, again: bool = False) -> Hint:
-    """Help with an exercise: each call gives one hint more, and the last one the answer.
+    """Show one hint more at each call, and at last the answer.
 
     If the last check has named a mistake, the first call after it is about that mistake.
 

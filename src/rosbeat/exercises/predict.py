@@ -66,7 +66,7 @@ def truth_in(text: str) -> bool | None:
 
 
 def range_in(text: str) -> tuple[float, float] | None:
-    """The lowest and the highest number that a text means; both are the same for one number.
+    """Return the lowest and the highest number that a text means; both are the same for one number.
 
     Args:
         text: What somebody wrote, such as `63 messages`, `sixty-three`, `20-30`.
@@ -96,7 +96,7 @@ def _is_range(text: str, low: re.Match[str], high: re.Match[str]) -> bool:
 
 
 def _value(said: str) -> float:
-    """A number in digits or in words."""
+    """Return a number in digits or in words."""
     if any(sign.isdigit() for sign in said):
         return float(said.replace(",", ""))
     words = re.split(r"[\s-]+", said)
@@ -144,7 +144,7 @@ def compared(guess: object, happened: object, tolerance: object = 0.0) -> bool |
 
 
 def form_of(happened: object) -> str:
-    """How a guess has to be written that can be compared with what happened."""
+    """Return how a guess has to be written that can be compared with what happened."""
     happened = _plain(happened)
     if isinstance(happened, bool):
         return "yes or no"
@@ -211,7 +211,7 @@ def _is_like(guess: object, happened: object) -> bool:
 
 
 def _parts(guess: object) -> list[object]:
-    """The elements of a list, also of one that was written as a text, such as `1, 2, 3`."""
+    """Return the elements of a list, also of one that was written as a text, such as `1, 2, 3`."""
     if isinstance(guess, str):
         inner = guess.strip().strip("[]()").rstrip(", ")
         return [part.strip(" \"'") for part in inner.split(",")] if inner else []
@@ -250,7 +250,7 @@ def _squeezed(text: str) -> str:
 
 
 def _plain(value: object) -> object:
-    """Arrays and numbers of NumPy as Python's own, without importing it."""
+    """Return arrays and numbers of NumPy as Python's own, without importing it."""
     to_list = getattr(value, "tolist", None)
     return to_list() if callable(to_list) else value
 
@@ -276,7 +276,7 @@ def _told(value: object, exact: bool) -> str:
 
 @dataclass(frozen=True)
 class Prediction:
-    """A prediction beside what happened, as Jupyter and a terminal show it.
+    """Hold a prediction beside what happened, as Jupyter and a terminal show it.
 
     Attributes:
         sign: Whether they agree: a check mark, a cross, or a circle if nothing was predicted that
@@ -301,7 +301,7 @@ class Prediction:
         return str(self)
 
     def html(self) -> str:
-        """The prediction as HTML."""
+        """Return the prediction as HTML."""
         return framed(self.sign, words(f"{self.sign} {self.sentence}"), words(self.because))
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
@@ -340,6 +340,6 @@ def predict(
 
 
 def _apart(guess: object, happened: object) -> tuple[str, str]:
-    """Both in words, with all their digits if they look alike without."""
+    """Return both in words, with all their digits if they look alike without."""
     said, was = told(guess), told(happened)
     return (said, was) if said != was else (told(guess, exact=True), told(happened, exact=True))

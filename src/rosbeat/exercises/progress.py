@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Standing:
-    """How far somebody is with one exercise.
+    """Hold how far somebody is with one exercise.
 
     Attributes:
         outcome: What the last check said: `passed`, `failed` or `not attempted`.
@@ -54,7 +54,7 @@ class Standing:
 
     @property
     def status(self) -> str:
-        """The best that is known: who has passed once has passed."""
+        """Return the best that is known: who has passed once has passed."""
         if self.passed:
             return PASSED
         return FAILED if self.attempts else NOT_ATTEMPTED
@@ -76,7 +76,7 @@ class Standing:
         )
 
     def as_dict(self) -> dict[str, Any]:
-        """The standing as it is written into a file."""
+        """Return the standing as it is written into a file."""
         return asdict(self)
 
 
@@ -119,7 +119,7 @@ Standings = Mapping[str, Standing]
 
 
 class ProgressFile:
-    """How far somebody is with each exercise, remembered in a file.
+    """Remember in a file how far somebody is with each exercise.
 
     Args:
         folder: The hidden folder that holds the file; made when something is written.
@@ -171,7 +171,7 @@ class ProgressFile:
         return after
 
     def _sound_content(self) -> Standings:
-        """What the file holds; if that is damaged, it is put aside."""
+        """Return what the file holds; if that is damaged, it is put aside."""
         try:
             return _parse(self.path.read_bytes())
         except FileNotFoundError:
@@ -273,7 +273,7 @@ def heading(page: Page) -> str:
 
 
 def outcomes(page: Page, standings: Standings) -> list[Outcome]:
-    """The best outcome so far of each exercise of a page.
+    """Return the best outcome so far of each exercise of a page.
 
     Args:
         page: The page.

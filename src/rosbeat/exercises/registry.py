@@ -33,7 +33,7 @@ from rosbeat.exercises.exercise import Exercise
 
 @dataclass(frozen=True)
 class Page:
-    """A page and its exercises.
+    """Hold a page and its exercises.
 
     Attributes:
         number: Two digits, or an empty text for exercises that belong to no page.

@@ -108,7 +108,7 @@ MOST = 20_000
 
 @dataclass(frozen=True)
 class Report:
-    """What a function gave back.
+    """Hold what a function gave back.
 
     Attributes:
         result: Its result as a text of JSON, where tuples are lists and keys of dicts are texts;
@@ -167,7 +167,7 @@ _TYPED = re.compile(r"^(\S+)\$ (.+)$", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Workspace:
-    """What is in a workspace.
+    """Hold what is in a workspace.
 
     Attributes:
         folders: Every folder, relative to the workspace, without links and what colcon makes.
@@ -186,7 +186,7 @@ class Workspace:
 
 @dataclass(frozen=True)
 class CommandMeaning:
-    """What a command's outcome means, as `workspace.meanings` recognised it on the spot.
+    """Hold what a command's outcome means, as `workspace.meanings` recognised it on the spot.
 
     The files that a command was about are gone when the evidence is judged.
 
@@ -203,7 +203,7 @@ class CommandMeaning:
 
 @dataclass(frozen=True)
 class TypedIn:
-    """What was typed in a terminal, and where that led.
+    """Hold what was typed in a terminal, and where that led.
 
     Attributes:
         folder: The folder it is in, relative to the workspace; absolute if that is outside.

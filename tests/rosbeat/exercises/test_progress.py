@@ -1,25 +1,238 @@
-from __future__ import annotations
+"""Progress: a standing, the file that remembers it, and how it is shown."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
 
 import pytest
 
-from rosbeat import progress
-from rosbeat.exercises.exercise import failed, passed
-from rosbeat.exercises.progress import heading, outcomes, progress_file
+from rosbeat import cli, progress
+from rosbeat.errors import RecordError
+from rosbeat.exercises import progress as file
+from rosbeat.exercises.exercise import failed, not_attempted, passed
+from rosbeat.exercises.progress import (
+    ProgressFile,
+    Standing,
+    heading,
+    outcomes,
+    parse_standing,
+    progress_file,
+)
 from rosbeat.exercises.registry import EXERCISES, PAGES, Page
+from rosbeat.records import Outcome
 
 
-@pytest.fixture(autouse=True)
-def _home(tmp_path, monkeypatch):
+def after(*outcomes):
+    standing = Standing()
+    for outcome in outcomes:
+        standing = standing.after(outcome)
+    return standing
+
+
+def test_nothing_tried_is_no_attempt():
+    standing = after(not_attempted(), not_attempted())
+    assert (standing.attempts, standing.status) == (0, "not attempted")
+
+
+def test_attempts_are_counted_and_the_last_mistake_is_kept():
+    standing = after(failed("03a", "", "", "depth-missing"), failed("03a", "", "", "wrong-rate"))
+    assert (standing.attempts, standing.status, standing.mistake) == (2, "failed", "wrong-rate")
+
+
+def test_who_has_passed_once_has_passed():
+    standing = after(passed(""), failed("03a", "", ""), not_attempted())
+    assert (standing.status, standing.outcome, standing.attempts) == ("passed", "not attempted", 2)
+
+
+def test_the_most_points_count():
+    points = [Outcome("03c", "failed", points=number, out_of=4) for number in (1, 3, 2)]
+    assert after(*points).points == 3
+
+
+def test_the_last_mistake_stays_after_passing():
+    assert after(failed("03a", "", "", "wrong-rate"), passed("")).mistake == "wrong-rate"
+
+
+def test_a_standing_comes_back_from_its_data():
+    standing = Standing("failed", False, 1, 2, 3, True, "wrong-rate")
+    assert parse_standing(standing.as_dict()) == standing
+    assert parse_standing({**standing.as_dict(), "colour": "blue"}) == standing
+    assert parse_standing({}) == Standing()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [None, 3, [], "passed", {"points": "2"}, {"points": -1}, {"passed": 1}, {"attempts": True},
+     {"mistake": None}, {"outcome": []}],
+)  # fmt: skip
+def test_anything_else_is_refused(data, says):
+    with pytest.raises(RecordError) as caught:
+        parse_standing(data)
+    says(caught.value)
+
+
+# The file.
+
+
+PASSED = Standing("passed", True, 2, 1)
+
+
+def one_more(standing):
+    return replace(standing, attempts=standing.attempts + 1)
+
+
+@pytest.fixture
+def told():
+    return []
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return tmp_path / ".rosbeat"
+
+
+@pytest.fixture
+def remembered(folder, told):
+    return ProgressFile(folder, told.append)
+
+
+def test_nothing_is_there_at_first_and_reading_makes_nothing(remembered, folder):
+    assert dict(remembered.standings()) == {}
+    assert not folder.exists()
+
+
+def test_what_is_changed_is_there_for_the_next_kernel(remembered, folder, told):
+    assert remembered.change("03a", lambda before: PASSED) == PASSED
+    remembered.change("00a", one_more)
+    again = ProgressFile(folder).standings()
+    assert again == {"00a": Standing(attempts=1), "03a": PASSED}
+    assert told == []
+
+
+def test_git_and_colcon_leave_the_folder_alone(remembered, folder):
+    remembered.change("03a", one_more)
+    assert (folder / ".gitignore").read_text() == "*\n"
+    assert (folder / "COLCON_IGNORE").exists()
+    subprocess.run(["git", "init", "-q", str(folder.parent)], check=True)
+    command = ["git", "-C", str(folder.parent), "status", "--porcelain"]
+    assert subprocess.run(command, capture_output=True, check=True).stdout == b""
+
+
+def test_the_file_names_no_time(remembered):
+    remembered.change("03a", lambda before: PASSED)
+    first = remembered.path.read_bytes()
+    remembered.path.unlink()
+    remembered.change("03a", lambda before: PASSED)
+    assert remembered.path.read_bytes() == first
+    assert json.loads(first)["version"] == 1
+
+
+DAMAGED = [
+    b"", b"{", b"[]", b"null", b"\xff\xfe", b"{}", b'{"version": 1}', b'{"version": 2}',
+    b'{"version": 1, "exercises": []}', b'{"version": 1, "exercises": {"03a": 3}}',
+    b'{"version": 1, "exercises": {"03a": {"points": "two"}}}', b"[" * 100_000,
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("content", DAMAGED)
+def test_a_damaged_file_is_kept_aside_and_a_new_one_begun(remembered, folder, told, content):
+    folder.mkdir()
+    remembered.path.write_bytes(content)
+    assert dict(remembered.standings()) == {}
+    assert remembered.path.read_bytes() == content  # reading moves nothing
+    remembered.change("03a", one_more)
+    remembered.change("03a", one_more)
+    assert (folder / "progress-unreadable-1.json").read_bytes() == content
+    assert remembered.standings() == {"03a": Standing(attempts=2)}
+    assert len(told) == 1
+    assert ".rosbeat/progress-unreadable-1.json" in told[0]
+
+
+def test_what_was_kept_aside_is_never_replaced(remembered, folder):
+    for content in (b"one", b"two"):
+        remembered.change("03a", one_more)
+        remembered.path.write_bytes(content)
+        remembered.change("03a", one_more)
+    kept = [(folder / f"progress-unreadable-{number}.json").read_bytes() for number in (1, 2)]
+    assert kept == [b"one", b"two"]
+
+
+@pytest.mark.parametrize("stands_there", ["a file", "a folder"])
+def test_where_nothing_can_be_written_it_is_said_once_and_remembered(
+    remembered, folder, told, stands_there
+):
+    if stands_there == "a file":
+        folder.write_text("mine")
+    else:
+        remembered.path.mkdir(parents=True)
+    for _ in range(3):
+        remembered.change("03a", one_more)
+    remembered.change("03b", one_more)
+    assert remembered.standings() == {"03a": Standing(attempts=3), "03b": Standing(attempts=1)}
+    assert len(told) == 1
+    assert "cannot be saved" in told[0]
+
+
+def test_what_could_not_be_written_is_written_later(remembered, folder):
+    folder.write_text("mine")
+    remembered.change("03a", one_more)
+    folder.unlink()
+    remembered.change("03b", one_more)
+    expected = {"03a": Standing(attempts=1), "03b": Standing(attempts=1)}
+    assert ProgressFile(folder).standings() == expected
+
+
+KERNEL = """
+import sys
+from dataclasses import replace
+from pathlib import Path
+from rosbeat.exercises.progress import ProgressFile
+file = ProgressFile(Path(sys.argv[1]))
+for number in range(40):
+    file.change(sys.argv[2], lambda one: replace(one, attempts=one.attempts + 1))
+    file.change("both", lambda one: replace(one, hints=one.hints + 1))
+"""
+
+
+def test_kernels_that_write_at_once_lose_nothing(folder):
+    command = [sys.executable, "-c", KERNEL, str(folder)]
+    kernels = [subprocess.Popen([*command, name]) for name in ("00a", "00b", "00c")]
+    assert [kernel.wait(timeout=100) for kernel in kernels] == [0, 0, 0]
+    found = ProgressFile(folder).standings()
+    assert found.pop("both").hints == 120
+    assert found == {name: Standing(attempts=40) for name in ("00a", "00b", "00c")}
+    assert {path.name for path in folder.iterdir()} == {
+        *(".gitignore", "COLCON_IGNORE", "progress.json")
+    }
+
+
+def test_the_folder_lies_beside_the_workspace(tmp_path, monkeypatch):
+    monkeypatch.delenv("ROSBEAT_PROGRESS_IN")
+    monkeypatch.setenv("ROSBEAT_WORKSPACE_IN", str(tmp_path))
+    assert file.progress_file().path == tmp_path / ".rosbeat" / "progress.json"
+    assert file.progress_file() is file.progress_file()
+    monkeypatch.setenv("ROSBEAT_PROGRESS_IN", str(tmp_path / "other"))
+    assert file.progress_file().path.parent == tmp_path / "other" / ".rosbeat"
+    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path / "home"))
+    assert file.progress_file().path.parent == tmp_path / "home" / ".rosbeat"
+
+
+# The picture.
+
+
+@pytest.fixture
+def home(tmp_path, monkeypatch):
     monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
 
 
-def test_an_untouched_course_is_all_open():
+def test_an_untouched_course_is_all_open(home):
     words = progress().description
     assert words.startswith(f"Your progress: 0 of {len(EXERCISES)} exercises passed, 0 of ")
     assert words.endswith(" Not attempted yet: all.")
 
 
-def test_what_was_checked_is_in_the_picture():
+def test_what_was_checked_is_in_the_picture(home):
     progress_file().change("00a", lambda before: before.after(passed("")))
     progress_file().change("00b", lambda before: before.after(failed("00b", "", "")))
     words = progress().description
@@ -28,7 +241,7 @@ def test_what_was_checked_is_in_the_picture():
     assert "\n" not in words
 
 
-def test_the_picture_is_the_same_every_time():
+def test_the_picture_is_the_same_every_time(home):
     assert progress().html() == progress().html()
 
 
@@ -36,3 +249,51 @@ def test_exercises_of_no_page_have_a_heading_too():
     assert heading(PAGES[3]) == "03 Write a publisher"
     assert heading(Page("", "The whole system", ())) == "The whole system"
     assert outcomes(Page("", "The whole system", ()), {}) == []
+
+
+# The table.
+
+
+@pytest.fixture
+def two_checked(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
+    file = progress_file()
+    right = replace(passed(""), points=1)
+    file.change("00a", lambda before: before.after(right))
+    file.change("00b", lambda before: before.after(failed("00b", "", "", "wrong-rate")))
+    file.change("00b", lambda before: replace(before, hints=2, answer=True))
+
+
+def row(text, exercise):
+    return next(line.split() for line in text.splitlines() if f" {exercise} " in line)
+
+
+def test_the_table_has_every_page_every_exercise_and_the_total(two_checked, capsys):
+    assert cli.main(["progress"]) == 0
+    text = capsys.readouterr().out
+    assert all(f"\n{page.number} {page.title}\n".lstrip() in text for page in PAGES)
+    assert {one for one in EXERCISES if f" {one} " in text} == set(EXERCISES)
+    assert row(text, "00a")[0] == "✓"
+    assert row(text, "00a")[-5:] == ["1", "of", "1", "1", "0"]
+    assert row(text, "00b")[0] == "✗"
+    assert "not there yet" in " ".join(row(text, "00b"))
+    assert text.count("2 and the answer") == 1
+    assert row(text, "01a")[0] == "○"
+    assert text.splitlines()[-1].startswith(f"1 of {len(EXERCISES)} exercises passed, 1 of ")
+
+
+def test_the_same_as_json(two_checked, capsys):
+    assert cli.main(["progress", "--json"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert (data["version"], data["passed"], data["points"]) == (1, 1, 1)
+    assert [one["exercise"] for one in data["exercises"]] == list(EXERCISES)
+    assert data["out_of"] == sum(one.points for one in EXERCISES.values())
+    second = data["exercises"][1]
+    assert (second["status"], second["mistake"], second["hints"]) == ("failed", "wrong-rate", 2)
+    assert (second["page"], second["title"]) == ("00", EXERCISES["00b"].title)
+
+
+def test_a_file_that_cannot_be_read_is_an_empty_one(two_checked, capsys):
+    progress_file().path.write_text("{")
+    assert cli.main(["progress"]) == 0
+    assert f"0 of {len(EXERCISES)} exercises passed" in capsys.readouterr().out

@@ -1,4 +1,4 @@
-from __future__ import annotations
+"""Exercises, their pages, their scenarios and their answers."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from rosbeat.authoring.layout import Course
 from rosbeat.authoring.markers import find_blocks
 from rosbeat.authoring.solved import answer_files
 from rosbeat.errors import ExerciseError
-from rosbeat.exercises.registry import EXERCISES, PAGES, find
+from rosbeat.exercises.registry import EXERCISES, PAGES, find, scenario
 
 COURSE = Course(Path(__file__).parents[3])
 LESSONS = {lesson.number: lesson for lesson in COURSE.lessons()}
@@ -74,3 +74,18 @@ def test_an_unknown_one_is_refused_with_the_nearest(name, near, says):
     with pytest.raises(ExerciseError, match="There is no exercise") as caught:
         find(name, "hint({})")
     says(caught.value, f'hint("{near}', ", ".join(sorted(EXERCISES)))
+
+
+# Scenarios.
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_a_check_runs_the_same_scenario(name):
+    assert EXERCISES[name].scenario is scenario(name)
+
+
+@pytest.mark.parametrize("name", ["", "03", "03z", "99a", "page_03", "registry", "../03a"])
+def test_what_is_no_exercise_has_none(name, says):
+    with pytest.raises(ExerciseError) as caught:
+        scenario(name)
+    says(caught.value, repr(name), "03a", "system")

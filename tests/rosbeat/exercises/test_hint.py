@@ -1,4 +1,4 @@
-from __future__ import annotations
+"""Hints: one more at each call, about the last mistake, and the answer at last."""
 
 from types import SimpleNamespace
 
@@ -8,8 +8,9 @@ from rosbeat import check, hint
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises import registry
 from rosbeat.exercises.exercise import Exercise, failed, passed
-from rosbeat.exercises.hint import answer_to
+from rosbeat.exercises.hint import answer_to, are_here
 from rosbeat.exercises.progress import progress_file
+from rosbeat.exercises.registry import EXERCISES
 
 HINTS = ("Look at the <timer>.", "Its first argument is a time.")
 ANSWER = answer_to("03a")
@@ -203,3 +204,29 @@ def test_a_class_in_the_place_of_the_id_is_told_so(says):
 
 def test_none_is_an_answer_that_was_handed_over():
     assert check("00a", None).outcome.status == "failed"
+
+
+# Answers.
+
+
+def test_every_exercise_of_a_page_has_an_answer_without_a_blank():
+    for name in EXERCISES:
+        if name[:2].isdigit():
+            assert answer_to(name), name
+            assert "____" not in answer_to(name)
+            assert "# ---" not in answer_to(name)
+
+
+def test_commands_come_with_the_terminal_that_they_are_for():
+    assert answer_to("01b").startswith("%%terminal two\ncd ")
+
+
+def test_what_is_no_exercise_has_none():
+    assert answer_to("99z") == ""
+
+
+def test_whether_there_are_answers_at_all(monkeypatch, tmp_path):
+    assert are_here()
+    monkeypatch.setattr("rosbeat.exercises.hint.files", lambda _: tmp_path)
+    assert not are_here()
+    assert answer_to("03a") == ""

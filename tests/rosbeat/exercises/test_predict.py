@@ -1,11 +1,145 @@
-from __future__ import annotations
+"""Predictions: guesses as they are read, compared, and shown."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rosbeat.exercises.predict import agree, compared, form_of, is_blank, told
+from rosbeat import predict
+from rosbeat.exercises.predict import agree, compared, form_of, is_blank, range_in, told, truth_in
+
+BECAUSE = "The first one comes after a full period."
+
+
+def test_without_a_prediction_it_says_what_happened_and_not_why():
+    prediction = predict("____", 63, because=BECAUSE)
+    assert str(prediction) == "○ No prediction yet. It was 63."
+    assert not prediction.was_right
+
+
+def test_a_right_one():
+    prediction = predict("63", 63)
+    assert str(prediction) == "✓ You predicted 63, and it was 63."
+    assert prediction.was_right
+
+
+def test_another_one_is_not_blamed():
+    assert str(predict(60, 63)) == "✗ You predicted 60, and it was 63. Look at why."
+
+
+def test_a_near_one_is_said_to_be_near():
+    near = predict(60, 63, tolerance=5)
+    assert str(near) == "✓ You predicted 60, and it was 63. That is close enough."
+
+
+@pytest.mark.parametrize("guess", [60, 63])
+def test_the_reason_is_given_whether_it_was_right_or_not(guess):
+    prediction = predict(guess, 63, because=BECAUSE)
+    assert str(prediction).endswith(f"\n  {BECAUSE}")
+    assert BECAUSE in prediction.html()
+
+
+def test_two_that_look_alike_show_all_their_digits():
+    assert "predicted 22.3, and it was 22.30003." in str(predict(22.3, 22.30003))
+    assert "predicted 1.0000001, and it was 1.0000023." in str(predict(1.0000001, 1.0000023))
+
+
+def test_odd_guesses_never_end_the_page():
+    for guess in (object(), [], {}, len, predict, b"x"):
+        assert str(predict(guess, 63, tolerance="wide", because=3)).startswith("○ ")
+        assert str(predict(guess, "High", tolerance="wide", because=3)).startswith("✗ ")
+    assert str(predict(float("nan"), 63)).startswith("✗ ")
+
+
+def test_what_cannot_be_compared_is_no_wrong_prediction():
+    prediction = predict("?", 63, because=BECAUSE)
+    assert str(prediction) == "○ That cannot be compared with 63: write a number."
+    assert str(predict("?", False)) == "○ That cannot be compared with no: write yes or no."
+    assert not prediction.was_right
+
+
+def test_a_guess_in_words_is_told_as_it_was_written():
+    assert str(predict("20-30", 26)) == "✓ You predicted 20-30, and it was 26."
+    near = predict("about 60", 63, tolerance=5)
+    assert str(near) == "✓ You predicted about 60, and it was 63. That is close enough."
+
+
+def test_text_and_html_say_the_same_and_are_the_same_every_time():
+    bundle = predict("<b>", object())._repr_mimebundle_()
+    assert bundle == predict("<b>", object())._repr_mimebundle_()
+    assert "&lt;b&gt;" in bundle["text/html"]
+    assert bundle["text/plain"] == repr(predict("<b>", object()))
+
+
+# Numbers and truths in a text.
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("63", 63), ("63 messages", 63), ("63!", 63), ("(63)", 63), ("1s", 1), ("22.3 °C", 22.3),
+        ("~26", 26), ("about 26.", 26), ("-5", -5), ("\u22125", -5), (".5 s", 0.5), ("1e3", 1000),
+        ("1,000 messages", 1000), ("63, yes, 63", 63), ("a Float32 of 5", 5),
+        ("one", 1), ("Sixty-three", 63), ("sixty three messages", 63), ("nineteen", 19),
+        ("a hundred", 100), ("one hundred", 100), ("hundred", 100), ("None", 0), ("twenty", 20),
+    ],
+)  # fmt: skip
+def test_the_one_number(text, number):
+    assert range_in(text) == (number, number)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("20-30", "20 - 30", "20 to 30", "20\u201330", "20..30", "20 s to 30 s", "30-20"),
+        *("between 20 and 30", "twenty to thirty", "about 20-30 messages", "twenty-thirty"),
+    ],
+)
+def test_a_range(text):
+    assert range_in(text) == (20, 30)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("", "?", "many", "20 and 30", "20 or 30", "1, 2, 3", "1-2-3", "1.2.3", "Float32", "0x10"),
+        *("more than 20", "> 20", "20+", "at least 20", "not 63", "isn't 63", "10 %", "5 * 13"),
+        *("1/2", "x" * 300 + " 5", "someone"),
+    ],
+)
+def test_no_number_or_several(text):
+    assert range_in(text) is None
+
+
+@pytest.mark.parametrize(
+    "text", ["yes", "YES!", "yes.", "Yes, it does", "true", "y", "I think yes"]
+)
+def test_yes(text):
+    assert truth_in(text) is True
+
+
+@pytest.mark.parametrize("text", ["no", "no!", "No, it does not", "False", "n", "probably no"])
+def test_no(text):
+    assert truth_in(text) is False
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "?", "perhaps", "yes or no", "no idea", "not yes", "I do not know", "63", "nobody"],
+)
+def test_neither(text):
+    assert truth_in(text) is None
+
+
+@given(st.text() | st.text(alphabet="0123456789.,-+e one-twy%"))
+def test_no_text_raises(text):
+    ends = range_in(text)
+    assert ends is None or ends[0] <= ends[1]
+    assert truth_in(text) in (True, False, None)
+
+
+# What agrees, and how values are told.
+
 
 nan = float("nan")
 
