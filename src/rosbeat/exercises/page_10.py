@@ -18,7 +18,7 @@ from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.silence import listing
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import before_reading
-from rosbeat.exercises.scenarios import Report, report
+from rosbeat.exercises.scenarios import Report, Value, report
 
 if TYPE_CHECKING:
     from rosbeat.clinic.charts import Chart
@@ -37,7 +37,7 @@ class Claim(NamedTuple):
     place: str
 
 
-def _claims(entry: Any) -> list[Claim] | None:  # noqa: ANN401 - plain data
+def _claims(entry: Value) -> list[Claim] | None:
     """Return the diagnoses of one patient without blanks; None if they cannot be read."""
     if not isinstance(entry, list):
         return None
@@ -48,7 +48,7 @@ def _claims(entry: Any) -> list[Claim] | None:  # noqa: ANN401 - plain data
     return [one for one in claims if one.mistake and BLANK not in (one.mistake, one.place)]
 
 
-def _unreadable(value: Any, patients: Sequence[int]) -> Diagnosis | None:  # noqa: ANN401
+def _unreadable(value: Value, patients: Sequence[int]) -> Diagnosis | None:
     """Say why a result holds no diagnoses; None if it can be read."""
     evidence = _misfit(value, patients)
     if not evidence:
@@ -58,7 +58,7 @@ def _unreadable(value: Any, patients: Sequence[int]) -> Diagnosis | None:  # noq
     return Diagnosis("no-diagnoses", evidence, hint)
 
 
-def _misfit(value: Any, patients: Sequence[int]) -> str:  # noqa: ANN401
+def _misfit(value: Value, patients: Sequence[int]) -> str:
     if not isinstance(value, dict):
         return f"The function returned a {type(value).__name__} instead of a dict."
     ward = value.get(_KEY, WARD)

@@ -122,9 +122,10 @@ def _in_each(recordings: Sequence[_Readings], find: Callable[[_Readings], float]
     return {number: (find(readings),) for number, readings in enumerate(recordings)}
 
 
-def _findings(*others: Any) -> tuple[Suspect, ...]:  # noqa: ANN401 - rows of the table below
-    rows = ((name, hint, *({"find": one} for one in finds)) for name, hint, *finds in others)
-    return variants(_in_each, rows)
+def _findings(*rows: tuple[Any, ...]) -> tuple[Suspect, ...]:
+    """Return suspects from rows of a mistake, a hint, and one way or more to find the number."""
+    options = ((name, hint, *({"find": one} for one in finds)) for name, hint, *finds in rows)
+    return variants(_in_each, options)
 
 
 _EVERY = "A reading that is no number was a message all the same."
@@ -505,10 +506,6 @@ _SAYS: dict[str, Callable[[int, int, bool], bool]] = {
 }
 
 
-def _play_sick(answer: Answer) -> Replays:
-    return _replay(SICK, answer)
-
-
 def _watch_one(
     heard: Iterable[Sample],
     *,
@@ -686,10 +683,6 @@ TWO = (
 )
 
 
-def _play_two(answer: Answer) -> Replays:
-    return _replay(TWO, answer)
-
-
 def _differences(
     heard: Iterable[Sample], partner: str = "newest", start: float | None = None
 ) -> Iterator[tuple[int, float]]:
@@ -823,7 +816,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "11b",
-        _play_sick,
+        partial(_replay, SICK),
         partial(_judge_alarms, SICK_SENSOR),
         "notice a sick sensor",
         3,
@@ -837,7 +830,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "11c",
-        _play_two,
+        partial(_replay, TWO),
         partial(_judge_alarms, TWO_SENSORS),
         "compare two sensors, alone",
         4,

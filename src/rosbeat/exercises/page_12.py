@@ -28,7 +28,7 @@ from rosbeat.exercises.model import (
     status_of,
     track,
 )
-from rosbeat.exercises.scenarios import Answer, feeder, observe
+from rosbeat.exercises.scenarios import Answer, Value, feeder, observe
 from rosbeat.records import Observation
 
 _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
@@ -212,7 +212,7 @@ def _reaction(
     request: Request,
     accepted: bool | None,
     limits: Limits | None = None,
-    reason: Any = ...,  # noqa: ANN401 - a truth, or `...`
+    reason: Value = ...,  # a truth, or `...`
 ) -> Track:
     """Return what a monitor does that judges the next readings by these limits, or by any."""
     statuses = tuple(limits.status(one) if limits else ... for one in request.readings)
