@@ -142,6 +142,10 @@ def listing(names: Iterable[str], last: str = "and") -> str:
     return f"{', '.join(items[:-1])} {last} {items[-1]}"
 
 
+def _near_miss(one: str, other: str) -> Mark:
+    return Mark(NEAR, one, other, ("almost the", "same name"))
+
+
 def nodes_of(ends: Iterable[Endpoint]) -> str:
     """Return the nodes of some endpoints, as a sentence has them."""
     return listing(end.node for end in ends)
@@ -187,6 +191,10 @@ def qos_words(qos: QoS) -> str:
 def seconds(value: float) -> str:
     """Return a time in seconds: `3 s`, `0.25 s`."""
     return f"{value:.3g} s" if value < 100 else f"{value:.0f} s"
+
+
+def _at(time_ns: int) -> str:
+    return f"{time_ns / NANOSECONDS:.6g} s"
 
 
 def _two_digits(value: float) -> str:
@@ -349,7 +357,7 @@ def _misspelled(sides: Sides, graph: GraphSnapshot) -> Finding | None:
         f"{nodes_of(there)} {verb(there, *_DOES[wanted])} {name}; {how}. To ROS these are two "
         "names.",
         "Compare the two names letter by letter, and write the same one on both sides.",
-        [Mark(NEAR, *pair, ("almost the", "same name"))],
+        [_near_miss(*pair)],
     )
 
 
@@ -397,7 +405,7 @@ def _no_publisher(sides: Sides, scene: Scene) -> Finding:
         f"{nodes_of(listeners)} {verb(listeners, 'listens', 'listen')} there, and no node "
         f"publishes{_before(scene)}. {_published_topics(scene.graph)}",
         f"{asked}{start} its `create_publisher`.",
-        [Mark(NEAR, near, sides.topic, ("almost the", "same name"))] if near else [],
+        [_near_miss(near, sides.topic)] if near else [],
     )
 
 
@@ -407,7 +415,7 @@ def _before(scene: Scene) -> str:
         return ""
     last = scene.former[-1]
     who = "another process" if last.node == "?" else last.node
-    return f" now; {who} did until {last.last_ns / 1e9:.6g} s, and is no longer there"
+    return f" now; {who} did until {_at(last.last_ns)}, and is no longer there"
 
 
 def _published_topics(graph: GraphSnapshot) -> str:
@@ -421,7 +429,6 @@ def _with_publishers(graph: GraphSnapshot) -> list[str]:
 def _unknown(topic: str, scene: Scene) -> Finding:
     names = visible_topics(scene.graph)
     near = nearest(topic, names)
-    marks = [Mark(NEAR, near, topic, ("almost the", "same name"))] if near else []
     hint = (
         f"Did you mean {near}? Ask about that one."
         if near
@@ -433,7 +440,10 @@ def _unknown(topic: str, scene: Scene) -> Finding:
         f"No node publishes on it{_before(scene)}, and none subscribes. "
         f"Topics that are used: {listing(names) or 'none'}.",
         hint,
-        [Mark(TOPIC, topic, words=("nobody uses", "this name")), *marks],
+        [
+            Mark(TOPIC, topic, words=("nobody uses", "this name")),
+            *([_near_miss(near, topic)] if near else []),
+        ],
     )
 
 
@@ -613,7 +623,7 @@ def _no_time(sides: Sides, scene: Scene) -> Finding:
     return finding(
         "not-spun",
         "no time has passed since the nodes were added",
-        f"Virtual time stands at {scene.now_ns / NANOSECONDS:.6g} s, and moves only while "
+        f"Virtual time stands at {_at(scene.now_ns)}, and moves only while "
         "`ros.run` is at work. No timer has fired since, and no callback has run.",
         "Let the nodes run: `ros.run(seconds=10)`.",
         [link(end, "nothing yet") for end in sides.publishers],
@@ -678,11 +688,11 @@ def _gone_quiet(end: Endpoint, number: int, last_ns: int, quiet: float) -> Findi
     return finding(
         "gone-quiet",
         f"{end.node} has stopped publishing",
-        f"It published {count(number, 'message')}, the last at {last_ns / NANOSECONDS:.6g} s, and "
+        f"It published {count(number, 'message')}, the last at {_at(last_ns)}, and "
         f"nothing in the {seconds(quiet)} since.",
         "Look at what its callback does after that message: a condition that is no longer true, or "
         "a timer that was cancelled.",
-        [link(end, "silent since", f"{last_ns / NANOSECONDS:.6g} s")],
+        [link(end, "silent since", _at(last_ns))],
     )
 
 
@@ -833,10 +843,6 @@ def _heard(beat: Beat) -> str:
     last = f", the last at {_at(beat.last_ns)}" if beat.count and beat.last_ns >= 0 else ""
     ran = f"ran {count(beat.count, 'time')}" if beat.count else "has not run"
     return f": its callback {ran}{last}{missed}"
-
-
-def _at(time_ns: int) -> str:
-    return f"{time_ns / NANOSECONDS:.6g} s"
 
 
 def arrival(sides: Sides, scene: Scene, rate_hz: float) -> str:
