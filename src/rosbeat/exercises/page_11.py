@@ -506,6 +506,10 @@ _SAYS: dict[str, Callable[[int, int, bool], bool]] = {
 }
 
 
+def _play_sick(answer: Answer) -> Replays:
+    return _replay(SICK, answer)
+
+
 def _watch_one(
     heard: Iterable[Sample],
     *,
@@ -683,6 +687,10 @@ TWO = (
 )
 
 
+def _play_two(answer: Answer) -> Replays:
+    return _replay(TWO, answer)
+
+
 def _differences(
     heard: Iterable[Sample], partner: str = "newest", start: float | None = None
 ) -> Iterator[tuple[int, float]]:
@@ -816,7 +824,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "11b",
-        partial(_replay, SICK),
+        _play_sick,
         partial(_judge_alarms, SICK_SENSOR),
         "notice a sick sensor",
         3,
@@ -830,7 +838,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "11c",
-        partial(_replay, TWO),
+        _play_two,
         partial(_judge_alarms, TWO_SENSORS),
         "compare two sensors, alone",
         4,
