@@ -1,4 +1,4 @@
-"""Calls of rclpy that fail: arguments that are missing, swapped, or of another kind.
+"""Name the mistake in a call of rclpy: arguments missing, swapped, or of another kind.
 
 rclpy's own text is the same for a missing callback and a missing queue depth. So a call that fails
 is recorded as data, with the types of what it was given (`records.FailedCall`). In a terminal,
@@ -26,15 +26,9 @@ MESSAGES = frozenset(
 _SPIN = re.compile(r"\b(spin|spin_once|spin_until_future_complete)\(")
 
 
-def matched(fault: Fault, pattern: str, *kinds: str) -> re.Match[str] | None:
-    """Look for a pattern in an exception's text.
-
-    Args:
-        fault: The exception.
-        pattern: A regular expression.
-        kinds: Only of these classes; of every class if there are none.
-    """
-    return re.search(pattern, fault.text) if not kinds or fault.kind in kinds else None
+def matched(fault: Fault, pattern: str) -> re.Match[str] | None:
+    """Look for a pattern in an error as a traceback ends with it, such as `TypeError: ...`."""
+    return re.search(pattern, f"{fault.kind}: {fault.text}")
 
 
 def called_by_ros(fault: Fault) -> bool:
@@ -234,7 +228,7 @@ _WITH_MESSAGE = (
 def refused_callback(fault: Fault) -> Meaning | None:
     """Recognise a callback that cannot be called with a message (rows 9 and 10)."""
     refused = r"callback should be either be callable|invalid method signature"
-    if not matched(fault, refused, "RuntimeError", "ValueError"):
+    if not matched(fault, refused):
         return None
     callback = _part(fault.asked, 2, "callback") if fault.asked else None
     if callback is None:
@@ -269,9 +263,9 @@ def called_at_once(fault: Fault) -> Meaning | None:
     call = fault.asked
     if call and call.given and call.given[0].kind == "called":
         return _called(call.given[0].name)
-    found = matched(fault, r"(\w+)\(\) missing \d required positional arguments?:", "TypeError")
+    found = matched(fault, r"(\w+)\(\) missing \d required positional arguments?:")
     name = found[1] if found else ""
-    if not found and matched(fault, r"name 'msg' is not defined", "NameError"):
+    if not found and matched(fault, r"name 'msg' is not defined"):
         handed = re.search(r"\.(\w+)\(msg\)", fault.code)
         name = handed[1] if handed else ""
     return _called(name) if name and is_argument(fault.code, name) else None

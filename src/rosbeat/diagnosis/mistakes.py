@@ -1,4 +1,4 @@
-"""The names of mistakes.
+"""Name the mistakes that learners make.
 
 The first thirty are those that learners of this tutorial make most; `row` is their number in the
 course's table (docs/mistakes.md). A row that holds several mistakes has several names. The others
@@ -140,7 +140,6 @@ _OTHERS = (
     Mistake("raised", "an exception of another kind"),
     Mistake("no-node", "something that is not a node class"),
     Mistake("exits", "the program is ended from inside"),
-    Mistake("prints-without-end", "more text than anybody reads"),
     Mistake("no-publisher", "nothing to publish with"),
     Mistake("never-published", "a publisher that is never used"),
     Mistake("gone-quiet", "a publisher that has stopped publishing"),

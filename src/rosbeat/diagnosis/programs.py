@@ -1,4 +1,4 @@
-"""Which mistake a program in a terminal ended with, by what it printed.
+"""Name the mistake that a program in a terminal ended with, by what it printed.
 
 The last traceback is taken apart into the same record that a session makes of an exception, so the
 same functions recognise it. What is said of Ctrl+C (row 29), of files that Python cannot read (28)
@@ -40,6 +40,7 @@ class _Frame:
 
     @property
     def is_learners(self) -> bool:
+        """Return whether the file is the learner's own."""
         installed = "/install/" in self.file or "/build/" in self.file
         foreign = _FOREIGN.search(self.file) and not installed
         return not foreign and self.file.endswith(".py")

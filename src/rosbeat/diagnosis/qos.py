@@ -1,4 +1,4 @@
-"""Whether the qualities of service of a publisher and a subscription fit.
+"""Compare the quality of service of a publisher with that of a subscription.
 
 The publisher offers, the subscription asks; they are connected only if the offer is at least what
 is asked (ROS 2 documentation, "About Quality of Service settings", QoS compatibilities). History,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from difflib import SequenceMatcher
 from html import escape
 from textwrap import fill
 
+from rosbeat.diagnosis.exceptions import first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
 from rosbeat.diagnosis.situation import (
@@ -134,11 +135,15 @@ def link(end: Endpoint, *words: str) -> Mark:
 
 
 def listing(names: Iterable[str], last: str = "and") -> str:
-    """Names as a sentence has them, each once: `a`, `a and b`, `a, b and c`."""
+    """Return names as a sentence has them, each once: `a`, `a and b`, `a, b and c`."""
     items = list(dict.fromkeys(names))
     if len(items) < 2:
         return "".join(items)
     return f"{', '.join(items[:-1])} {last} {items[-1]}"
+
+
+def _near_miss(one: str, other: str) -> Mark:
+    return Mark(NEAR, one, other, ("almost the", "same name"))
 
 
 def nodes_of(ends: Iterable[Endpoint]) -> str:
@@ -188,6 +193,10 @@ def seconds(value: float) -> str:
     return f"{value:.3g} s" if value < 100 else f"{value:.0f} s"
 
 
+def _at(time_ns: int) -> str:
+    return f"{time_ns / NANOSECONDS:.6g} s"
+
+
 def _two_digits(value: float) -> str:
     # A clock that is measured is never exact: 0.9987 a second is one a second.
     return f"{float(f'{value:.2g}'):g}"
@@ -217,11 +226,6 @@ class Sides:
     subscriptions: tuple[Endpoint, ...]
 
     @property
-    def pairs(self) -> Iterator[tuple[Endpoint, Endpoint]]:
-        """Return every publisher with every subscription."""
-        return ((one, other) for other in self.subscriptions for one in self.publishers)
-
-    @property
     def missing(self) -> str:
         """Return the side that nobody is on, `both`, or empty."""
         if not self.publishers:
@@ -249,37 +253,30 @@ def links(sides: Sides, scene: Scene) -> Iterator[Finding]:
 
 
 def _types(sides: Sides) -> Iterator[Finding]:
+    """Find subscriptions that hear nobody, and publishers that nobody hears beside one that is."""
+    sent = {one.type_name for one in sides.publishers}
+    asked = {one.type_name for one in sides.subscriptions}
     for end in sides.subscriptions:
-        others = sides.publishers
-        if not others or any(one.type_name == end.type_name for one in others):
-            continue
-        sent, asked = _two_types(others[0].type_name, end.type_name)
-        yield finding(
-            "type-mismatch",
-            f"two message types on {sides.topic}",
-            f"{nodes_of(others)} {verb(others, 'publishes', 'publish')} {sent}, and {end.node} "
-            f"subscribes to {asked}. ROS connects them only if the type is the same.",
-            "Decide on one type, and name it in `create_publisher` and in `create_subscription`.",
-            [link(end, f"sends {sent}", f"asks for {asked}")],
-        )
-    yield from _other_senders(sides)
+        if sent and end.type_name not in sent:
+            yield _type_clash(sides.topic, sides.publishers, (end,), end)
+    for end in sides.publishers if sent & asked else ():
+        if end.type_name not in asked:
+            yield _type_clash(sides.topic, (end,), sides.subscriptions, end)
 
 
-def _other_senders(sides: Sides) -> Iterator[Finding]:
-    """Find publishers of a type that nobody asks for, beside one that is heard."""
-    heard = {one.type_name for one in sides.subscriptions}
-    others = [one for one in sides.publishers if one.type_name not in heard]
-    for end in others if len(others) < len(sides.publishers) and heard else []:
-        sent, asked = _two_types(end.type_name, sides.subscriptions[0].type_name)
-        yield finding(
-            "type-mismatch",
-            f"two message types on {sides.topic}",
-            f"{end.node} publishes {sent}, and {nodes_of(sides.subscriptions)} "
-            f"{verb(sides.subscriptions, *_DOES['subscription'])} {asked}. ROS connects them only "
-            "if the type is the same.",
-            "Decide on one type, and name it in `create_publisher` and in `create_subscription`.",
-            [link(end, f"sends {sent}", f"asks for {asked}")],
-        )
+def _type_clash(
+    topic: str, publishers: Sequence[Endpoint], listeners: Sequence[Endpoint], marked: Endpoint
+) -> Finding:
+    sent, asked = _two_types(publishers[0].type_name, listeners[0].type_name)
+    return finding(
+        "type-mismatch",
+        f"two message types on {topic}",
+        f"{nodes_of(publishers)} {verb(publishers, 'publishes', 'publish')} {sent}, and "
+        f"{nodes_of(listeners)} {verb(listeners, *_DOES['subscription'])} {asked}. ROS connects "
+        "them only if the type is the same.",
+        "Decide on one type, and name it in `create_publisher` and in `create_subscription`.",
+        [link(marked, f"sends {sent}", f"asks for {asked}")],
+    )
 
 
 def _two_types(one: str, other: str) -> tuple[str, str]:
@@ -360,7 +357,7 @@ def _misspelled(sides: Sides, graph: GraphSnapshot) -> Finding | None:
         f"{nodes_of(there)} {verb(there, *_DOES[wanted])} {name}; {how}. To ROS these are two "
         "names.",
         "Compare the two names letter by letter, and write the same one on both sides.",
-        [Mark(NEAR, *pair, ("almost the", "same name"))],
+        [_near_miss(*pair)],
     )
 
 
@@ -408,7 +405,7 @@ def _no_publisher(sides: Sides, scene: Scene) -> Finding:
         f"{nodes_of(listeners)} {verb(listeners, 'listens', 'listen')} there, and no node "
         f"publishes{_before(scene)}. {_published_topics(scene.graph)}",
         f"{asked}{start} its `create_publisher`.",
-        [Mark(NEAR, near, sides.topic, ("almost the", "same name"))] if near else [],
+        [_near_miss(near, sides.topic)] if near else [],
     )
 
 
@@ -418,7 +415,7 @@ def _before(scene: Scene) -> str:
         return ""
     last = scene.former[-1]
     who = "another process" if last.node == "?" else last.node
-    return f" now; {who} did until {last.last_ns / 1e9:.6g} s, and is no longer there"
+    return f" now; {who} did until {_at(last.last_ns)}, and is no longer there"
 
 
 def _published_topics(graph: GraphSnapshot) -> str:
@@ -432,7 +429,6 @@ def _with_publishers(graph: GraphSnapshot) -> list[str]:
 def _unknown(topic: str, scene: Scene) -> Finding:
     names = visible_topics(scene.graph)
     near = nearest(topic, names)
-    marks = [Mark(NEAR, near, topic, ("almost the", "same name"))] if near else []
     hint = (
         f"Did you mean {near}? Ask about that one."
         if near
@@ -444,7 +440,10 @@ def _unknown(topic: str, scene: Scene) -> Finding:
         f"No node publishes on it{_before(scene)}, and none subscribes. "
         f"Topics that are used: {listing(names) or 'none'}.",
         hint,
-        [Mark(TOPIC, topic, words=("nobody uses", "this name")), *marks],
+        [
+            Mark(TOPIC, topic, words=("nobody uses", "this name")),
+            *([_near_miss(near, topic)] if near else []),
+        ],
     )
 
 
@@ -468,9 +467,8 @@ def nodes(sides: Sides, scene: Scene) -> Iterator[Finding]:
     """Find every node that does not do its part."""
     ends = (*sides.publishers, *sides.subscriptions)
     for condition in _conditions(ends, scene):
-        found = _of(condition, scene)
-        if found:
-            yield found
+        if condition.state in _CONDITIONS:
+            yield _of(condition, scene)
     yield from _twins(ends, scene)
     held_up = any(one.state == BLOCKED and one.node in scene.own for one in scene.conditions)
     if held_up and not scene.virtual:
@@ -501,86 +499,79 @@ def _is_heard(end: Endpoint, scene: Scene) -> bool:
     return scene.beat(end).count > 0
 
 
-def _of(condition: Condition, scene: Scene) -> Finding | None:
-    say = {
-        ENDED: _ended,
-        BLOCKED: _blocked,
-        PAUSED: _paused,
-        NOT_ADDED: _not_added,
-        SILENT: _no_answer,
-    }.get(condition.state)
-    return say(condition, scene) if say else None
+@dataclass(frozen=True)
+class _Cause:
+    """Say what is wrong with a node that does not run; `{node}` is its full name."""
+
+    mistake: str
+    headline: str
+    evidence: str
+    hint: str
+    words: tuple[str, ...]
 
 
-def _ended(condition: Condition, _: Scene) -> Finding:
-    fault, node = condition.fault, condition.node
-    evidence = f"{node} called rclpy.shutdown(), which ends it."
-    hint = "Take that call out of the callback, and add the node again."
-    if fault:
-        where = f" Line {fault.line}: `{fault.code}`." if fault.line else ""
-        evidence = (
-            f"At {fault.time:.6g} s {fault.callback} raised {fault.kind}: {_first_line(fault.text)}"
-            f".{where} An exception that leaves a callback ends its node."
-        )
-        hint = "Mend that line, then run the cell that adds the node again."
-    mark = Mark(NODE, node, words=("has ended",))
-    return finding("node-ended", f"{node} has ended", evidence, hint, [mark])
-
-
-def _first_line(text: str) -> str:
-    return text.split(", at ")[0].split("\n")[0].rstrip(".")
-
-
-def _blocked(condition: Condition, scene: Scene) -> Finding:
-    node = condition.node
-    alone = node in scene.own and not scene.virtual
-    others = ", and no other node of the session runs meanwhile" if alone else ""
-    return finding(
+_NOT_RUN = "nobody runs the callbacks of {node}"
+_CONDITIONS = {
+    ENDED: _Cause(
+        "node-ended",
+        "{node} has ended",
+        "{node} called rclpy.shutdown(), which ends it.",
+        "Take that call out of the callback, and add the node again.",
+        ("has ended",),
+    ),
+    BLOCKED: _Cause(
         "callback-blocks",
-        f"a callback of {node} does not return",
-        f"{condition.callback} has begun and not ended. Until it does, no other callback of {node} "
-        f"runs{others}.",
+        "a callback of {node} does not return",
+        "{callback} has begun and not ended. Until it does, no other callback of {node} "
+        "runs{others}.",
         "A callback does one thing and returns: no endless loop, no `time.sleep`, no waiting for "
         "an answer. What comes again and again is a timer's work.",
-        [Mark(NODE, node, words=("callback does", "not return"))],
-    )
-
-
-def _paused(condition: Condition, _: Scene) -> Finding:
-    node = condition.node
-    return finding(
+        ("callback does", "not return"),
+    ),
+    PAUSED: _Cause(
         "not-spun",
-        f"nobody runs the callbacks of {node}",
-        f"{node} is paused: its messages wait in its queues, and its timers do not fire.",
-        f'Let it go on with `ros.resume("{node.lstrip("/")}")`.',
-        [Mark(NODE, node, words=("paused",))],
-    )
-
-
-def _not_added(condition: Condition, _: Scene) -> Finding:
-    node = condition.node
-    return finding(
+        _NOT_RUN,
+        "{node} is paused: its messages wait in its queues, and its timers do not fire.",
+        'Let it go on with `ros.resume("{name}")`.',
+        ("paused",),
+    ),
+    NOT_ADDED: _Cause(
         "not-spun",
-        f"nobody runs the callbacks of {node}",
-        f"{node} was made, and never handed to the session: it is in the graph, and none of its "
+        _NOT_RUN,
+        "{node} was made, and never handed to the session: it is in the graph, and none of its "
         "callbacks is ever called.",
         "Hand it over with `ros.add(...)`. In a program, `rclpy.spin(node)` does that.",
-        [Mark(NODE, node, words=("not spun",))],
-    )
-
-
-def _no_answer(condition: Condition, _: Scene) -> Finding:
-    node = condition.node
-    return finding(
+        ("not spun",),
+    ),
+    SILENT: _Cause(
         "not-spun",
-        f"{node} does not answer",
-        f"{node} is in the graph, and did not answer a question that every running node answers. "
+        "{node} does not answer",
+        "{node} is in the graph, and did not answer a question that every running node answers. "
         "Its process runs none of its callbacks: it does not spin, or one callback does not "
         "return.",
         "Look for `rclpy.spin(node)` in its `main`, then for an endless loop or `time.sleep` in a "
         "callback.",
-        [Mark(NODE, node, words=("does not", "answer"))],
-    )
+        ("does not", "answer"),
+    ),
+}
+
+
+def _of(condition: Condition, scene: Scene) -> Finding:
+    cause, node, fault = _CONDITIONS[condition.state], condition.node, condition.fault
+    if condition.state == ENDED and fault:
+        evidence = (
+            f"At {fault.time:.6g} s {fault.callback} raised {fault.kind}: "
+            f"{first_sentence(fault.text)}.{line_of(fault)} An exception that leaves a callback "
+            "ends its node."
+        )
+        hint = "Mend that line, then run the cell that adds the node again."
+    else:
+        alone = node in scene.own and not scene.virtual
+        others = ", and no other node of the session runs meanwhile" if alone else ""
+        evidence = cause.evidence.format(node=node, callback=condition.callback, others=others)
+        hint = cause.hint.format(name=node.lstrip("/"))
+    mark = Mark(NODE, node, words=cause.words)
+    return finding(cause.mistake, cause.headline.format(node=node), evidence, hint, [mark])
 
 
 def _twins(ends: tuple[Endpoint, ...], scene: Scene) -> Iterator[Finding]:
@@ -632,7 +623,7 @@ def _no_time(sides: Sides, scene: Scene) -> Finding:
     return finding(
         "not-spun",
         "no time has passed since the nodes were added",
-        f"Virtual time stands at {scene.now_ns / NANOSECONDS:.6g} s, and moves only while "
+        f"Virtual time stands at {_at(scene.now_ns)}, and moves only while "
         "`ros.run` is at work. No timer has fired since, and no callback has run.",
         "Let the nodes run: `ros.run(seconds=10)`.",
         [link(end, "nothing yet") for end in sides.publishers],
@@ -697,11 +688,11 @@ def _gone_quiet(end: Endpoint, number: int, last_ns: int, quiet: float) -> Findi
     return finding(
         "gone-quiet",
         f"{end.node} has stopped publishing",
-        f"It published {count(number, 'message')}, the last at {last_ns / NANOSECONDS:.6g} s, and "
+        f"It published {count(number, 'message')}, the last at {_at(last_ns)}, and "
         f"nothing in the {seconds(quiet)} since.",
         "Look at what its callback does after that message: a condition that is no longer true, or "
         "a timer that was cancelled.",
-        [link(end, "silent since", f"{last_ns / NANOSECONDS:.6g} s")],
+        [link(end, "silent since", _at(last_ns))],
     )
 
 
@@ -852,10 +843,6 @@ def _heard(beat: Beat) -> str:
     last = f", the last at {_at(beat.last_ns)}" if beat.count and beat.last_ns >= 0 else ""
     ran = f"ran {count(beat.count, 'time')}" if beat.count else "has not run"
     return f": its callback {ran}{last}{missed}"
-
-
-def _at(time_ns: int) -> str:
-    return f"{time_ns / NANOSECONDS:.6g} s"
 
 
 def arrival(sides: Sides, scene: Scene, rate_hz: float) -> str:

@@ -1,6 +1,6 @@
-"""What is known when somebody asks why nothing arrives on a topic: plain data.
+"""Hold what is known when somebody asks why nothing arrives on a topic: plain data.
 
-A session or a terminal fills a `Scene` with what it can see; `explanation.explain` reads nothing
+A session or a terminal fills a `Scene` with what it can see; `silence.explain` reads nothing
 else. What a field cannot know keeps its default, and nothing is concluded from it.
 """
 

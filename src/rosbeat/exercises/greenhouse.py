@@ -9,17 +9,18 @@ from __future__ import annotations
 import json
 import os
 import struct
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from math import inf, isfinite, nan
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
 
-from rosbeat.errors import ExerciseError
+from rosbeat.errors import ExerciseError, RecordError
 from rosbeat.exercises.cards import words
 from rosbeat.exercises.scenarios import station
+from rosbeat.record_json import record
 
 # What is required.
 
@@ -43,13 +44,11 @@ USUAL: Mapping[str, float] = {
     "react_seconds": 2.0,
 }
 _OWN = "rubrics/greenhouse.json"
-_KINDS = {"id": str, "text": str, "points": int, "required": bool}
-_FIELDS = "an id and a text in quotes, points (a whole number) and required (true or false)"
 
 
 @dataclass(frozen=True)
 class Requirement:
-    """One thing that a greenhouse has to do.
+    """Hold one thing that a greenhouse has to do.
 
     Attributes:
         id: Its name, such as `R1`.
@@ -66,14 +65,14 @@ class Requirement:
 
 @dataclass(frozen=True)
 class Rubric:
-    """All that a greenhouse has to do.
+    """Hold all that a greenhouse has to do.
 
     Attributes:
         numbers: The limits and times that stand in the requirements, by name.
         requirements: The requirements, in order.
     """
 
-    numbers: dict[str, float]
+    numbers: dict[str, Any]  # JSON has one kind of number, and Python two
     requirements: tuple[Requirement, ...]
 
 
@@ -125,32 +124,30 @@ def parse_rubric(text: str, name: str) -> Rubric:
         name: The file's name, for errors.
 
     Raises:
-        ExerciseError: If it is no rubric that a check could use; all reasons are told.
+        ExerciseError: If it is no rubric that a check could use.
     """
     try:
-        data = json.loads(text)
+        found: Rubric = record(Rubric, json.loads(text), "it")
+    except RecordError as error:
+        said = error.what.partition(". ")[2]  # behind what it says of every record
+        raise _refused(name, f"{said} {error.means}".rstrip(".")) from None
     except (ValueError, RecursionError) as error:
         raise _refused(name, f"it is not JSON, {error}") from None
-    wrong = list(_shape(data)) or [*_numbers(data["numbers"]), *_rows(data["requirements"])]
-    wrong = wrong or [*_spans(data["numbers"]), *_texts(data)]
+    wrong = [*_numbers(found.numbers), *_rows(found.requirements)]
+    wrong = wrong or [*_spans(found.numbers), *_texts(found)]
     if wrong:
         raise _refused(name, "; ".join(wrong))
-    numbers = {key: float(value) for key, value in data["numbers"].items()}
-    rows = [{**row, "text": _filled(row["text"], numbers)} for row in data["requirements"]]
-    return Rubric(numbers, tuple(Requirement(**row) for row in rows))
+    numbers = {key: float(value) for key, value in found.numbers.items()}
+    return Rubric(
+        numbers,
+        tuple(replace(row, text=_filled(row.text, numbers)) for row in found.requirements),
+    )
 
 
 # What may be wrong with it; each yields a few words for each thing.
 
 
-def _shape(data: object) -> Iterator[str]:
-    if not isinstance(data, dict) or set(data) != {"numbers", "requirements"}:
-        yield "it should hold `numbers` and `requirements`, and nothing else"
-    elif not isinstance(data["numbers"], dict) or not isinstance(data["requirements"], list):
-        yield "`numbers` should be an object, and `requirements` a list"
-
-
-def _numbers(found: dict[str, Any]) -> Iterator[str]:
+def _numbers(found: Mapping[str, Any]) -> Iterator[str]:
     for name in sorted(set(USUAL) ^ set(found)):
         yield f"`{name}` is missing" if name in USUAL else f"there is no number `{name}`"
     for name, value in found.items():
@@ -160,54 +157,49 @@ def _numbers(found: dict[str, Any]) -> Iterator[str]:
             yield f"`{name}` is {value!r} and should be a whole number from 1 to 120"
 
 
-def _rows(rows: list[Any]) -> Iterator[str]:
-    for number, row in enumerate(rows, 1):
-        kinds = {key: type(value) for key, value in row.items()} if isinstance(row, dict) else {}
-        if kinds != _KINDS:
-            yield f"requirement {number} should have {_FIELDS}, and nothing else"
-            return
-    ids = [row["id"] for row in rows]
-    strange = sorted(set(ids) - set(KNOWN))
-    if strange or len(set(ids)) != len(ids):
+def _rows(rows: Sequence[Requirement]) -> Iterator[str]:
+    ids = [row.id for row in rows]
+    if set(ids) - set(KNOWN) or len(set(ids)) != len(ids):
         yield f"each of {', '.join(KNOWN)} may stand there once, and nothing else"
-    points = [row["points"] for row in rows]
+    points = [row.points for row in rows]
     if sum(points) != TOTAL or min(points, default=0) < 0:
         yield f"the points add up to {sum(points)}; they should make {TOTAL}, none below 0"
-    if not any(row["required"] for row in rows):
+    if not any(row.required for row in rows):
         yield "nothing is required"
 
 
-def _spans(n: dict[str, float]) -> Iterator[str]:
-    """Yield what keeps the weather of the trials from telling a right answer from a wrong one."""
-    rules = {
-        "`close_below` has to be at least 1 below `open_above`": n["close_below"] + 1
-        <= n["open_above"],
-        "`temperature_min` has to be at least 10 below `close_below`": n["temperature_min"] + 10
-        <= n["close_below"],
-        "`temperature_max` has to be at least 10 above `open_above`": n["open_above"] + 10
-        <= n["temperature_max"],
-        "`dry_below` has to be from 20 to 70": 20 <= n["dry_below"] <= 70,
-        "`pump_seconds` has to be at least 3 above `react_seconds`": n["react_seconds"] + 3
-        <= n["pump_seconds"],
-        "`silent_seconds` has to be at least 3 above `react_seconds`": n["react_seconds"] + 3
-        <= n["silent_seconds"],
-        "`rest_seconds` has to be at least 5 above `react_seconds`": n["react_seconds"] + 5
-        <= n["rest_seconds"],
-        "`report_seconds` has to be from 5 to 30": 5 <= n["report_seconds"] <= 30,
-        "`react_seconds` has to be at most 5": n["react_seconds"] <= 5,
-    }
-    yield from (text for text, holds in rules.items() if not holds)
+#: How far one number has to be below another, so that the weather of the trials tells a right
+#: answer from a wrong one.
+_APART = (
+    ("close_below", 1, "open_above"),
+    ("temperature_min", 10, "close_below"),
+    ("open_above", 10, "temperature_max"),
+    ("react_seconds", 3, "pump_seconds"),
+    ("react_seconds", 3, "silent_seconds"),
+    ("react_seconds", 5, "rest_seconds"),
+)
+#: The least and the most that a number may be, for the same reason.
+_RANGES = {"dry_below": (20, 70), "report_seconds": (5, 30), "react_seconds": (1, 5)}
 
 
-def _texts(data: dict[str, Any]) -> Iterator[str]:
-    for row in data["requirements"]:
+def _spans(n: Mapping[str, float]) -> Iterator[str]:
+    for lower, least, upper in _APART:
+        if n[lower] + least > n[upper]:
+            yield f"`{lower}` has to be at least {least} below `{upper}`"
+    for name, (least, most) in _RANGES.items():
+        if not least <= n[name] <= most:
+            yield f"`{name}` has to be from {least} to {most}"
+
+
+def _texts(rubric: Rubric) -> Iterator[str]:
+    for row in rubric.requirements:
         try:
-            _filled(row["text"], data["numbers"])
+            _filled(row.text, rubric.numbers)
         except (ValueError, LookupError, AttributeError):
-            yield f"the text of {row['id']} has a brace that stands for no number"
+            yield f"the text of {row.id} has a brace that stands for no number"
 
 
-def _filled(text: str, numbers: dict[str, float]) -> str:
+def _filled(text: str, numbers: Mapping[str, float]) -> str:
     return text.format(**{name: f"{value:g}" for name, value in numbers.items()})
 
 

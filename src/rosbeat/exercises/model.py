@@ -228,8 +228,7 @@ def diagnose_words(
     for sample in samples_on(observation, wire):
         if sample.value not in words:
             evidence = f"At {sample.time:g} s, {sample.value!r} was published on {wire.topic}."
-            *first, last = words
-            hint = f"The only words are {', '.join(first)} and {last}."
+            hint = f"Each text there is one of these: {', '.join(words)}."
             return Diagnosis("wrong-word", evidence, spelling(str(sample.value), words) or hint)
     return None
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import chain, combinations, product
+from collections.abc import Sequence
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
-from rosbeat.exercises.model import Suspect, Track, first_mismatch, matching, name_mistake
 from rosbeat.exercises.scenarios import Answer, Report, Workspace, look_at_workspace, report
 from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script
 from rosbeat.workspace.packages import Package
@@ -155,137 +153,73 @@ def _diagnose_texts(results: list[Any]) -> Diagnosis | None:
         if "{" in result:
             hint = "The braces are still there: an f before the first quote fills them in."
             return Diagnosis("f-missing", evidence, hint)
-    done: Track = {call: (result,) for call, result in enumerate(results)}
-    mismatch = first_mismatch(done, _entry_points(_RIGHT), _same_entry)
-    if mismatch is None:
-        return None
-    evidence = f"entry_point{ARGUMENTS[mismatch.at]} gives {mismatch.done[0]!r}."
-    single = chain(_SUSPECTS, _with_fixed_parts(results[0]))
-    fit = matching(None, done, single, _same_entry) or matching(None, done, _pairs(), _same_entry)
-    return name_mistake(fit[:1], Diagnosis(UNKNOWN, evidence, _COMPARE))
-
-
-#: The parts of an entry point in their order; `{0}` to `{3}` are the arguments.
-_RIGHT = {
-    "before": "", "executable": "{0}", "equals": "=", "package": "{1}", "dot": ".",
-    "module": "{2}", "colon": ":", "function": "{3}", "after": "",
-}  # fmt: skip
-_SPACES = re.compile(r"[ \t]*([=:]+)[ \t]*")
-
-
-def _entry_points(parts: Mapping[str, str], calls: Sequence[tuple[str, ...]] = ARGUMENTS) -> Track:
-    """Return the text for each call of a function that writes these parts."""
-    text = "".join(parts.values())
-    return {call: (text.format(*given, "main"),) for call, given in enumerate(calls)}
-
-
-def _same_entry(one: str, other: str) -> bool:
-    """Return whether two entry points are the same, whatever spaces are around their signs."""
-    return _without_spaces(one) == _without_spaces(other)
+    for arguments, result in zip(ARGUMENTS, results, strict=True):
+        if _without_spaces(result) != _right(arguments):
+            mistake, hint = _slip(results)
+            return Diagnosis(mistake, f"entry_point{arguments} gives {result!r}.", hint)
+    return None
 
 
 def _without_spaces(text: str) -> str:
-    return _SPACES.sub(r"\1", text)
+    """Return an entry point without the spaces around its signs, which mean nothing."""
+    return re.sub(r"[ \t]*([=:]+)[ \t]*", r"\1", text)
 
 
-_FIRST = "What is typed after ros2 run comes first, then an equals sign."
-_ONE_SIGN = "One equals sign is enough: it is no comparison."
+def _right(arguments: tuple[str, ...]) -> str:
+    return "{}={}.{}:{}".format(*arguments, "main")
+
+
 _DOT = "Between the equals sign and the colon stands package.module, with a dot."
 _COLON = "After a colon comes the name of the function that was handed over."
-_USE_ALL = "The text has to change with what the function is given: put its parameters in."
-_ENOUGH = "Return the bare text: no quotes, brackets or spaces around it."
-_NO_MORE = "Nothing stands after the name of the function: no brackets, no comma."
-_AS_GIVEN = "Names count letter by letter: put the parameters in as they are."
-_COMPARE = "Compare it with the parts in the table of the page, sign by sign and in their order."
-
-
-def _slips() -> Iterator[tuple[str, str, Mapping[str, str]]]:
-    """Generate each slip: its mistake, its hint, and the parts that are written with it."""
-    yield "slash-in-module", _DOT, {"dot": "/"}
-    yield "swallowed-parameter", f"{_COLON} It is not always main.", {"function": "main"}
-    for pair in ("''", '""', "``", "()", "[]", "<>"):
-        yield "stray-characters", _ENOUGH, {"before": pair[0], "after": pair[1]}
-    for space in (" ", "\n", "\t"):
-        yield "stray-characters", _ENOUGH, {"before": space}
-        yield "stray-characters", _ENOUGH, {"after": space}
-    for end in ("()", ",", ";", ".", ":", "(", ")", ".py"):
-        yield "stray-characters", _NO_MORE, {"after": end}
-    yield "entry-point-form", _ONE_SIGN, {"equals": "=="}
-    for sign in (":", " ", "", "->", ":="):
-        yield "entry-point-form", _FIRST, {"equals": sign}
-    for sign in (":", "::", "\\", "_", "-", " ", "", ".."):
-        yield "entry-point-target", _DOT, {"dot": sign}
-    for sign in (".", "::", "/", " ", "", "=", "-", "#"):
-        yield "entry-point-target", _COLON, {"colon": sign}
-    yield "entry-point-target", _COLON, {"colon": "", "function": ""}
-    yield "entry-point-target", _DOT, {"package": "", "dot": ""}
-    yield "entry-point-target", _DOT, {"dot": "", "module": ""}
-    yield "entry-point-target", "A module is named without .py.", {"module": "{2}.py"}
-    yield "entry-point-form", _FIRST, {"executable": "", "equals": ""}
-    turned = {"executable": "{1}.{2}:{3}", "package": "{0}"}
-    yield "entry-point-form", _FIRST, {**dict.fromkeys(_RIGHT, ""), **turned, "equals": "="}
-
-
-_PARAMETERS = ("executable", "package", "module", "function")
-
-
-def _other_orders() -> Iterator[tuple[str, str, Mapping[str, str]]]:
-    """Generate the slips in which one parameter is mistaken for another."""
-    right = tuple(_RIGHT[name] for name in _PARAMETERS)
-    slips = (("entry-point-form", _FIRST), *[("entry-point-target", _DOT)] * 2,
-             ("entry-point-target", _COLON))  # fmt: skip
-    for order in product(right, repeat=4):
-        wrong = [slip for slip, one, other in zip(slips, order, right, strict=True) if one != other]
-        if wrong:
-            yield *wrong[0], dict(zip(_PARAMETERS, order, strict=True))
-
-
-def _suspect(mistake: str, hint: str, parts: Mapping[str, str]) -> Suspect:
-    return Suspect(mistake, hint, lambda _: _entry_points({**_RIGHT, **parts}))
-
-
-def _changes_names(change: Callable[[str], str], *changed: int) -> Suspect:
-    """Return a suspect who changes the letters of some arguments."""
-    calls = [
-        tuple(change(one) if at in changed else one for at, one in enumerate((*given, "main")))
-        for given in ARGUMENTS
-    ]
-    return Suspect("wrong-values", _AS_GIVEN, lambda _: _entry_points(_RIGHT, calls))
-
-
-_SUSPECTS = (
-    *(_suspect(*slip) for slip in chain(_slips(), _other_orders())),
-    *(
-        _changes_names(change, *changed)
-        for change in (str.lower, str.upper, str.title, lambda name: name.replace("_", "-"))
-        for changed in ((0, 1, 2, 3), (0,), (1,), (2,), (3,))
+#: What is wrong if one of the signs is another, or a name beside it is not at its place.
+_SLIPS = {
+    "=": (
+        "entry-point-form",
+        "What is typed after ros2 run comes first, then an equals sign.",
     ),
-)
+    ".": ("entry-point-target", _DOT),
+    ":": ("entry-point-target", _COLON),
+}
+#: The same, by the right sign and the one that was written.
+_SLIPS_OF_SIGNS = {
+    ("=", "=="): ("entry-point-form", "One equals sign is enough: it is no comparison."),
+    (".", "/"): ("slash-in-module", _DOT),
+    (":", ".py:"): ("entry-point-target", "A module is named without .py."),
+}
 
 
-def _pairs() -> Iterator[Suspect]:
-    """Generate a suspect for every two slips at once."""
-    for (mistake, hint, parts), (_, more, others) in combinations(_slips(), 2):
-        if not parts.keys() & others.keys():
-            both = " ".join(dict.fromkeys((hint, more)))
-            yield _suspect(mistake, both, {**parts, **others})
+def _slip(results: Sequence[str]) -> tuple[str, str]:
+    """Return the mistake in texts that are not all right, and a hint.
 
-
-def _with_fixed_parts(first: str) -> Iterator[Suspect]:
-    """Generate suspects who write a name of the first call where a parameter belongs.
-
-    Args:
-        first: The result of the first call, which shows that name.
+    The names with which the function was called are looked for in what it returned; what is left
+    between them are the signs.
     """
-    whole = {**dict.fromkeys(_RIGHT, ""), "before": first.replace("}", "}}")}
-    yield _suspect("swallowed-parameter", _USE_ALL, whole)
-    given = dict(zip(_PARAMETERS, (*ARGUMENTS[0], "main"), strict=True))
-    for names in chain.from_iterable(combinations(_PARAMETERS, count) for count in (1, 2, 3)):
-        fixed = {name: rf"(?P<{name}>[\w.]+)" for name in names}
-        pattern = "".join({**_RIGHT, "dot": r"\.", **given, **fixed}.values())
-        shown = re.fullmatch(pattern, _without_spaces(first))
-        if shown:
-            yield _suspect("swallowed-parameter", _USE_ALL, shown.groupdict())
+    unknown = UNKNOWN, "Compare it with the table of the page, sign by sign and in their order."
+    plain = [_without_spaces(one).lower().replace("-", "_") for one in results]
+    if plain == [_right(given).lower() for given in ARGUMENTS]:
+        return "wrong-values", "Names count letter by letter: put the parameters in as they are."
+    given = ARGUMENTS[1]
+    before, *parts = re.split(f"({'|'.join(given)})", _without_spaces(results[1]))
+    names, signs = parts[::2], parts[1::2]
+    words = re.findall(r"\w*[^\W_]\w*", " ".join([before, *parts]).replace(".py", ""))
+    if words != names:  # some are written out
+        at_place = all(
+            one == name or one not in given for one, name in zip(words, given, strict=False)
+        )
+        if names and not (at_place and len(words) == len(given)):
+            return unknown
+        always_main = f"{_COLON} It is not always main."
+        use_all = "The text has to change with what the function is given: put its parameters in."
+        return "swallowed-parameter", always_main if words[:3] == names else use_all
+    for at, (name, sign) in enumerate(zip(given, "=..:", strict=True)):
+        if names[at : at + 1] != [name]:
+            return _SLIPS[sign]
+    for found, sign in zip(signs, "=.:", strict=False):
+        if found != sign:
+            return _SLIPS_OF_SIGNS.get((sign, found), _SLIPS[sign])
+    if before or signs[-1]:
+        return "stray-characters", "Return the bare text: nothing stands before or after it."
+    return unknown
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (

@@ -18,7 +18,7 @@ from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.silence import listing
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import before_reading
-from rosbeat.exercises.scenarios import Report, report
+from rosbeat.exercises.scenarios import Report, Value, report
 
 if TYPE_CHECKING:
     from rosbeat.clinic.charts import Chart
@@ -31,13 +31,13 @@ _KEY = "ward"
 
 
 class Claim(NamedTuple):
-    """One diagnosis: the id of a fault, and the node or topic where it is said to be."""
+    """Hold one diagnosis: the id of a fault, and the node or topic where it is said to be."""
 
     mistake: str
     place: str
 
 
-def _claims(entry: Any) -> list[Claim] | None:  # noqa: ANN401 - plain data
+def _claims(entry: Value) -> list[Claim] | None:
     """Return the diagnoses of one patient without blanks; None if they cannot be read."""
     if not isinstance(entry, list):
         return None
@@ -48,7 +48,7 @@ def _claims(entry: Any) -> list[Claim] | None:  # noqa: ANN401 - plain data
     return [one for one in claims if one.mistake and BLANK not in (one.mistake, one.place)]
 
 
-def _unreadable(value: Any, patients: Sequence[int]) -> Diagnosis | None:  # noqa: ANN401
+def _unreadable(value: Value, patients: Sequence[int]) -> Diagnosis | None:
     """Say why a result holds no diagnoses; None if it can be read."""
     evidence = _misfit(value, patients)
     if not evidence:
@@ -58,7 +58,7 @@ def _unreadable(value: Any, patients: Sequence[int]) -> Diagnosis | None:  # noq
     return Diagnosis("no-diagnoses", evidence, hint)
 
 
-def _misfit(value: Any, patients: Sequence[int]) -> str:  # noqa: ANN401
+def _misfit(value: Value, patients: Sequence[int]) -> str:
     if not isinstance(value, dict):
         return f"The function returned a {type(value).__name__} instead of a dict."
     ward = value.get(_KEY, WARD)
@@ -161,8 +161,8 @@ def _half(chart: Chart, claims: Sequence[Claim]) -> Diagnosis | None:
 # All patients of an exercise.
 
 
-def _judge(exercise: str, patients: Sequence[int], seen: Report) -> Verdict:
-    early = before_reading(seen, f'check("{exercise}", diagnoses)')
+def _judge(patients: Sequence[int], seen: Report) -> Verdict:
+    early = before_reading(seen, "diagnoses")
     if early:
         return early
     value = seen.value
@@ -191,7 +191,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "10a",
         report,
-        partial(_judge, "10a", range(1, 5)),
+        partial(_judge, range(1, 5)),
         "four patients, and something is silent",
         2,
         (
@@ -209,7 +209,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "10b",
         report,
-        partial(_judge, "10b", range(5, 9)),
+        partial(_judge, range(5, 9)),
         "four patients, and nothing is silent",
         3,
         (
@@ -227,7 +227,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "10c",
         report,
-        partial(_judge, "10c", range(9, 12)),
+        partial(_judge, range(9, 12)),
         "three patients with two faults each",
         4,
         (

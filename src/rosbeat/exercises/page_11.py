@@ -6,7 +6,6 @@ makes of it whose author misunderstood something, is simulated by the judges.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -23,12 +22,15 @@ from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.exercises.exercise import Exercise, Verdict, before_judging, passed
 from rosbeat.exercises.model import (
+    Mismatch,
     Suspect,
     Track,
     agree,
     before_reading,
+    diagnose,
+    diagnose_words,
     first_mismatch,
-    matching,
+    grouped,
     name_mistake,
     samples_on,
     spelling,
@@ -120,9 +122,10 @@ def _in_each(recordings: Sequence[_Readings], find: Callable[[_Readings], float]
     return {number: (find(readings),) for number, readings in enumerate(recordings)}
 
 
-def _findings(*others: Any) -> tuple[Suspect, ...]:  # noqa: ANN401 - rows of the table below
-    rows = ((name, hint, *({"find": one} for one in finds)) for name, hint, *finds in others)
-    return variants(_in_each, rows)
+def _findings(*rows: tuple[Any, ...]) -> tuple[Suspect, ...]:
+    """Return suspects from rows of a mistake, a hint, and one way or more to find the number."""
+    options = ((name, hint, *({"find": one} for one in finds)) for name, hint, *finds in rows)
+    return variants(_in_each, options)
 
 
 _EVERY = "A reading that is no number was a message all the same."
@@ -245,19 +248,21 @@ def _diagnose_number(seen: BagReports, key: str) -> Diagnosis | None:
         return Diagnosis("no-number", f"For {key!r} the function gave back {odd[0]!r}.", hint)
     done = {number: (one,) for number, one in enumerate(found)}
     right, suspects = ASKED[key]
-    mismatch = first_mismatch(done, _in_each(RECORDINGS, right), _near)
-    if mismatch is None:
-        return None
-    readings = ", ".join(f"{value:g} at {at:g} s" for at, value in RECORDINGS[mismatch.at])
-    evidence = (
-        f"In a recording with the readings {readings}, {key!r} is {mismatch.right[0]:g}, and the "
-        f"function found {mismatch.done[0]:g}."
-    )
-    if all(one == found[0] for one in found):
-        hint = "The result is the same for every bag. Calculate it from the messages of this one."
-        return Diagnosis("fixed-answer", evidence, hint)
-    otherwise = Diagnosis("wrong-values", evidence, "Print the list from which you calculate it.")
-    return name_mistake(matching(RECORDINGS, done, suspects, _near), otherwise)
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        readings = ", ".join(f"{value:g} at {at:g} s" for at, value in RECORDINGS[mismatch.at])
+        evidence = (
+            f"In a recording with the readings {readings}, {key!r} is {mismatch.right[0]:g}, and "
+            f"the function found {mismatch.done[0]:g}."
+        )
+        if all(one == found[0] for one in found):
+            hint = (
+                "The result is the same for every bag. Calculate it from the messages of this one."
+            )
+            return Diagnosis("fixed-answer", evidence, hint)
+        return Diagnosis("wrong-values", evidence, "Print the list from which you calculate it.")
+
+    return diagnose(RECORDINGS, done, _in_each(RECORDINGS, right), suspects, describe, _near)
 
 
 def _near(one: float, other: float) -> bool:
@@ -272,7 +277,7 @@ def _near(one: float, other: float) -> bool:
 
 @dataclass(frozen=True)
 class Replayed:
-    """What an answer did with one recording.
+    """Hold what an answer did with one recording.
 
     Attributes:
         recording: What is in the recording, in a few words.
@@ -290,15 +295,13 @@ class Replayed:
     @property
     def said(self) -> Track:
         """Return what the node said, by time in nanoseconds."""
-        found: dict[int, tuple[str, ...]] = {}
-        for one in samples_on(self.observation, _FAULT):
-            found[one.time_ns] = (*found.get(one.time_ns, ()), str(one.value))
-        return found
+        said = samples_on(self.observation, _FAULT)
+        return grouped((one.time_ns, str(one.value)) for one in said)
 
 
 @dataclass(frozen=True)
 class Replays:
-    """What an answer did with several recordings.
+    """Hold what an answer did with several recordings.
 
     Attributes:
         runs: One for each recording; the last one is the first in which an exception was raised.
@@ -309,7 +312,7 @@ class Replays:
 
 @dataclass(frozen=True)
 class Recording:
-    """A recording to play.
+    """Hold a recording to play.
 
     Attributes:
         words: What is in it, in a few words.
@@ -359,7 +362,7 @@ _Watch = Callable[..., Track]
 
 @dataclass(frozen=True)
 class Task:
-    """What is asked of a node that listens to recordings.
+    """Say what is asked of a node that listens to recordings.
 
     Attributes:
         wires: What it has to listen to.
@@ -376,84 +379,47 @@ class Task:
     context: Callable[[Sequence[Sample], int], str]
 
 
-def _judge_alarms(exercise: str, task: Task, seen: Replays) -> Verdict:
-    for run in seen.runs:
-        early = _none_used(exercise, run) or before_judging(run.observation)
+def _judge_alarms(task: Task, seen: Replays) -> Verdict:
+    runs = seen.runs
+    for run in runs:
+        early = before_judging(run.observation)
         if early:
             return early
+    # Silence is a mistake only in all recordings, and where something was due.
+    due = [run for run in runs if run.said] or [run for run in runs if task.right(run.heard)]
+    words = (diagnose_words(run.observation, _FAULT, task.words) for run in runs)
     wrong = (
-        next(filter(None, (_unheard(seen.runs, wire, task) for wire in task.wires)), None)
-        or _silent(seen.runs, task)
-        or _strange(seen.runs, task)
-        or _diagnose_alarms(seen.runs, task)
+        _diagnose_unheard(runs[0].observation, task)
+        or diagnose_unpublished(due[0].observation, _FAULT)
+        or next(filter(None, words), None)
+        or _diagnose_alarms(runs, task)
     )
-    if wrong:
-        return wrong
-    count = sum(len(task.right(run.heard)) for run in seen.runs)
-    return passed(
-        f"{len(seen.runs)} recordings, {sum(len(run.heard) for run in seen.runs)} readings: "
+    count = sum(len(task.right(run.heard)) for run in runs)
+    return wrong or passed(
+        f"{len(runs)} recordings, {sum(len(run.heard) for run in runs)} readings: "
         f"{count} alarms where there was something wrong, and none where all was well."
     )
 
 
-def _none_used(exercise: str, run: Replayed) -> Verdict | None:
-    """Name a calculation with the None that stands for a reading which has not come yet."""
-    none = re.compile(r"supported .*'NoneType'|must be real number, not NoneType")
-    for fault in run.observation.faults[:1]:
-        if fault.kind == "TypeError" and none.search(fault.text):
-            return Diagnosis(
-                "none-used",
-                f"{_in(run)} {fault.callback} calculated with None at {fault.time:g} s, in line "
-                f"{fault.line}: {fault.code}",
-                "What is in your node's memory before the first reading has come? Ask for that.",
-            )
-    return None
-
-
-def _unheard(runs: Sequence[Replayed], wire: Wire, task: Task) -> Diagnosis | None:
-    """Say why no callback ran for a topic; None if one did."""
-    seen = runs[0].observation
-    if any(one.source == wire.topic for run in runs for one in run.observation.callbacks):
-        return None
+def _diagnose_unheard(seen: Observation, task: Task) -> Diagnosis | None:
+    """Say why no callback ran for a topic, as of a node that listens to another one only."""
     ends = [one for one in seen.graph.endpoints if one.node == seen.subject]
     heard = {one.name for one in ends if one.kind == "subscription"} - INFRASTRUCTURE_TOPICS
-    if heard and wire.topic not in heard and heard <= {one.topic for one in task.wires}:
-        return Diagnosis(
-            "no-subscription",
-            f"The node listens to {' and '.join(sorted(heard))} only; {wire.topic} passes it by.",
-            "A node may have as many subscriptions as it needs, each with its own callback.",
-        )
-    return diagnose_unheard(seen, wire)
-
-
-def _silent(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
-    """Say why there is nothing to judge: silence in all recordings, or another type."""
-    due = next(run for run in runs if task.right(run.heard))
-    run = next((run for run in runs if run.said), due)
-    return diagnose_unpublished(run.observation, _FAULT)
-
-
-def _strange(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
-    said = ((run, word) for run in runs for words in run.said.values() for word in words)
-    run, word = next((one for one in said if one[1] not in task.words), (runs[0], ""))
-    if not word:
-        return None
-    known = ", ".join(map(repr, task.words))
-    return Diagnosis(
-        "wrong-word",
-        f"{_in(run)} the node published {word!r} on /fault.",
-        spelling(word, task.words) or f"Each message there is one of these: {known}.",
-    )
+    for topic in [one.topic for one in task.wires if one.topic not in heard]:
+        if heard and heard <= {one.topic for one in task.wires}:
+            return Diagnosis(
+                "no-subscription",
+                f"The node listens to {' and '.join(sorted(heard))} only; {topic} passes it by.",
+                "A node may have as many subscriptions as it needs, each with its own callback.",
+            )
+    return next(filter(None, (diagnose_unheard(seen, wire) for wire in task.wires)), None)
 
 
 def _diagnose_alarms(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
-    mismatch = [first_mismatch(run.said, task.right(run.heard)) for run in runs]
-    first = next((number for number, one in enumerate(mismatch) if one), None)
-    if first is None:
+    found = [(run, first_mismatch(run.said, task.right(run.heard))) for run in runs]
+    run, mismatch = next((pair for pair in found if pair[1]), (runs[0], None))
+    if mismatch is None:
         return None
-    run, found = runs[first], mismatch[first]
-    assert found is not None
-    otherwise = _other_alarm(run, task, found.at, found.done, found.right)
     # With two mistakes, no suspect may reproduce all recordings. Then those count that reproduce
     # the first wrong one and the most others. Silence alone has too many explanations.
     explained = {
@@ -464,13 +430,14 @@ def _diagnose_alarms(runs: Sequence[Replayed], task: Task) -> Diagnosis | None:
         one for one, some in explained.items() if run in some and any(other.said for other in some)
     ]
     most = max((len(explained[one]) for one in fit), default=0)
-    return name_mistake([one for one in fit if len(explained[one]) == most], otherwise)
+    return name_mistake(
+        [one for one in fit if len(explained[one]) == most], _other_alarm(run, task, mismatch)
+    )
 
 
-def _other_alarm(
-    run: Replayed, task: Task, at: int, done: Sequence[str], right: Sequence[str]
-) -> Diagnosis:
+def _other_alarm(run: Replayed, task: Task, mismatch: Mismatch) -> Diagnosis:
     """Name what no suspect reproduces by the first moment at which it is not right."""
+    at, done, right = mismatch.at, mismatch.done, mismatch.right
     before = f"{_in(run)} at {at / NANOSECONDS:g} s, {task.context(run.heard, at)}, the node said"
     word = (right or done)[0]
     which = f"Which condition of yours decides about {word!r}? Print what it compares."
@@ -858,7 +825,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "11b",
         _play_sick,
-        partial(_judge_alarms, "11b", SICK_SENSOR),
+        partial(_judge_alarms, SICK_SENSOR),
         "notice a sick sensor",
         3,
         (
@@ -872,7 +839,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "11c",
         _play_two,
-        partial(_judge_alarms, "11c", TWO_SENSORS),
+        partial(_judge_alarms, TWO_SENSORS),
         "compare two sensors, alone",
         4,
         (

@@ -7,9 +7,10 @@ open, and stands as `...` in its track.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from functools import partial
 from math import inf, isnan, nan
 from typing import Any
 
@@ -22,12 +23,12 @@ from rosbeat.exercises.model import (
     Suspect,
     Track,
     agree,
-    first_mismatch,
-    matching,
-    name_mistake,
+    diagnose,
     samples_on,
+    status_of,
+    track,
 )
-from rosbeat.exercises.scenarios import Answer, feeder, observe
+from rosbeat.exercises.scenarios import Answer, Value, feeder, observe
 from rosbeat.records import Observation
 
 _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
@@ -75,19 +76,19 @@ def _no_server(seen: Observation, kind: str, name: str, type_name: str) -> Diagn
 
 @dataclass(frozen=True)
 class Limits:
-    """The limits that a monitor judges by."""
+    """Hold the limits that a monitor judges by."""
 
     high: float
     low: float = -inf
 
     def status(self, reading: float) -> str:
         """Return the status of a reading."""
-        return "High" if reading > self.high else "Low" if reading < self.low else "Normal"
+        return status_of(reading, self.low, self.high)
 
 
 @dataclass(frozen=True)
 class Request:
-    """A request for other limits, and what is fed after it.
+    """Hold a request for other limits, and what is fed after it.
 
     Attributes:
         values: The limits that are asked for, by name; empty at the beginning.
@@ -211,7 +212,7 @@ def _reaction(
     request: Request,
     accepted: bool | None,
     limits: Limits | None = None,
-    reason: Any = ...,  # noqa: ANN401 - a truth, or `...`
+    reason: Value = ...,  # a truth, or `...`
 ) -> Track:
     """Return what a monitor does that judges the next readings by these limits, or by any."""
     statuses = tuple(limits.status(one) if limits else ... for one in request.readings)
@@ -322,7 +323,7 @@ MONITORS = (
 
 @dataclass(frozen=True)
 class _Answer:
-    """A monitor's answer to a request; `accepted` is None if there was none."""
+    """Hold a monitor's answer to a request; `accepted` is None if there was none."""
 
     accepted: bool | None = None
     reason: str = ""
@@ -346,44 +347,56 @@ def _wrong_monitor(
     for request, answer, statuses in zip(
         requests, [_Answer(), *answers], _statuses(seen, requests), strict=True
     ):
-        track = dict(_reaction(request, answer.accepted, reason=bool(answer.reason.strip())))
-        did.append((request, answer, track | {Reaction.STATUSES: statuses}))
-    for request, answer, done in did:
-        mismatch = first_mismatch(done, right_monitor(request), same)
-        if mismatch is None:
-            continue
-        fit = [
-            suspect
-            for suspect in (whole if request.values else ())
-            if all(agree(suspect.model(one), track, same) for one, _, track in did[1:])
-        ]
-        evidence = _reaction_evidence(request, answer, mismatch)
-        fit = fit or matching(request, done, MONITORS, same)
-        return name_mistake(fit, _other(request, evidence))
-    return None
+        reaction = dict(_reaction(request, answer.accepted, reason=bool(answer.reason.strip())))
+        did.append((request, answer, reaction | {Reaction.STATUSES: statuses}))
+    always = [
+        suspect
+        for suspect in whole
+        if all(agree(suspect.model(request), done, same) for request, _, done in did[1:])
+    ]
+    found = (
+        diagnose(
+            request,
+            done,
+            right_monitor(request),
+            (request.values and always) or MONITORS,
+            partial(_describe, request, answer),
+            same,
+        )
+        for request, answer, done in did
+    )
+    return next(filter(None, found), None)
 
 
 def _statuses(seen: Observation, requests: Sequence[Request]) -> Iterator[tuple[str, ...]]:
     """Yield the statuses of each request's readings; `-` for none, or for more than one."""
-    said: dict[float, list[str]] = {}
-    for sample in samples_on(seen, _STATUS):
-        said.setdefault(sample.time, []).append(str(sample.value).strip())
+    said = track(seen, _STATUS, lambda value: str(value).strip())
     second = 0
     for request in requests:
-        here = [said.get(second + place, []) for place in range(1, len(request.readings) + 1)]
+        here = [said.get(second + place, ()) for place in range(1, len(request.readings) + 1)]
         second += len(request.readings)
         yield tuple(one[0] if len(one) == 1 else "-" for one in here)
 
 
-def _reaction_evidence(request: Request, answer: _Answer, mismatch: Mismatch) -> str:
-    """Return what was right and what was done where the two part."""
-    if mismatch.at is Reaction.STATUSES:
-        pairs = zip(request.readings, mismatch.done, mismatch.right, strict=True)
-        reading, word, right = next(one for one in pairs if not same(*one[1:]))
-        word = "nothing, or more than one thing" if word == "-" else word
-        when = f"After {request.text} was {'accepted' if answer.accepted else 'refused'}"
-        when = when if request.values else "Before any change"
-        return f"{when}, the status for {reading:g} was {word}; it should be {right}."
+def _describe(request: Request, answer: _Answer, mismatch: Mismatch) -> Diagnosis:
+    """Say what was right and what was done; the name is for what no suspect reproduces."""
+    name, hint = "refused-and-kept", "A refused value must not change anything. Does any line?"
+    if request.is_good:
+        name, hint = "other-limits", "Is the value that is kept exactly the one in the request?"
+    if not request.values:
+        name, hint = "wrong-state", "What does your code compare for this reading, and with what?"
+    if mismatch.at is not Reaction.STATUSES:
+        return Diagnosis(name, _describe_answer(request, answer, mismatch), hint)
+    pairs = zip(request.readings, mismatch.done, mismatch.right, strict=True)
+    reading, word, right = next(one for one in pairs if not same(*one[1:]))
+    word = "nothing, or more than one thing" if word == "-" else word
+    when = f"After {request.text} was {'accepted' if answer.accepted else 'refused'}"
+    when = when if request.values else "Before any change"
+    said = f"{when}, the status for {reading:g} was {word}; it should be {right}."
+    return Diagnosis(name, said, hint)
+
+
+def _describe_answer(request: Request, answer: _Answer, mismatch: Mismatch) -> str:
     task = f"The request for {request.text} was"
     if mismatch.at is Reaction.REASON:
         return f"{task} refused without a reason."
@@ -397,25 +410,17 @@ def _reaction_evidence(request: Request, answer: _Answer, mismatch: Mismatch) ->
     return f"{task} refused{reason}, and should be accepted{limits}."
 
 
-def _other(request: Request, evidence: str) -> Diagnosis:
-    """Name statuses that follow from no limits of a suspect."""
-    name, hint = "refused-and-kept", "A refused value must not change anything. Does any line?"
-    if request.is_good:
-        name, hint = "other-limits", "Is the value that is kept exactly the one in the request?"
-    if not request.values:
-        name, hint = "wrong-state", "What does your code compare for this reading, and with what?"
-    return Diagnosis(name, evidence, hint)
-
-
-def _unheard_or_silent(seen: Observation) -> Diagnosis | None:
-    """Say why no reading was heard, or no status published; None if both were."""
-    return diagnose_unheard(seen, _TEMPERATURE) or diagnose_unpublished(seen, _STATUS)
+def _diagnose_given(seen: Observation, requests: Sequence[Request]) -> Diagnosis | None:
+    """Say what is wrong before anything is asked: what is given comes before what is asked for."""
+    return (
+        diagnose_unheard(seen, _TEMPERATURE)
+        or diagnose_unpublished(seen, _STATUS)
+        or _wrong_monitor(seen, requests[:1])
+    )
 
 
 def _judge_service(seen: Observation) -> Verdict:
-    # What is given comes before what is asked for.
-    found = _unheard_or_silent(seen) or _wrong_monitor(seen, BY_SERVICE[:1])
-    found = found or _no_server(seen, "server", _SERVICE, _BASIC)
+    found = _diagnose_given(seen, BY_SERVICE) or _no_server(seen, "server", _SERVICE, _BASIC)
     replies = {
         one.number: _Answer(one.data["bool_value"], one.data["string_value"])
         for one in seen.replies
@@ -433,18 +438,17 @@ def _judge_service(seen: Observation) -> Verdict:
 
 
 def _judge_parameters(seen: Observation) -> Verdict:
-    found = _unheard_or_silent(seen) or _wrong_monitor(seen, BY_PARAMETER[:1])
     answers = [
         _Answer(one.data["successful"], one.data["reason"])
         for one in sorted(seen.replies, key=lambda one: one.number)
         if (one.word, one.name) == ("parameters", seen.subject)
     ]
-    found = found or _refused_by_ros(answers)
-    found = found or _wrong_monitor(seen, BY_PARAMETER, answers, [NOT_FILLED, NOT_VALIDATED])
-    if found:
-        return found
-    kept = "made, two of them of both at once, and"
-    return passed(_all_right("changes", kept, BY_PARAMETER))
+    return (
+        _diagnose_given(seen, BY_PARAMETER)
+        or _refused_by_ros(answers)
+        or _wrong_monitor(seen, BY_PARAMETER, answers, [NOT_FILLED, NOT_VALIDATED])
+        or passed(_all_right("changes", "made, two of them of both at once, and", BY_PARAMETER))
+    )
 
 
 def _all_right(what: str, kept: str, requests: Sequence[Request]) -> str:
@@ -478,7 +482,7 @@ def _refused_by_ros(answers: Iterable[_Answer]) -> Diagnosis | None:
 
 @dataclass(frozen=True)
 class Goal:
-    """A goal that the thermostat is sent.
+    """Hold a goal that the thermostat is sent.
 
     Attributes:
         at: When.
@@ -770,50 +774,38 @@ class _Heating:
 
 
 def _judge_heating(seen: Observation) -> Verdict:
-    found = (
-        _no_server(seen, "action server", _HEAT, _FIBONACCI) or _blocked(seen) or _wrong_work(seen)
-    )
-    if found:
-        return found
     rejected = sum(not one.is_good for one in GOALS)
-    return passed(
-        f"Heated to {_FIRST.order}, with a report each second; stopped when it was canceled; "
-        f"{rejected} goals that make no sense were rejected."
+    return (
+        _no_server(seen, "action server", _HEAT, _FIBONACCI)
+        or _blocked(seen)
+        or _wrong_work(seen, [Work.DECISION])
+        or diagnose_unpublished(seen, _HEATER, hint=_SWITCH)
+        or _wrong_work(seen, list(Work))
+        or passed(
+            f"Heated to {_FIRST.order}, with a report each second; stopped when it was canceled; "
+            f"{rejected} goals that make no sense were rejected."
+        )
     )
 
 
-def _wrong_work(seen: Observation) -> Diagnosis | None:
-    """Name the mistake of a thermostat: of its decisions first, then of its work."""
-    works = [(goal, _Heating(seen, goal).points()) for goal in GOALS]
-    rounds = [(goal, points, [Work.DECISION]) for goal, points in works]
-    rounds += [(goal, points, list(points)) for goal, points in works]
-    for goal, points, judged in rounds:
-        done = {at: (value,) for at, (value, _) in points.items()}
-        right = right_thermostat(goal)
-        mismatch = first_mismatch(
-            {at: done[at] for at in judged}, {at: right[at] for at in judged}, same
-        )
-        if mismatch is None:
-            continue
-        silent = _never_heated(seen, goal) if mismatch.at is Work.SWITCHED_ON else None
-        evidence = points[mismatch.at][1]
-        hint = "Does the callback of this step come to its end? Print before and after it."
-        unknown = Diagnosis(UNKNOWN, evidence, hint)
-        return silent or name_mistake(matching(goal, done, THERMOSTATS, same), unknown)
+_SWITCH = "The work has to switch the heater on and off. Which lines of `heat` do that?"
+
+
+def _wrong_work(seen: Observation, judged: Sequence[Work]) -> Diagnosis | None:
+    """Name the mistake of a thermostat at some points of its work; any other may be as it is."""
+    for goal in GOALS:
+        points = _Heating(seen, goal).points()
+        done = {at: (value if at in judged else ...,) for at, (value, _) in points.items()}
+        describe = partial(_describe_work, points)
+        found = diagnose(goal, done, right_thermostat(goal), THERMOSTATS, describe, same)
+        if found:
+            return found
     return None
 
 
-def _never_heated(seen: Observation, goal: Goal) -> Diagnosis | None:
-    """Say why nothing was published on /heater; None if something was."""
-    found = diagnose_unpublished(seen, _HEATER)
-    if found is None or found.mistake != "never-published":
-        return found
-    evidence = (
-        f"The goal {goal.order}, sent at {goal.at:g} s, was accepted, and nothing was published on "
-        f"{_HEATER.topic} while it was worked on."
-    )
-    hint = "The work has to switch the heater on and off. Which lines of `heat` do that?"
-    return Diagnosis(found.mistake, evidence, hint)
+def _describe_work(points: Mapping[Work, tuple[Any, str]], mismatch: Mismatch) -> Diagnosis:
+    hint = "Does the callback of this step come to its end? Print before and after it."
+    return Diagnosis(UNKNOWN, points[mismatch.at][1], hint)
 
 
 def _blocked(seen: Observation) -> Diagnosis | None:

@@ -12,7 +12,6 @@ from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 from math import inf
 from typing import Any
@@ -53,7 +52,15 @@ from rosbeat.exercises.greenhouse import (
     plain_day,
     read_rubric,
 )
-from rosbeat.exercises.model import Suspect, Track, matching, name_mistake, samples_on
+from rosbeat.exercises.model import (
+    Suspect,
+    Track,
+    matching,
+    name_mistake,
+    samples_on,
+    suspects,
+    variants,
+)
 from rosbeat.exercises.scenarios import (
     Answer,
     Value,
@@ -166,7 +173,7 @@ def _is_hopeless(seen: Observation) -> bool:
 
 @dataclass(frozen=True)
 class Switch:
-    """An actuator: off until its first command.
+    """Hold the commands of an actuator: it is off until its first command.
 
     Attributes:
         commands: When it got which command, in order.
@@ -254,7 +261,7 @@ def _no_publisher(seen: Observation, topic: str) -> Diagnosis:
 
 @dataclass(frozen=True)
 class HeldTemperature:
-    """A temperature that is held for some seconds.
+    """Hold a temperature that is held for some seconds.
 
     Attributes:
         value: The temperature.
@@ -284,18 +291,18 @@ def _vent(is_open: Callable[[HeldTemperature], bool]) -> Callable[[HeldTemperatu
 
 
 #: Vents that are wrong about the first temperature at which they are not right.
-VENTS = (
-    Suspect(
+VENTS = suspects(
+    (
         "boundary",
         "A limit itself changes nothing: above means above, and below means below.",
         _vent(lambda one: one.value >= one.opening or (one.was_open and one.value > one.closing)),
     ),
-    Suspect(
+    (
         "no-hysteresis",
         "Between the two limits the vent stays as it was. So the node has to remember that.",
         _vent(lambda one: one.right != one.is_between),
     ),
-    Suspect(
+    (
         "wrong-state",
         "Above the upper limit it opens, below the lower one it closes. Which line decides that?",
         _vent(lambda one: one.right == (one.is_between or one.value in (one.opening, one.closing))),
@@ -305,7 +312,7 @@ VENTS = (
 
 @dataclass(frozen=True)
 class Temperatures:
-    """The temperatures of a whole day, one each second, and the limits.
+    """Hold the temperatures of a whole day, one each second, and the limits.
 
     Attributes:
         values: The temperatures; None is a second without one.
@@ -318,28 +325,22 @@ class Temperatures:
     closing: float
 
 
-def _forgetful(is_open: bool) -> Callable[[Temperatures], Track]:
-    """Return a vent that judges each temperature as if it still stood as it did at first."""
-
-    def model(fed: Temperatures) -> Track:
-        return {
-            at: (not is_open,)
-            for at, value in enumerate(fed.values, 1)
-            if value is not None and (value < fed.closing if is_open else value > fed.opening)
-        }
-
-    return model
+def _forgetful(fed: Temperatures, is_open: bool) -> Track:
+    """Return what a vent does that judges each temperature as if it still stood as at first."""
+    return {
+        at: (not is_open,)
+        for at, value in enumerate(fed.values, 1)
+        if value is not None and (value < fed.closing if is_open else value > fed.opening)
+    }
 
 
+_REMEMBER = (
+    "For each reading, the node decides as if it had not given a command yet. Where does it "
+    "remember the last command, and which line changes that?"
+)
 #: Vents that never remember what they have done.
-FORGETFUL = tuple(
-    Suspect(
-        "status-repeated",
-        "For each reading, the node decides as if it had not given a command yet. Where does it "
-        "remember the last command, and which line changes that?",
-        _forgetful(is_open),
-    )
-    for is_open in (False, True)
+FORGETFUL = variants(
+    _forgetful, [("status-repeated", _REMEMBER, {"is_open": False}, {"is_open": True})]
 )
 
 
@@ -358,6 +359,8 @@ def held_temperatures(
 def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Diagnosis | None:
     """Name the mistake at the first temperature after which the vent is not as it should be."""
     vent, states = _switch(seen, "/vent"), ("closed", "open")
+    limits = numbers["open_above"], numbers["close_below"]
+    commands = {time: (bool(value),) for time, value in _said(seen, "/vent")}
     for begins, ends, held in held_temperatures(day, numbers):
         for time in (begins + numbers["react_seconds"], ends - 0.01):  # as soon as due, and at last
             done = vent.at(time)
@@ -368,24 +371,15 @@ def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Di
                 f"{_stamp(time)} the vent was {states[done]}; it should have been "
                 f"{states[held.right]}."
             )
-            forgetful = _forgets(seen, day, numbers)
-            if forgetful:
-                repeated = f"{evidence} Every command that was published is the same."
-                return name_mistake(forgetful, Diagnosis(UNKNOWN, repeated, _CONDITIONS))
-            return name_mistake(
-                matching(held, {0: (done,)}, VENTS), Diagnosis(UNKNOWN, evidence, _CONDITIONS)
-            )
+            # Those that never remember have given the commands of the whole day.
+            whole_day = Temperatures(tuple(day.temperature), *limits)
+            found = matching(whole_day, commands, FORGETFUL)
+            if found:
+                evidence += " Every command that was published is the same."
+            hint = "Go through your conditions in their order with this temperature."
+            found = found or matching(held, {0: (done,)}, VENTS)
+            return name_mistake(found, Diagnosis(UNKNOWN, evidence, hint))
     return None
-
-
-_CONDITIONS = "Go through your conditions in their order with this reading."
-
-
-def _forgets(seen: Observation, day: Day, numbers: Mapping[str, float]) -> list[Suspect]:
-    """Return the suspects that never remember, and gave the commands of the whole day."""
-    limits = numbers["open_above"], numbers["close_below"]
-    commands = {time: (bool(value),) for time, value in _said(seen, "/vent")}
-    return matching(Temperatures(tuple(day.temperature), *limits), commands, FORGETFUL)
 
 
 def _judge_vent(trials: Trials) -> Diagnosis | None:
@@ -398,19 +392,14 @@ def _judge_vent_alone(trials: Trials) -> Verdict:
     early = before_judging(seen)
     if early:
         return early
-    temperature, vent = Wire("/temperature", _FLOAT), Wire("/vent", _BOOL)
-    day = airing(numbers)
-    wrong = (
-        diagnose_unheard(seen, temperature)
-        or diagnose_unpublished(seen, vent)
-        or _silent(seen, "/vent")
+    day, count = airing(numbers), len(_said(seen, "/vent"))
+    return (
+        diagnose_unheard(seen, Wire("/temperature", _FLOAT))
+        or diagnose_unpublished(seen, Wire("/vent", _BOOL))
         or _wrong_vent(seen, day, numbers)
         or _repeated(seen, "/vent")
+        or passed(f"{len(day.held)} temperatures, and {count} commands.")
     )
-    if wrong:
-        return wrong
-    count = len(_said(seen, "/vent"))
-    return passed(f"{len(day.held)} temperatures, and {count} commands.")
 
 
 # R2 and R3: the pump runs when it should, and only then.
@@ -704,29 +693,36 @@ def _windows(every: float) -> tuple[tuple[float, float], ...]:
     return ((every, 0), (every + 1, 0), (every + 1, 1), (every, 1))
 
 
-def _reporters(hint: str, value: Callable[[Day, float], float]) -> list[Suspect]:
-    """Return nodes that report something else: with the reading of the same second, or before."""
-
-    def model(fed: Reports, shift: float) -> Track:
-        return {at: (value(fed.day, at - shift),) for at in fed.times}
-
-    return [Suspect("wrong-window", hint, partial(model, shift=shift)) for shift in (0, 0.5)]
+def _report(fed: Reports, value: Callable[[Day, float], float], shift: float) -> Track:
+    """Return the reports of a node, made with the reading of the same second or before it."""
+    return {at: (value(fed.day, at - shift),) for at in fed.times}
 
 
-REPORTERS = (
-    *_reporters(
+def _reporters(*rows: tuple[str, Callable[[Day, float], float]]) -> tuple[Suspect, ...]:
+    """Return nodes that report another value, from rows of a hint and that value."""
+    return variants(
+        _report,
+        [
+            ("wrong-window", hint, *({"value": value, "shift": shift} for shift in (0, 0.5)))
+            for hint, value in rows
+        ],
+    )
+
+
+REPORTERS = _reporters(
+    (
         "That is the mean of all readings since the start. What forgets the older ones?",
         lambda day, time: _mean(_between(day.temperature, 0, time)),
     ),
-    *_reporters(
+    (
         "That is the last reading alone. What collects the ones before it?",
         lambda day, time: _between(day.temperature, 0, time)[-1],
     ),
-    *_reporters(
+    (
         "That is the mean of the humidities. On which topic does the node collect?",
         lambda day, time: _mean(_between(day.humidity, time - 10, time)),
     ),
-    *_reporters(
+    (
         "That is the sum. By what does a mean divide it?",
         lambda day, time: sum(_between(day.temperature, time - 10, time)),
     ),
@@ -735,10 +731,11 @@ REPORTERS = (
 
 def _judge_reports(trials: Trials) -> Diagnosis | None:
     """Judge R6: a mean, so often, of so many seconds."""
+    return _silent(trials.plain, "/report") or _wrong_reports(trials)
+
+
+def _wrong_reports(trials: Trials) -> Diagnosis | None:
     seen, every = trials.plain, trials.numbers["report_seconds"]
-    quiet = _silent(seen, "/report")
-    if quiet:
-        return quiet
     reports = [(time, float(value)) for time, value in _said(seen, "/report")]
     day, times = plain_day(trials.numbers), [time for time, _ in reports]
     for before, time in pairwise([0.0, *times, max(seen.time, times[-1])]):
@@ -901,9 +898,10 @@ def _judge_endings(trials: Trials) -> Diagnosis | None:
 
 def _judge_parameters(trials: Trials) -> Diagnosis | None:
     """Judge R11: the limits can be set when the nodes are started."""
-    quiet = _silent(trials.plain, "/vent", "/pump")
-    if quiet:
-        return quiet
+    return _silent(trials.plain, "/vent", "/pump") or _kept_limits(trials)
+
+
+def _kept_limits(trials: Trials) -> Diagnosis | None:
     seen, react = trials.runs[OTHER], trials.numbers["react_seconds"]
     marks = other_day(trials.numbers).marks
     refused = next((one for one in seen.faults if "arameter" in one.kind), None)

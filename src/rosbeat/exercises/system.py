@@ -10,19 +10,21 @@ from __future__ import annotations
 import ast
 import re
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf, nextafter
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
+from types import MappingProxyType
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
-from rosbeat.exercises.model import Suspect, Track, first_mismatch, matching, name_mistake
+from rosbeat.exercises.model import STATUSES, Mismatch, Track, diagnose, status_of, variants
 from rosbeat.exercises.scenarios import Answer, CommandMeaning, look_at_workspace, meaning_of
 from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script, diagnosis_of
 from rosbeat.records import Endpoint, ProgramRun
@@ -230,7 +232,6 @@ def _listen(probe: DomainProbe, sensor: Program) -> tuple[Endpoint, ...]:
 # The judge. Its parts follow the system from its package to its end; the first mistake counts.
 
 _FLOAT = "std_msgs/msg/Float32"
-_WORDS = ("High", "Low", "Normal")
 #: Two decimals are logged; a float32 has about seven digits.
 _ROUNDING = 0.0051
 #: Seconds between two readings, on a machine that may be busy.
@@ -317,46 +318,33 @@ def _last_line(text: str) -> str:
 
 def _words(text: str) -> tuple[str, ...]:
     """Return the statuses that a text names."""
-    return tuple(word for word in _WORDS if re.search(rf"\b{word}\b", text, re.IGNORECASE))
+    return tuple(word for word in STATUSES if re.search(rf"\b{word}\b", text, re.IGNORECASE))
 
 
-def _status(value: float) -> str:
-    return "High" if value > 26.0 else "Low" if value < 20.0 else "Normal"
-
-
-_SWAPPED = {"High": "Low", "Low": "High", "Normal": "Normal"}
-
-
-def _suspect(mistake: str, hint: str, status: Callable[[float], str]) -> Suspect:
-    """Return a monitor with another status; its model is fed the readings."""
-    return Suspect(mistake, hint, lambda values: {value: (status(value),) for value in values})
+def _monitor(
+    values: Iterable[float],
+    low: float = 20.0,
+    high: float = 26.0,
+    instead: Mapping[str, str] = MappingProxyType({}),
+) -> Track:
+    """Return what a monitor with these limits says to each reading, or other words instead."""
+    said = ((value, status_of(value, low, high)) for value in values)
+    return {value: (instead.get(word, word),) for value, word in said}
 
 
 _AT_LIMIT = "is Normal: above 26 is High, below 20 is Low."
-_SUSPECTS = (
-    _suspect("boundary", f"Exactly 26 {_AT_LIMIT}", lambda v: "High" if v == 26 else _status(v)),
-    _suspect("boundary", f"Exactly 20 {_AT_LIMIT}", lambda v: "Low" if v == 20 else _status(v)),
-    _suspect(
-        "boundary",
-        f"Exactly 26 or 20 {_AT_LIMIT}",
-        lambda v: "High" if v >= 26 else "Low" if v <= 20 else "Normal",
-    ),
-    _suspect(
-        "wrong-state",
-        "High and Low are swapped: compare `<` and `>` in both conditions.",
-        lambda v: _SWAPPED[_status(v)],
-    ),
-    _suspect(
-        "wrong-state",
-        "A reading above 26 is not High: does an earlier condition catch it?",
-        lambda v: "Low" if v < 20 else "Normal",
-    ),
-    _suspect(
-        "wrong-state",
-        "A reading below 20 is not Low: does an earlier condition catch it?",
-        lambda v: "High" if v > 26 else "Normal",
-    ),
-)
+_UNDER_26, _OVER_20 = nextafter(26.0, 0.0), nextafter(20.0, inf)
+_SUSPECTS = variants(_monitor, (
+    ("boundary", f"Exactly 26 {_AT_LIMIT}", {"high": _UNDER_26}),
+    ("boundary", f"Exactly 20 {_AT_LIMIT}", {"low": _OVER_20}),
+    ("boundary", f"Exactly 26 or 20 {_AT_LIMIT}", {"low": _OVER_20, "high": _UNDER_26}),
+    ("wrong-state", "High and Low are swapped: compare `<` and `>` in both conditions.",
+     {"instead": {"High": "Low", "Low": "High"}}),
+    ("wrong-state", "A reading above 26 is not High: does an earlier condition catch it?",
+     {"high": inf}),
+    ("wrong-state", "A reading below 20 is not Low: does an earlier condition catch it?",
+     {"low": -inf}),
+))  # fmt: skip
 
 
 def _diagnose_monitor(seen: SystemRun) -> Diagnosis | None:
@@ -375,14 +363,16 @@ def _diagnose_monitor(seen: SystemRun) -> Diagnosis | None:
 
 def _diagnose_statuses(done: Track) -> Diagnosis | None:
     """Return what is wrong with the statuses that a monitor gave to readings."""
-    mismatch = first_mismatch(done, {value: (_status(value),) for value in done})
-    if mismatch is None:
-        return None
+    return diagnose(tuple(done), done, _monitor(done), _SUSPECTS, _other_status)
+
+
+def _other_status(mismatch: Mismatch) -> Diagnosis:
     said = " and ".join(mismatch.done) or "no status"
-    evidence = f"For a reading of {mismatch.at:g}, {MONITOR} said {said}."
-    hint = f"Which of your conditions is true for {mismatch.at:g}?"
-    unlike = Diagnosis("wrong-state", evidence, hint)
-    return name_mistake(matching(tuple(done), done, _SUSPECTS), unlike)
+    return Diagnosis(
+        "wrong-state",
+        f"For a reading of {mismatch.at:g}, {MONITOR} said {said}.",
+        f"Which of your conditions is true for {mismatch.at:g}?",
+    )
 
 
 # The sensor.

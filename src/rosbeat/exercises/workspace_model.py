@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from difflib import SequenceMatcher
-from functools import partial
 
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
-from rosbeat.exercises.model import Suspect, Track, first_mismatch, matching, name_mistake
+from rosbeat.exercises.model import Mismatch, Track, diagnose, variants
 from rosbeat.exercises.scenarios import CommandMeaning
 from rosbeat.workspace.meanings import diagnose_flaw
 from rosbeat.workspace.packages import Package
@@ -97,7 +96,7 @@ def diagnose_script(package: Package) -> Diagnosis | None:
     )
 
 
-def _with_functions_of(files: tuple[int, int], right: Track) -> Track:
+def _with_functions_of(right: Track, files: tuple[int, int]) -> Track:
     """Return what each of two programs calls if it gets the function of the file at that place."""
     programs = sorted(right)
     return {program: right[programs[at]] for program, at in zip(programs, files, strict=True)}
@@ -108,9 +107,12 @@ _SWAPPED = (
     "its own name."
 )
 _ONE_FILE = "Both entries call the function of one file: each executable has a file of its own."
-_SUSPECTS = tuple(
-    Suspect("other-function", hint, partial(_with_functions_of, files))
-    for hint, files in ((_SWAPPED, (1, 0)), (_ONE_FILE, (0, 0)), (_ONE_FILE, (1, 1)))
+_SUSPECTS = variants(
+    _with_functions_of,
+    [
+        ("other-function", _SWAPPED, {"files": (1, 0)}),
+        ("other-function", _ONE_FILE, {"files": (0, 0)}, {"files": (1, 1)}),
+    ],
 )
 
 
@@ -129,15 +131,15 @@ def diagnose_entries(package: Package, programs: tuple[str, str]) -> Diagnosis |
              for one in package.setup.entry_points}  # fmt: skip
     right = {program: (f"{package.name}.{program}:main",) for program in programs}
     done = {program: targets[program] for program in programs if program in targets}
-    mismatch = first_mismatch(done, right)
-    if mismatch is None:
-        return _diagnose_installation(package)
-    if not mismatch.done:
-        return _diagnose_missing(package, mismatch.at, mismatch.right in targets.values())
-    evidence = f"{mismatch.at} would call {mismatch.done[0]}."
-    other = "It should call main in the file of the same name."
-    fit = matching(right, done, _SUSPECTS)
-    return name_mistake(fit, Diagnosis("entry-point-target", evidence, other))
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        if not mismatch.done:
+            return _diagnose_missing(package, mismatch.at, mismatch.right in targets.values())
+        evidence = f"{mismatch.at} would call {mismatch.done[0]}."
+        other = "It should call main in the file of the same name."
+        return Diagnosis("entry-point-target", evidence, other)
+
+    return diagnose(right, done, right, _SUSPECTS, describe) or _diagnose_installation(package)
 
 
 def _diagnose_missing(package: Package, program: str, is_renamed: bool) -> Diagnosis:

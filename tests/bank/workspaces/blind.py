@@ -715,7 +715,6 @@ REASONS = {
     "05a blind: a loop that appends": _HIDDEN,
     "05a blind: a lambda and map": _HIDDEN,
     "05a blind: names from variables": _HIDDEN,
-    "05b blind: quotes and a comma": "new-to-me: stray-characters; either of the two alone has it.",
 }
 ANSWERS = tuple(one for one in _ALL if one.id not in REASONS)
 DISAGREE = tuple(one for one in _ALL if one.id in REASONS)

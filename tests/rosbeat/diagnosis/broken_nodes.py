@@ -188,7 +188,6 @@ NODES = (
     sensor("init misspelt", "super-missing", f"super().init('sensor')\n{P}{T}"),
     sensor("the parent without self", "super-missing", f"Node.__init__('sensor')\n{P}{T}"),
     sensor("no name", "node-name-missing", f"super().__init__()\n{P}{T}"),
-    sensor("the name is None", "node-name-missing", f"super().__init__(None)\n{P}{T}"),
     Broken("_init_", "node-name-missing",
            "class Answer(Node):\n    def _init_(self):\n        pass"),
     sensor("a number for a name", "wrong-argument", f"super().__init__(5)\n{P}{T}"),

@@ -12,11 +12,11 @@ pytestmark = pytest.mark.ros
 
 CASES = {
     "whole": ("parameter-type", lambda node: node.declare_parameter("low", 20),
-              "The parameter low got 40.0, a decimal number, and it was declared with a whole"),
+              "The parameter low got 40.0, of type DOUBLE, and it was declared with a value of"),
     "text": ("parameter-type", lambda node: node.declare_parameter("low", "20"),
-             "declared with a text."),
+             "declared with a value of type STRING."),
     "list": ("parameter-type", lambda node: node.declare_parameter("low", [20.0]),
-             "declared with double array."),
+             "a value of type DOUBLE_ARRAY."),
     "undeclared": ("parameter-undeclared", lambda node: node.get_parameter("high"),
                    "not declared: high."),
     "twice": ("parameter-twice", lambda node: [node.declare_parameter("low", 1.0) for _ in "ab"],

@@ -43,9 +43,9 @@ def meaning(kind, text, code, callback="__init__"):
          "callback-called", "on_silence"),
         ("TypeError", EVENT, "self.create_subscription(", "wrong-argument", "the other side"),
         ("AttributeError", "'method' object has no attribute 'create_event_handlers'",
-         "self.create_subscription(", "wrong-argument", "the method itself"),
+         "self.create_subscription(", "wrong-argument", "a method"),
         ("AttributeError", "'str' object has no attribute 'create_event_handlers'",
-         "self.create_subscription(", "wrong-argument", "type str"),
+         "self.create_subscription(", "wrong-argument", "a str"),
     ],
 )  # fmt: skip
 def test_what_it_means(kind, text, code, mistake, said):

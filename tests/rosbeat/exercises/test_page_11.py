@@ -115,7 +115,7 @@ def test_none_before_the_first_reading_gets_its_name():
     text = "unsupported operand type(s) for -: 'float' and 'NoneType'"
     fault = Fault(10**9, "/node", "listen", "TypeError", text, 17, "abs(msg.data - self.last)")
     found = judged(SICK, lambda heard: {}, lambda seen: replace(seen, faults=(fault,)))
-    assert (found.mistake, "line 17" in found.evidence) == ("none-used", True)
+    assert (found.mistake, "Line 17" in found.evidence) == ("none-used", True)
 
 
 def test_evidence_can_be_written_down_though_nan_is_in_it():

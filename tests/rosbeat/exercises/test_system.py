@@ -12,7 +12,7 @@ from rosbeat.exercises.check import EXERCISES
 from rosbeat.exercises.evidence import from_json, to_json
 from rosbeat.exercises.model import agree
 from rosbeat.exercises.scenarios import CommandMeaning
-from rosbeat.exercises.system import _SUSPECTS, MONITOR, SENSOR, TOLD, _status, run_system
+from rosbeat.exercises.system import _SUSPECTS, MONITOR, SENSOR, TOLD, _monitor, run_system
 
 pytestmark = pytest.mark.ros
 
@@ -76,7 +76,7 @@ def says(status):
 @pytest.mark.parametrize("suspect", _SUSPECTS, ids=lambda one: one.hint)
 def test_each_suspect_is_named_by_what_the_monitor_is_told(seen, suspect):
     track = suspect.model(TOLD)
-    assert not agree(track, {value: (_status(value),) for value in TOLD})
+    assert not agree(track, _monitor(TOLD))
     assert not [one for one in _SUSPECTS if one is not suspect and agree(one.model(TOLD), track)]
     outcome = SYSTEM.judged(replace(seen, answers=says(lambda value: track[value][0])))
     assert (outcome.mistake, outcome.hint) == (suspect.mistake, suspect.hint)
