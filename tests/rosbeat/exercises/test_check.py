@@ -1,10 +1,11 @@
 """Check an answer: what is refused, remembered, judged, and told to nbgrader."""
 
 import pytest
+from answers import HUMIDITY, made  # the folder is put on the path by conftest.py
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
-from rclpy.node import Node
 
+from bank.nodes import room_right
 from rosbeat import Session, check
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.errors import ExerciseError
@@ -36,19 +37,14 @@ def test_ids_of_pages_are_a_page_and_a_letter():
 @pytest.mark.ros
 def test_every_check_is_remembered_with_its_points_and_its_mistake(tmp_path, monkeypatch):
     monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
-    import answers as a
-
-    class Untouched(Node):
-        def __init__(self):
-            super().__init__("humidity_sensor")
-            self.publisher_ = self.create_publisher(____)  # noqa: F821
-
-    check("03a", Untouched)
+    untouched = made("03a", HUMIDITY, ('"humidity"', "____"))
+    shallow = made("03a", HUMIDITY, ("5)", "10)"))
+    check("03a", untouched)
     assert progress_file().standings()["03a"] == Standing()
-    failed = check("03a", a.ShallowHumiditySensor).outcome
-    passed = check(" 03A ", a.HumiditySensor).outcome
-    check("03a", a.ShallowHumiditySensor)
-    check("03a", Untouched)
+    failed = check("03a", shallow).outcome
+    passed = check(" 03A ", made("03a", HUMIDITY)).outcome
+    check("03a", shallow)
+    check("03a", untouched)
     assert progress_file().standings()["03a"] == Standing(
         "not attempted", True, passed.points, attempts=3, mistake=failed.mistake
     )
@@ -71,22 +67,30 @@ def test_a_check_answers_though_nothing_can_be_remembered(tmp_path, monkeypatch,
 
 @pytest.mark.ros
 def test_a_check_leaves_the_learners_session_alone(capsys):
-    import answers as a
-
+    room = made("03b", room_right.BASE)
     with Session(seed=1) as ros:
-        ros.add(a.RoomSensor)
+        ros.add(room)
         ros.run(3)
         before = ros.observation()
-        check("03b", a.RoomSensor)
+        check("03b", room)
         assert ros.observation() == before
         ros.run(1)
     with Session(seed=1) as ros:
-        ros.add(a.RoomSensor)
+        ros.add(room)
         ros.run(4)
         assert [s.value for s in ros.messages("temperature")][:3] == [
             s.value for s in before.samples
         ]
     assert capsys.readouterr().err == ""
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [("WeatherReader", "'WeatherReader' is not a node"), (int, "int is a class, but not a node.")],
+)
+def test_what_is_no_node_is_named(answer, said):
+    assert said in check("00a", answer).outcome.evidence
 
 
 # Points: all or nothing, or for each requirement.

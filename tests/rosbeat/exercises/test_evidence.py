@@ -4,20 +4,27 @@ import json
 import shutil
 from pathlib import Path
 
-import answers as a  # the folder is put on the path by conftest.py
 import pytest
+from answers import HUMIDITY, made  # the folder is put on the path by conftest.py
 
+from bank.nodes import fridge_right
 from rosbeat.errors import RecordError
 from rosbeat.exercises.check import EXERCISES
 from rosbeat.exercises.evidence import FORMAT, KINDS, VERSION, from_json, to_json
 from rosbeat.exercises.scenarios import TypedIn
-from rosbeat.records import Outcome, ProgramRun
+from rosbeat.records import Endpoint, GraphSnapshot, Observation, Outcome, ProgramRun, QoS
 
 pytestmark = pytest.mark.ros
 
 FINISHED = Path(__file__).parents[3] / "solutions" / "sensor_simulator"
 TYPED = TypedIn("src", (("resources/images", "cd ../../src"), ("src", "pwd")), None, "$ ...\n")
-NODES = (a.FridgeMonitor, a.UntouchedReader, a.HumidityWithSwappedArguments, None)
+SWAPPED, BLANK = ('Float32, "humidity"', '"humidity", Float32'), ('"humidity"', "____")
+NODES = (
+    made("04a", fridge_right.BASE),
+    made("03a", HUMIDITY, SWAPPED),
+    made("03a", HUMIDITY, BLANK),
+    None,
+)
 
 
 def looked_at(exercise, place):
@@ -83,3 +90,9 @@ def test_only_evidence_is_written(says):
 
 def test_the_format_is_named():
     assert json.loads(text_with())["format"] == FORMAT
+
+
+def test_a_policy_that_stands_alone_is_written_down():
+    end = Endpoint("/a", "/b", "c", "publisher", QoS(policy_alone="TRANSIENT_LOCAL"))
+    seen = Observation(1, 0, graph=GraphSnapshot(("/a",), (end,)))
+    assert from_json(to_json(seen)) == seen

@@ -1,7 +1,6 @@
 """Page 07: models of right and of misunderstood, what scenarios feed, and findings."""
 
 import json
-from itertools import combinations
 
 import pytest
 from rcl_interfaces.msg import Log
@@ -10,25 +9,11 @@ from std_msgs.msg import Float32
 
 from bank.running import outcome_of
 from rosbeat import Session
-from rosbeat.exercises.model import agree
-from rosbeat.exercises.page_07 import CHANGES, LINES, MODELS, READINGS, Greenhouse, judge_findings
+from rosbeat.exercises.page_07 import CHANGES, LINES, READINGS, Greenhouse, judge_findings
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.exercises.scenarios import Report
 from rosbeat.records import Endpoint, GraphSnapshot, LogRecord, Observation, QoS, Sample
 from rosbeat.scenarios.stranger import greenhouse
-
-
-@pytest.mark.parametrize(("fed", "right", "suspects"), MODELS, ids=["limits", "lines", "texts"])
-def test_what_is_fed_tells_every_mistake_from_right_and_from_every_other(fed, right, suspects):
-    done = [(one.mistake, one.model(fed)) for one in suspects]
-    assert [mistake for mistake, track in done if agree(track, right(fed))] == []
-    alike = [
-        (one, other)
-        for (one, track), (other, another) in combinations(done, 2)
-        if one != other and agree(track, another)
-    ]
-    assert alike == []
-
 
 LATER = """
 class Watcher(Node):
