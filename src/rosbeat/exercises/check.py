@@ -13,6 +13,7 @@ from rosbeat.exercises.cards import Shown
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
 from rosbeat.exercises.registry import find, which_exercise
+from rosbeat.exercises.scenarios import Answer
 from rosbeat.records import Outcome
 from rosbeat.workspace import graded_runs
 
@@ -23,7 +24,7 @@ from rosbeat.workspace import graded_runs
 _NOTHING = object()
 
 
-def check(exercise: str = "", answer: Any = _NOTHING) -> Shown:  # noqa: ANN401 - a learner's
+def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
     """Run the answer to an exercise and say what is right or what is missing.
 
     A node runs in a session of its own, in virtual time; nothing on the page changes. How far you

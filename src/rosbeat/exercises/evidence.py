@@ -7,12 +7,10 @@ learner's is run when it is read, so an answer can be judged elsewhere, and late
 
 from __future__ import annotations
 
-from typing import Any
-
 from rosbeat.exercises.page_01 import FolderMaking
 from rosbeat.exercises.page_11 import BagReports, Replays
 from rosbeat.exercises.page_13 import Trials
-from rosbeat.exercises.scenarios import Report, TypedIn, Workspace
+from rosbeat.exercises.scenarios import Report, TypedIn, Value, Workspace
 from rosbeat.exercises.system import SystemRun
 from rosbeat.record_json import parse, record, refusal, write
 from rosbeat.records import Observation, ProgramRun
@@ -38,7 +36,7 @@ KINDS: dict[str, type] = {
 }
 
 
-def to_json(seen: Any) -> str:  # noqa: ANN401 - any of the kinds
+def to_json(seen: Value) -> str:
     """Write what a scenario has seen; the same evidence gives the same text.
 
     Raises:
@@ -51,7 +49,7 @@ def to_json(seen: Any) -> str:  # noqa: ANN401 - any of the kinds
     return write(seen, head, columns=True)
 
 
-def from_json(text: str) -> Any:  # noqa: ANN401 - any of the kinds
+def from_json(text: str) -> Value:
     """Read what `to_json` wrote.
 
     Raises:

@@ -118,11 +118,16 @@ def matching(
         fed: What the answer was fed.
         done: What it did.
         suspects: Those to try, the likely ones first.
-        same: Tells whether two values are the same.
+        same: Tells whether what was done is what is right. It may allow for what is late, and a
+            suspect may be as late as the answer or later, so here it is asked both ways.
     """
+
+    def alike(one: Value, other: Value) -> bool:
+        return same(one, other) or same(other, one)
+
     found: dict[tuple[str, str], Suspect] = {}
     for one in suspects:
-        if (one.mistake, one.hint) not in found and agree(one.model(fed), done, same):
+        if (one.mistake, one.hint) not in found and agree(done, one.model(fed), alike):
             found[one.mistake, one.hint] = one
     return list(found.values())
 
@@ -332,22 +337,23 @@ _BEATS = suspects(
 )
 
 
-def diagnose_wait(observation: Observation, evidence: str) -> Diagnosis | None:
+def diagnose_wait(observation: Observation, evidence: str, least: float = 0.0) -> Diagnosis | None:
     """Name a callback of the node that waits; waits are recorded, so this needs no model.
 
     Args:
         observation: What was seen.
         evidence: What has come of the wait.
+        least: The shortest wait that matters, in seconds.
     """
-    own = next((one for one in observation.waits if one.node == observation.subject), None)
-    if own is None:
-        return None
-    seconds = (own.until_ns - own.time_ns) / NANOSECONDS
-    return Diagnosis(
-        "callback-blocks",
-        f"At {own.time:g} s {own.callback} waited for {seconds:g} s. {evidence}",
-        "While a callback waits, its node does nothing else: no other callback is called.",
-    )
+    for one in observation.waits:
+        seconds = (one.until_ns - one.time_ns) / NANOSECONDS
+        if one.node == observation.subject and seconds >= least:
+            return Diagnosis(
+                "callback-blocks",
+                f"At {one.time:g} s {one.callback} waited for {seconds:g} s. {evidence}",
+                "While a callback waits, its node does nothing else: no other callback is called.",
+            )
+    return None
 
 
 def diagnose_beat(

@@ -30,11 +30,10 @@ def _run_alone(answer: Answer) -> Observation:
 
 
 def _judge_beat(observation: Observation) -> Verdict:
-    found = diagnose_unpublished(observation, _HUMIDITY) or diagnose_beat(
-        observation, _HUMIDITY, 0.5
-    )
-    if found:
-        return found
+    wrong = diagnose_unpublished(observation, _HUMIDITY)
+    wrong = wrong or diagnose_beat(observation, _HUMIDITY, 0.5)
+    if wrong:
+        return wrong
     ends = observation.graph.on(_HUMIDITY.topic, "publisher")
     qos = next((end.qos for end in ends if end.qos.depth != _DEPTH), ends[0].qos)
     if qos.history == "KEEP_ALL" or qos.depth != _DEPTH:
@@ -86,7 +85,6 @@ _EVEN, _ENOUGH = 0.8, 100
 class _Asked:
     """Hold what is asked of a walk."""
 
-    exercise: str
     wire: Wire
     rate: int  # readings a second
     low: float
@@ -103,9 +101,8 @@ def _fahrenheit(celsius: float) -> float:
     return celsius * 9 / 5 + 32
 
 
-_ROOM = _Asked("03b", Wire("/temperature", _FLOAT), 1, 18.0, 28.0, 0.3, smallest=0.16 / 0.3)
+_ROOM = _Asked(Wire("/temperature", _FLOAT), 1, 18.0, 28.0, 0.3, smallest=0.16 / 0.3)
 _GREENHOUSE = _Asked(
-    "03c",
     Wire("/greenhouse/temperature", _FLOAT),
     4,
     *(_fahrenheit(10.2), _fahrenheit(28.0), 0.9, _fahrenheit(22.0)),
@@ -130,7 +127,7 @@ def _run_walk(asked: _Asked, answer: Answer) -> Observation:
 
 
 class _Walk:
-    """At least two readings, and what can be seen of them."""
+    """Hold at least two readings, and what can be seen of them."""
 
     def __init__(self, asked: _Asked, values: Sequence[float]) -> None:
         self.asked, self.values = asked, values
@@ -166,7 +163,7 @@ class _Walk:
             f"steps of at most {self.widest:.2f}."
         )
 
-    def first_mismatch(self) -> str:
+    def first_slip(self) -> str:
         """Say when it first did what no right walk does, if there is such a moment."""
         asked = self.asked
         for n, (before, now) in enumerate(pairwise(self.values), 2):
@@ -244,7 +241,7 @@ class _Walk:
 
 @dataclass(frozen=True)
 class _End:
-    """One end of a walk."""
+    """Hold one end of a walk."""
 
     walk: _Walk
     value: float
@@ -280,139 +277,65 @@ class _Sign:
     shows: Callable[[Any], bool]
 
 
+def _signs(*rows: tuple[str, str, Callable[[Any], bool]]) -> tuple[_Sign, ...]:
+    return tuple(_Sign(*row) for row in rows)
+
+
 #: The first one that shows names the mistake.
-_SIGNS = (
-    _Sign(
-        "converted-back",
-        "After the first reading they are all {0.values[1]:.2f}. The node walks in Celsius and "
-        "speaks in Fahrenheit. Is the converted number kept where the next step begins?",
-        lambda walk: walk.is_converted_back(),
-    ),
-    _Sign(
-        "wrong-unit",
-        "{0.top:g} is a limit in degrees Celsius. Clamp first, in Celsius, and convert then.",
-        lambda walk: walk.starts_elsewhere() and (walk.is_constant(10.2) or walk.is_constant(28.0)),
-    ),
-    _Sign(
-        "wrong-unit",
-        "These are degrees Celsius still. Convert the number before you publish it.",
-        lambda walk: walk.is_in_another_unit() and abs(walk.values[0] - 22.0) <= 0.51,
-    ),
-    _Sign(
-        "wrong-unit",
-        "22 degrees Celsius are {asked.start:.1f} Fahrenheit, and the first reading is "
-        "{0.values[0]:.2f}. Compare your formula, brackets too: c * 9 / 5 + 32.",
-        lambda walk: walk.is_in_another_unit(),
-    ),
-    _Sign(
-        "wrong-values",
-        "A new message holds 0.0. Which line puts the number into its field data?",
-        lambda walk: walk.is_constant(0.0),
-    ),
-    _Sign(
-        "clamp-swapped",
-        "It stays at {0.top:g} from the first reading on. Which of the two, min or max, keeps a "
-        "number below a limit?",
-        lambda walk: walk.is_constant(walk.asked.high),
-    ),
-    _Sign(
-        "never-changes",
-        "It never changes. Does each call add a new random number to the old value, or have min "
-        "and max changed places?",
-        lambda walk: walk.widest == 0,
-    ),
-    _Sign(
-        "wrong-values",
-        "All readings are whole numbers. Is something rounded, or are the steps whole numbers?",
-        lambda walk: all(one == round(one) for one in walk.values),
-    ),
-    _Sign(
-        "wraps-round",
-        "Beyond one limit it goes on at the other. Cut off what is beyond a limit instead: then "
-        "the walk stays there until a step leads away.",
-        lambda walk: walk.wraps_round(),
-    ),
-    _Sign(
-        "set-back",
-        "Near a limit it is set back, by far more than a step. Cut off what is beyond a limit "
-        "instead: then the walk goes on from there.",
-        lambda walk: walk.is_set_back(),
-    ),
-    _Sign(
-        "jumps",
-        "Most steps are small, and a few are not. Which line changes the temperature, besides the "
-        "one that adds a step?",
-        lambda walk: bool(walk.jumps),
-    ),
-    _Sign(
-        "forgets-itself",
-        "Each reading is drawn anew and does not know the one before. A walk goes on from where it "
-        "was: add the step to the old value.",
-        lambda walk: walk.widest > 0.5 * (walk.top - walk.bottom),
-    ),
-    _Sign(
-        "one-way",
-        "It goes one way only. Chance decides whether a step goes up or down.",
-        lambda walk: walk.up <= 0 or walk.down <= 0,
-    ),
-    _Sign(
-        "not-random",
-        "The same steps come again, in the same order. Draw a new number at each call, and none in "
-        "advance.",
-        lambda walk: walk.is_drawn_in_advance(),
-    ),
-    _Sign(
-        "not-random",
-        "It goes up and down by a rule of its own, every time the same way. Let a random number "
-        "decide about each step.",
-        lambda walk: walk.follows_a_rule(),
-    ),
-    _Sign(
-        "clamped-too-early",
-        "It gets past a limit, by less than a step. Which comes first, the step or the clamp?",
-        lambda walk: walk.is_clamped_too_early(),
-    ),
-    _Sign(
-        "step-too-wide",
-        "A step is too wide. random.uniform(a, b) gives a number between a and b.{asked.aside}",
-        lambda walk: walk.widest > walk.asked.step + _IN_A_STEP,
-    ),
-    _Sign(
-        "step-too-small",
-        "The steps are small. They may be as wide as {asked.step:g}, up and down.{asked.aside}",
-        lambda walk: walk.widest < walk.asked.smallest * walk.asked.step,
-    ),
-    _Sign(
-        "uneven-steps",
-        "Steps go up by at most {0.up:.2f}, and down by at most {0.down:.2f}. They may be as wide "
-        "as {asked.step:g}, up and down.{asked.aside}",
-        lambda walk: walk.is_uneven(),
-    ),
-)
-_SIGNS_AT_AN_END = (
-    _Sign(
-        "clamp-not-kept",
-        "It stays at {0.limit:g} for minutes. What is published is cut off, and what the node "
-        "remembers is not: it has to walk all the way back.",
-        lambda end: end.is_stuck(),
-    ),
-    _Sign(
-        "clamp-swapped",
-        "It never gets past {0.value:g}. Which of the two, min or max, keeps a number below a "
-        "limit?",
-        lambda end: end.is_cut() and abs(end.value - end.other) < _ROUNDING,
-    ),
-    _Sign(
-        "other-limits",
-        "Something cuts it off at {0.value:g}, and {0.limit:g} was asked for.{asked.aside}",
-        lambda end: end.is_cut(),
-    ),
-    _Sign(
-        "no-clamp",
-        "It got past {0.limit:g}. What cuts off a number that is beyond a limit?{asked.aside}",
-        lambda end: end.beyond > _ROUNDING,
-    ),
-)
+_SIGNS = _signs(
+    ("converted-back", "After the first reading they are all {0.values[1]:.2f}. The node walks in "
+     "Celsius and speaks in Fahrenheit. Is the converted number kept where the next step begins?",
+     _Walk.is_converted_back),
+    ("wrong-unit", "{0.top:g} is a limit in degrees Celsius. Clamp first, in Celsius, and convert "
+     "then.",
+     lambda walk: walk.starts_elsewhere() and (walk.is_constant(10.2) or walk.is_constant(28.0))),
+    ("wrong-unit", "These are degrees Celsius still. Convert the number before you publish it.",
+     lambda walk: walk.is_in_another_unit() and abs(walk.values[0] - 22.0) <= 0.51),
+    ("wrong-unit", "22 degrees Celsius are {asked.start:.1f} Fahrenheit, and the first reading is "
+     "{0.values[0]:.2f}. Compare your formula, brackets too: c * 9 / 5 + 32.",
+     _Walk.is_in_another_unit),
+    ("wrong-values", "A new message holds 0.0. Which line puts the number into its field data?",
+     lambda walk: walk.is_constant(0.0)),
+    ("clamp-swapped", "It stays at {0.top:g} from the first reading on. Which of the two, min or "
+     "max, keeps a number below a limit?", lambda walk: walk.is_constant(walk.asked.high)),
+    ("never-changes", "It never changes. Does each call add a new random number to the old value, "
+     "or have min and max changed places?", lambda walk: walk.widest == 0),
+    ("wrong-values", "All readings are whole numbers. Is something rounded, or are the steps whole "
+     "numbers?", lambda walk: all(one == round(one) for one in walk.values)),
+    ("wraps-round", "Beyond one limit it goes on at the other. Cut off what is beyond a limit "
+     "instead: then the walk stays there until a step leads away.", _Walk.wraps_round),
+    ("set-back", "Near a limit it is set back, by far more than a step. Cut off what is beyond a "
+     "limit instead: then the walk goes on from there.", _Walk.is_set_back),
+    ("jumps", "Most steps are small, and a few are not. Which line changes the temperature, "
+     "besides the one that adds a step?", lambda walk: bool(walk.jumps)),
+    ("forgets-itself", "Each reading is drawn anew and does not know the one before. A walk goes "
+     "on from where it was: add the step to the old value.",
+     lambda walk: walk.widest > 0.5 * (walk.top - walk.bottom)),
+    ("one-way", "It goes one way only. Chance decides whether a step goes up or down.",
+     lambda walk: walk.up <= 0 or walk.down <= 0),
+    ("not-random", "The same steps come again, in the same order. Draw a new number at each call, "
+     "and none in advance.", _Walk.is_drawn_in_advance),
+    ("not-random", "It goes up and down by a rule of its own, every time the same way. Let a "
+     "random number decide about each step.", _Walk.follows_a_rule),
+    ("clamped-too-early", "It gets past a limit, by less than a step. Which comes first, the step "
+     "or the clamp?", _Walk.is_clamped_too_early),
+    ("step-too-wide", "A step is too wide. random.uniform(a, b) gives a number between a and "
+     "b.{asked.aside}", lambda walk: walk.widest > walk.asked.step + _IN_A_STEP),
+    ("step-too-small", "The steps are small. They may be as wide as {asked.step:g}, up and "
+     "down.{asked.aside}", lambda walk: walk.widest < walk.asked.smallest * walk.asked.step),
+    ("uneven-steps", "Steps go up by at most {0.up:.2f}, and down by at most {0.down:.2f}. They "
+     "may be as wide as {asked.step:g}, up and down.{asked.aside}", _Walk.is_uneven),
+)  # fmt: skip
+_SIGNS_AT_AN_END = _signs(
+    ("clamp-not-kept", "It stays at {0.limit:g} for minutes. What is published is cut off, and "
+     "what the node remembers is not: it has to walk all the way back.", _End.is_stuck),
+    ("clamp-swapped", "It never gets past {0.value:g}. Which of the two, min or max, keeps a "
+     "number below a limit?", lambda end: end.is_cut() and abs(end.value - end.other) < _ROUNDING),
+    ("other-limits", "Something cuts it off at {0.value:g}, and {0.limit:g} was asked "
+     "for.{asked.aside}", _End.is_cut),
+    ("no-clamp", "It got past {0.limit:g}. What cuts off a number that is beyond a "
+     "limit?{asked.aside}", lambda end: end.beyond > _ROUNDING),
+)  # fmt: skip
 _NOT_MET = _Sign(
     "other-limits",
     "It stays inside narrower limits than {asked.low:g} and {asked.high:g}. Look at the two "
@@ -423,7 +346,7 @@ _WRONG_START = _Sign(
     "wrong-start",
     "The walk is right, and its first reading is {0.values[0]:.2f}. It starts at 22.0 degrees "
     "Celsius, and the first reading is one step from there.",
-    lambda walk: walk.starts_elsewhere(),
+    _Walk.starts_elsewhere,
 )
 
 
@@ -447,7 +370,7 @@ def _judge_walk(asked: _Asked, observation: Observation) -> Verdict:
         return passed(asked.rate_in_words + walk.evidence())
     sign, seen = found
     hint = sign.hint.format(seen, asked=asked)
-    return Diagnosis(sign.mistake, walk.evidence(sign.mistake) + walk.first_mismatch(), hint)
+    return Diagnosis(sign.mistake, walk.evidence(sign.mistake) + walk.first_slip(), hint)
 
 
 EXERCISES = (

@@ -13,15 +13,21 @@ from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import (
+    STATUSES,
+    Mismatch,
+    Model,
     Suspect,
     Track,
     before_reading,
-    first_mismatch,
+    diagnose,
+    grouped,
     matching,
-    name_mistake,
-    samples_on,
+    numbered,
+    status_of,
+    suspects,
+    track,
 )
-from rosbeat.exercises.scenarios import Answer, Report, feeder, observe, report
+from rosbeat.exercises.scenarios import Answer, Report, Value, feeder, observe, publishing, report
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, QoS
 
 # 07a: findings about a greenhouse that somebody else wrote.
@@ -33,7 +39,7 @@ _NUMBERS = ("number", "rate")
 
 @dataclass(frozen=True)
 class Greenhouse:
-    """A greenhouse to ask, as a run of it recorded it.
+    """Hold what a run of a greenhouse recorded.
 
     Attributes:
         run: What its nodes did.
@@ -55,7 +61,7 @@ def _greenhouse() -> Greenhouse:
 
 @dataclass(frozen=True)
 class _Question:
-    """One thing to find out about a greenhouse.
+    """Hold one thing to find out about a greenhouse.
 
     Attributes:
         key: Its name in the dict of findings.
@@ -74,7 +80,7 @@ class _Question:
     otherwise: str
     instrument: str
 
-    def same(self, one: Any, other: Any) -> bool:  # noqa: ANN401 - numbers or texts
+    def same(self, one: Value, other: Value) -> bool:
         """Return whether two values are the same; only a measured one may be a little off."""
         if self.kind == "rate":
             return bool(abs(one - other) <= _TOLERANCE * other)
@@ -218,7 +224,7 @@ def _compared(house: Greenhouse, question: _Question, said: dict[str, Any]) -> D
     return Diagnosis(mistake, evidence, question.instrument)
 
 
-def _of_kind(given: Any, kind: str) -> Any:  # noqa: ANN401 - a number or a text
+def _of_kind(given: Value, kind: str) -> Value:
     """Return a value as it is compared; None if it is of another kind."""
     if isinstance(given, bool) or (kind not in _NUMBERS and not isinstance(given, str)):
         return None
@@ -235,7 +241,7 @@ def _full(name: str) -> str:
     return "/" + name.strip().lstrip("/").replace(".", "/")
 
 
-def _malformed(house: Greenhouse, kind: str, value: Any) -> tuple[str, str] | None:  # noqa: ANN401
+def _malformed(house: Greenhouse, kind: str, value: Value) -> tuple[str, str] | None:
     """Say what is wrong with the form of a value: not by models, because any text may come."""
     if value is None:
         wanted = "a bare number" if kind in _NUMBERS else "a text in quotes"
@@ -272,20 +278,9 @@ _FINDINGS = Exercise(
     ),
 )
 
-# What the nodes of 07b and 07c published.
 
-
-def _silence(observation: Observation, heard: Wire, said: Wire) -> Diagnosis | None:
-    """Say why a node did not listen to one topic, or published nothing on the other."""
-    return diagnose_unheard(observation, heard) or diagnose_unpublished(observation, said)
-
-
-def _texts(observation: Observation, wire: Wire) -> dict[float, tuple[str, ...]]:
-    """Return the texts on a topic by the second at which they were published."""
-    found: dict[float, tuple[str, ...]] = {}
-    for one in samples_on(observation, wire):
-        found[one.time] = (*found.get(one.time, ()), str(one.value).strip())
-    return found
+def _stripped(text: Value) -> str:
+    return str(text).strip()
 
 
 # 07b: limits that change while the node runs.
@@ -309,21 +304,17 @@ READINGS = (
 def _observe_tuning(answer: Answer) -> Observation:
     from rosbeat.ros.scenario import SetParameter
 
-    sensor = feeder("temperature_sensor", _TEMPERATURE, READINGS)
     steps = [
         SetParameter(second - 0.5, name=name, value=value)
         for second, values in CHANGES
         for name, value in values.items()
     ]
+    sensor = feeder("temperature_sensor", _TEMPERATURE, READINGS)
     return observe(answer, len(READINGS) + 0.5, others=[sensor], steps=steps)
 
 
 #: Returns the status of a reading, from the reading and the limits `low` and `high`.
 _Rule = Callable[[float, float, float], str]
-
-
-def _status(value: float, low: float, high: float) -> str:
-    return "High" if value > high else "Low" if value < low else "Normal"
 
 
 def _limits(
@@ -338,16 +329,16 @@ def _limits(
 
 
 def _monitor(
-    rule: _Rule = _status,
+    rule: _Rule = status_of,
     start: Mapping[str, float] = _DEFAULTS,
     frozen: Collection[str] = (),
     asked_at: Callable[[int], float] = float,
-) -> Callable[[Iterable[float]], dict[float, tuple[str, ...]]]:
+) -> Model:
     """Return the model of a monitor, by default a right one; `asked_at` is when it asks."""
-    return lambda readings: {
-        float(number): (rule(value, *_limits(asked_at(number), start, frozen).values()),)
+    return lambda readings: numbered(
+        rule(value, *_limits(asked_at(number), start, frozen).values())
         for number, value in enumerate(readings, 1)
-    }
+    )
 
 
 def _every(period: int, late: int) -> Callable[[int], float]:
@@ -357,94 +348,82 @@ def _every(period: int, late: int) -> Callable[[int], float]:
 
 _right = _monitor()
 _EACH_READING = "Publish one status for each reading, when it comes, "
-_SUSPECT_MONITORS = (
+_NEVER = "never appears. Is its condition reached, and what comes after?"
+
+
+def _kept(keeps: Callable[[Track, int], bool]) -> Model:
+    """Return the model of a right monitor that publishes only some of its statuses."""
+    return lambda fed: {at: now for at, now in _right(fed).items() if keeps(_right(fed), at)}
+
+
+_SUSPECT_MONITORS = suspects(
     *(
-        Suspect("parameter-frozen", f"What is set for {' and '.join(names)} never counts. Where "
-                "is the value asked for: once, or each time that a reading comes?",
-                _monitor(frozen=names))
+        ("parameter-frozen", f"What is set for {' and '.join(names)} never counts. Where is the "
+         "value asked for: once, or each time that a reading comes?", _monitor(frozen=names))
         for names in (("low", "high"), ("low",), ("high",))
     ),
-    Suspect("parameter-late", "A new value counts one reading too late. Ask for the value first, "
-            "and then decide.", _monitor(asked_at=_every(1, late=1))),
+    ("parameter-late", "A new value counts one reading too late. Ask for the value first, and then "
+     "decide.", _monitor(asked_at=_every(1, late=1))),
     *(
-        Suspect("parameter-late", f"It looks as if the limits were asked for every {period} "
-                "seconds. A new value counts from the next reading on.",
-                _monitor(asked_at=_every(period, late)))
+        ("parameter-late", f"It looks as if the limits were asked for every {period} seconds. A "
+         "new value counts from the next reading on.", _monitor(asked_at=_every(period, late)))
         for period, late in product((3, 5, 10), (0, 1))
     ),
-    Suspect("parameters-swapped", "High appears above the lower limit, and Low below the upper "
-            "one. Which of the two values belongs to which name, and to which comparison?",
-            _monitor(lambda value, low, high: _status(value, high, low))),
-    Suspect("parameters-swapped", "Until something is set, the statuses are right; what is set for "
-            "`low` counts as the upper limit, and what is set for `high` as the lower one. Which "
-            "value begins under which name, and which name is asked for?",
-            _monitor(lambda value, low, high: _status(value, high, low), _EXCHANGED)),
-    *(
-        Suspect("boundary", "A reading exactly at a limit is Normal: > and < leave the limit "
-                "itself out.", _monitor(rule))
-        for rule in (
-            lambda v, low, high: "High" if v >= high else _status(v, low, high),
-            lambda v, low, high: "Low" if v <= low else _status(v, low, high),
-            lambda v, low, high: "High" if v >= high else "Low" if v <= low else "Normal",
-        )
-    ),
-    *(
-        Suspect("decimals-lost", "The reading and both limits are decimal numbers: where does "
-                "one of them lose its decimals?", _monitor(rule))
-        for rule in (
-            lambda v, low, high: _status(int(v), low, high),
-            lambda v, low, high: _status(round(v), low, high),
-            lambda v, low, high: _status(v, int(low), int(high)),
-            lambda v, low, high: _status(v, round(low), round(high)),
-            lambda v, low, high: _status(v, int(low), high),
-            lambda v, low, high: _status(v, round(low), high),
-            lambda v, low, high: _status(v, low, int(high)),
-        )
-    ),
-    Suspect("wrong-state", "High never appears. Is its condition reached, and what comes after?",
-            _monitor(lambda value, low, high: _status(value, low, value))),
-    Suspect("wrong-state", "Low never appears. Is its condition reached, and what comes after?",
-            _monitor(lambda value, low, high: _status(value, value, high))),
-    *(
-        Suspect("wrong-state", "Which limit belongs to which word, and on which side of it?",
-                _monitor(rule))
-        for rule in (
-            lambda v, low, high: "High" if v < high else "Low" if v > low else "Normal",
-            lambda v, low, high: "Low" if v > high else "High" if v < low else "Normal",
-            lambda v, low, high: "High" if v > high else "Low",
-            lambda v, low, high: _status(v, high, high),
-            lambda v, low, high: _status(v, low, low),
-        )
-    ),
-    Suspect("wrong-state", "Each status is that of the reading before. Decide, and then publish.",
-            lambda fed: {at: _right(fed).get(at - 1, ("Normal",)) for at in _right(fed)}),
-    Suspect("wrong-rate", f"{_EACH_READING}whether it has changed or not.",
-            lambda fed: {at: now for at, now in _right(fed).items()
-                         if now != _right(fed).get(at - 1)}),
-    Suspect("wrong-rate", f"{_EACH_READING}also while it is Normal.",
-            lambda fed: {at: now for at, now in _right(fed).items() if now != ("Normal",)}),
-    Suspect("wrong-rate", f"{_EACH_READING}and only once.",
-            lambda fed: {at: now * 2 for at, now in _right(fed).items()}),
+    ("parameters-swapped", "High appears above the lower limit, and Low below the upper one. Which "
+     "of the two values belongs to which name, and to which comparison?",
+     _monitor(lambda v, low, high: status_of(v, high, low))),
+    ("parameters-swapped", "Until something is set, the statuses are right; what is set for `low` "
+     "counts as the upper limit, and what is set for `high` as the lower one. Which value begins "
+     "under which name, and which name is asked for?",
+     _monitor(lambda v, low, high: status_of(v, high, low), _EXCHANGED)),
+    ("boundary", "A reading exactly at a limit is Normal: > and < leave the limit itself out.",
+     _monitor(lambda v, low, high: "High" if v >= high else status_of(v, low, high)),
+     _monitor(lambda v, low, high: "Low" if v <= low else status_of(v, low, high)),
+     _monitor(lambda v, low, high: "High" if v >= high else "Low" if v <= low else "Normal")),
+    ("decimals-lost", "The reading and both limits are decimal numbers: where does one of them "
+     "lose its decimals?",
+     _monitor(lambda v, low, high: status_of(int(v), low, high)),
+     _monitor(lambda v, low, high: status_of(round(v), low, high)),
+     _monitor(lambda v, low, high: status_of(v, int(low), int(high))),
+     _monitor(lambda v, low, high: status_of(v, round(low), round(high))),
+     _monitor(lambda v, low, high: status_of(v, int(low), high)),
+     _monitor(lambda v, low, high: status_of(v, round(low), high)),
+     _monitor(lambda v, low, high: status_of(v, low, int(high)))),
+    ("wrong-state", f"High {_NEVER}", _monitor(lambda v, low, high: status_of(v, low, v))),
+    ("wrong-state", f"Low {_NEVER}", _monitor(lambda v, low, high: status_of(v, v, high))),
+    ("wrong-state", "Which limit belongs to which word, and on which side of it?",
+     _monitor(lambda v, low, high: "High" if v < high else "Low" if v > low else "Normal"),
+     _monitor(lambda v, low, high: "Low" if v > high else "High" if v < low else "Normal"),
+     _monitor(lambda v, low, high: "High" if v > high else "Low"),
+     _monitor(lambda v, low, high: status_of(v, high, high)),
+     _monitor(lambda v, low, high: status_of(v, low, low))),
+    ("wrong-state", "Each status is that of the reading before. Decide, and then publish.",
+     lambda fed: {at: _right(fed).get(at - 1, ("Normal",)) for at in _right(fed)}),
+    ("wrong-rate", f"{_EACH_READING}whether it has changed or not.",
+     _kept(lambda said, at: said[at] != said.get(at - 1))),
+    ("wrong-rate", f"{_EACH_READING}also while it is Normal.",
+     _kept(lambda said, at: said[at] != ("Normal",))),
+    ("wrong-rate", f"{_EACH_READING}and only once.",
+     lambda fed: {at: now * 2 for at, now in _right(fed).items()}),
     # Of all defaults between two readings one is enough: their statuses are the same.
-    *(
-        Suspect("other-default", "`low` begins at 20.0, and `high` at 26.0.",
-                _monitor(start={"low": low, "high": high}))
-        for low, high in product((0.0, *sorted({*READINGS}), 99.0), repeat=2)
-        if {"low": low, "high": high} != _DEFAULTS
-    ),
+    ("other-default", "`low` begins at 20.0, and `high` at 26.0.",
+     *(_monitor(start={"low": low, "high": high})
+       for low, high in product((0.0, *sorted({*READINGS}), 99.0), repeat=2)
+       if {"low": low, "high": high} != _DEFAULTS)),
 )  # fmt: skip
 
 
 def _judge_tuning(observation: Observation) -> Verdict:
-    wrong = (
-        _silence(observation, _TEMPERATURE, _STATUS)
+    return (
+        diagnose_unheard(observation, _TEMPERATURE)
+        or diagnose_unpublished(observation, _STATUS)
         or _refused(observation)
-        or _mistuned(_texts(observation, _STATUS))
+        or _wrong_statuses(track(observation, _STATUS, _stripped))
+        or passed(
+            f"{len(READINGS)} readings, {sum(len(values) for _, values in CHANGES)} changes of a "
+            "parameter, no slip."
+        )
     )
-    if wrong:
-        return wrong
-    changes = sum(len(values) for _, values in CHANGES)
-    return passed(f"{len(READINGS)} readings, {changes} changes of a parameter, no slip.")
 
 
 #: Reasons of rclpy, and what they mean; they say more than a model could.
@@ -474,33 +453,30 @@ def _refused(observation: Observation) -> Diagnosis | None:
     return Diagnosis(mistake, f"`ros2 param set` was refused for {name}: {said}.", hint)
 
 
-def _mistuned(done: Track) -> Diagnosis | None:
-    mismatch = first_mismatch(done, _right(READINGS))
-    if mismatch is None:
-        return None
-    gave, right = (" and ".join(one) or "no status" for one in (mismatch.done, mismatch.right))
-    evidence = f"At {mismatch.at:g} s your node published {gave}, and no reading came then."
-    if mismatch.right:
-        # What they are in the node is unknown: its first values may be others.
-        low, high = _limits(mismatch.at).values()
-        evidence = (
-            f"At {mismatch.at:g} s `low` should be {low:g} and `high` {high:g}: a reading of "
-            f"{READINGS[int(mismatch.at) - 1]:g} gave {gave} instead of {right}."
-        )
-    known = matching(READINGS, done, _SUSPECT_MONITORS)
-    return name_mistake(known, _unlike_any_monitor(done, evidence))
-
-
-def _unlike_any_monitor(done: Track, evidence: str) -> Diagnosis:
-    """Say what is wrong with statuses that no suspect publishes: any text may come, at any time."""
+def _wrong_statuses(done: Track) -> Diagnosis | None:
     said = [word for words in done.values() for word in words]
-    if len(said) != len(READINGS) or len(done) != len(READINGS):
-        count = f"{len(READINGS)} readings arrived, and {len(said)} statuses were published."
-        return Diagnosis("wrong-rate", f"{count} {evidence}", f"{_EACH_READING}and only then.")
-    if not {"High", "Low", "Normal"}.issuperset(said):
-        hint = "The words are High, Low and Normal, and nothing else."
-        return Diagnosis("wrong-word", evidence, hint)
-    return Diagnosis("wrong-state", evidence, "Which of your conditions is true there?")
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        at = mismatch.at
+        gave, right = (" and ".join(one) or "no status" for one in (mismatch.done, mismatch.right))
+        evidence = f"At {at:g} s your node published {gave}, and no reading came then."
+        if mismatch.right:
+            # What they are in the node is unknown: its first values may be others.
+            low, high = _limits(at).values()
+            evidence = (
+                f"At {at:g} s `low` should be {low:g} and `high` {high:g}: a reading of "
+                f"{READINGS[int(at) - 1]:g} gave {gave} instead of {right}."
+            )
+        # Any text may come, at any time: no model can foretell those.
+        if len(said) != len(READINGS) or len(done) != len(READINGS):
+            count = f"{len(READINGS)} readings arrived, and {len(said)} statuses were published."
+            return Diagnosis("wrong-rate", f"{count} {evidence}", f"{_EACH_READING}and only then.")
+        if not set(STATUSES).issuperset(said):
+            hint = "The words are High, Low and Normal, and nothing else."
+            return Diagnosis("wrong-word", evidence, hint)
+        return Diagnosis("wrong-state", evidence, "Which of your conditions is true there?")
+
+    return diagnose(READINGS, done, _right(READINGS), _SUSPECT_MONITORS, describe)
 
 
 _TUNING = Exercise(
@@ -526,7 +502,7 @@ _DEBUG, _INFO, _WARN, _ERROR, _FATAL = _LEVELS
 
 
 class Line(NamedTuple):
-    """One log line that is fed in, with the fields of a `Log`."""
+    """Hold one log line that is fed in, with the fields of a `Log`."""
 
     level: int
     name: str
@@ -551,40 +527,29 @@ LINES = (
 
 
 def _observe_log_watcher(answer: Answer) -> Observation:
-    from rosbeat.ros.scenario import Publish
-
-    steps = [
-        Publish(
-            second,
-            topic=_ROSOUT.topic,
-            type_name=_ROSOUT.type_name,
-            values=(line._asdict(),),
-            qos=QoS(durability="TRANSIENT_LOCAL", depth=1000),  # as every node's own publisher
-        )
-        for second, line in enumerate(LINES, 1)
-    ]
-    return observe(answer, len(LINES) + 0.5, steps=steps)
+    lines = [(second, line._asdict()) for second, line in enumerate(LINES, 1)]
+    qos = QoS(durability="TRANSIENT_LOCAL", depth=1000)  # as every node's own publisher
+    return observe(answer, len(LINES) + 0.5, steps=publishing(_ROSOUT, lines, qos))
 
 
 #: Within how many seconds a name may follow its line: a timer may tell what a callback heard.
 _SOON = 0.5
 
 
-def _by_line(said: Mapping[float, tuple[str, ...]]) -> dict[float, tuple[str, ...]]:
+def _by_line(said: Track) -> dict[float, tuple[str, ...]]:
     """Return the texts by the second of their line; those that follow none soon keep their own."""
-    found: dict[float, tuple[str, ...]] = {}
-    for at, texts in sorted(said.items()):
-        line = float(int(at))
-        second = line if line >= 1.0 and at - line <= _SOON else at
-        found[second] = (*found.get(second, ()), *texts)
-    return found
+    return grouped(
+        (float(int(at)) if int(at) >= 1 and at - int(at) <= _SOON else at, text)
+        for at, texts in sorted(said.items())
+        for text in texts
+    )
 
 
 # Which lines count and what is published for them are two questions, each with its own suspects;
 # so of an answer with a mistake in both the first one is named.
 
 
-def _lines(counts: Callable[[Line], bool]) -> Callable[[Iterable[Line]], Track]:
+def _lines(counts: Callable[[Line], bool]) -> Model:
     """Return the model of a watcher for which some lines count."""
     return lambda lines: {float(n): (True,) for n, line in enumerate(lines, 1) if counts(line)}
 
@@ -593,11 +558,11 @@ def _is_warning(line: Line) -> bool:
     return line.level >= _WARN
 
 
-def _among(values: Collection[Any], key: str = "level") -> Callable[[Iterable[Line]], Track]:
+def _among(values: Collection[Any], key: str = "level") -> Model:
     return _lines(lambda line: _is_warning(line) and getattr(line, key) in values)
 
 
-def _once(key: Callable[[Line], Any], memory: int = 99) -> Callable[[Iterable[Line]], Track]:
+def _once(key: Callable[[Line], Any], memory: int = 99) -> Model:
     """Return the model of a watcher that leaves out what it has in its memory."""
 
     def model(lines: Iterable[Line]) -> Track:
@@ -618,138 +583,117 @@ _BY_NUMBER = (
     "of a warning."
 )
 _AT_ONCE = "Publish in the callback of /rosout."
-_SUSPECT_LINES = (
-    *(
-        Suspect("level-too-low", _BY_NUMBER, _lines(counts))
-        for counts in (
-            lambda line: True,
-            lambda line: line.level >= _INFO,
-            lambda line: line.level <= _WARN,
-            lambda line: line.level < _WARN,
-            lambda line: "warn" in line.msg.lower() or "error" in line.msg.lower(),
-        )
-    ),
-    Suspect("boundary", "A warning itself counts, and so does what is worse.",
-            _among((_ERROR, _FATAL))),
-    *(
-        Suspect("level-missed", "What is worse than a warning counts, too.", _among(levels))
-        for levels in ((_WARN,), (_WARN, _ERROR), (_WARN, _FATAL))
-    ),
-    *(
-        Suspect("said-once", "Each line counts, also of a node named before.", model)
-        for model in (
-            _once(lambda line: line.name),
-            _once(lambda line: line.name, memory=1),
-            _once(lambda line: line.msg),
-            _once(lambda line: line.msg, memory=1),
-            _once(lambda line: line.level),
-            _once(lambda line: (line.name, line.level)),
-        )
-    ),
-    *(
-        Suspect("one-name-only", "The level decides, whichever node logs the line.",
-                _among((name,), "name"))
-        for name in sorted({line.name for line in LINES if _is_warning(line)})
-    ),
-    Suspect("alert-too-many", f"Each name comes a second late. {_AT_ONCE}",
-            lambda lines: {at + 1: said for at, said in _warnings(lines).items()}),
+_SUSPECT_LINES = suspects(
+    ("level-too-low", _BY_NUMBER,
+     _lines(lambda line: True),
+     _lines(lambda line: line.level >= _INFO),
+     _lines(lambda line: line.level <= _WARN),
+     _lines(lambda line: line.level < _WARN),
+     _lines(lambda line: "warn" in line.msg.lower() or "error" in line.msg.lower())),
+    ("boundary", "A warning itself counts, and so does what is worse.", _among((_ERROR, _FATAL))),
+    ("level-missed", "What is worse than a warning counts, too.",
+     _among((_WARN,)), _among((_WARN, _ERROR)), _among((_WARN, _FATAL))),
+    ("said-once", "Each line counts, also of a node named before.",
+     _once(lambda line: line.name),
+     _once(lambda line: line.name, memory=1),
+     _once(lambda line: line.msg),
+     _once(lambda line: line.msg, memory=1),
+     _once(lambda line: line.level),
+     _once(lambda line: (line.name, line.level))),
+    ("one-name-only", "The level decides, whichever node logs the line.",
+     *(_among((name,), "name")
+       for name in sorted({line.name for line in LINES if _is_warning(line)}))),
+    ("alert-too-many", f"Each name comes a second late. {_AT_ONCE}",
+     lambda lines: {at + 1: said for at, said in _warnings(lines).items()}),
 )  # fmt: skip
 
 
-def _texts_of(
-    text: Callable[[Line, str], str],
-) -> Callable[[Mapping[float, tuple[Line, str]]], Track]:
+def _texts_of(text: Callable[[Line, str], str]) -> Model:
     """Return the model of a watcher by the text that it makes of a line and its own full name."""
     return lambda fed: {at: (text(*one).strip(),) for at, one in fed.items()}
 
 
 _names = _texts_of(lambda line, node: line.name)
 _FIELD = "Which field of the message holds the name? ros2 interface show lists them all."
-_SUSPECT_TEXTS = (
-    Suspect("text-for-name", "That is the text of the line. Which field names the node?",
-            _texts_of(lambda line, node: line.msg)),
-    *(
-        Suspect("own-name", "That is the node that listens. The message holds the name of the "
-                "node that logged the line.", _texts_of(text))
-        for text in (lambda line, node: node, lambda line, node: node[1:].replace("/", "."))
-    ),
-    *(
-        Suspect("wrong-values", f"That is the level. {_FIELD}", _texts_of(text))
-        for text in (lambda line, node: str(line.level), lambda line, node: _LEVELS[line.level])
-    ),
-    *(
-        Suspect("wrong-values", "A name may have several parts: publish the field as it is.",
-                _texts_of(text))
-        for text in (
-            lambda line, node: line.name.split(".")[0],
-            lambda line, node: line.name.split(".")[-1],
-            lambda line, node: line.name.replace(".", "/"),
-        )
-    ),
+_SUSPECT_TEXTS = suspects(
+    ("text-for-name", "That is the text of the line. Which field names the node?",
+     _texts_of(lambda line, node: line.msg)),
+    ("own-name", "That is the node that listens. The message holds the name of the node that "
+     "logged the line.",
+     _texts_of(lambda line, node: node), _texts_of(lambda line, node: node[1:].replace("/", "."))),
+    ("wrong-values", f"That is the level. {_FIELD}",
+     _texts_of(lambda line, node: str(line.level)),
+     _texts_of(lambda line, node: _LEVELS[line.level])),
+    ("wrong-values", "A name may have several parts: publish the field as it is.",
+     _texts_of(lambda line, node: line.name.split(".")[0]),
+     _texts_of(lambda line, node: line.name.split(".")[-1]),
+     _texts_of(lambda line, node: line.name.replace(".", "/"))),
 )  # fmt: skip
 
 
 def _judge_log_watcher(observation: Observation) -> Verdict:
-    wrong = _silence(observation, _ROSOUT, _WARNINGS)
-    said = _texts(observation, _WARNINGS)
-    wrong = wrong or _wrong_lines(said) or _wrong_texts(_by_line(said), observation.subject)
-    if wrong:
-        return wrong
-    count = len(_warnings(LINES))
-    return passed(f"{len(LINES)} log lines, {count} warnings or worse, each one named.")
-
-
-def _wrong_lines(said: Mapping[float, tuple[str, ...]]) -> Diagnosis | None:
-    """Say which line was named and does not count, or the other way round."""
-    told = _by_line(said)
-    done: Track = dict.fromkeys(told, (True,))
-    right = _warnings(LINES)
-    mismatch = first_mismatch(done, right)
-    if mismatch is None:
-        return None
-    at = {float(second): line for second, line in enumerate(LINES, 1)}
-    if not at.keys() >= said.keys() and not matching(LINES, done, _SUSPECT_LINES):
-        late = sorted(said.keys() - at.keys())  # no model: a timer may publish at any time
-        soon = [one for one in late if one - int(one) <= _SOON and float(int(one)) in right]
-        stray = next((one for one in late if one not in soon), late[0])
-        since = (
-            f"the log line before it came at {int(stray)} s"
-            if stray > 1
-            else "no line had come yet"
+    said = track(observation, _WARNINGS, _stripped)
+    return (
+        diagnose_unheard(observation, _ROSOUT)
+        or diagnose_unpublished(observation, _WARNINGS)
+        or _wrong_lines(said)
+        or _wrong_texts(_by_line(said), observation.subject)
+        or passed(
+            f"{len(LINES)} log lines, {len(_warnings(LINES))} warnings or worse, each one named."
         )
-        evidence = f"A name was published at {stray:g} s, and {since}."
-        return Diagnosis("alert-too-many", evidence, _AT_ONCE)
-    line = at[mismatch.at]
-    what = repr(told[mismatch.at][0]) if mismatch.done else "Nothing"
-    evidence = f"{what} was published for a line of level {_LEVELS[line.level]}: {line.msg!r}."
-    other = Diagnosis(UNKNOWN, evidence, "What does your method do with this line, step by step?")
-    if mismatch.done:
-        other = Diagnosis("level-too-low", evidence, _BY_NUMBER)
-    return name_mistake(matching(LINES, done, _SUSPECT_LINES), other)
+    )
 
 
-def _wrong_texts(said: Mapping[float, tuple[str, ...]], node: str) -> Diagnosis | None:
+def _wrong_lines(said: Track) -> Diagnosis | None:
+    """Say which line was named and does not count, or the other way round."""
+    told, right = _by_line(said), _warnings(LINES)
+    done: Track = dict.fromkeys(told, (True,))
+    at = {float(second): line for second, line in enumerate(LINES, 1)}
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        late = sorted(said.keys() - at.keys())  # no model: a timer may publish at any time
+        if late and not matching(LINES, done, _SUSPECT_LINES):
+            soon = [one for one in late if one - int(one) <= _SOON and float(int(one)) in right]
+            stray = next((one for one in late if one not in soon), late[0])
+            since = f"the log line before it came at {int(stray)} s"
+            if stray <= 1:
+                since = "no line had come yet"
+            evidence = f"A name was published at {stray:g} s, and {since}."
+            return Diagnosis("alert-too-many", evidence, _AT_ONCE)
+        line = at[mismatch.at]
+        what = repr(told[mismatch.at][0]) if mismatch.done else "Nothing"
+        evidence = f"{what} was published for a line of level {_LEVELS[line.level]}: {line.msg!r}."
+        if mismatch.done:
+            return Diagnosis("level-too-low", evidence, _BY_NUMBER)
+        hint = "What does your method do with this line, step by step?"
+        return Diagnosis(UNKNOWN, evidence, hint)
+
+    return diagnose(LINES, done, right, _SUSPECT_LINES, describe)
+
+
+def _wrong_texts(said: Track, node: str) -> Diagnosis | None:
     """Say what is wrong with the texts for the right lines."""
     fed = {at: (LINES[int(at) - 1], node) for at in said}
-    done: Track = {at: texts[:1] for at, texts in said.items()}
-    mismatch = first_mismatch(done, _names(fed))
-    if mismatch:
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
         text, name = mismatch.done[0], mismatch.right[0]
         evidence = f"For a line of {name}, {text!r} was published."
-        other = Diagnosis("wrong-values", evidence, _FIELD)  # no model: a text may be anything
         if name in text:
             hint = "Publish the name, and nothing around it."
-            other = Diagnosis("stray-characters", evidence, hint)
-        return name_mistake(matching(fed, done, _SUSPECT_TEXTS), other)
+            return Diagnosis("stray-characters", evidence, hint)
+        return Diagnosis("wrong-values", evidence, _FIELD)  # no model: a text may be anything
+
+    first = {at: texts[:1] for at, texts in said.items()}
+    wrong = diagnose(fed, first, _names(fed), _SUSPECT_TEXTS, describe)
     count = sum(map(len, said.values()))
-    if count == len(said):
-        return None
+    if wrong or count == len(said):
+        return wrong
     evidence = f"{count} names were published for {len(said)} lines."
     return Diagnosis("alert-too-many", evidence, "One name for each line is enough.")
 
 
 #: What the models of 07b and 07c are fed, the right one, and the suspects; for tests.
-MODELS: tuple[tuple[Any, Callable[[Any], Track], tuple[Suspect, ...]], ...] = (
+MODELS: tuple[tuple[Any, Model, tuple[Suspect, ...]], ...] = (
     (READINGS, _right, _SUSPECT_MONITORS),
     (LINES, _warnings, _SUSPECT_LINES),
     ({1.0 * n: (line, "/watcher") for n, line in enumerate(LINES)}, _names, _SUSPECT_TEXTS),

@@ -22,26 +22,22 @@ from rosbeat.exercises.model import (
     Suspect,
     Track,
     agree,
-    first_mismatch,
-    matching,
-    name_mistake,
+    diagnose,
+    diagnose_words,
+    grouped,
     samples_on,
     spelling,
+    track,
     variants,
 )
-from rosbeat.exercises.scenarios import Answer, feeder, listener, observe
-from rosbeat.records import NANOSECONDS, Endpoint, Observation, QoS, Sample
+from rosbeat.exercises.scenarios import Answer, Value, adding, feeder, listener, observe, publishing
+from rosbeat.records import NANOSECONDS, Endpoint, Observation, QoS
 
 _FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
 #: A time in seconds, and the word that was said then.
 _Word = tuple[float, str]
 
 # What the judges of this page share.
-
-
-def _unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
-    """Say why no callback of the node ran for a topic; None if one did."""
-    return diagnose_unheard(observation, wire)
 
 
 def _ends(observation: Observation, wire: Wire, kind: str) -> list[Endpoint]:
@@ -64,7 +60,7 @@ def _described(qos: QoS) -> str:
 def _suspects_by_policy(
     policies: Iterable[tuple[str, str, str]],
     model: Callable[..., Track],
-    fed: Any,  # noqa: ANN401 - whatever the model takes
+    fed: Value,
     right: QoS,
     mine: QoS,
 ) -> list[Suspect]:
@@ -106,16 +102,10 @@ _START = "idle"
 
 
 def _run_mode_keeper(answer: Answer) -> Observation:
-    from rosbeat.ros.scenario import Add, Publish
-
     displays = [(joins, listener(name, _MODE, qos)) for name, (joins, qos) in DISPLAYS.items()]
-    steps = [
-        Publish(at, topic=_COMMAND.topic, type_name=_STRING, values=(word,))
-        for at, word in COMMANDS
-    ]
-    late = [Add(joins, make=make) for joins, make in displays if joins]
+    late = [adding(joins, make) for joins, make in displays if joins]
     others = [make for joins, make in displays if not joins]
-    return observe(answer, 30.0, others=others, steps=[*steps, *late])
+    return observe(answer, 30.0, others=others, steps=[*publishing(_COMMAND, COMMANDS), *late])
 
 
 #: Whether a command is worth a message, from the mode, the command before and the command.
@@ -199,72 +189,58 @@ def offer_suspects(words: Sequence[_Word], offers: QoS) -> list[Suspect]:
 
 
 def _judge_mode_keeper(observation: Observation) -> Verdict:
-    wrong = (
+    return (
         diagnose_unpublished(observation, _MODE)
-        or _unheard(observation, _COMMAND)
-        or _diagnose_modes(samples_on(observation, _MODE))
+        or diagnose_unheard(observation, _COMMAND)
+        or _diagnose_modes(track(observation, _MODE, str))
         or _diagnose_displays(observation)
+        or passed(
+            f"{len(DISPLAYS)} displays came at different times. Each one that asked for it got the "
+            "mode of that moment, and only that one."
+        )
     )
-    return wrong or passed(
-        f"{len(DISPLAYS)} displays came at different times. Each one that asked for it got the "
-        "mode of that moment, and only that one."
-    )
 
 
-def _diagnose_modes(samples: Sequence[Sample]) -> Diagnosis | None:
-    right, done = _keep_mode(COMMANDS), _by_time(samples)
-    mismatch = first_mismatch(done, right)
-    if mismatch is None:
-        return None
-    done_words, right_words = (_listed(words) for words in (mismatch.done, mismatch.right))
-    evidence = (
-        f"At {mismatch.at:g} s the node published {done_words} on /mode; {right_words} was due."
-    )
-    return name_mistake(matching(COMMANDS, done, KEEPERS), _other_mode(evidence, mismatch, right))
+def _diagnose_modes(done: Track) -> Diagnosis | None:
+    right = _keep_mode(COMMANDS)
 
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        said, due = _listed(mismatch.done), _listed(mismatch.right)
+        evidence = f"At {mismatch.at:g} s the node published {said} on /mode; {due} was due."
+        modes = [word for at in sorted(right) if at <= mismatch.at for word in right[at]]
+        if not mismatch.right:
+            modes = [*modes[:-1], modes[-1], modes[-1]]
+        if mismatch.at == 0 and mismatch.done[:1] != mismatch.right:
+            return Diagnosis("wrong-start", evidence, _BEGIN)
+        if not mismatch.done:
+            return Diagnosis("change-missing", evidence, _CHANGE)
+        if set(mismatch.right) <= set(mismatch.done) <= set(modes[-2:]):
+            return Diagnosis("status-repeated", evidence, _REPEATED)
+        hint = spelling(mismatch.done[0], modes) or "The mode is the command's text, unchanged."
+        return Diagnosis("wrong-values", evidence, hint)
 
-def _by_time(samples: Iterable[Sample]) -> Track:
-    found: dict[float, tuple[str, ...]] = {}
-    for one in samples:
-        found[one.time] = (*found.get(one.time, ()), str(one.value))
-    return found
-
-
-def _other_mode(evidence: str, mismatch: Mismatch, right: Track) -> Diagnosis:
-    """Name what no model reproduces by the moment at which it mismatch from the right one."""
-    modes = [word for at in sorted(right) if at <= mismatch.at for word in right[at]]
-    if not mismatch.right:
-        modes = [*modes[:-1], modes[-1], modes[-1]]
-    if mismatch.at == 0 and mismatch.done[:1] != mismatch.right:
-        return Diagnosis("wrong-start", evidence, _BEGIN)
-    if not mismatch.done:
-        return Diagnosis("change-missing", evidence, _CHANGE)
-    if set(mismatch.right) <= set(mismatch.done) <= set(modes[-2:]):
-        return Diagnosis("status-repeated", evidence, _REPEATED)
-    hint = spelling(mismatch.done[0], modes) or "The mode is the command's text, unchanged."
-    return Diagnosis("wrong-values", evidence, hint)
+    return diagnose(COMMANDS, done, right, KEEPERS, describe)
 
 
 def _diagnose_displays(observation: Observation) -> Diagnosis | None:
     words = [(one.time, str(one.value)) for one in samples_on(observation, _MODE)]
-    texts = {name: tuple(log.text for log in observation.logs if log.name == name)
-             for name in DISPLAYS}  # fmt: skip
-    done = {number: heard for number, heard in enumerate(texts.values()) if heard}
-    mismatch = first_mismatch(done, _heard_by_displays(words, _ONE_STORED))
-    if mismatch is None:
-        return None
+    numbers = {name: number for number, name in enumerate(DISPLAYS)}
+    done = grouped((numbers[log.name], log.text) for log in observation.logs if log.name in numbers)
     # A publisher that was destroyed is no longer in the graph.
     offers = next((end.qos for end in _ends(observation, _MODE, "publisher")), _ONE_STORED)
-    joins, asks = [*DISPLAYS.values()][mismatch.at]
-    evidence = (
-        f"A display joined at {joins:g} s and asked for {asks.reliability}, {asks.durability}. It "
-        f"heard {_listed(mismatch.done)}, and should have heard {_listed(mismatch.right)}. Your "
-        f"publisher offers {_described(offers)}."
-    )
-    otherwise = Diagnosis(
-        UNKNOWN, evidence, "Compare what the publisher offers with what such a display asks for."
-    )
-    return name_mistake(matching(words, done, offer_suspects(words, offers)), otherwise)
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        joins, asks = [*DISPLAYS.values()][mismatch.at]
+        evidence = (
+            f"A display joined at {joins:g} s and asked for {asks.reliability}, "
+            f"{asks.durability}. It heard {_listed(mismatch.done)}, and should have heard "
+            f"{_listed(mismatch.right)}. Your publisher offers {_described(offers)}."
+        )
+        hint = "Compare what the publisher offers with what such a display asks for."
+        return Diagnosis(UNKNOWN, evidence, hint)
+
+    right = _heard_by_displays(words, _ONE_STORED)
+    return diagnose(words, done, right, offer_suspects(words, offers), describe)
 
 
 def _listed(words: Iterable[str]) -> str:
@@ -344,20 +320,19 @@ def archive_suspects(asks: Sequence[QoS]) -> list[Suspect]:
 
 
 def _judge_archive(observation: Observation) -> Verdict:
-    wrong = (
-        _unheard(observation, _READING)
+    return (
+        diagnose_unheard(observation, _READING)
         or diagnose_unpublished(observation, _ARCHIVE)
-        or _diagnose_archive(
-            observation, [float(one.value) for one in samples_on(observation, _ARCHIVE)]
+        or _diagnose_archive(observation)
+        or passed(
+            f"{len(READINGS)} sensors, {len(FED)} readings, {len(FED)} in the archive: it heard "
+            "everybody, and nothing was lost while it was away."
         )
     )
-    return wrong or passed(
-        f"{len(READINGS)} sensors, {len(FED)} readings, {len(FED)} in the archive: it heard "
-        "everybody, and nothing was lost while it was away."
-    )
 
 
-def _diagnose_archive(observation: Observation, kept: Sequence[float]) -> Diagnosis | None:
+def _diagnose_archive(observation: Observation) -> Diagnosis | None:
+    kept = [float(one.value) for one in samples_on(observation, _ARCHIVE)]
     # Of a number that no sensor has published nobody can say which reading it was.
     strange = next((value for value in kept if value not in FED.values()), None)
     if strange is not None:
@@ -367,22 +342,23 @@ def _diagnose_archive(observation: Observation, kept: Sequence[float]) -> Diagno
             "Each reading goes into the archive as it is.",
         )
     counts = Counter(kept)
-    done = {one: (value,) * counts[value] for one, value in FED.items()}
-    mismatch = first_mismatch(done, _archive(FED, _ROOMY))
-    if mismatch is None:
-        return _diagnose_order(kept)
     asks = [end.qos for end in _ends(observation, _READING, "subscription")]
-    (at, node), times = mismatch.at, len(mismatch.done)
-    found = f"in the archive {times} times" if times else "not in the archive"
-    missed = sum(not counts[value] for value in FED.values())
-    evidence = (
-        f"The reading {FED[at, node]:g}, which {node} published at {at:g} s, is {found}, and "
-        f"should be there once. {missed} of {len(FED)} readings are missing there; "
-        f"the node was away from {_AWAY[0]:g} s to {_AWAY[1]:g} s. Your subscription asks for "
-        f"{' and '.join(map(_described, asks)) or 'nothing'}."
-    )
-    otherwise = Diagnosis("wrong-values", evidence, "Publish each reading once, when it comes.")
-    return name_mistake(matching(FED, done, archive_suspects(asks)), otherwise)
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        (at, node), times = mismatch.at, len(mismatch.done)
+        found = f"in the archive {times} times" if times else "not in the archive"
+        missed = sum(not counts[value] for value in FED.values())
+        evidence = (
+            f"The reading {FED[at, node]:g}, which {node} published at {at:g} s, is {found}, and "
+            f"should be there once. {missed} of {len(FED)} readings are missing there; the node "
+            f"was away from {_AWAY[0]:g} s to {_AWAY[1]:g} s. Your subscription asks for "
+            f"{' and '.join(map(_described, asks)) or 'nothing'}."
+        )
+        return Diagnosis("wrong-values", evidence, "Publish each reading once, when it comes.")
+
+    done = {one: (value,) * counts[value] for one, value in FED.items()}
+    wrong = diagnose(FED, done, _archive(FED, _ROOMY), archive_suspects(asks), describe)
+    return wrong or _diagnose_order(kept)
 
 
 def _diagnose_order(kept: Sequence[float]) -> Diagnosis | None:
@@ -412,11 +388,9 @@ _LATE, _EXACT = 0.45, 1e-6
 
 
 def _run_watchdog(answer: Answer) -> Observation:
-    from rosbeat.ros.scenario import Publish
-
     qos = QoS(deadline_ns=round(LIMIT * NANOSECONDS))
-    steps = [Publish(at, topic=_TEMPERATURE.topic, values=(21.5,), qos=qos) for at in TIMES]
-    return observe(answer, _END, steps=steps)
+    readings = [(at, 21.5) for at in TIMES]
+    return observe(answer, _END, steps=publishing(_TEMPERATURE, readings, qos))
 
 
 #: Whether a word is worth a message, from the last word, the word and the deadlines missed so far.
@@ -497,54 +471,42 @@ def deadline_suspects(asks: Sequence[QoS]) -> list[Suspect]:
 
 
 def _judge_watchdog(observation: Observation) -> Verdict:
-    said = samples_on(observation, _HEALTH)
-    wrong = (
-        _unheard(observation, _TEMPERATURE)
-        or (None if said else _unmeasured(observation))
-        or diagnose_unpublished(observation, _HEALTH)
-        or _diagnose_words(observation, [(one.time, str(one.value)) for one in said])
-    )
-    if wrong:
-        return wrong
     silences = sum(one[0][1] == LOST for one in _watch(TIMES).values())
-    return passed(
-        f"{len(TIMES)} readings, {silences} silences: {LOST!r} once in each of them, and {BACK!r} "
-        "once after each that ended."
+    return (
+        diagnose_unheard(observation, _TEMPERATURE)
+        or _unmeasured(observation)
+        or diagnose_unpublished(observation, _HEALTH)
+        or diagnose_words(observation, _HEALTH, (LOST, BACK))
+        or _diagnose_watch(observation)
+        or passed(
+            f"{len(TIMES)} readings, {silences} silences: {LOST!r} once in each of them, and "
+            f"{BACK!r} once after each that ended."
+        )
     )
 
 
-def _diagnose_words(observation: Observation, said: Sequence[_Word]) -> Diagnosis | None:
-    strange = next((one for one in said if one[1] not in (LOST, BACK)), None)
-    if strange is not None:
-        return Diagnosis(
-            "wrong-word",
-            f"At {strange[0]:g} s the node said {strange[1]!r}.",
-            spelling(strange[1], (LOST, BACK)) or f"The two words are {LOST!r} and {BACK!r}.",
-        )
+def _diagnose_watch(observation: Observation) -> Diagnosis | None:
+    said = [(one.time, str(one.value)) for one in samples_on(observation, _HEALTH)]
+    asks = [end.qos for end in _ends(observation, _TEMPERATURE, "subscription")]
     mine = [one for one in observation.callbacks if one.node == observation.subject]
     late = _LATE if any(one.kind == "timer" for one in mine) else _EXACT
 
     def in_time(found: _Word, due: _Word) -> bool:
         return found[1] == due[1] and due[0] - _EXACT <= found[0] <= due[0] + late
 
-    def near(one: _Word, other: _Word) -> bool:
-        return one[1] == other[1] and abs(one[0] - other[0]) <= late
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        found = _describe_word(mismatch)
+        deadline = next((_seconds(qos.deadline_ns) for qos in asks if qos.deadline_ns), "")
+        own = f" Your subscription has a deadline of {deadline}." if deadline else ""
+        return replace(found, evidence=found.evidence + own)
 
-    done = {number: (one,) for number, one in enumerate(said)}
-    mismatch = first_mismatch(done, _watch(TIMES), in_time)
-    if mismatch is None:
-        return None
-    asks = [end.qos for end in _ends(observation, _TEMPERATURE, "subscription")]
-    fit = matching(TIMES, done, [*WATCHDOGS, *deadline_suspects(asks)], near)
-    otherwise = _other_word(mismatch)
-    deadlines = [_seconds(qos.deadline_ns) for qos in asks if qos.deadline_ns]
-    own = f" Your subscription has a deadline of {deadlines[0]}." if deadlines else ""
-    otherwise = replace(otherwise, evidence=otherwise.evidence + own)
-    return name_mistake(fit, otherwise)
+    done: Track = {number: (one,) for number, one in enumerate(said)}
+    watchdogs = [*WATCHDOGS, *deadline_suspects(asks)]
+    return diagnose(TIMES, done, _watch(TIMES), watchdogs, describe, in_time)
 
 
-def _other_word(mismatch: Mismatch) -> Diagnosis:
-    """Name what no model reproduces by the first message that is not as it should be."""
+def _describe_word(mismatch: Mismatch) -> Diagnosis:
+    """Describe the first message that is not as it should be."""
     number = mismatch.at + 1
     (at, word), (due, wanted) = (
         (said or ((0.0, ""),))[0] for said in (mismatch.done, mismatch.right)
@@ -575,6 +537,8 @@ def _unmeasured(observation: Observation) -> Diagnosis | None:
 
     It said nothing, and all silent models are alike. So this reads what the node has made.
     """
+    if samples_on(observation, _HEALTH):
+        return None
     mine = [end for end in observation.graph.endpoints if end.node == observation.subject]
     calls = [one for one in observation.callbacks if one.node == observation.subject]
     if any(one.kind in ("event", "timer") for one in calls):

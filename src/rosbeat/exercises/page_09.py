@@ -13,36 +13,28 @@ from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
-    Suspect,
+    STATUSES,
+    Mismatch,
+    Model,
     Track,
+    diagnose,
+    diagnose_wait,
+    diagnose_words,
     first_mismatch,
+    grouped,
     matching,
     name_mistake,
+    numbered,
     samples_on,
+    status_of,
+    suspects,
 )
-from rosbeat.exercises.scenarios import Answer, feeder, observe, started
-from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Observation, Sample
+from rosbeat.exercises.scenarios import Answer, feeder, observe, publishing, started
+from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Sample
 
 _FLOAT, _INT, _STRING = (f"std_msgs/msg/{name}" for name in ("Float32", "Int32", "String"))
 _STATUS = Wire("/status", _STRING)
-
-
-def _unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
-    """Say why the node received nothing from a topic, or None if it received something."""
-    return diagnose_unheard(observation, wire)
-
-
-def _silent(
-    observation: Observation, wire: Wire, besides: Iterable[str] = (), hint: str = ""
-) -> Diagnosis | None:
-    """Say why the node published nothing on a topic, or None if it did."""
-    found = diagnose_unpublished(observation, wire, tuple(besides))
-    if found is None or found.mistake not in ("never-published", "new-to-me"):
-        return found
-    evidence = f"Nothing was published on {wire.topic} in {observation.time:g} s."
-    call = "Which callback comes to the line that publishes, and what calls it?"
-    return Diagnosis("never-published", evidence, call + hint)
-
+_CALLED = "Which callback comes to the line that publishes, and what calls it?"
 
 # 09a: notice the silence.
 
@@ -58,27 +50,24 @@ Words = Iterable[tuple[float, str]]
 
 
 def _run_with_silences(answer: Answer) -> Observation:
-    from rosbeat.ros.scenario import Publish
-
-    steps = [Publish(at, topic=_TEMPERATURE.topic, values=(22.0,)) for at in READINGS]
+    steps = publishing(_TEMPERATURE, [(at, 22.0) for at in READINGS])
     return observe(answer, _READINGS_END, steps=steps)
 
 
 def _by_reading(words: Words) -> Track:
     """Return the words by the number of readings that had come, each early, due or late."""
-    found: dict[int, tuple[str, ...]] = {}
-    for at, word in words:
+
+    def placed(at: float, word: str) -> tuple[int, str]:
         count = bisect_right(READINGS, at + _ROOM)
         waited = at - READINGS[count - 1] if count else 0.0
         due = SILENCE if word == "lost" else 0.0
         when = "early" if waited < due - _ROOM else "late" if waited > due + LATE + _ROOM else "due"
-        found[count] = (*found.get(count, ()), f"{word} {when}")
-    return found
+        return count, f"{word} {when}"
+
+    return grouped(placed(at, word) for at, word in words)
 
 
-def _watch(
-    after: float = SILENCE, at_once: bool = False, most: int | None = None
-) -> Callable[[Sequence[float]], Track]:
+def _watch(after: float = SILENCE, at_once: bool = False, most: int | None = None) -> Model:
     """Return the model of a node that says `lost` and `back`.
 
     Args:
@@ -103,63 +92,56 @@ _UNSEEN = (
 )
 _IN_TIME = f"At most {LATE:g} s late: how often does the node look?"
 _COUNT = f"Count from the last reading, and wait for {SILENCE:g} s of silence."
-SILENCE_SUSPECTS = (
-    Suspect("silence-unnoticed", _UNSEEN, _watch(after=100.0)),
-    Suspect("silence-unnoticed", "The first silence was noticed, and the second was not. What does "
-            "the node remember after `back`?", _watch(most=2)),
-    Suspect("noticed-afterwards", "The callback of a subscription runs when a message comes. What "
-            "looks when none comes?", _watch(at_once=True)),
-    *(Suspect("noticed-early", _COUNT, _watch(after=after)) for after in (0.0, 1.5, 2.6)),
-    Suspect("noticed-late", _IN_TIME, _watch(after=5.0)),
+SILENCE_SUSPECTS = suspects(
+    ("silence-unnoticed", _UNSEEN, _watch(after=100.0)),
+    ("silence-unnoticed", "The first silence was noticed, and the second was not. What does the "
+     "node remember after `back`?", _watch(most=2)),
+    ("noticed-afterwards", "The callback of a subscription runs when a message comes. What looks "
+     "when none comes?", _watch(at_once=True)),
+    ("noticed-early", _COUNT, *(_watch(after=after) for after in (0.0, 1.5, 2.6))),
+    ("noticed-late", _IN_TIME, _watch(after=5.0)),
 )  # fmt: skip
 
 
 def _judge_silence(observation: Observation) -> Verdict:
-    wrong = _unheard(observation, _TEMPERATURE) or _silent(observation, _STATUS)
-    if wrong is None or wrong.mistake == "never-published":
-        wrong = _wrong_words(observation)
-    return wrong or passed(
-        f"{len(READINGS)} readings, {len(_watch()(READINGS)) // 2} silences: each was noticed "
-        "once, and its end too."
+    silent = diagnose_unpublished(observation, _STATUS)
+    if silent and silent.mistake == "never-published":
+        silent = None  # no word was ever said: that is told better by what should have been said
+    return (
+        diagnose_unheard(observation, _TEMPERATURE)
+        or silent
+        or diagnose_words(observation, _STATUS, ("lost", "back"))
+        or _wrong_words(observation)
+        or passed(
+            f"{len(READINGS)} readings, {len(_watch()(READINGS)) // 2} silences: each was noticed "
+            "once, and its end too."
+        )
     )
 
 
 def _wrong_words(observation: Observation) -> Diagnosis | None:
-    words = [(sample.time, str(sample.value)) for sample in samples_on(observation, _STATUS)]
-    for at, word in words:
-        if word not in ("lost", "back"):
-            hint = "The status is lost or back, letter by letter: capitals and blanks count."
-            return Diagnosis("wrong-word", f"On /status appeared {word!r}, at {at:g} s.", hint)
-    done = _by_reading(words)
-    part = first_mismatch(done, _watch()(READINGS))
-    if part is None:
-        return None
-    said = [
-        f"{word} at {at:g} s" for at, word in words if [*_by_reading([(at, word)])] == [part.at]
-    ]
-    times = (0.0, *READINGS, _READINGS_END)[part.at :]
-    due = f"{part.right[0].split()[0]} was due" if part.right else "nothing was due"
-    said_then = f"and the node said {' and '.join(said) or 'nothing'}."
-    evidence = (
-        f"After {times[0]:g} s, the next reading came at {times[1]:g} s. {due.capitalize()}, "
-        f"{said_then}"
-    )
-    if part.at == 0:
-        evidence = f"Before the first reading, at {times[1]:g} s, {due}, {said_then}"
-    if part.at == len(READINGS):
-        evidence = evidence.replace("the next reading came", "no reading came, and the run ended")
-    for wait in observation.waits:
-        seconds = (wait.until_ns - wait.time_ns) / NANOSECONDS
-        if (wait.node, wait.reason) == (observation.subject, "sleep") and seconds > 0.5:
-            evidence += f" {wait.callback} slept for {seconds:g} s from {wait.time:g} s on."
-            hint = "While a callback sleeps, the node receives nothing and no timer runs."
-            return Diagnosis("callback-blocks", evidence, hint)
-    fit = matching(READINGS, done, SILENCE_SUSPECTS)
-    return name_mistake(fit, _first_word(part.at, part.done, part.right, evidence))
+    words = [(one.time, str(one.value)) for one in samples_on(observation, _STATUS)]
+
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        number, times = mismatch.at, (0.0, *READINGS, _READINGS_END)
+        here = [one for one in words if [*_by_reading([one])] == [number]]
+        said = " and ".join(f"{word} at {at:g} s" for at, word in here) or "nothing"
+        due = f"{mismatch.right[0].split()[0] if mismatch.right else 'nothing'} was due"
+        came = "the next reading came"
+        if number == len(READINGS):
+            came = "no reading came, and the run ended"
+        begin = f"After {times[number]:g} s, {came} at {times[number + 1]:g} s. {due.capitalize()}"
+        if number == 0:
+            begin = f"Before the first reading, at {times[1]:g} s, {due}"
+        evidence = f"{begin}, and the node said {said}."
+        return diagnose_wait(observation, evidence, 0.5) or _first_word(mismatch, evidence)
+
+    return diagnose(READINGS, _by_reading(words), _watch()(READINGS), SILENCE_SUSPECTS, describe)
 
 
-def _first_word(at: int, done: Sequence[str], right: Sequence[str], evidence: str) -> Diagnosis:
+def _first_word(mismatch: Mismatch, evidence: str) -> Diagnosis:
     """Name a mistake by its first word alone: a node may look at any moments, and forget a lot."""
+    done, right = mismatch.done, mismatch.right
     same = next(n for n in range(9) if done[n : n + 1] != right[n : n + 1])
     if same == len(done):
         if right[same] == "lost due":
@@ -168,7 +150,7 @@ def _first_word(at: int, done: Sequence[str], right: Sequence[str], evidence: st
     word, when = done[same].split()
     if word == "back" and right[same:] != ("back due",):
         return Diagnosis("back-too-often", evidence, "Back is the end of lost, and only of that.")
-    if word == "lost" and at == 0:
+    if word == "lost" and mismatch.at == 0:
         hint = "Before the first reading there is nothing to lose. How does the node know of one?"
         return Diagnosis("lost-before-found", evidence, hint)
     if word == "lost" and any(one.startswith("lost") for one in done[:same]):
@@ -193,26 +175,23 @@ Reports = Sequence[tuple[float, int]]
 
 
 def _run_with_orders(answer: Answer) -> Observation:
-    from rosbeat.ros.scenario import Publish
-
-    steps = [
-        Publish(at, topic=_ORDER.topic, type_name=_INT, values=(number,)) for at, number in ORDERS
-    ]
-    return observe(answer, _ORDERS_END, steps=steps)
+    return observe(answer, _ORDERS_END, steps=publishing(_ORDER, ORDERS))
 
 
 def _judge_work(observation: Observation) -> Verdict:
-    thread = " A thread of its own counts real time, which does not pass here."
-    wrong = (
-        _unheard(observation, _ORDER)
-        or _silent(observation, _BEAT, [_DONE.topic])
-        or _wrong_beats([beat.time for beat in samples_on(observation, _BEAT)])
-        or _silent(observation, _DONE, [_BEAT.topic], thread)
+    both = (_BEAT.topic, _DONE.topic)
+    beats = [beat.time for beat in samples_on(observation, _BEAT)]
+    thread = f"{_CALLED} A thread of its own counts real time, which does not pass here."
+    return (
+        diagnose_unheard(observation, _ORDER)
+        or diagnose_unpublished(observation, _BEAT, both, _CALLED)
+        or _wrong_beats(beats)
+        or diagnose_unpublished(observation, _DONE, both, thread)
         or _wrong_reports(observation)
-    )
-    return wrong or passed(
-        f"{len(ORDERS)} orders, each done after {WORK:g} s, one after the other; meanwhile "
-        f"{len(samples_on(observation, _BEAT))} beats, none of them late."
+        or passed(
+            f"{len(ORDERS)} orders, each done after {WORK:g} s, one after the other; meanwhile "
+            f"{len(beats)} beats, none of them late."
+        )
     )
 
 
@@ -266,7 +245,7 @@ def _worker(
     put: Callable[[list[int], int], Any] = list.append,
     take: Callable[[list[int]], list[int]] = lambda waiting: [waiting.pop(0)],
     restart: bool = False,
-) -> Callable[[float], Track]:
+) -> Model:
     """Return the model of a worker, from the seconds that it works to its reports.
 
     Args:
@@ -318,27 +297,27 @@ def _take_and_empty(waiting: list[int]) -> list[int]:
 _WAITS = "An order that comes while another one is worked on has to wait somewhere."
 _ONE_AT_A_TIME = f"Orders are done one after the other: the next {WORK:g} s begin when one is done."
 _FIRST_COME = "The order that came first is done first."
-WORK_SUSPECTS = (
-    Suspect("work-too-short", "The timer runs on by itself: begin its period anew when the work on "
-            "an order begins.", _free_running),
-    Suspect("work-too-long", "Each order that comes begins the time anew. It has to go on for the "
-            "order that is being worked on.", _worker(restart=True)),
-    Suspect("work-at-once", _ONE_AT_A_TIME, _independent),
-    Suspect("work-at-once", _ONE_AT_A_TIME,
-            _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
-    Suspect("order-lost", f"Only the newest order is kept. {_WAITS}",
-            _worker(put=lambda waiting, order: waiting.__setitem__(slice(None), [order]))),
-    *(Suspect("order-lost", f"{could} could wait. {_WAITS}", _worker(_keep(most)))
-      for most, could in ((1, "No order"), (2, "Only one order"), (3, "Only two orders"))),
-    Suspect("order-lost", f"When one order was done, all others were gone. {_WAITS}",
-            _worker(take=_take_and_empty)),
-    Suspect("order-swapped", f"The newest came first. {_FIRST_COME}",
-            _worker(take=lambda waiting: [waiting.pop()])),
-    Suspect("order-swapped", f"The smallest number came first. {_FIRST_COME}", _worker(put=insort)),
+WORK_SUSPECTS = suspects(
+    ("work-too-short", "The timer runs on by itself: begin its period anew when the work on an "
+     "order begins.", _free_running),
+    ("work-too-long", "Each order that comes begins the time anew. It has to go on for the order "
+     "that is being worked on.", _worker(restart=True)),
+    ("work-at-once", _ONE_AT_A_TIME, _independent,
+     _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
+    ("order-lost", f"Only the newest order is kept. {_WAITS}",
+     _worker(put=lambda waiting, order: waiting.__setitem__(slice(None), [order]))),
+    ("order-lost", f"No order could wait. {_WAITS}", _worker(_keep(1))),
+    ("order-lost", f"Only one order could wait. {_WAITS}", _worker(_keep(2))),
+    ("order-lost", f"Only two orders could wait. {_WAITS}", _worker(_keep(3))),
+    ("order-lost", f"When one order was done, all others were gone. {_WAITS}",
+     _worker(take=_take_and_empty)),
+    ("order-swapped", f"The newest came first. {_FIRST_COME}",
+     _worker(take=lambda waiting: [waiting.pop()])),
+    ("order-swapped", f"The smallest number came first. {_FIRST_COME}", _worker(put=insort)),
 )  # fmt: skip
-TOO_SHORT = Suspect("work-too-short", f"The work itself takes {WORK:g} s.", _worker())
-TOO_LONG = Suspect(
-    "work-too-long", f"It takes {WORK:g} s. What does it wait for besides?", _worker()
+TOO_SHORT, TOO_LONG = suspects(
+    ("work-too-short", f"The work itself takes {WORK:g} s.", _worker()),
+    ("work-too-long", f"It takes {WORK:g} s. What does it wait for besides?", _worker()),
 )
 
 
@@ -364,32 +343,32 @@ def _wrong_reports(observation: Observation) -> Diagnosis | None:
             isinstance(found, float) and -room <= found - wanted <= late + room
         )
 
-    part = first_mismatch(done, _worker()(WORK), in_time)
-    if part is None:
+    mismatch = first_mismatch(done, _worker()(WORK), in_time)
+    if mismatch is None:
         return None
-    place = part.at
+    place = mismatch.at
     evidence = f"No order was due after {len(ORDERS)} reports"
-    if part.right:
-        at = next(at for at, number in ORDERS if number == part.right[0])
+    if mismatch.right:
+        order = mismatch.right[0]
+        at = next(at for at, number in ORDERS if number == order)
         begin = max(at, reports[place - 1][0]) if 0 < place <= len(reports) else at
-        evidence = f"Order {part.right[0]} could begin at {begin:g} s and was due {WORK:g} s later"
-    said = f"order {reports[place][1]} was done at {reports[place][0]:g} s" if part.done else (
-        f"it was not done by {observation.time:g} s")  # fmt: skip
-    evidence = f"{evidence}; {said}."
+        evidence = f"Order {order} could begin at {begin:g} s and was due {WORK:g} s later"
+    said = f"it was not done by {observation.time:g} s"
+    if mismatch.done:
+        said = f"order {reports[place][1]} was done at {reports[place][0]:g} s"
     work = done[0][1]
-    suspects = (TOO_SHORT if work < WORK else TOO_LONG, *WORK_SUSPECTS)
-    fit = matching(
-        work, done, suspects, lambda one, other: in_time(other, one) or in_time(one, other)
+    other_length = TOO_SHORT if work < WORK else TOO_LONG
+    # That one fits for every length of the work; others only for some lengths.
+    matches = matching(work, done, [other_length], in_time)
+    return name_mistake(
+        matches or matching(work, done, WORK_SUSPECTS, in_time),
+        _first_report(mismatch, done, f"{evidence}; {said}."),
     )
-    if fit and fit[0] in (TOO_SHORT, TOO_LONG):
-        fit = fit[:1]  # which fits for every length of the work; others only for some lengths
-    return name_mistake(fit, _first_report(part.done, part.right, done, evidence))
 
 
-def _first_report(
-    done: Sequence[Any], right: Sequence[Any], reports: Track, evidence: str
-) -> Diagnosis:
+def _first_report(mismatch: Mismatch, reports: Track, evidence: str) -> Diagnosis:
     """Name a mistake by its first report alone: several at once have too many models."""
+    done, right = mismatch.done, mismatch.right
     numbers = [number for number, _ in reports.values()]
     if done and done[0] not in [number for _, number in ORDERS]:
         return Diagnosis("wrong-values", evidence, "What was ordered is what gets done.")
@@ -400,8 +379,7 @@ def _first_report(
         return Diagnosis("order-lost", evidence, _WAITS)
     if done[0] != right[0]:
         return Diagnosis("order-swapped", evidence, _FIRST_COME)
-    short = done[1] < WORK
-    suspect = TOO_SHORT if short else TOO_LONG
+    suspect = TOO_SHORT if done[1] < WORK else TOO_LONG
     return Diagnosis(suspect.mistake, evidence, suspect.hint)
 
 
@@ -412,7 +390,7 @@ LOW, HIGH, UNIT = 20.0, 26.0, "C"
 
 @dataclass(frozen=True)
 class Place:
-    """A place in which the monitor is started.
+    """Hold a place in which the monitor is started.
 
     Attributes:
         node: Full name of the node; empty for the one that is started without arguments.
@@ -482,18 +460,31 @@ def _run_everywhere(answer: Answer) -> Observation:
 
 
 def _judge_places(observation: Observation) -> Verdict:
-    wrong = _unheard(observation, Wire(HOME.listens, _FLOAT)) or _silent(observation, _STATUS)
-    for place in PLACES[1:]:
-        wrong = wrong or _wrong_names(observation, place)
-    for place in PLACES:
-        wrong = wrong or _wrong_count(observation, place)
-    for place in PLACES:
-        wrong = wrong or _unfilled(observation, place)
-        wrong = wrong or _wrong_states(observation, place) or _wrong_form(observation, place)
-    return wrong or passed(
-        f"One class in {len(PLACES)} places at once, with other topics, limits and units "
-        f"({', '.join(place.unit for place in PLACES)}): "
-        f"{sum(len(place.readings) for place in PLACES)} readings, no wrong word."
+    each = (
+        *(_wrong_names(observation, place) for place in PLACES[1:]),
+        *(_wrong_count(observation, place) for place in PLACES),
+    )
+    return (
+        diagnose_unheard(observation, Wire(HOME.listens, _FLOAT))
+        or diagnose_unpublished(observation, _STATUS, hint=_CALLED)
+        or next(filter(None, each), None)
+        or next(filter(None, (_wrong_texts(observation, place) for place in PLACES)), None)
+        or passed(
+            f"One class in {len(PLACES)} places at once, with other topics, limits and units "
+            f"({', '.join(place.unit for place in PLACES)}): "
+            f"{sum(len(place.readings) for place in PLACES)} readings, no wrong word."
+        )
+    )
+
+
+def _wrong_texts(observation: Observation, place: Place) -> Diagnosis | None:
+    """Say what is wrong with the texts in a place, which has one text for each reading."""
+    texts = [str(one.value) for one in _published(observation, place)]
+    said = list(zip(place.readings, texts, strict=True))
+    return (
+        _unfilled(said, place)
+        or _wrong_states(observation, place, texts)
+        or _wrong_form(observation, place, said)
     )
 
 
@@ -538,17 +529,13 @@ def _wrong_count(observation: Observation, place: Place) -> Diagnosis | None:
     )
 
 
-def _word(value: float, low: float, high: float) -> str:
-    return "High" if value > high else "Low" if value < low else "Normal"
-
-
 def _words(
     low: float | None = None,
     high: float | None = None,
     above: float = 0.0,
     below: float = 0.0,
     **other: str,
-) -> Callable[[Place], Track]:
+) -> Model:
     """Return the model of a monitor, from a place to the word for each reading.
 
     Args:
@@ -561,8 +548,8 @@ def _words(
 
     def model(place: Place) -> Track:
         limits = (place.low if low is None else low, place.high if high is None else high)
-        said = [_word(one, limits[0] + above, limits[1] - below) for one in place.readings]
-        return {second: (other.get(one, one),) for second, one in enumerate(said, 1)}
+        said = (status_of(one, limits[0] + above, limits[1] - below) for one in place.readings)
+        return numbered(other.get(one, one) for one in said)
 
     return model
 
@@ -572,45 +559,43 @@ _FROM_OUTSIDE = (
     "that name, and reads."
 )
 _AT_THE_LIMIT = "Above and below leave the limit itself out: exactly there all is Normal."
-PLACE_SUSPECTS = (
-    Suspect("limits-fixed", f"The parameters low and high changed nothing. {_FROM_OUTSIDE}",
-            _words(LOW, HIGH)),
-    Suspect("limits-fixed", f"The parameter low changed nothing. {_FROM_OUTSIDE}", _words(low=LOW)),
-    Suspect("limits-fixed", f"The parameter high changed nothing. {_FROM_OUTSIDE}",
-            _words(high=HIGH)),
-    *(Suspect("boundary", _AT_THE_LIMIT, _words(above=above, below=below))
-      for above, below in ((1e-3, 0.0), (0.0, 1e-3), (1e-3, 1e-3))),
-    Suspect("wrong-state", "High and Low have changed places.", _words(High="Low", Low="High")),
-    Suspect("wrong-state", "The parameters low and high have changed places.",
-            lambda place: _words(place.high, place.low)(place)),
+PLACE_SUSPECTS = suspects(
+    ("limits-fixed", f"The parameters low and high changed nothing. {_FROM_OUTSIDE}",
+     _words(LOW, HIGH)),
+    ("limits-fixed", f"The parameter low changed nothing. {_FROM_OUTSIDE}", _words(low=LOW)),
+    ("limits-fixed", f"The parameter high changed nothing. {_FROM_OUTSIDE}", _words(high=HIGH)),
+    ("boundary", _AT_THE_LIMIT,
+     _words(above=1e-3), _words(below=1e-3), _words(above=1e-3, below=1e-3)),
+    ("wrong-state", "High and Low have changed places.", _words(High="Low", Low="High")),
+    ("wrong-state", "The parameters low and high have changed places.",
+     lambda place: _words(place.high, place.low)(place)),
 )  # fmt: skip
 _ANY_WORD = re.compile(r"(?i)(?<![a-z])(?:high|low|normal)(?![a-z])")
 
 
-def _said(observation: Observation, place: Place) -> Track:
-    texts = [str(one.value) for one in _published(observation, place)]
+def _states(texts: Iterable[str]) -> Track:
+    """Return the words of a status that each text holds; an empty one if it holds none."""
     found = [tuple(dict.fromkeys(_ANY_WORD.findall(text))) for text in texts]
     return {second: words or ("",) for second, words in enumerate(found, 1)}
 
 
-def _wrong_states(observation: Observation, place: Place) -> Diagnosis | None:
-    done = _said(observation, place)
-    part = first_mismatch(done, _words()(place))
-    if part is None:
-        return None
-    text = _published(observation, place)[part.at - 1].value
-    evidence = (
-        f"With the limits {place.low:g} and {place.high:g}, it said {text!r} of a reading of "
-        f"{place.readings[part.at - 1]:g}.{_undeclared(observation)}"
-    )
-    if part.done[0] not in ("High", "Low", "Normal") or len(part.done) > 1:
-        hint = "One of three words stands in each text: High, Low or Normal, letter by letter."
-        return Diagnosis("wrong-word", evidence, f"{hint} Capitals count.")
-    if place == HOME and _said(observation, GREENHOUSE) == _words()(GREENHOUSE):
-        hint = f"Where it is told no limits, they are {LOW:g} and {HIGH:g}: the default values."
-        return Diagnosis("other-default", f"{evidence} Where it was told, it kept them.", hint)
-    other = Diagnosis("wrong-state", evidence, "Which of your conditions is true for it?")
-    return name_mistake(matching(place, done, PLACE_SUSPECTS), other)
+def _wrong_states(observation: Observation, place: Place, texts: Sequence[str]) -> Diagnosis | None:
+    def describe(mismatch: Mismatch) -> Diagnosis:
+        number = mismatch.at - 1
+        evidence = (
+            f"With the limits {place.low:g} and {place.high:g}, it said {texts[number]!r} of a "
+            f"reading of {place.readings[number]:g}.{_undeclared(observation)}"
+        )
+        if mismatch.done[0] not in STATUSES or len(mismatch.done) > 1:
+            hint = "One of three words stands in each text: High, Low or Normal, letter by letter."
+            return Diagnosis("wrong-word", evidence, f"{hint} Capitals count.")
+        elsewhere = _states(str(one.value) for one in _published(observation, GREENHOUSE))
+        if place == HOME and elsewhere == _words()(GREENHOUSE):
+            hint = f"Where it is told no limits, they are {LOW:g} and {HIGH:g}: the default values."
+            return Diagnosis("other-default", f"{evidence} Where it was told, it kept them.", hint)
+        return Diagnosis("wrong-state", evidence, "Which of your conditions is true for it?")
+
+    return diagnose(place, _states(texts), _words()(place), PLACE_SUSPECTS, describe)
 
 
 #: What an f-string or `format` fills in; the text of a set or a dict looks otherwise.
@@ -620,13 +605,17 @@ _UNFILLED = re.compile(
 )
 
 
-def _unfilled(observation: Observation, place: Place) -> Diagnosis | None:
+#: A reading, and the text that was published for it.
+_Said = Sequence[tuple[float, str]]
+
+
+def _unfilled(said: _Said, place: Place) -> Diagnosis | None:
     """Say which text still has the braces of an f-string that is none."""
-    for reading, sample in zip(place.readings, _published(observation, place), strict=True):
-        if {*_UNFILLED.findall(str(sample.value))} - {f"{{{place.unit}}}"}:
+    for reading, text in said:
+        if {*_UNFILLED.findall(text)} - {f"{{{place.unit}}}"}:
             return Diagnosis(
                 "f-missing",
-                f"Of {reading:g} it said {str(sample.value)!r}.",
+                f"Of {reading:g} it said {text!r}.",
                 "The braces are still there: an f before the first quote fills in those with a "
                 "name inside, and format() the empty ones. Each piece of a text needs its own.",
             )
@@ -654,23 +643,20 @@ def _form(text: str, reading: float, unit: str) -> str:
     return _ANY_WORD.sub("<word>", text)
 
 
-def _whole_numbers(observation: Observation, place: Place) -> Diagnosis | None:
+def _whole_numbers(said: _Said) -> Diagnosis | None:
     """Say that each number shown is the whole one below or above its reading, if it is so."""
-    shown = []
-    for reading, sample in zip(place.readings, _published(observation, place), strict=True):
-        numbers = map(float, re.findall(r"[-+]?\d+(?:\.\d+)?", str(sample.value)))
+    for reading, text in said:
+        numbers = map(float, re.findall(r"[-+]?\d+(?:\.\d+)?", text))
         if not any(one.is_integer() and abs(one - reading) < 1.0 for one in numbers):
             return None
-        shown += [(reading, str(sample.value))] if round(reading, 1) % 1 else []
-    reading, text = shown[0]
+    reading, text = next(one for one in said if round(one[0], 1) % 1)
     evidence = f"Of {reading:g} it said {text!r}."
     hint = "The reading is a decimal number: where does it lose its decimals?"
     return Diagnosis("decimals-lost", evidence, hint)
 
 
-def _wrong_form(observation: Observation, place: Place) -> Diagnosis | None:
-    for reading, sample in zip(place.readings, _published(observation, place), strict=True):
-        text = str(sample.value)
+def _wrong_form(observation: Observation, place: Place, said: _Said) -> Diagnosis | None:
+    for reading, text in said:
         form = _form(text, reading, place.unit)
         if form == "<word> <reading> <unit>":
             continue
@@ -682,11 +668,8 @@ def _wrong_form(observation: Observation, place: Place) -> Diagnosis | None:
             hint = f"Each text ends with the unit, here {place.unit}."
             return Diagnosis("wrong-unit", evidence, hint)
         if "<reading>" not in form:
-            lost = _whole_numbers(observation, place)
-            if lost:
-                return lost
             hint = "The reading itself belongs in the text, with a decimal or more."
-            return Diagnosis("wrong-values", evidence, hint)
+            return _whole_numbers(said) or Diagnosis("wrong-values", evidence, hint)
         hint = "Three parts, each once, with a space between them: word, reading, unit."
         return Diagnosis("wrong-form", evidence, hint)
     return None
