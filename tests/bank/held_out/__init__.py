@@ -1,7 +1,8 @@
 """Answers by somebody who had the pages only, and neither a judge nor this bank.
 
 They were written before any of them was run, so they measure the judges as a held-out set measures
-a model. Each exercise has a text file::
+a model. Where the page leaves open what is right, an answer was set aside (the same order number
+twice in 09b, for one). Each exercise has a text file::
 
     === right | what is unusual about it | what is handed to check, if not what the page hands over
     === wrong mistake-id | what is wrong
