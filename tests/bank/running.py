@@ -6,6 +6,8 @@ from typing import Any
 
 from bank.pages import imports
 from rosbeat.exercises.check import check
+from rosbeat.exercises.draw import PAGE
+from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import Outcome
 
 
@@ -24,9 +26,20 @@ def namespace_of(exercise: str, text: str, name: str) -> dict[str, Any]:
     return space
 
 
-def outcome_of(exercise: str, text: str, subject: str) -> Outcome:
-    """What `check` says of a cell; `subject` is the expression that the check cell hands over."""
+def outcome_of(exercise: str, text: str, subject: str, seed: int = PAGE) -> Outcome:
+    """Return what `check` says of a cell.
+
+    Args:
+        exercise: The exercise's id.
+        text: The cell.
+        subject: The expression that the check cell hands over.
+        seed: Of the inputs; the page's by default, and else those with which a class is graded.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a warning ends no cell; in a test it would be an error
         space = namespace_of(exercise, text, f"<cell of {exercise}>")
-        return check(exercise, eval(subject, space)).outcome
+        answer = eval(subject, space)
+        if seed == PAGE:
+            return check(exercise, answer).outcome
+        found = EXERCISES[exercise]
+        return found.judged(found.observed(answer, seed), seed)

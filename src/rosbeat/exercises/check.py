@@ -50,7 +50,7 @@ def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
             "It looks at what the cell above has made, such as a class.",
             f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
         )
-    outcome = found.judged(found.scenario(answer, **found.given()))
+    outcome = found.judged(found.observed(answer))
     standing = progress_file().change(found.id, lambda before: before.after(outcome))
     told = _with_hints(outcome, standing.hints) if found.tells_hints else outcome
     execution = graded_runs.execution()

@@ -9,6 +9,7 @@ from typing import Any, Generic, TypeAlias, TypeVar
 from rosbeat.diagnosis.exceptions import first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import why_raised
+from rosbeat.exercises.draw import PAGE, Draw
 from rosbeat.records import Fault, Observation, Outcome
 
 # What an exercise is.
@@ -26,13 +27,15 @@ class Exercise(Generic[Seen]):
     Attributes:
         id: Page number and a letter, such as `03a`.
         scenario: Runs an answer, or looks at what it left, and writes down what is there as plain
-            data. The only part that runs foreign code.
-        judge: A pure function from that to a verdict. Of a node it is asked only if the answer has
-            no blank left and raised nothing.
+            data. The only part that runs foreign code. It gets the answer, and the inputs if there
+            are any to draw.
+        judge: A pure function from that, and the inputs, to a verdict. Of a node it is asked only
+            if the answer has no blank left and raised nothing.
         title: What it is about, a few words, such as `another sensor`.
         points: What a right answer is worth.
         hints: What `hint` gives, one more each time, from general to exact. The answer itself is
             not among them; `hint` gives it last.
+        draw: Draws the inputs of a run, such as readings; None if nothing is fed to an answer.
         given: Makes what the scenario is handed besides an answer, by name, as plain data: what it
             needs where neither this room nor any file of an instructor's can be read.
         tells_hints: Whether a check says how many hints were used. They cost nothing.
@@ -42,18 +45,38 @@ class Exercise(Generic[Seen]):
 
     id: str
     scenario: Callable[..., Seen]
-    judge: Callable[[Seen], Verdict]
+    judge: Callable[..., Verdict]
     title: str = ""
     points: int = 1
     hints: tuple[str, ...] = ()
+    draw: Callable[[Draw], Any] | None = None
     given: Callable[[], dict[str, Any]] = dict
     tells_hints: bool = False
     explains: Callable[[Fault], Diagnosis | None] = lambda _: None
 
-    def judged(self, seen: Seen) -> Outcome:
-        """Return the outcome of what was seen, blanks and exceptions included."""
+    def inputs(self, seed: int = PAGE) -> tuple[Any, ...]:
+        """Return what scenario and judge get for a seed, beside answer and evidence."""
+        return () if self.draw is None else (self.draw(Draw(seed)),)
+
+    def observed(self, answer: Any, seed: int = PAGE, **given: Any) -> Seen:  # noqa: ANN401 - any
+        """Run the scenario with an answer, whatever that is, and return what was seen.
+
+        Args:
+            answer: What a learner handed over.
+            seed: Of the inputs.
+            given: What `given` makes; made here by default.
+        """
+        return self.scenario(answer, *self.inputs(seed), **(given or self.given()))
+
+    def judged(self, seen: Seen, seed: int = PAGE) -> Outcome:
+        """Return the outcome of what was seen, blanks and exceptions included.
+
+        Args:
+            seen: What the scenario has written down.
+            seed: Of the inputs with which it ran.
+        """
         early = before_judging(seen, self.explains) if isinstance(seen, Observation) else None
-        return self.outcome(early or self.judge(seen))
+        return self.outcome(early or self.judge(seen, *self.inputs(seed)))
 
     def outcome(self, verdict: Verdict) -> Outcome:
         """Return a verdict as an outcome of this exercise, with its points."""

@@ -132,6 +132,26 @@ def matching(
     return list(found.values())
 
 
+def tells_apart(fed: Value, right: Model, suspects: Iterable[Suspect], same: Same = equal) -> bool:
+    """Return whether what is fed tells suspects from the right model and from each other.
+
+    Suspects of one mistake need not be told apart: the learner gets both hints.
+
+    Args:
+        fed: What an answer is fed.
+        right: What is right.
+        suspects: The misunderstandings.
+        same: Tells whether two values are the same.
+    """
+    apart: list[tuple[str, Track]] = [("", right(fed))]
+    for one in suspects:
+        done = one.model(fed)
+        if any(agree(done, track, same) and one.mistake != name for name, track in apart):
+            return False
+        apart.append((one.mistake, done))
+    return True
+
+
 def name_mistake(matches: Sequence[Suspect], otherwise: Diagnosis) -> Diagnosis:
     """Return the diagnosis for what was seen; of two suspects that match, both hints are given.
 

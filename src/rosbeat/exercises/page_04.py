@@ -10,6 +10,7 @@ from math import inf
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     STATUSES,
@@ -22,6 +23,7 @@ from rosbeat.exercises.model import (
     samples_on,
     status_of,
     suspects,
+    tells_apart,
     track,
 )
 from rosbeat.exercises.scenarios import Answer, feeder, observe
@@ -32,7 +34,7 @@ _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 Readings = Sequence[float]
 
 
-def _feed(readings: Readings, answer: Answer) -> Observation:
+def _feed(answer: Answer, readings: Readings) -> Observation:
     sensor = feeder("sensor", _TEMPERATURE, readings)
     return observe(answer, len(readings) + 1, others=[sensor])
 
@@ -44,11 +46,6 @@ def _each(rule: Callable[[float], str]) -> Model:
 
 # 04a: watch a fridge. A float32 holds each of the numbers below exactly.
 
-#: Readings beyond each limit, at it, and as near to it as is told apart.
-FRIDGE = (
-    *(5.0, 9.5, 12.5, 100.0, 7.75, 8.0, 8.015625, 7.984375, 2.25, 2.0, 1.984375, 2.015625),
-    -18.0,
-)
 #: A state in a log line, of whatever capitals; with its brackets if it is an item of a list.
 _STATE = re.compile(r"(?i)[\[({]['\"](?:warm|frost|fine)['\"],?[\])}]|\b(?:warm|frost|fine)\b")
 _STATE_OF = {"High": "Warm", "Low": "Frost", "Normal": "Fine"}
@@ -72,6 +69,21 @@ FRIDGE_SUSPECTS = suspects(
      "or to judge it?", lambda fed: _each(_state)([fed[0], *fed[:-1]])),
 )  # fmt: skip
 
+
+def draw_fridge(draw: Draw) -> Readings:
+    """Draw readings beyond each limit, at it, and as near to it as is told apart."""
+    borders = (7.75, 8.0, 8.015625, 7.984375, 2.25, 2.0, 1.984375, 2.015625)
+    return draw.until(
+        lambda: draw.shuffled(
+            (
+                *(draw.number(5.0, 2.5, 7.5), draw.number(9.5, 8.5, 11.0), 12.5),
+                *(draw.number(100.0, 27.0, 120.0), *borders, draw.number(-18.0, -25.0, -1.0)),
+            )
+        ),
+        lambda fed: tells_apart(fed, _each(_state), FRIDGE_SUSPECTS),
+    )
+
+
 #: The state in the form that the page asks for, and a remark behind it.
 _FORM = re.compile(rf"(?i)\bstatus\s*:\s*({_STATE.pattern.removeprefix('(?i)')})")
 _REMARK = re.compile(r"\([^()]*\)")
@@ -94,10 +106,10 @@ def _bare(line: str) -> str:
     return line[: remark.start()] + line[remark.end() :]
 
 
-def _logged(observation: Observation) -> Track:
+def _logged(observation: Observation, readings: Readings) -> Track:
     """Return the states in the log lines of each second, or the whole text if it has none."""
     found = {}
-    for second in range(1, len(FRIDGE) + 1):
+    for second in range(1, len(readings) + 1):
         lines = [log.text for log in observation.logs if log.time == second]
         text = "\n".join(lines)
         if text:
@@ -105,17 +117,18 @@ def _logged(observation: Observation) -> Track:
     return found
 
 
-def _judge_states(observation: Observation) -> Verdict:
-    done, right = _logged(observation), _each(_state)(FRIDGE)
+def _judge_states(observation: Observation, readings: Readings) -> Verdict:
+    done, right = _logged(observation, readings), _each(_state)(readings)
+    describe = partial(_describe_state, readings)
     return (
         diagnose_unheard(observation, _TEMPERATURE)
-        or diagnose(FRIDGE, done, right, FRIDGE_SUSPECTS, _describe_state)
-        or passed(f"All {len(FRIDGE)} readings got the right state, 8.0 and 2.0 too.")
+        or diagnose(readings, done, right, FRIDGE_SUSPECTS, describe)
+        or passed(f"All {len(readings)} readings got the right state, 8.0 and 2.0 too.")
     )
 
 
-def _describe_state(mismatch: Mismatch) -> Diagnosis:
-    value, (wanted,) = FRIDGE[mismatch.at - 1], mismatch.right
+def _describe_state(readings: Readings, mismatch: Mismatch) -> Diagnosis:
+    value, (wanted,) = readings[mismatch.at - 1], mismatch.right
     if not mismatch.done:
         evidence = f"A reading of {value:g} arrived and nothing was logged."
         hint = "End the callback with self.get_logger().info(...)."
@@ -138,8 +151,6 @@ def _about_word(strange: str) -> str:
 
 # 04b: raise the alarm.
 
-#: Readings just inside of a limit, at it, and just outside.
-ROOM = (22.0, 27.5, 25.5, 26.0, 26.015625, 100.0, 28.25, 20.5, 20.0, 19.984375, 19.75, -5.0)
 _ALERT = Wire("/alert", "std_msgs/msg/String")
 
 
@@ -177,38 +188,55 @@ ROOM_SUSPECTS = suspects(
      "its limits; and each side of `or` needs a comparison of its own.", _alerts(-inf)),
     ("alert-too-many", "One alert for each reading is enough.", _alerts(times=2)),
 )  # fmt: skip
+
+
+def draw_room(draw: Draw) -> Readings:
+    """Draw readings just inside of a limit, at it, and just outside."""
+    return draw.until(
+        lambda: draw.shuffled(
+            (
+                *(draw.number(22.0, 21.0, 25.0), draw.number(27.5, 26.5, 29.0), 25.5, 26.0),
+                *(26.015625, draw.number(100.0, 40.0, 120.0), 28.25, 20.5, 20.0, 19.984375),
+                *(draw.number(19.75, 15.0, 19.75), draw.number(-5.0, -20.0, 10.0)),
+            )
+        ),
+        lambda fed: tells_apart(fed, _alerts(), ROOM_SUSPECTS),
+    )
+
+
 _NEVER_TRUE = (
     "Is your condition ever true? No reading is above 26 and below 20 at once. And is there a "
     "publish behind it?"
 )
 
 
-def _judge_alarm(observation: Observation) -> Verdict:
+def _judge_alarm(observation: Observation, readings: Readings) -> Verdict:
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or diagnose_unpublished(observation, _ALERT, hint=_NEVER_TRUE)
-        or _wrong_alerts(track(observation, _ALERT))
+        or _wrong_alerts(track(observation, _ALERT), readings)
         or passed(
-            f"{len(ROOM)} readings, {len(samples_on(observation, _ALERT))} alerts: none too many."
+            f"{len(readings)} readings, {len(samples_on(observation, _ALERT))} alerts: none too "
+            "many."
         )
     )
 
 
-def _wrong_alerts(texts: Track) -> Diagnosis | None:
+def _wrong_alerts(texts: Track, readings: Readings) -> Diagnosis | None:
     """Say what is wrong with the alerts; what they say is free."""
-    due = _alerts()(ROOM)
+    due = _alerts()(readings)
     # A text of its own for readings that are fine is another mistake than an alert for each.
-    other = "fine" if _says_fine(texts) else "alert"
+    other = "fine" if _says_fine(texts, due) else "alert"
     done = {at: ("alert" if at in due else other,) * len(found) for at, found in texts.items()}
 
     def describe(mismatch: Mismatch) -> Diagnosis:
-        if mismatch.at not in range(1, len(ROOM) + 1):
+        if mismatch.at not in range(1, len(readings) + 1):
             return Diagnosis(
                 "alert-too-many",
                 f"An alert was published at {mismatch.at:g} s, and no reading came then.",
                 "Publish in the callback of the subscription: it runs when a reading comes.",
             )
-        value = ROOM[round(mismatch.at) - 1]
+        value = readings[round(mismatch.at) - 1]
         if not mismatch.done:
             return Diagnosis("alert-missing", f"No alert for a reading of {value:g}.", _BOTH_COUNT)
         if mismatch.right and len(mismatch.done) > 1:
@@ -221,12 +249,11 @@ def _wrong_alerts(texts: Track) -> Diagnosis | None:
             hint += "nothing."
         return Diagnosis("alert-too-many", f"{said} for a reading of {value:g}.", hint)
 
-    return diagnose(ROOM, done, due, ROOM_SUSPECTS, describe)
+    return diagnose(readings, done, due, ROOM_SUSPECTS, describe)
 
 
-def _says_fine(texts: Track) -> bool:
+def _says_fine(texts: Track, due: Track) -> bool:
     """Return whether readings that are fine got a text of their own, whatever numbers are in it."""
-    due = _alerts()(ROOM)
     good, bad = (
         {
             re.sub(r"[-\d.]+", "", one)
@@ -241,27 +268,22 @@ def _says_fine(texts: Track) -> bool:
 
 # 04c: the mean of the last five readings, and a status with hysteresis.
 
-#: Every border of a status with hysteresis, from both sides, and jumps across.
-HYSTERESIS = (
-    *(22.0, 25.5, 20.5, 26.0, 26.015625, 25.5, 26.25, 25.0, 24.984375, 25.5, 20.0, 19.984375),
-    *(20.5, 21.0, 21.015625, 20.5, 41.0, -3.5, 30.0, 23.0, 19.0, 25.5, 27.0, 20.5),
-)
 _MEAN, _STATUS = Wire("/mean", "std_msgs/msg/Float32"), Wire("/status", "std_msgs/msg/String")
 _BOTH = (_MEAN.topic, _STATUS.topic)
 _OF_THE_MEAN = "Find the status from the reading itself, and not from the mean."
 _NO_STATUS = f"Does the callback come to the line that publishes? {_OF_THE_MEAN}"
 
 
-def _judge_hysteresis(observation: Observation) -> Verdict:
+def _judge_hysteresis(observation: Observation, readings: Readings) -> Verdict:
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or diagnose_unpublished(observation, _MEAN, _BOTH)
-        or _wrong_means(track(observation, _MEAN))
+        or _wrong_means(track(observation, _MEAN), readings)
         or diagnose_unpublished(observation, _STATUS, _BOTH, _NO_STATUS)
         or diagnose_words(observation, _STATUS, STATUSES)
-        or _wrong_statuses(track(observation, _STATUS))
+        or _wrong_statuses(track(observation, _STATUS), readings)
         or passed(
-            f"{len(HYSTERESIS)} readings, as many means, "
+            f"{len(readings)} readings, as many means, "
             f"{len(samples_on(observation, _STATUS))} changes."
         )
     )
@@ -293,7 +315,7 @@ def _means(width: int = _WIDTH, begin: Readings = (), divisor: int = 0, late: in
 MEAN_SUSPECTS = suspects(
     ("wrong-window", "It is the last reading alone. The last five count.", _means(1)),
     ("wrong-window", "It is the mean of all readings so far. The last five count.",
-     _means(len(HYSTERESIS))),
+     _means(10_000)),
     ("wrong-window", "While there are fewer than five, divide by how many there are.",
      _means(divisor=5)),
     ("wrong-window", "While there are fewer than five readings, it is the mean of those that are "
@@ -308,17 +330,17 @@ MEAN_SUSPECTS = suspects(
 )  # fmt: skip
 
 
-def _wrong_means(done: Track) -> Diagnosis | None:
+def _wrong_means(done: Track, readings: Readings) -> Diagnosis | None:
     def describe(mismatch: Mismatch) -> Diagnosis:
         if len(mismatch.done) != len(mismatch.right):
             return Diagnosis(
                 "wrong-rate",
-                f"{len(HYSTERESIS)} readings arrived, and {sum(map(len, done.values()))} means "
+                f"{len(readings)} readings arrived, and {sum(map(len, done.values()))} means "
                 f"were published: at {mismatch.at:g} s there were {len(mismatch.done)}, and "
                 f"{len(mismatch.right)} was due.",
                 "Publish one mean for each reading, also while there are fewer than five.",
             )
-        last = [f"{value:g}" for value in HYSTERESIS[: round(mismatch.at)][-6:]]
+        last = [f"{value:g}" for value in readings[: round(mismatch.at)][-6:]]
         return Diagnosis(
             "wrong-window",
             f"After reading {mismatch.at:g} the mean was {mismatch.done[0]:.3f}; of the last five "
@@ -326,7 +348,7 @@ def _wrong_means(done: Track) -> Diagnosis | None:
             "The sum of the last five, divided by how many they are. Print both to compare.",
         )
 
-    return diagnose(HYSTERESIS, done, _means()(HYSTERESIS), MEAN_SUSPECTS, describe)
+    return diagnose(readings, done, _means()(readings), MEAN_SUSPECTS, describe)
 
 
 def _next_status(
@@ -402,13 +424,39 @@ STATUS_SUSPECTS = suspects(
 )  # fmt: skip
 
 
-def _wrong_statuses(done: Track) -> Diagnosis | None:
-    right = _statuses()(HYSTERESIS)
+def draw_hysteresis(draw: Draw) -> Readings:
+    """Draw readings at every border of a status, from both sides, and jumps across."""
+    far = draw.number
+    return draw.until(
+        lambda: (
+            far(22.0, 21.5, 24.5),
+            *chain.from_iterable(
+                draw.shuffled(
+                    (
+                        (25.5, 20.5, 26.0, 26.015625, 25.5, 26.25, 25.0, 24.984375, 25.5),
+                        (20.0, 19.984375, 20.5, 21.0, 21.015625, 20.5),
+                        (far(41.0, 27.0, 50.0), far(-3.5, -9.0, 19.0)),
+                        (far(30.0, 27.0, 50.0), far(23.0, 22.0, 24.5)),
+                        (far(19.0, -9.0, 19.5), far(25.5, 22.0, 25.5)),
+                        (far(27.0, 26.5, 50.0), far(20.5, 20.5, 24.5)),
+                    )
+                )
+            ),
+        ),
+        lambda fed: (
+            tells_apart(fed, _means(), MEAN_SUSPECTS)
+            and tells_apart(fed, _statuses(), STATUS_SUSPECTS)
+        ),
+    )
+
+
+def _wrong_statuses(done: Track, readings: Readings) -> Diagnosis | None:
+    right = _statuses()(readings)
 
     def describe(mismatch: Mismatch) -> Diagnosis:
         at = mismatch.at
         before = [("Normal",), *(right[second] for second in sorted(right) if second < at)][-1][0]
-        value = HYSTERESIS[max(0, min(len(HYSTERESIS), int(at)) - 1)]
+        value = readings[max(0, min(len(readings), int(at)) - 1)]
         after = f"after a reading of {value:g}" if at >= 1 else "before the first reading"
         said, due = (" and ".join(one) or "nothing" for one in (mismatch.done, mismatch.right))
         evidence = (
@@ -417,7 +465,7 @@ def _wrong_statuses(done: Track) -> Diagnosis | None:
         )
         return _unmodelled(before, mismatch.done, mismatch.right, evidence)
 
-    return diagnose(HYSTERESIS, done, right, STATUS_SUSPECTS, describe)
+    return diagnose(readings, done, right, STATUS_SUSPECTS, describe)
 
 
 def _unmodelled(before: str, done: Sequence[str], right: Sequence[str], evidence: str) -> Diagnosis:
@@ -440,7 +488,7 @@ def _unmodelled(before: str, done: Sequence[str], right: Sequence[str], evidence
 EXERCISES = (
     Exercise(
         "04a",
-        partial(_feed, FRIDGE),
+        _feed,
         _judge_states,
         "watch a fridge",
         1,
@@ -448,10 +496,11 @@ EXERCISES = (
             "The monitor of this page decides between three words, too. Compare the limits.",
             "if, elif and else are tried from top to bottom. > and < leave the limit itself out.",
         ),
+        draw=draw_fridge,
     ),
     Exercise(
         "04b",
-        partial(_feed, ROOM),
+        _feed,
         _judge_alarm,
         "raise the alarm",
         2,
@@ -462,10 +511,11 @@ EXERCISES = (
             "two conditions with `or`.",
             "A String is made like a Float32, with text in its field data.",
         ),
+        draw=draw_room,
     ),
     Exercise(
         "04c",
-        partial(_feed, HYSTERESIS),
+        _feed,
         _judge_hysteresis,
         "a calm monitor, alone",
         4,
@@ -478,5 +528,6 @@ EXERCISES = (
             "Ask for High and for Low first: they do not depend on what was before. Then ask "
             "whether a High or a Low has come back far enough.",
         ),
+        draw=draw_hysteresis,
     ),
 )

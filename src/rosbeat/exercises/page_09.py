@@ -163,8 +163,9 @@ def _first_word(mismatch: Mismatch, evidence: str) -> Diagnosis:
 # 09b: work, and go on beating.
 
 _ORDER, _DONE, _BEAT = Wire("/order", _INT), Wire("/done", _INT), Wire("/beat", _STRING)
-#: When orders come, and their numbers: one after another, and two while two others wait.
-ORDERS = ((2.5, 7), (9.5, 3), (9.5, 12), (11.75, 5), (11.75, 9))
+#: When orders come, and their numbers: one after another, and two while two others wait. A test for
+#: "no order" must not take the number 0 for none.
+ORDERS = ((2.5, 7), (9.5, 0), (9.5, 12), (11.75, 5), (11.75, 9))
 _ORDERS_END = 29.0
 #: Seconds that an order takes.
 WORK = 3.0
@@ -370,7 +371,7 @@ def _first_report(mismatch: Mismatch, reports: Track, evidence: str) -> Diagnosi
     """Name a mistake by its first report alone: several at once have too many models."""
     done, right = mismatch.done, mismatch.right
     numbers = [number for number, _ in reports.values()]
-    if done and done[0] not in [number for _, number in ORDERS]:
+    if done and (done[0] not in [number for _, number in ORDERS] or done[1] < 0):
         return Diagnosis("wrong-values", evidence, "What was ordered is what gets done.")
     if done and numbers.count(done[0]) > 1:
         hint = "A timer calls again and again until it is stopped."

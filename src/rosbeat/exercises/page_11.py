@@ -66,7 +66,7 @@ _Readings = Sequence[tuple[float, float]]
 RECORDINGS: tuple[_Readings, ...] = (
     ((3, 21.0), (7.5, 21.5), (8.5, 22.25), (10, 24.0), (11, 22.0)),
     ((1, nan), (2, 20.0), (3, 19.5), (9, nan), (10, 18.25), (12.5, 18.0), (14, 20.75)),
-    ((10, 25.5), (10.5, 26.5), (14, 30.0), (15.25, nan)),
+    ((10, 25.5), (10.5, 0.0), (14, 30.0), (15.25, nan)),
     ((2, -4.0), (2.75, 2.5)),
 )
 #: Another topic in the same bags; of these, as many as `_statuses` says.
