@@ -306,6 +306,11 @@ def _ticks(period: int, end: int) -> Track:
     return dict.fromkeys(range(period, end + 1, period), (1,)) if period > 0 else {}
 
 
+def _together(*tracks: Track) -> Track:
+    """Return how many messages come at each moment of several beats."""
+    return {at: (sum(sum(track.get(at, ())) for track in tracks),) for at in set().union(*tracks)}
+
+
 _FEW = {0: "none", 1: "one"}
 _COUNT = (
     "What does the first argument of create_timer count: calls per second, or seconds between "
@@ -331,6 +336,11 @@ _BEATS = suspects(
         "wrong-rate",
         "One for each tick is enough. Does anything publish twice, or are there two timers?",
         lambda beat: dict.fromkeys(beat.right, beat.done.get(min(beat.right), (2,))),
+    ),
+    (
+        "wrong-rate",
+        "Two timers publish, each with a period of its own. Where does the other one come from?",
+        lambda beat: _together(beat.right, _ticks(min(beat.done), beat.end)),
     ),
     ("wrong-rate", _COUNT, lambda beat: _ticks(min(beat.done), beat.end)),
 )

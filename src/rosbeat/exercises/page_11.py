@@ -699,13 +699,15 @@ def _differences(
     Args:
         heard: The readings of both sensors.
         partner: The reference of a temperature: the `newest` one; the `next` one in the order in
-            which both came; or each that comes `after` it.
+            which both came; each that comes `after` it; or the newest one that is a `number`.
         start: The reference before the first one; None if it waits for one.
     """
     references = [] if start is None else [start]
     temperatures: list[float] = []
     for one in heard:
         is_reference = one.topic == _REFERENCE.topic
+        if partner == "number" and is_reference and isnan(one.value):
+            continue
         mine = references if is_reference else temperatures
         if partner != "next":
             mine.clear()
@@ -773,6 +775,9 @@ _START = "What is in your memory of the reference before its first reading has c
 _ONCE = "Say it once, when it is found. The next time is after the mean has come back."
 _BACK = "What has to happen to your memory when the mean has come back?"
 _LIMIT = "A mean of more than 1 degree is a drift; one of 1.5 is, and one of 0.8 is none."
+_NEWEST = (
+    "While the newest reference is NaN, a reading of temperature makes no pair with an old one."
+)
 _LISTS = "If a reading is lost, the two lists are no longer in step. Which reference is the newest?"
 _WHEN = "Each reading of temperature makes a pair. Which of your two callbacks makes yours?"
 _LIMITS = (0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 5.0, 10.0)
@@ -790,6 +795,7 @@ TWO_SUSPECTS = variants(_watch_two, (
     ("status-repeated", _ONCE, {"says": "always"}),
     ("never-reset", _BACK, {"says": "never again"}),
     ("other-limits", _LIMIT, *({"limit": one} for one in _LIMITS)),
+    ("nan-left-out", _NEWEST, {"partner": "number"}),
     ("pairs-mixed-up", _LISTS, {"partner": "next"}),
     ("pairs-mixed-up", _WHEN, {"partner": "after"}),
     ("wrong-window", _WINDOW,

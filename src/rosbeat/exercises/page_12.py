@@ -551,7 +551,7 @@ class Work(IntEnum):
 def right_thermostat(goal: Goal) -> Track:
     """Return what a right thermostat does about a goal."""
     if not goal.is_good:
-        return {Work.DECISION: ("rejected",)}
+        return {Work.DECISION: ("rejected",), Work.HEATER: ("off",)}
     return {
         Work.DECISION: ("accepted",),
         Work.SWITCHED_ON: ("yes",),
@@ -646,7 +646,9 @@ THERMOSTATS = (
     _at("wrong-values", "Feedback holds all temperatures so far, as the result does in the end.",
         Work.FEEDBACK, "others", _RUNS_ON),
     _at("left-on", "Which line switches the heater off? Every way out of the work has to pass it.",
-        Work.HEATER, "on"),
+        Work.HEATER, "on", lambda goal: goal.is_good),
+    _at("left-on", "There is nothing to heat for a goal that is rejected. Where does it switch on?",
+        Work.HEATER, "on", lambda goal: not goal.is_good),
 )  # fmt: skip
 
 
@@ -690,7 +692,9 @@ class _Heating:
             f"{task} was {self.decision}; it should be {right[Work.DECISION][0]}.",
         )
         if not self._goal.is_good:
-            return {Work.DECISION: decision}
+            heats = "on" if self._is_on_at(self._goal.at + 1) else "off"
+            said = f"{task} was rejected, and a second later the heater was on."
+            return {Work.DECISION: decision, Work.HEATER: (heats, said)}
         canceled, end = self._goal.is_canceled, self._ended()
         due = f"It should end when {'it is canceled' if canceled else 'the target is reached'}"
         due += f", at {self._canceled_at:g} s" if canceled else ""
@@ -720,7 +724,7 @@ class _Heating:
             ),
             Work.FEEDBACK: (... if free or canceled else self._reported(), self._feedback_text()),
             Work.HEATER: (
-                "on" if self._is_on_after() else "off",
+                "on" if self.end is not None and self._is_on_at(self.end + 1) else "off",
                 f"{task} {ended}, and a second later the heater was still on.",
             ),
         }
@@ -767,10 +771,9 @@ class _Heating:
             f"{len(self._degrees)} seconds."
         )
 
-    def _is_on_after(self) -> bool:
-        """Return whether the heater is on a second after the end, if there is one."""
-        states = [state for at, state in self._heater if at <= (self.end or -1) + 1]
-        return self.end is not None and states[-1:] == [True]
+    def _is_on_at(self, time: float) -> bool:
+        """Return whether the last command for the heater up to a time was to switch it on."""
+        return [state for at, state in self._heater if at <= time][-1:] == [True]
 
 
 def _judge_heating(seen: Observation) -> Verdict:

@@ -30,7 +30,7 @@ NODES = (
 def looked_at(exercise, place):
     """What the scenario of each exercise sees of something."""
     if exercise.id[:2] in ("00", "03", "04"):
-        return [exercise.scenario(node) for node in NODES]
+        return [exercise.observed(node) for node in NODES]
     kind = exercise.scenario.__name__
     if kind in ("call", "_call"):
         return [exercise.scenario(one) for one in (lambda *words: "=".join(words), None)]

@@ -77,7 +77,7 @@ def test_a_node_that_does_nothing_fails(exercise):
 
 
 def test_a_suspect_leaves_open_what_follows_from_its_mistake():
-    (suspect,) = (one for one in THERMOSTATS if one.mistake == "left-on")
+    suspect = next(one for one in THERMOSTATS if one.mistake == "left-on")
     assert suspect.model(GOALS[0])[page_12.Work.HEATER] == ("on",)
     (suspect,) = (one for one in THERMOSTATS if one.mistake == "cancel-refused")
     assert suspect.model(GOALS[1])[page_12.Work.HEATER] == (...,)
