@@ -9,7 +9,7 @@ import pytest
 
 from rosbeat.authoring import pages
 from rosbeat.authoring.files import compare, stale_pages
-from rosbeat.authoring.layout import Course
+from rosbeat.authoring.source import Course
 from rosbeat.authoring.lint import check_lessons
 from rosbeat.authoring.source import read_lesson
 from rosbeat.exercises.registry import EXERCISES

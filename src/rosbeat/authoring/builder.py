@@ -10,11 +10,10 @@ from pathlib import Path
 from rosbeat.authoring import pages
 from rosbeat.authoring.files import Change, compare, stale_pages, write
 from rosbeat.authoring.keeping import keep_work
-from rosbeat.authoring.layout import Course, choose
 from rosbeat.authoring.lint import check_lessons
 from rosbeat.authoring.package import package_files, stale_files
 from rosbeat.authoring.solved import answer_files
-from rosbeat.authoring.source import Lesson
+from rosbeat.authoring.source import Course, Lesson, choose
 from rosbeat.authoring.together import solutions
 from rosbeat.errors import LessonError
 

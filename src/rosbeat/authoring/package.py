@@ -14,10 +14,8 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from rosbeat.authoring.layout import Course
-from rosbeat.authoring.markers import solution
 from rosbeat.authoring.solved import folder_of
-from rosbeat.authoring.source import Lesson
+from rosbeat.authoring.source import Course, Lesson, with_answers
 from rosbeat.errors import LessonError
 
 NAME = "sensor_simulator"
@@ -56,7 +54,7 @@ def saved_files(lessons: Iterable[Lesson]) -> dict[str, bytes]:
         lessons: The lessons, in order.
     """
     return {
-        cell.saved_as.removeprefix(_IN_WORKSPACE): (solution(cell.source) + "\n").encode()
+        cell.saved_as.removeprefix(_IN_WORKSPACE): (with_answers(cell.source) + "\n").encode()
         for lesson in lessons
         for cell in lesson.cells
         if cell.saved_as.startswith(_IN_WORKSPACE)

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from rosbeat.authoring.layout import Course
-from rosbeat.authoring.markers import solution
-from rosbeat.authoring.source import Lesson
+from rosbeat.authoring.source import Course, Lesson, with_answers
 
 
 def answer_files(course: Course, lessons: Iterable[Lesson]) -> dict[Path, bytes]:
@@ -22,7 +20,7 @@ def answer_files(course: Course, lessons: Iterable[Lesson]) -> dict[Path, bytes]
     texts: dict[str, list[str]] = {}
     for cell in (cell for lesson in lessons for cell in lesson.cells):
         if cell.exercise:
-            texts.setdefault(cell.exercise, []).append(solution(cell.page_text))
+            texts.setdefault(cell.exercise, []).append(with_answers(cell.page_text))
     # The parts of an exercise in several cells stand as far apart as classes in a file.
     files = {name: "\n\n\n".join(parts) + "\n" for name, parts in texts.items()}
     return {folder_of(course) / f"{name}.txt": text.encode() for name, text in files.items()}

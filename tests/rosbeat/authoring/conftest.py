@@ -4,9 +4,8 @@ import textwrap
 
 import pytest
 
-from rosbeat.authoring.layout import Course
 from rosbeat.authoring.lint import Desk
-from rosbeat.authoring.source import read_lesson
+from rosbeat.authoring.source import Course, read_lesson
 
 HEADER = """\
 # ---

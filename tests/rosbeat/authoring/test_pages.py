@@ -11,9 +11,8 @@ from pathlib import Path
 import pytest
 
 from rosbeat.authoring import pages
-from rosbeat.authoring.layout import Course
 from rosbeat.authoring.lint import check_lessons
-from rosbeat.authoring.source import read_lesson
+from rosbeat.authoring.source import Course, read_lesson
 
 GOLDEN = Course(Path(__file__).parents[2] / "golden")
 NAME = "00_hear_a_pulse.ipynb"

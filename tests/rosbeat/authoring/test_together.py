@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rosbeat.authoring.layout import Course
+from rosbeat.authoring.source import Course
 from rosbeat.authoring.together import solution_bytes, solutions
 from rosbeat.errors import LessonError
 

@@ -6,7 +6,6 @@ every place that breaks its rule. To add one, write the function and put it in `
 
 from __future__ import annotations
 
-from rosbeat.authoring.layout import Course
 from rosbeat.authoring.lint.blanks import blank_outside_function, stray_blank, syntax
 from rosbeat.authoring.lint.budgets import cell_budget, page_budget
 from rosbeat.authoring.lint.desk import Desk, Finding, Lint
@@ -19,7 +18,7 @@ from rosbeat.authoring.lint.numbering import page_numbers
 from rosbeat.authoring.lint.predictions import predictions
 from rosbeat.authoring.lint.prose import code_as_prose, prose_as_code
 from rosbeat.authoring.lint.running import endless, machine_path, unseen_by_nbval
-from rosbeat.authoring.source import Lesson
+from rosbeat.authoring.source import Course, Lesson
 
 __all__ = ["LINTS", "Desk", "Finding", "Lint", "check_lessons"]
 

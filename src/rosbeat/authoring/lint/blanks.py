@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from rosbeat.authoring.lint.desk import Desk, Finding, learner_text, tree_of
-from rosbeat.authoring.markers import BLANK, solution
+from rosbeat.authoring.source import BLANK, with_answers
 
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 
@@ -14,7 +14,10 @@ _Function = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
 def syntax(desk: Desk) -> Iterator[Finding]:
     """Code is Python on both pages, with blanks and with answers."""
     for cell in desk.python:
-        for text, page in ((learner_text(cell), "learner's"), (solution(cell.source), "solution")):
+        for text, page in (
+            (learner_text(cell), "learner's"),
+            (with_answers(cell.source), "solution"),
+        ):
             if tree_of(text) is None:
                 what = f"this cell is not Python on the {page} page."
                 cure = "A forgotten [markdown]? A blank that is only half a line?"

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 from rosbeat.authoring.lint.desk import Desk, Finding, learner_text, prose_lines
 from rosbeat.authoring.lint.exercises import first_cells
-from rosbeat.authoring.markers import solution
-from rosbeat.authoring.source import SourceCell
+from rosbeat.authoring.source import SourceCell, with_answers
 
 _NOT_WORDS = re.compile(r"\]\([^)]*\)|<[^>]+>|https?://\S+")
 _WORD = re.compile(r"\w+(?:['’./_-]\w+)*")
@@ -86,5 +85,5 @@ def _words(cell: SourceCell) -> int:
 
 
 def _code_lines(cell: SourceCell) -> int:
-    texts = (learner_text(cell), solution(cell.source))
+    texts = (learner_text(cell), with_answers(cell.source))
     return max(sum(1 for line in text.split("\n") if line.strip()) for text in texts)

@@ -8,9 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from rosbeat.authoring import markers
-from rosbeat.authoring.layout import Course
-from rosbeat.authoring.source import Lesson, SourceCell
+from rosbeat.authoring.source import Course, Lesson, SourceCell, with_blanks_in_place
 
 _FENCE = re.compile(r"^ {0,3}(```|~~~)")
 _MAGIC = re.compile(r"^(\s*)[%!?].*|^(\s*)\S+\?$")
@@ -90,7 +88,7 @@ Lint = Callable[[Desk], Iterator[Finding]]
 
 def learner_text(cell: SourceCell) -> str:
     """What a learner sees of a cell, on the lines it has in the source."""
-    return markers.masked(cell.source) if cell.kind == "code" else cell.source
+    return with_blanks_in_place(cell.source) if cell.kind == "code" else cell.source
 
 
 def tree_of(text: str) -> ast.Module | None:

@@ -7,8 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from rosbeat.authoring.lint.desk import Desk, Finding
-from rosbeat.authoring.markers import find_blocks
-from rosbeat.authoring.source import SourceCell
+from rosbeat.authoring.source import SourceCell, find_blocks
 
 
 def answer_outside_exercise(desk: Desk) -> Iterator[Finding]:

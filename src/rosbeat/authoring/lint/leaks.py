@@ -9,8 +9,7 @@ from collections.abc import Iterator
 
 from rosbeat.authoring.lint.desk import Desk, Finding, learner_text
 from rosbeat.authoring.lint.links import local_images
-from rosbeat.authoring.markers import find_blocks
-from rosbeat.authoring.source import SourceCell
+from rosbeat.authoring.source import SourceCell, find_blocks
 
 # Shorter lines (`pass`, `return`, `count = 0`) are everybody's.
 _SHORTEST = 12

@@ -6,8 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from rosbeat.authoring.lint.desk import Desk, Finding, learner_text, tree_of
-from rosbeat.authoring.markers import BLANK, find_blocks, solution
-from rosbeat.authoring.source import SourceCell
+from rosbeat.authoring.source import BLANK, SourceCell, find_blocks, with_answers
 
 _MARKED = "Begin the cell with '# %% predict=true'."
 _QUOTED = f'On the learner\'s page its first argument is "{BLANK}", in quotes, so that it runs.'
@@ -24,13 +23,13 @@ def predictions(desk: Desk) -> Iterator[Finding]:
 def _flaw(cell: SourceCell) -> tuple[str, str]:
     """What is wrong with a cell's predictions, and what to do; empty texts if nothing is."""
     if not cell.predict:
-        asks = cell.is_python and _guesses(solution(cell.source))
+        asks = cell.is_python and _guesses(with_answers(cell.source))
         return ("predict is called in a cell that is not marked.", _MARKED) if asks else ("", "")
     if cell.kind != "code" or cell.magic or cell.exercise or cell.check or cell.only:
         return "a prediction stands in a cell that is something else, too.", "Make two cells of it."
     if not find_blocks(cell.source):
         return "the prediction has no answer.", "Put predict(...) between the answer markers."
-    asked, answered = _guesses(learner_text(cell)), _guesses(solution(cell.source))
+    asked, answered = _guesses(learner_text(cell)), _guesses(with_answers(cell.source))
     if not asked or len(asked) != len(answered) or not all(map(_is_blank, asked)):
         return "the learner's page asks for no prediction.", _QUOTED
     if any(map(_is_blank, answered)):

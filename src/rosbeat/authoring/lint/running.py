@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from rosbeat.authoring.lint.blanks import eager
 from rosbeat.authoring.lint.desk import Desk, Finding, tree_of
-from rosbeat.authoring.markers import solution
+from rosbeat.authoring.source import with_answers
 
 _UNSEEN = {"clear_output", "update_display", "display_id"}
 _MACHINE = re.compile(r"(?<![\w.:~/>-])/(?:home|Users|root|tmp|work|mnt|media|var)/\w|\b[A-Z]:\\\w")
@@ -17,7 +17,7 @@ _MACHINE = re.compile(r"(?<![\w.:~/>-])/(?:home|Users|root|tmp|work|mnt|media|va
 def endless(desk: Desk) -> Iterator[Finding]:
     """No cell waits for ever: no spin and no open loop at the top level."""
     for cell in (cell for cell in desk.python if not cell.saved_as):
-        for node in eager(tree_of(solution(cell.source)) or ast.Module([], [])):
+        for node in eager(tree_of(with_answers(cell.source)) or ast.Module([], [])):
             if _never_returns(node):
                 yield desk.finding(
                     "endless",
@@ -30,7 +30,7 @@ def endless(desk: Desk) -> Iterator[Finding]:
 def unseen_by_nbval(desk: Desk) -> Iterator[Finding]:
     """No output is replaced after it was shown: nbval compares what came, not what is left."""
     for cell in desk.python:
-        for node in ast.walk(tree_of(solution(cell.source)) or ast.Module([], [])):
+        for node in ast.walk(tree_of(with_answers(cell.source)) or ast.Module([], [])):
             names = {getattr(node, field, None) for field in ("id", "attr", "arg", "name")}
             for name in sorted(_UNSEEN & names):
                 what = f"{name} replaces an output, which the tests cannot compare."

@@ -6,17 +6,17 @@ from collections.abc import Callable
 
 from nbformat import NotebookNode
 
-from rosbeat.authoring import markers
+from rosbeat.authoring.source import with_answers, with_blanks
 
 
 def fill_answers(page: NotebookNode) -> NotebookNode:
     """Keep the answers and remove markers and blanks."""
-    return _rewrite(page, markers.solution)
+    return _rewrite(page, with_answers)
 
 
 def blank_answers(page: NotebookNode) -> NotebookNode:
     """Keep the blanks, uncommented, and remove markers and answers."""
-    return _rewrite(page, markers.learner)
+    return _rewrite(page, with_blanks)
 
 
 def _rewrite(page: NotebookNode, rewrite: Callable[[str], str]) -> NotebookNode:
