@@ -10,8 +10,8 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from rosbeat.authoring import pages
+from rosbeat.authoring.pages import NO_POINTS
 from rosbeat.authoring.source import Lesson
-from rosbeat.authoring.transforms.nbgrader import NO_POINTS
 
 #: Pages that run at once, at most. A page may measure how long things take, and more of them than
 #: there are cores would disturb one another.
