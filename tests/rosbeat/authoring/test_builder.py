@@ -22,7 +22,7 @@ def contents(checkout):
 
 
 def test_a_second_build_changes_not_one_byte(checkout, told):
-    checkout.write(BODY, filler=True)
+    checkout.write(BODY)
     assert [change.kind for change in build(checkout, told)] == ["new", "new"]
     before = contents(checkout)
     assert len(before) == 2
@@ -32,17 +32,17 @@ def test_a_second_build_changes_not_one_byte(checkout, told):
 
 
 def test_check_finds_what_differs_and_writes_nothing(checkout, told):
-    checkout.write(BODY, filler=True)
+    checkout.write(BODY)
     changes = build(checkout, told, check=True, run=False)
     assert [change.kind for change in changes] == ["new"]
     assert contents(checkout) == {}
 
 
 def test_a_page_without_a_lesson_goes_if_it_is_ours(checkout, told):
-    path = checkout.write(BODY, filler=True)
+    path = checkout.write(BODY)
     build(checkout, told, run=False)
     path.unlink()
-    checkout.write(BODY, name="00_say_it", title="Say it", filler=True)
+    checkout.write(BODY, name="00_say_it", title="Say it")
     changes = build(checkout, told, run=False, check=True)
     assert {change.path.name: change.kind for change in changes} == {
         "00_say_it.ipynb": "new", "00_hear_it.ipynb": "stale"
@@ -52,7 +52,7 @@ def test_a_page_without_a_lesson_goes_if_it_is_ours(checkout, told):
 
 
 def test_a_broken_rule_stops_the_build_before_anything_is_written(checkout, told):
-    checkout.write("# %%\nrclpy.spin(node)", filler=True)
+    checkout.write("# %%\nrclpy.spin(node)")
     with pytest.raises(LessonError, match="endless") as caught:
         build(checkout, told)
     assert "nothing was built" in caught.value.means
@@ -60,7 +60,7 @@ def test_a_broken_rule_stops_the_build_before_anything_is_written(checkout, told
 
 
 def test_a_page_that_was_worked_in_is_kept_before_it_is_replaced(checkout, told):
-    checkout.write(BODY, filler=True)
+    checkout.write(BODY)
     build(checkout, told, run=False)
     page = checkout.course.notebooks / "00_hear_it.ipynb"
     worked = page.read_text().replace('"execution_count": null', '"execution_count": 1', 1)
@@ -88,7 +88,7 @@ f()
 
 
 def test_both_trees_say_what_an_exercise_is_worth(checkout, told):
-    checkout.write(EXERCISE, filler=True)
+    checkout.write(EXERCISE)
     build(checkout, told, points={"00a": 11})
     assert len(contents(checkout)) == 2
     assert all(b'"points": 11' in text for text in contents(checkout).values())

@@ -69,7 +69,7 @@ def test_a_kernel_that_does_not_start_says_so(checkout, monkeypatch, tmp_path):
 
 def test_ctrl_c_ends_the_build_and_its_kernel_at_once(checkout):
     body = "# %%\nimport os, time\nprint(os.getpid(), file=open('pid', 'w'))\ntime.sleep(60)"
-    checkout.write(body, filler=True)
+    checkout.write(body)
     command = [sys.executable, "-m", "rosbeat", "build", "--root", str(checkout.course.root)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as build:
         pid = wait_for_text(checkout.course.solutions / "pid")

@@ -48,7 +48,7 @@ def test_a_course_without_the_package_has_no_place_for_them(checkout):
 
 def test_the_builder_writes_them_checks_them_and_removes_what_is_stale(checkout):
     folder = place(checkout)
-    checkout.write(BODY, filler=True)
+    checkout.write(BODY)
 
     def build(**plan):
         plan = builder.Plan(run=False, **plan)
