@@ -8,7 +8,7 @@ import nbformat
 import pytest
 
 from rosbeat.authoring import pages
-from rosbeat.authoring.files import compare, stale_pages
+from rosbeat.authoring.build import compare, stale_pages
 from rosbeat.authoring.lint import check_lessons
 from rosbeat.authoring.source import Course, read_lesson
 from rosbeat.exercises.registry import EXERCISES

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from rosbeat.authoring.solved import answer_files
+from rosbeat.authoring.build import answer_files
 from rosbeat.authoring.source import Course, find_blocks
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises.registry import EXERCISES, PAGES, find
