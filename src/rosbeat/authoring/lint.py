@@ -1,7 +1,7 @@
 """The rules of a lesson, one function each.
 
-A rule takes a `Desk` (the lesson, its neighbours, the course's folders) and yields a `Finding` for
-every place that breaks it. To add one, write the function and put it in `LINTS`, at the end. Rules
+A rule takes a `Desk` (the lesson, its neighbours, the course's folders) and yields every place that
+breaks it; the function's name is the rule's. To add one, put it in `LINTS`, at the end. Rules
 guard learners and builds: an answer that can be read, a page that stops, a link that leads nowhere.
 How a good page reads is in `docs/authoring.md`, and no rule counts words.
 """
@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 from urllib.parse import unquote
 
 from rosbeat.authoring.source import (
@@ -46,21 +47,35 @@ _SHORTEST = 12
 _EVERYBODYS = {"def__init__(self):"}
 
 
-@dataclass(frozen=True)
-class Finding:
+class Place(NamedTuple):
     """A place that breaks a rule.
 
     Attributes:
-        lint: The rule's name.
-        file: The lesson source.
-        line: The line in it, counted from 1.
+        line: The line in the lesson source, counted from 1.
         what: What is wrong.
         to_try: What to do about it.
     """
 
-    lint: str
+    line: int
+    what: str
+    to_try: str = ""
+
+
+@dataclass(frozen=True, order=True)
+class Finding:
+    """A place in a file, and the rule that it breaks.
+
+    Attributes:
+        file: The lesson source.
+        line: The line in it, counted from 1.
+        lint: The rule's name.
+        what: What is wrong.
+        to_try: What to do about it.
+    """
+
     file: str
     line: int
+    lint: str
     what: str
     to_try: str = ""
 
@@ -114,19 +129,8 @@ class Desk:
                 before = cell.exercise
         return found
 
-    def finding(self, lint: str, line: int, what: str, to_try: str = "") -> Finding:
-        """Make a finding in this lesson.
 
-        Args:
-            lint: The rule's name.
-            line: The line of the source file.
-            what: What is wrong.
-            to_try: What to do about it.
-        """
-        return Finding(lint, f"src/lessons/{self.lesson.path.name}", line, what, to_try)
-
-
-Lint = Callable[[Desk], Iterator[Finding]]
+Lint = Callable[[Desk], Iterator[Place]]
 
 
 def check_lessons(course: Course, lessons: list[Lesson], chosen: list[Lesson]) -> list[Finding]:
@@ -140,37 +144,38 @@ def check_lessons(course: Course, lessons: list[Lesson], chosen: list[Lesson]) -
     Returns:
         What breaks a rule, by file and line.
     """
-    findings: list[Finding] = []
+    found = []
     for lesson in chosen:
         desk = Desk(course, tuple(lessons), lesson)
-        # The other rules rely on this one.
-        wrong_markers = list(answer_markers(desk))
-        findings += wrong_markers or [found for lint in LINTS for found in lint(desk)]
-    return sorted(findings, key=lambda finding: (finding.file, finding.line, finding.lint))
+        # The other rules rely on the markers.
+        for lint in [answer_markers] if any(answer_markers(desk)) else LINTS:
+            name = lint.__name__.replace("_", "-")
+            file = f"src/lessons/{lesson.path.name}"
+            found += [Finding(file, line, name, *said) for line, *said in lint(desk)]
+    return sorted(found)
 
 
 # Answers and blanks.
 
 
-def answer_markers(desk: Desk) -> Iterator[Finding]:
+def answer_markers(desk: Desk) -> Iterator[Place]:
     """Require that markers are closed, in order, not nested, and that a blank holds a blank."""
     for cell in desk.lesson.cells:
         try:
             find_blocks(cell.source, "", cell.line)
         except LessonError as error:
             _, line, what = error.what.split(":", 2)
-            yield desk.finding("answer-markers", int(line), what.strip(), error.to_try)
+            yield Place(int(line), what.strip(), error.to_try)
 
 
-def leaked_answer(desk: Desk) -> Iterator[Finding]:
+def leaked_answer(desk: Desk) -> Iterator[Place]:
     """Require that no line of an answer stands anywhere else on the learner's page."""
     answers = {key: line for cell in desk.code for key, line in _distinctive(cell)}
     for line, text in _page_texts(desk):
         for key, answer in answers.items():
             if key in _squeeze(text):
                 rows = [_squeeze(row) for row in text.split("\n")]
-                yield desk.finding(
-                    "leaked-answer",
+                yield Place(
                     line + next((n for n, row in enumerate(rows) if key in row), 0),
                     f"the answer {answer.strip()!r} can be read here.",
                     "Reword this place, or move the line out of the answer.",
@@ -208,7 +213,7 @@ def _squeeze(text: str) -> str:
     return re.sub(r"[\s'\"`]+", "", text)
 
 
-def syntax(desk: Desk) -> Iterator[Finding]:
+def syntax(desk: Desk) -> Iterator[Place]:
     """Require that code is Python on both pages, with blanks and with answers."""
     for cell in desk.python:
         texts = {"learner's": learner_text(cell), "solution": with_answers(cell.source)}
@@ -216,71 +221,70 @@ def syntax(desk: Desk) -> Iterator[Finding]:
         if wrong:
             what = f"this cell is not Python on the {wrong[0]} page."
             cure = "A forgotten [markdown]? A blank that is only half a line?"
-            yield desk.finding("syntax", cell.line, what, cure)
+            yield Place(cell.line, what, cure)
 
 
-def prose_as_code(desk: Desk) -> Iterator[Finding]:
+def prose_as_code(desk: Desk) -> Iterator[Place]:
     """Require that a code cell holds code, and not only sentences behind comment signs."""
     for cell in (cell for cell in desk.code if not cell.magic):
         lines = [line.strip() for line in learner_text(cell).split("\n") if line.strip()]
         if not lines:
-            yield desk.finding("prose-as-code", cell.line, "this code cell is empty.")
+            yield Place(cell.line, "this code cell is empty.")
         elif not cell.exercise and all(line.startswith("#") for line in lines):
             cure = "Begin it with '# %% [markdown]'."
-            yield desk.finding("prose-as-code", cell.line, "this code cell is prose.", cure)
+            yield Place(cell.line, "this code cell is prose.", cure)
 
 
-def blank_outside_function(desk: Desk) -> Iterator[Finding]:
+def blank_outside_function(desk: Desk) -> Iterator[Place]:
     """Require that a blank does not run with its cell, which would end the untouched page."""
     for cell in (cell for cell in desk.python if cell.runs):
         for node in _run_at_once(learner_text(cell)):
             if BLANK in _names(node):
-                yield desk.finding(
-                    "blank-outside-function",
+                yield Place(
                     cell.line + getattr(node, "lineno", 1) - 1,
                     f"{BLANK} would be run at once, and the untouched page would stop here.",
                     "Move it into the body of a function or method.",
                 )
 
 
-def stray_blank(desk: Desk) -> Iterator[Finding]:
+def stray_blank(desk: Desk) -> Iterator[Place]:
     """Require that blanks stand in exercises and predictions only."""
     for cell in (cell for cell in desk.code if not (cell.exercise or cell.predict)):
         for number, line in enumerate(learner_text(cell).split("\n"), cell.line):
             if BLANK in line:
                 what = f"{BLANK} stands outside of an exercise."
-                yield desk.finding("stray-blank", number, what, 'Mark the cell exercise="..".')
+                yield Place(number, what, 'Mark the cell exercise="..".')
 
 
 # Exercises, checks and predictions.
 
 
-def answer_outside_exercise(desk: Desk) -> Iterator[Finding]:
+def answer_outside_exercise(desk: Desk) -> Iterator[Place]:
     """Require that answers stand in exercises and predictions, and that an exercise has one."""
     for cell in desk.lesson.cells:
         blocks = find_blocks(cell.source)
         if blocks and (cell.kind != "code" or not (cell.exercise or cell.predict)):
             line = cell.line + blocks[0].line
             cure = f"Begin the cell with '# %% exercise=\"{desk.lesson.number}a\"'."
-            yield desk.finding("answer-outside-exercise", line, "this is no exercise cell.", cure)
+            yield Place(line, "this is no exercise cell.", cure)
         if cell.exercise and not blocks:
             what = f"exercise {cell.exercise} has no answer."
-            yield desk.finding("answer-outside-exercise", cell.line, what)
+            yield Place(cell.line, what)
         if cell.only and (cell.exercise or cell.check):
             what = "an exercise or its check stands on both pages."
-            yield desk.finding("answer-outside-exercise", cell.line, what, "Remove only=.")
+            yield Place(cell.line, what, "Remove only=.")
 
 
-def exercise_names(desk: Desk) -> Iterator[Finding]:
+def exercise_names(desk: Desk) -> Iterator[Place]:
     """Require that exercises are named NNa, NNb, NNc, in order."""
     for cell, letter in zip(desk.first_cells, "abcdefghijklmnopqrstuvwxyz", strict=False):
         expected = desk.lesson.number + letter
         if cell.exercise != expected:
             what = f"exercise {cell.exercise} would be {expected} by its place on the page."
-            yield desk.finding("exercise-names", cell.line, what, "Rename it, and its check.")
+            yield Place(cell.line, what, "Rename it, and its check.")
 
 
-def exercise_pairs(desk: Desk) -> Iterator[Finding]:
+def exercise_pairs(desk: Desk) -> Iterator[Place]:
     """Require that every exercise has one check below it, and every check its exercise."""
     known: set[str] = set()
     checks = Counter(cell.check for cell in desk.lesson.cells if cell.check)
@@ -289,18 +293,18 @@ def exercise_pairs(desk: Desk) -> Iterator[Finding]:
         if cell.exercise and checks[cell.exercise] != 1:
             what = f"exercise {cell.exercise} has {checks[cell.exercise]} check cells."
             cure = f"Give it one, with '# %% check=\"{cell.exercise}\"'."
-            yield desk.finding("exercise-pairs", cell.line, what, cure)
+            yield Place(cell.line, what, cure)
         if cell.check and cell.check not in known:
             what = f"check {cell.check} has no exercise above it."
-            yield desk.finding("exercise-pairs", cell.line, what)
+            yield Place(cell.line, what)
 
 
-def predictions(desk: Desk) -> Iterator[Finding]:
+def predictions(desk: Desk) -> Iterator[Place]:
     """Require that the learner's page asks, the solution page answers, and both run."""
     for cell in desk.lesson.cells:
         what, cure = _prediction_flaw(cell)
         if what:
-            yield desk.finding("predictions", cell.line, what, cure)
+            yield Place(cell.line, what, cure)
 
 
 def _prediction_flaw(cell: SourceCell) -> tuple[str, str]:
@@ -336,16 +340,16 @@ def _guesses(text: str) -> list[object]:
 # Links, images, headings and numbers.
 
 
-def broken_link(desk: Desk) -> Iterator[Finding]:
+def broken_link(desk: Desk) -> Iterator[Place]:
     """Require that a link leads to a file of the course, a page, or a heading that exists."""
     for cell in desk.lesson.cells:
         for line, target in _targets(cell):
             problem = _link_problem(desk, target)
             if problem:
-                yield desk.finding("broken-link", line, f"{target!r} leads nowhere: {problem}.")
+                yield Place(line, f"{target!r} leads nowhere: {problem}.")
 
 
-def alt_text(desk: Desk) -> Iterator[Finding]:
+def alt_text(desk: Desk) -> Iterator[Place]:
     """Require that an image has words for those who do not see it."""
     for cell in desk.lesson.cells:
         for line, text in prose_lines(cell):
@@ -353,7 +357,7 @@ def alt_text(desk: Desk) -> Iterator[Finding]:
             if not named or not all(_ALT.search(tag) for tag in _IMG.findall(text)):
                 what = "an image has no alternative text."
                 cure = "Say in words what it shows: ![what it shows](image.svg)."
-                yield desk.finding("alt-text", line, what, cure)
+                yield Place(line, what, cure)
 
 
 def _targets(cell: SourceCell) -> Iterator[tuple[int, str]]:
@@ -390,45 +394,45 @@ def _lesson_at(desk: Desk, path: Path) -> Lesson | None:
     return names.get(path.stem) if is_page else None
 
 
-def page_numbers(desk: Desk) -> Iterator[Finding]:
+def page_numbers(desk: Desk) -> Iterator[Place]:
     """Require that a number belongs to one page, and that a page needs earlier ones."""
     lesson = desk.lesson
     twins = [o.name for o in desk.lessons if o.number == lesson.number and o.name != lesson.name]
     if twins:
         what = f"the number {lesson.number} also belongs to {', '.join(twins)}."
-        yield desk.finding("page-numbers", 1, what, "Rename one of them.")
+        yield Place(1, what, "Rename one of them.")
     known = {other.number for other in desk.lessons}
     for number in lesson.header.needs:
         if number not in known:
-            yield desk.finding("page-numbers", 1, f"needs names page {number}, which is not there.")
+            yield Place(1, f"needs names page {number}, which is not there.")
         elif number >= lesson.number:
-            yield desk.finding("page-numbers", 1, f"needs names page {number}, which comes later.")
+            yield Place(1, f"needs names page {number}, which comes later.")
 
 
-def title(desk: Desk) -> Iterator[Finding]:
+def title(desk: Desk) -> Iterator[Place]:
     """Require that the page opens with the header's title, the only heading of level 1."""
     wanted = desk.lesson.header.title
     tops = [(line, text) for line, level, text in desk.headings if level == 1]
     first = desk.lesson.cells[0] if desk.lesson.cells else None
     if len(tops) != 1 or desk.headings[0][1] != 1 or not first or first.kind != "markdown":
         what = f"the page has {len(tops)} headings of level 1; it opens with exactly one."
-        yield desk.finding("title", 1, what, f"Begin the first cell with '# # {wanted}'.")
+        yield Place(1, what, f"Begin the first cell with '# # {wanted}'.")
     elif tops[0][1] != wanted:
         what = f"the heading {tops[0][1]!r} is not the title of the header, {wanted!r}."
-        yield desk.finding("title", tops[0][0], what)
+        yield Place(tops[0][0], what)
 
 
-def heading_levels(desk: Desk) -> Iterator[Finding]:
+def heading_levels(desk: Desk) -> Iterator[Place]:
     """Require that a heading is at most one level below the one before it."""
     above = 0
     for line, level, text in desk.headings:
         if level > above + 1:
             what = f"{text!r} jumps from level {above} to level {level}."
-            yield desk.finding("heading-levels", line, what)
+            yield Place(line, what)
         above = level
 
 
-def heading_numbers(desk: Desk) -> Iterator[Finding]:
+def heading_numbers(desk: Desk) -> Iterator[Place]:
     """Require that numbers in headings count from 1, and name exercises that exist."""
     count = 0
     exercises = {cell.exercise for cell in desk.lesson.cells}
@@ -437,40 +441,40 @@ def heading_numbers(desk: Desk) -> Iterator[Finding]:
         count += 1 if match else 0
         if match and int(match[1]) != count:
             what = f"{text!r} should have the number {count}."
-            yield desk.finding("heading-numbers", line, what)
+            yield Place(line, what)
         for name in re.findall(r"\b\d\d[a-z]\b", text):
             if name not in exercises:
-                yield desk.finding("heading-numbers", line, f"the page has no exercise {name}.")
+                yield Place(line, f"the page has no exercise {name}.")
 
 
 # Code that would never end, could not be compared, or runs on one machine only.
 
 
-def endless(desk: Desk) -> Iterator[Finding]:
+def endless(desk: Desk) -> Iterator[Place]:
     """Require that no cell waits for ever: no spin and no open loop at the top level."""
     for cell in (cell for cell in desk.python if not cell.saved_as):
         if any(_never_returns(node) for node in _run_at_once(with_answers(cell.source))):
             cure = "Run for a bounded time instead: ros.run(seconds=10)."
-            yield desk.finding("endless", cell.line, "this cell would never end.", cure)
+            yield Place(cell.line, "this cell would never end.", cure)
 
 
-def unseen_by_nbval(desk: Desk) -> Iterator[Finding]:
+def unseen_by_nbval(desk: Desk) -> Iterator[Place]:
     """Require that no output is replaced: nbval compares what came, not what is left."""
     for cell in desk.python:
         tree = tree_of(with_answers(cell.source)) or ast.Module([], [])
         used = {name for node in ast.walk(tree) for name in _names(node)}
         for name in sorted(_REPLACING & used):
             what = f"{name} replaces an output, which the tests cannot compare."
-            yield desk.finding("unseen-by-nbval", cell.line, what, "Show it once, at the end.")
+            yield Place(cell.line, what, "Show it once, at the end.")
 
 
-def machine_path(desk: Desk) -> Iterator[Finding]:
+def machine_path(desk: Desk) -> Iterator[Place]:
     """Require that no path of one machine stands in a page."""
     for cell in desk.lesson.cells:
         for number, line in enumerate(cell.source.split("\n"), cell.line):
             if _MACHINE.search(line):
                 what = f"a path of one machine: {line.strip()!r}."
-                yield desk.finding("machine-path", number, what, "Use a relative path.")
+                yield Place(number, what, "Use a relative path.")
 
 
 def _never_returns(node: ast.AST) -> bool:
