@@ -118,17 +118,6 @@ class Desk:
         """Return the headings of the learner's page: source line, level, text."""
         return [found for cell in self.learner_cells for found in headings(cell)]
 
-    @cached_property
-    def first_cells(self) -> list[SourceCell]:
-        """Return the first cell of each exercise, which may have several, one after the other."""
-        found, before = [], None
-        for cell in self.lesson.cells:
-            if cell.exercise and cell.exercise != before:
-                found.append(cell)
-            if cell.exercise or cell.check:
-                before = cell.exercise
-        return found
-
 
 Lint = Callable[[Desk], Iterator[Place]]
 
@@ -277,11 +266,15 @@ def answer_outside_exercise(desk: Desk) -> Iterator[Place]:
 
 def exercise_names(desk: Desk) -> Iterator[Place]:
     """Require that exercises are named NNa, NNb, NNc, in order."""
-    for cell, letter in zip(desk.first_cells, "abcdefghijklmnopqrstuvwxyz", strict=False):
-        expected = desk.lesson.number + letter
-        if cell.exercise != expected:
-            what = f"exercise {cell.exercise} would be {expected} by its place on the page."
-            yield Place(cell.line, what, "Rename it, and its check.")
+    letters, before = iter("abcdefghijklmnopqrstuvwxyz"), None
+    for cell in (cell for cell in desk.lesson.cells if cell.exercise or cell.check):
+        # An exercise may have several cells, one after the other, before its check.
+        if cell.exercise and cell.exercise != before:
+            expected = desk.lesson.number + next(letters)
+            if cell.exercise != expected:
+                what = f"exercise {cell.exercise} would be {expected} by its place on the page."
+                yield Place(cell.line, what, "Rename it, and its check.")
+        before = cell.exercise
 
 
 def exercise_pairs(desk: Desk) -> Iterator[Place]:

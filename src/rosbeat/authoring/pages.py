@@ -328,7 +328,7 @@ def refuse_unrepeatable(page: NotebookNode) -> NotebookNode:
     """
     here = {f"{path}/" for path in (Path.home(), os.getcwd(), tempfile.gettempdir())} - {"//"}
     for cell in _code(page):
-        for line in [] if is_uncompared(cell) else _printed_lines(cell):
+        for line in [] if _is_uncompared(cell) else _printed_lines(cell):
             reasons = [name for name, pattern in _UNREPEATABLE.items() if pattern.search(line)]
             reasons += ["a folder of this machine"] if any(path in line for path in here) else []
             if reasons:
@@ -360,7 +360,7 @@ def keep_uncompared(path: Path) -> Transform:
 
     def keep(page: NotebookNode) -> NotebookNode:
         before = _uncompared_outputs(path)
-        for cell in filter(is_uncompared, page.cells):
+        for cell in filter(_is_uncompared, page.cells):
             kept = before.get((cell.id, cell.source), [])
             if [one.output_type for one in kept] == [one.output_type for one in cell.outputs]:
                 cell.outputs = kept
@@ -369,12 +369,7 @@ def keep_uncompared(path: Path) -> Transform:
     return keep
 
 
-def is_uncompared(cell: Any) -> bool:  # noqa: ANN401 - untyped library
-    """Tell whether nothing compares the outputs of a cell.
-
-    Args:
-        cell: A cell of a page.
-    """
+def _is_uncompared(cell: Any) -> bool:  # noqa: ANN401 - untyped library
     return cell.cell_type == "code" and UNCOMPARED in cell.metadata.get("tags", ())
 
 
@@ -383,7 +378,7 @@ def _uncompared_outputs(path: Path) -> dict[tuple[str, str], list[Any]]:
         page = nbformat.read(path, as_version=4)
     except Exception:  # whatever the file is, it holds nothing to keep
         return {}
-    return {(one.id, one.source): one.outputs for one in filter(is_uncompared, page.cells)}
+    return {(one.id, one.source): one.outputs for one in filter(_is_uncompared, page.cells)}
 
 
 def _code(page: NotebookNode) -> Iterator[Any]:
