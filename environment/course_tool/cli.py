@@ -8,9 +8,10 @@ import traceback
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 
-from course_tool import bench, checks, doctor, lab, relock, shell, testing
+from course_tool import commands, testing
+from course_tool.doctor import doctor
 from course_tool.layout import Layout, of_this_checkout
-from course_tool.messages import Problem, complain, say
+from course_tool.problems import Problem, complain, disk_full, not_writable, say
 
 HELP = """\
 Usage:  ./environment/course COMMAND [OPTIONS]
@@ -51,32 +52,24 @@ def _run(layout: Layout, arguments: Sequence[str]) -> int:
         say(HELP)
         return 0
     if name not in _COMMANDS:
-        raise unknown(name)
+        raise _unknown(name)
     return _COMMANDS[name](layout, rest)
 
 
-def unknown(name: str) -> Problem:
-    """Return the problem of a command that does not exist, with the nearest that does."""
+def _unknown(name: str) -> Problem:
     near = get_close_matches(name, [*_PUBLIC, "help"], n=1)
-    cure = f"Did you mean:  ./environment/course {near[0]}" if near else "See all of them:"
+    cure = f"Did you mean:  ./environment/course {near[0]}" if near else _SEE_ALL
     return Problem(
-        f"There is no command '{name}'.",
-        f"The commands are {', '.join(_PUBLIC)} and help.",
-        cure if near else f"{cure}  ./environment/course help",
+        f"There is no command '{name}'.", f"The commands are {', '.join(_PUBLIC)} and help.", cure
     )
-
-
-def _variables(layout: Layout, arguments: Sequence[str]) -> int:
-    print(shell.variables(layout))
-    return 0
 
 
 def _from_system(layout: Layout, error: OSError) -> Problem:
     place = str(error.filename or layout.root)
     if error.errno in (errno.ENOSPC, errno.EDQUOT):
-        return checks.disk_full(place)
+        return disk_full(place)
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        return checks.not_writable(layout.root, f"{place}: {os.strerror(error.errno)}")
+        return not_writable(layout.root, f"{place}: {os.strerror(error.errno)}")
     return _unforeseen(str(error))
 
 
@@ -90,13 +83,14 @@ def _unforeseen(details: str) -> Problem:
     )
 
 
+_SEE_ALL = "See all of them:  ./environment/course help"
 _COMMANDS: dict[str, Callable[[Layout, Sequence[str]], int]] = {
-    "lab": lab.lab,
+    "lab": commands.lab,
     "test": testing.test,
-    "shell": shell.shell,
-    "doctor": doctor.doctor,
-    "bench": bench.bench,
-    "lock": relock.relock,
-    "variables": _variables,
+    "shell": commands.shell,
+    "doctor": doctor,
+    "bench": commands.bench,
+    "lock": commands.lock,
+    "variables": commands.variables,
 }
 _PUBLIC = tuple(name for name in _COMMANDS if name != "variables")

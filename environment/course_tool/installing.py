@@ -1,66 +1,96 @@
-"""Fills `.venv` from a lock: uv (through pip), everything else (through uv), and what is ours."""
+"""Fills `.venv` from a lock: uv (through pip), everything else (through uv), and what is ours.
+
+Ours is what makes `.venv` an underlay, as a ROS of the system is one: `source .venv/setup.bash`
+activates it. The files that ament's templates make would put the packages of `.venv` on PYTHONPATH,
+where every other Python would find them, and do not work in a folder with a space.
+"""
 
 from __future__ import annotations
 
+import ast
 import json
-import os
 import re
+import shlex
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
 
-from course_tool import failures, pip_settings, running, underlay
+from course_tool import running, surroundings
 from course_tool.layout import Layout
-from course_tool.messages import say
+from course_tool.problems import installer_stopped, say
 
 _WORTH_SHOWING = re.compile(
     r"^\s*(Downloading|Downloaded|Building|Built|Prepared|Uninstalled|Installed|Updated)\b"
 )
-
 # Runs at the start of every Python of the environment. `_rosbeat_environment` is a link to
 # src/rosbeat/environment.py: a broken `rosbeat` must not disturb, so the package is not imported.
 _AT_START = (
     "import sys; exec('try:\\n import _rosbeat_environment as e; e.apply()\\n"
     "except Exception:\\n pass')\n"
 )
-
-# No question about news at the first start, no look-up of newer versions: a person's own settings
-# in JupyterLab still win.
-_LAB_DEFAULTS = {
-    "@jupyterlab/apputils-extension:notification": {
-        "checkForUpdates": False,
-        "fetchNews": "false",
-    }
+#: Files of JupyterLab in `.venv`. No question about news at the first start, no look-up of newer
+#: versions; and what tests bring along stays off, so that JupyterLab is as learners know it.
+_LAB_FILES: dict[str, dict[str, object]] = {
+    "share/jupyter/lab/settings/overrides.json": {
+        "@jupyterlab/apputils-extension:notification": {
+            "checkForUpdates": False,
+            "fetchNews": "false",
+        }
+    },
+    # "zz": of files that say different things, the last one in the alphabet counts.
+    "etc/jupyter/jupyter_server_config.d/zz_course.json": {
+        "ServerApp": {
+            "jpserver_extensions": {
+                "notebook": False,
+                "nbgrader.server_extensions.formgrader": False,
+                "nbgrader.server_extensions.validate_assignment": False,
+                "nbgrader.server_extensions.assignment_list": False,
+                "nbgrader.server_extensions.course_list": False,
+            }
+        }
+    },
+    "etc/jupyter/labconfig/page_config.json": {
+        "disabledExtensions": {"@jupyter/nbgrader": True, "@jupyter-notebook/lab-extension": True}
+    },
 }
-
-# What tests bring along, and learners do not have: JupyterLab stays as learners know it.
-_ONLY_FOR_TESTS = {
-    "servers": (
-        "notebook",
-        "nbgrader.server_extensions.formgrader",
-        "nbgrader.server_extensions.validate_assignment",
-        "nbgrader.server_extensions.assignment_list",
-        "nbgrader.server_extensions.course_list",
-    ),
-    "labs": ("@jupyter/nbgrader", "@jupyter-notebook/lab-extension"),
+_COMPLETIONS = {
+    "ros2": ("ros2", "completion", "bash"),
+    "colcon": ("register-python-argcomplete", "colcon"),
 }
+#: What pip knows, the variable that tells uv, and other variables that say the same.
+_PIP_TO_UV = {
+    "index-url": ("UV_DEFAULT_INDEX", "UV_INDEX_URL"),
+    "cert": ("SSL_CERT_FILE",),
+    "proxy": ("ALL_PROXY", "HTTPS_PROXY", "https_proxy", "all_proxy"),
+    "trusted-host": ("UV_INSECURE_HOST",),
+}
+_USUAL_INDEX = re.compile(r"^https://pypi\.org/simple/?$")
 
 
 def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
-    """Install what a level's lock says, and the course's own packages."""
-    env = _for_installers(layout, environ)
-    if not _uv_is_current(layout):
+    """Install what a level's lock says, and the course's own packages.
+
+    Raises:
+        Problem: If an installer stops.
+    """
+    env = _for_installers(environ)
+    lock = layout.lock("bootstrap").read_text(encoding="utf-8")
+    (version,) = re.findall(r"^uv==(\S+)", lock, re.MULTILINE)
+    if not layout.uv.exists() or not (layout.uv_home / f"uv-{version}.dist-info").is_dir():
         say("  2/4  fetching uv, the installer")
         _fetch_uv(layout, env)
-    env = {**env, **_pip_settings(layout, env)}
-    lock = layout.lock(level)
-    count = len(re.findall(r"^[\w.-]+==", lock.read_text(encoding="utf-8"), re.MULTILINE))
-    say(f"  3/4  installing what {lock.name} lists ({count} packages at most)")
-    _run(layout, lock_command(layout, level), env)
-    _run(layout, own_command(layout), env)
+    listing = running.quiet([layout.python, "-I", "-m", "pip", "config", "list"], env)
+    env |= pip_settings(listing.text, env) if listing.ok else {}
+    lock = layout.lock(level).read_text(encoding="utf-8")
+    count = len(re.findall(r"^[\w.-]+==", lock, re.MULTILINE))
+    say(f"  3/4  installing what {level}.lock lists ({count} packages at most)")
+    for command in (lock_command(layout, level), own_command(layout)):
+        result = running.stream(command, env, _WORTH_SHOWING.match)
+        if not result.ok:
+            raise installer_stopped(result.text, layout.venv)
     write_start_hook(layout)
     write_lab_defaults(layout)
-    underlay.write(layout, environ)
+    write_underlay(layout, environ)
 
 
 def lock_command(layout: Layout, level: str) -> list[str | Path]:
@@ -88,62 +118,39 @@ def own_command(layout: Layout) -> list[str | Path]:
     ]
 
 
-def write_start_hook(layout: Layout) -> None:
-    """Make every Python of the environment set what nodes need, before anything is imported."""
-    link = layout.site_packages / "_rosbeat_environment.py"
-    link.unlink(missing_ok=True)
-    link.symlink_to(layout.root / "src" / "rosbeat" / "environment.py")
-    # "zz": .pth files run in this order, and ROS's own starts Python once more.
-    hook = layout.site_packages / "zz_rosbeat_environment.pth"
-    hook.write_text(_AT_START, encoding="utf-8")
+def pip_settings(listing: str, environ: Mapping[str, str]) -> dict[str, str]:
+    """Return the variables that tell uv what a person told pip: uv does not read that.
+
+    Args:
+        listing: What `pip config list` prints.
+        environ: The environment; what it already tells uv is not changed.
+    """
+    found: dict[str, str] = {}
+    for section in ("global", "install", ":env:"):  # the closer ones count
+        for key, text in re.findall(rf"^{section}\.([a-z-]+)=(.*)$", listing, re.MULTILINE):
+            try:
+                found[key] = " ".join(str(ast.literal_eval(text)).split())
+            except (ValueError, SyntaxError):
+                found[key] = text
+    return {
+        names[0]: found[key]
+        for key, names in _PIP_TO_UV.items()
+        if key in found
+        and not any(environ.get(name) for name in names)
+        and not _USUAL_INDEX.match(found[key])
+    }
 
 
-def write_lab_defaults(layout: Layout) -> None:
-    """Make a first JupyterLab open without asking anything, and without what is for tests only."""
-    share, etc = layout.venv / "share" / "jupyter", layout.venv / "etc" / "jupyter"
-    off = dict.fromkeys(_ONLY_FOR_TESTS["servers"], False)
-    _write_json(share / "lab" / "settings" / "overrides.json", _LAB_DEFAULTS)
-    # "zz": of files that say different things, the last one in the alphabet counts.
-    server = etc / "jupyter_server_config.d" / "zz_course.json"
-    _write_json(server, {"ServerApp": {"jpserver_extensions": off}})
-    lab = {"disabledExtensions": dict.fromkeys(_ONLY_FOR_TESTS["labs"], True)}
-    _write_json(etc / "labconfig" / "page_config.json", lab)
-
-
-def _write_json(path: Path, content: object) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
-
-
-def link_mode(layout: Layout, environ: Mapping[str, str]) -> str | None:
-    """Return "copy" when uv's cache is on another file system, where it cannot link from."""
-    home = environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    cache = Path(environ.get("UV_CACHE_DIR") or os.path.join(home, "uv"))
-    return None if _device(cache) == _device(layout.venv) else "copy"
-
-
-def _for_installers(layout: Layout, environ: Mapping[str, str]) -> dict[str, str]:
+def _for_installers(environ: Mapping[str, str]) -> dict[str, str]:
     ours = {
         "UV_PYTHON_DOWNLOADS": "never",
         "PIP_DISABLE_PIP_VERSION_CHECK": "1",
         "PIP_USER": "0",
     }
-    env = {**environ, **ours}
-    for name in ("UV_PYTHON", "VIRTUAL_ENV", "CONDA_PREFIX"):
-        env.pop(name, None)
-    mode = link_mode(layout, environ)
-    if mode and not env.get("UV_LINK_MODE"):
-        env["UV_LINK_MODE"] = mode
+    others = ("UV_PYTHON", "VIRTUAL_ENV", "CONDA_PREFIX")
     # pip's own default is five tries; without a network that only delays the message.
-    env.setdefault("PIP_RETRIES", "2")
-    return env
-
-
-def _uv_is_current(layout: Layout) -> bool:
-    lock = layout.lock("bootstrap").read_text(encoding="utf-8")
-    version = re.search(r"^uv==(\S+)", lock, re.MULTILINE)
-    assert version, "bootstrap.lock names uv"
-    return layout.uv.exists() and (layout.uv_home / f"uv-{version[1]}.dist-info").is_dir()
+    env = {"PIP_RETRIES": "2", **environ, **ours}
+    return {name: value for name, value in env.items() if name not in others}
 
 
 def _fetch_uv(layout: Layout, env: Mapping[str, str]) -> None:
@@ -156,20 +163,54 @@ def _fetch_uv(layout: Layout, env: Mapping[str, str]) -> None:
     result = running.quiet(command, env)
     if not result.ok:
         shutil.rmtree(layout.uv_home, ignore_errors=True)
-        raise failures.installing(result.text, layout.venv)
+        raise installer_stopped(result.text, layout.venv)
 
 
-def _pip_settings(layout: Layout, env: Mapping[str, str]) -> dict[str, str]:
-    listing = running.quiet([layout.python, "-I", "-m", "pip", "config", "list"], env)
-    return pip_settings.for_uv(listing.text, env) if listing.ok else {}
+# What is ours.
 
 
-def _run(layout: Layout, command: list[str | Path], env: Mapping[str, str]) -> None:
-    result = running.stream(command, env, lambda line: bool(_WORTH_SHOWING.match(line)))
-    if not result.ok:
-        raise failures.installing(result.text, layout.venv)
+def write_start_hook(layout: Layout) -> None:
+    """Make every Python of the environment set what nodes need, before anything is imported."""
+    link = layout.site_packages / "_rosbeat_environment.py"
+    link.unlink(missing_ok=True)
+    link.symlink_to(layout.root / "src" / "rosbeat" / "environment.py")
+    # "zz": .pth files run in this order, and ROS's own starts Python once more.
+    hook = layout.site_packages / "zz_rosbeat_environment.pth"
+    hook.write_text(_AT_START, encoding="utf-8")
 
 
-def _device(path: Path) -> int:
-    existing = next(part for part in (path, *path.parents) if part.exists())
-    return existing.stat().st_dev
+def write_lab_defaults(layout: Layout) -> None:
+    """Make a first JupyterLab open without asking anything, and without what is for tests only."""
+    for name, content in _LAB_FILES.items():
+        path = layout.venv / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+
+
+def underlay_templates() -> list[Path]:
+    """Return the files that the underlay is made from."""
+    return sorted(Path(__file__).with_name("underlay_files").iterdir())
+
+
+def write_underlay(layout: Layout, environ: Mapping[str, str]) -> None:
+    """Write the setup files of the prefix, and the completion of its commands."""
+    places = {
+        "@PREFIX@": layout.venv,
+        "@PYTHON@": layout.python,
+        "@ENVIRONMENT@": layout.root / "src" / "rosbeat" / "environment.py",
+        "@COMPLETIONS@": layout.completions,
+    }
+    for template in underlay_templates():
+        text = template.read_text(encoding="utf-8")
+        for mark, place in places.items():
+            text = text.replace(mark, shlex.quote(str(place)))
+        # Nothing lies under this underlay, so its setup.* have nothing to add to its local_setup.*.
+        for name in (template.name, template.name.removeprefix("local_")):
+            (layout.venv / name).write_text(text, encoding="utf-8", errors="surrogateescape")
+    # Each command is asked once how bash completes it: at the start of a shell that takes too long.
+    layout.completions.mkdir(parents=True, exist_ok=True)
+    inside = surroundings.inside(environ, layout)
+    for name, (program, *arguments) in _COMPLETIONS.items():
+        answer = running.quiet([layout.venv / "bin" / program, *arguments], inside, timeout=60)
+        if answer.ok:
+            (layout.completions / name).write_text(answer.text, encoding="utf-8")

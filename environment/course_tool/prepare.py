@@ -1,25 +1,67 @@
-"""Brings `.venv` to where a command needs it; does nothing when it is there already."""
+"""Brings `.venv` to where a command needs it; does nothing when it is there already.
+
+Python's own venv module makes `.venv`, `installing` fills it, and a node has to hear another one.
+The stamp, written last, says that all of this was done, and from what.
+"""
 
 from __future__ import annotations
 
+import errno
+import fcntl
+import hashlib
+import importlib.util
+import json
 import os
 import platform
+import shutil
+import sys
+import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
 
-from course_tool import checks, installing, making, proof, stamp, surroundings
-from course_tool.exclusive import exclusive
-from course_tool.layout import Layout
-from course_tool.messages import Untouched, say
+from course_tool import installing, running, surroundings
+from course_tool.layout import LEVELS, Layout
+from course_tool.problems import (
+    Problem,
+    Untouched,
+    disk_full,
+    installer_stopped,
+    not_writable,
+    say,
+    venv_module_missing,
+)
+
+GIGABYTE = 10**9
+FIRST_TIME = 1.5 * GIGABYTE
+"""The environment and the installer's cache, when nothing is there yet."""
+REFRESH = 0.3 * GIGABYTE
+
+_OLDEST_GLIBC = (2, 28)
+#: To be raised when this tool lays out an environment in another way.
+_REVISION = "2"
+# Without `site`, so that nothing installed in the environment has a say.
+_WHO = "import sys; print('%d.%d' % sys.version_info[:2], sys.base_prefix)"
+_ROS_DEADLINE = 60.0
+_WRONG_MIDDLEWARE = 102
 
 
 def ready(layout: Layout, level: str) -> dict[str, str]:
-    """Make `.venv` complete for a level and return the environment to run its programs in."""
+    """Make `.venv` complete for a level and return the environment to run its programs in.
+
+    Raises:
+        Problem: If it cannot be made, filled, or no message arrives in it.
+    """
     clean = surroundings.cleaned(os.environ, layout)
-    if not stamp.satisfied(layout, level):
-        checks.before_installing(layout)
+    if not is_satisfied(layout, level):
+        check_libc(glibc_version())
+        check_writable(layout.root)
+        check_space(layout.root, REFRESH if layout.uv.exists() else FIRST_TIME)
         with exclusive(layout.environment):
-            _complete(layout, level, clean.environ)
+            # Perhaps the command that was here before us did it.
+            if not is_satisfied(layout, level):
+                _complete(layout, at_least(layout, level), clean.environ)
         clean = surroundings.cleaned(os.environ, layout)
     for note in clean.notes:
         say(note)
@@ -27,39 +69,23 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
 
 
 def _complete(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
-    if stamp.satisfied(layout, level):
-        return  # the command that was here before us did it
-    level = stamp.at_least(layout, level)
     say(_heading(layout))
-    making.make_or_keep(layout, environ)
-    with _marked_as_unfinished(layout):
-        installing.fill(layout, level, environ)
-        _prove(layout)
-    stamp.write(layout, level)
-
-
-@contextmanager
-def _marked_as_unfinished(layout: Layout) -> Iterator[None]:
-    """Take the stamp away, and put it back only when nothing was changed: no network, say.
-
-    Whoever is offline then keeps an environment that works, instead of having it made again.
-    """
-    before = stamp.read(layout)
-    stamp.remove(layout)
+    make_or_keep(layout, environ)
+    before = layout.stamp.read_bytes() if layout.stamp.exists() else None
+    layout.stamp.unlink(missing_ok=True)
     try:
-        yield
+        installing.fill(layout, level, environ)
+        say("  4/4  listening for a first ROS message")
+        # Cleaned again: what this ROS offers is known only now that it is installed.
+        fresh = surroundings.cleaned(os.environ, layout).environ
+        heard = ask_ros(layout, surroundings.inside(fresh, layout))
     except Untouched:
+        # Whoever is offline keeps an environment that works, instead of having it made again.
         if before:
-            stamp.put(layout, before)
+            layout.stamp.write_bytes(before)
         raise
-
-
-def _prove(layout: Layout) -> None:
-    say("  4/4  listening for a first ROS message")
-    # Cleaned again: what this ROS offers is known only now that it is installed.
-    environ = surroundings.cleaned(os.environ, layout).environ
-    heard = proof.ask_ros(layout, surroundings.inside(environ, layout))
     say(f"       heard after {heard['milliseconds']:.0f} ms (rclpy {heard['rclpy']})")
+    write_stamp(layout, level)
 
 
 def _heading(layout: Layout) -> str:
@@ -69,3 +95,216 @@ def _heading(layout: Layout) -> str:
     if layout.venv.exists():
         return f"Completing .venv with {python}."
     return f"Preparing .venv with {python}. The first time takes about a minute and 1.5 GB."
+
+
+# What must hold before anything is installed.
+
+
+def glibc_version() -> str:
+    """Return the version of the C library, or an empty string when it is not GNU's."""
+    try:
+        name = os.confstr("CS_GNU_LIBC_VERSION") or ""
+    except (ValueError, OSError):
+        return ""
+    return name.partition(" ")[2]
+
+
+def check_libc(version: str) -> None:
+    """Refuse a Linux that the ROS wheels were not built for."""
+    if version and tuple(int(part) for part in version.split(".")[:2]) >= _OLDEST_GLIBC:
+        return
+    raise Problem(
+        f"This Linux has {'glibc ' + version if version else 'another C library than glibc'}.",
+        "The ready-made ROS 2 needs glibc 2.28 or newer (Debian 10, Ubuntu 20.04 and later).",
+        "Use the container, environment/Dockerfile, or conda with environment/environment.yml;\n"
+        "environment/README.md says how.",
+    )
+
+
+def check_writable(folder: Path) -> None:
+    """Refuse a checkout in which nothing can be made."""
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            return
+    except OSError as error:
+        if error.errno == errno.ENOSPC:
+            raise disk_full(str(folder)) from None
+        raise not_writable(folder, error.strerror or str(error)) from None
+
+
+def check_space(folder: Path, needed: float) -> None:
+    """Refuse to start what the disk cannot hold: `needed` bytes."""
+    free = shutil.disk_usage(folder).free
+    if free < needed:
+        figures = f"{free / GIGABYTE:.1f} GB free, {needed / GIGABYTE:.1f} needed"
+        raise disk_full(str(folder), figures)
+
+
+@contextmanager
+def exclusive(folder: Path) -> Iterator[None]:
+    """Hold a folder for this process; wait, and say so, while another command holds it.
+
+    The lock is on the folder itself, so it leaves no file and ends with the process.
+    """
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            say(
+                "Another ./environment/course is at work in this checkout; "
+                "waiting until it is done ..."
+            )
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        except OSError:
+            pass  # a file system without such locks (some network drives): go on without
+        yield
+    finally:
+        os.close(descriptor)
+
+
+# The virtual environment itself.
+
+
+def make_or_keep(layout: Layout, environ: Mapping[str, str]) -> None:
+    """Leave a usable `.venv` as it is; make it, or make it again, otherwise."""
+    reason = why_unusable(layout, environ)
+    if reason is None:
+        return
+    if not all(importlib.util.find_spec(name) for name in ("venv", "ensurepip")):
+        raise venv_module_missing()
+    if os.path.lexists(layout.venv):
+        say(f"  .venv {reason}; it is made again")
+        _remove(layout.venv)
+    say("  1/4  making .venv")
+    made = running.quiet([sys.executable, "-I", "-m", "venv", layout.venv], environ)
+    if not made.ok:
+        is_debian = "ensurepip" in made.text
+        raise venv_module_missing() if is_debian else installer_stopped(made.text, layout.venv)
+
+
+def why_unusable(layout: Layout, environ: Mapping[str, str]) -> str | None:
+    """Return why a `.venv` cannot be used, as the end of a sentence, or None if it can.
+
+    One without a stamp was interrupted. Which of its packages are whole cannot be told, and from
+    the installer's cache a new one takes seconds.
+    """
+    if not os.path.lexists(layout.python) or not layout.stamp.exists():
+        return "is not finished"
+    who = running.quiet([layout.python, "-I", "-S", "-c", _WHO], environ, timeout=30)
+    if not who.ok:
+        return "has a Python that does not run"
+    version, _, base = who.text.strip().partition(" ")
+    is_same = os.path.realpath(base) == os.path.realpath(sys.base_prefix)
+    if not is_same or version != "{}.{}".format(*sys.version_info[:2]):
+        return f"belongs to another Python ({version}, {base})"
+    script = layout.venv / "bin" / "activate"
+    text = script.read_text(encoding="utf-8", errors="replace") if script.exists() else ""
+    return None if str(layout.venv) in text else "was made in another place"
+
+
+def _remove(venv: Path) -> None:
+    """Remove `.venv`; of a link, only the link."""
+    try:
+        if venv.is_symlink() or venv.is_file():
+            venv.unlink()
+        else:
+            shutil.rmtree(venv)
+    except OSError as error:
+        raise not_writable(venv, error.strerror or str(error)) from None
+
+
+# The stamp.
+
+
+def fingerprint(layout: Layout, level: str) -> str:
+    """Return a hash of everything that a level's environment depends on.
+
+    The place is part of it: a moved environment still names its old one in its scripts.
+    """
+    digest = hashlib.sha256()
+    version = "{}.{}".format(*sys.version_info[:2])
+    for text in (_REVISION, level, version, str(layout.venv)):
+        digest.update(text.encode("utf-8", "surrogateescape") + b"\0")
+    projects = [folder / "pyproject.toml" for folder in layout.own_packages]
+    locks = [layout.lock(level), layout.lock("build")]
+    for path in [*locks, *projects, *installing.underlay_templates()]:
+        digest.update((path.read_bytes() if path.exists() else b"") + b"\0")
+    return digest.hexdigest()
+
+
+def stamped_level(layout: Layout) -> str | None:
+    """Return the level that `.venv` was completed for, or None if it was not."""
+    return _stamp(layout).get("level")
+
+
+def at_least(layout: Layout, level: str) -> str:
+    """Return the higher of a level and the one that is there: nobody loses tools."""
+    return max(level, stamped_level(layout) or level, key=LEVELS.index)
+
+
+def is_satisfied(layout: Layout, level: str) -> bool:
+    """Tell whether the environment is complete, fresh and good for a level."""
+    stamp = _stamp(layout)
+    if not stamp or not os.access(layout.python, os.X_OK):
+        return False
+    enough = LEVELS.index(stamp["level"]) >= LEVELS.index(level)
+    return enough and stamp["fingerprint"] == fingerprint(layout, stamp["level"])
+
+
+def write_stamp(layout: Layout, level: str) -> None:
+    """Say that the environment is complete: the whole stamp, or nothing."""
+    unfinished = layout.stamp.with_suffix(".new")
+    stamp = {"level": level, "fingerprint": fingerprint(layout, level)}
+    unfinished.write_text(json.dumps(stamp) + "\n", encoding="utf-8")
+    unfinished.replace(layout.stamp)
+
+
+def _stamp(layout: Layout) -> dict[str, str]:
+    """Return the stamp, empty when there is none that can be read."""
+    try:
+        data = json.loads(layout.stamp.read_text(encoding="utf-8"))
+        return data if data["level"] in LEVELS and data["fingerprint"] else {}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+# ROS, asked in a process of its own, with a deadline.
+
+
+def ask_ros(layout: Layout, environ: Mapping[str, str]) -> dict[str, Any]:
+    """Return what ROS says of itself in `.venv`, after one node has heard another.
+
+    Raises:
+        Problem: If it cannot be asked, or no message arrives.
+    """
+    script = Path(__file__).with_name("ros_check.py")
+    result = running.quiet([layout.python, script], environ, timeout=_ROS_DEADLINE)
+    facts = _facts(result.last_line) if result.ok else {}
+    if not facts:
+        cure = "Remove the folder .venv and run the same command again."
+        if result.code == _WRONG_MIDDLEWARE:
+            cure = "Unset RMW_IMPLEMENTATION: this ROS brings rmw_fastrtps_cpp."
+        raise Problem(
+            "ROS 2 is installed in .venv, but a first node does not start.",
+            "No page of the course would run, so it is not opened.",
+            cure + "\nIf it stays like this, send the lines below to the course's issue tracker.",
+            "\n".join(result.text.strip().splitlines()[-12:]),
+        )
+    if facts["milliseconds"] is None:
+        raise Problem(
+            "A first node publishes, and a subscriber in the same process hears nothing.",
+            "ROS 2 starts here, but its messages do not travel.",
+            "Look whether ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE or\n"
+            "FASTRTPS_DEFAULT_PROFILES_FILE is set to something unusual, and whether the\n"
+            "loopback interface is up:  ip link show lo",
+        )
+    return facts
+
+
+def _facts(line: str) -> dict[str, Any]:
+    try:
+        facts = json.loads(line)
+    except ValueError:
+        return {}
+    return facts if isinstance(facts, dict) else {}

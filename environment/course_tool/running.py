@@ -8,29 +8,39 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from course_tool.messages import say
+from course_tool.problems import say
 
 
 @dataclass(frozen=True)
 class Result:
-    """How a program ended."""
+    """How a program ended.
+
+    Attributes:
+        code: Its exit code; 124 if it did not end in time, 127 if it could not be started.
+        text: What it printed, errors too.
+    """
 
     code: int
     text: str
 
     @property
     def ok(self) -> bool:
-        """Whether it ended well."""
+        """Tell whether it ended well."""
         return self.code == 0
+
+    @property
+    def last_line(self) -> str:
+        """Return the last line that it printed, or its exit code."""
+        return (self.text.strip().splitlines() or [f"exit code {self.code}"])[-1]
 
 
 def stream(
     command: Sequence[str | Path],
     env: Mapping[str, str],
-    shown: Callable[[str], bool] = lambda line: True,
+    shown: Callable[[str], object],
     cwd: Path | None = None,
 ) -> Result:
-    """Run a program, print its interesting lines as they come, and return how it ended."""
+    """Run a program, print the lines that are to be shown as they come, and keep the last 40."""
     last_words: deque[str] = deque(maxlen=40)
     with subprocess.Popen(
         [str(part) for part in command],
@@ -55,7 +65,7 @@ def quiet(
     timeout: float | None = None,
     cwd: Path | None = None,
 ) -> Result:
-    """Run a program without showing anything; a program that never ends counts as failed."""
+    """Run a program without showing anything; one that takes longer than `timeout` s failed."""
     try:
         done = subprocess.run(
             [str(part) for part in command],

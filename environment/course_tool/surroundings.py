@@ -38,23 +38,37 @@ class Surroundings:
 def cleaned(environ: Mapping[str, str], layout: Layout) -> Surroundings:
     """Return the environment without another ROS."""
     others = other_roots(environ, layout)
-    kept = _without(environ, others)
-    # Set by the Python of some environment, perhaps not ours; ours sets it again for itself.
-    kept.pop("_ROS_WHEELS_BOOTSTRAP_COMPLETE", None)
-    # Would send the Python of .venv to another standard library.
-    kept.pop("PYTHONHOME", None)
-    notes = _notes_on_others(others) + _replace_missing_middleware(kept, layout)
+    gone = {
+        # Set by the Python of some environment, perhaps not ours; ours sets it again for itself.
+        "_ROS_WHEELS_BOOTSTRAP_COMPLETE",
+        # Would send the Python of .venv to another standard library.
+        "PYTHONHOME",
+        *(_SCALARS if others else ()),
+    }
+    kept = {name: value for name, value in environ.items() if name not in gone}
+    notes = []
+    if others:
+        named = ", ".join(others)
+        notes.append(f"Another ROS is sourced ({named}); here the course uses its own, in .venv.")
+        for name in _LISTS:
+            entries = _split(kept.pop(name, ""))
+            left = [one for one in entries if not any(_within(one, root) for root in others)]
+            kept |= {name: os.pathsep.join(left)} if left else {}
+    middleware, libraries = kept.get("RMW_IMPLEMENTATION"), layout.venv / "lib"
+    if middleware and libraries.exists() and not (libraries / f"lib{middleware}.so").exists():
+        # It would end every node at once.
+        del kept["RMW_IMPLEMENTATION"]
+        instead = "is not part of this ROS; using rmw_fastrtps_cpp here."
+        notes.append(f"RMW_IMPLEMENTATION={middleware} {instead}")
     return Surroundings(kept, tuple(others), tuple(notes))
 
 
 def inside(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
     """Return a (cleaned) environment as it is with `.venv` active."""
     active = dict(environ)
-    bin_folder = str(layout.venv / "bin")
-    rest = [
-        part for part in environ.get("PATH", os.defpath).split(os.pathsep) if part != bin_folder
-    ]
-    active["PATH"] = os.pathsep.join([bin_folder, *rest])
+    ours = str(layout.venv / "bin")
+    parts = environ.get("PATH", os.defpath).split(os.pathsep)
+    active["PATH"] = os.pathsep.join([ours, *(part for part in parts if part != ours)])
     active["VIRTUAL_ENV"] = str(layout.venv)
     # A kernel "python3" in the user's home would otherwise win over the course's.
     active.setdefault("JUPYTER_PREFER_ENV_PATH", "1")
@@ -85,38 +99,6 @@ def other_roots(environ: Mapping[str, str], layout: Layout) -> list[str]:
         # Workspaces on top of the other ROS go with it: they were built for its Python.
         system.update(prefixes)
     return sorted(system)
-
-
-def _without(environ: Mapping[str, str], roots: list[str]) -> dict[str, str]:
-    kept = dict(environ)
-    if not roots:
-        return kept
-    for name in _SCALARS:
-        kept.pop(name, None)
-    for name in _LISTS:
-        entries = _split(environ.get(name, ""))
-        left = [entry for entry in entries if not any(_within(entry, root) for root in roots)]
-        if len(left) < len(entries):
-            kept[name] = os.pathsep.join(left)
-    return {name: value for name, value in kept.items() if value or name not in _LISTS}
-
-
-def _replace_missing_middleware(environ: dict[str, str], layout: Layout) -> list[str]:
-    """Drop a middleware that the course's ROS does not have: it would end every node at once."""
-    name = environ.get("RMW_IMPLEMENTATION", "")
-    libraries = layout.venv / "lib"
-    if not name or not libraries.exists() or (libraries / f"lib{name}.so").exists():
-        return []
-    del environ["RMW_IMPLEMENTATION"]
-    return [f"RMW_IMPLEMENTATION={name} is not part of this ROS; using rmw_fastrtps_cpp here."]
-
-
-def _notes_on_others(others: list[str]) -> list[str]:
-    if not others:
-        return []
-    return [
-        f"Another ROS is sourced ({', '.join(others)}); here the course uses its own, in .venv."
-    ]
 
 
 def _ours(entry: str, layout: Layout) -> bool:

@@ -6,35 +6,27 @@ import os
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
 from course_tool import prepare
 from course_tool.layout import Layout
-from course_tool.messages import Problem, say
+from course_tool.problems import Problem, say
 from course_tool.running import quiet
 
 #: Steps that run at a time, before the tests.
 _AT_ONCE = 2
 #: Each test process may hold several of the 51 domain ids for private sessions.
 _MOST_WORKERS = 6
-
-
-@dataclass(frozen=True)
-class Step:
-    """One thing to run."""
-
-    name: str
-    command: tuple[str, ...]
+_TESTS = "tests: units, ROS, pages"
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """How a step ended."""
+    """How a step ended, and how long it took."""
 
     name: str
     ok: bool
@@ -67,8 +59,13 @@ def test(layout: Layout, arguments: Sequence[str]) -> int:
         return subprocess.call([layout.python, "-m", "pytest", *arguments], env=environ)
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "pytest.xml"
-        *short, tests = steps(layout, report, thorough)
-        verdicts = [*_side_by_side(short, layout, environ), _run(tests, layout, environ)]
+        commands = steps(layout, report, thorough)
+        tests = commands.pop(_TESTS)
+        verdicts = _side_by_side(commands, layout, environ)
+        say(f"\n=== {_TESTS}")
+        started = time.monotonic()
+        code = subprocess.call(tests, env=environ, cwd=layout.root)
+        verdicts.append(Verdict(_TESTS, code == 0, time.monotonic() - started))
         counts = read_counts(report)
     say(summary(verdicts, counts))
     return 0 if all(verdict.ok for verdict in verdicts) else 1
@@ -83,27 +80,29 @@ def workers(cores: int | None) -> int:
     return min(max(cores or 1, 2) + 1, _MOST_WORKERS)
 
 
-def steps(layout: Layout, report: Path, thorough: bool = False) -> list[Step]:
-    """Return what `course test` runs, in order; the tests are the last."""
-    python = str(layout.python)
+def steps(layout: Layout, report: Path, thorough: bool = False) -> dict[str, list[str]]:
+    """Return the commands that `course test` runs, by name and in order; tests are the last.
+
+    Args:
+        layout: The checkout.
+        report: Where pytest writes what it counted.
+        thorough: Whether to run the tests that take minutes as well.
+    """
+    python, rosbeat = str(layout.python), str(layout.venv / "bin" / "rosbeat")
+    mypy = [python, "-m", "mypy"]
     # The order of the files is that of conftest.py, where the longest come first.
-    shared = ("--dist", "loadfile", "--no-loadscope-reorder")
-    number = str(workers(os.cpu_count()))
+    shared = ("-n", str(workers(os.cpu_count())), "--dist", "loadfile", "--no-loadscope-reorder")
     more = ("--thorough",) if thorough else ()
-    pytest = (python, "-m", "pytest", "-n", number, *shared, f"--junitxml={report}", *more)
     tool = str(layout.environment / "course_tool")
-    # Solution pages are run once, by pytest, which compares them as `build --check` would.
-    unrun = ("build", "--check", "--no-run")
-    return [
-        Step("lint", (python, "-m", "ruff", "check")),
-        Step("format", (python, "-m", "ruff", "format", "--check")),
-        Step("types", (python, "-m", "mypy")),
-        Step(
-            "types of the course tool", (python, "-m", "mypy", "--config-file=", "--strict", tool)
-        ),
-        Step("pages are what their sources say", (python, *_rosbeat(layout), *unrun)),
-        Step("tests: units, ROS, pages", pytest),
-    ]
+    return {
+        "lint": [python, "-m", "ruff", "check"],
+        "format": [python, "-m", "ruff", "format", "--check"],
+        "types": mypy,
+        "types of the course tool": [*mypy, "--config-file=", "--strict", tool],
+        # Solution pages are run once, by pytest, which compares them as `build --check` would.
+        "pages are what their sources say": [python, rosbeat, "build", "--check", "--no-run"],
+        _TESTS: [python, "-m", "pytest", *shared, f"--junitxml={report}", *more],
+    }
 
 
 def read_counts(report: Path) -> Counts:
@@ -112,8 +111,11 @@ def read_counts(report: Path) -> Counts:
         suites = list(ElementTree.parse(report).getroot().iter("testsuite"))
     except (OSError, ElementTree.ParseError):
         return Counts(0, 1, 0)
-    total, skipped = _sum(suites, "tests"), _sum(suites, "skipped")
-    failed = _sum(suites, "failures") + _sum(suites, "errors")
+    total, skipped, failures, errors = (
+        sum(int(suite.get(name, "0")) for suite in suites)
+        for name in ("tests", "skipped", "failures", "errors")
+    )
+    failed = failures + errors
     return Counts(max(0, total - failed - skipped), failed, skipped)
 
 
@@ -123,42 +125,28 @@ def summary(verdicts: Sequence[Verdict], counts: Counts) -> str:
         f"  {'passed' if verdict.ok else 'FAILED'}  {verdict.seconds:6.1f} s  {verdict.name}"
         for verdict in verdicts
     ]
-    others, tests = verdicts[:-1], verdicts[-1]
-    passed = counts.passed + sum(verdict.ok for verdict in others)
-    failed = counts.failed + sum(not verdict.ok for verdict in others)
+    *others, tests = verdicts
+    good = sum(verdict.ok for verdict in others)
+    failed = counts.failed + len(others) - good
     if not tests.ok and not counts.failed:
         failed += 1  # pytest itself ended badly: nothing collected, or a crash
-    closing = f"{passed} passed, {failed} failed, {counts.skipped} skipped"
+    closing = f"{counts.passed + good} passed, {failed} failed, {counts.skipped} skipped"
     return "\n".join(["", "=== summary", *table, "", closing])
 
 
-def _run(step: Step, layout: Layout, environ: Mapping[str, str]) -> Verdict:
-    say(f"\n=== {step.name}")
-    started = time.monotonic()
-    code = subprocess.call(step.command, env=environ, cwd=layout.root)
-    return Verdict(step.name, code == 0, time.monotonic() - started)
-
-
 def _side_by_side(
-    steps: Sequence[Step], layout: Layout, environ: Mapping[str, str]
-) -> Iterator[Verdict]:
+    commands: Mapping[str, list[str]], layout: Layout, environ: Mapping[str, str]
+) -> list[Verdict]:
     """Run steps that use one core each; what they print comes in their order."""
+
+    def run(name: str) -> tuple[Verdict, str]:
+        started = time.monotonic()
+        done = quiet(commands[name], environ, cwd=layout.root)
+        return Verdict(name, done.ok, time.monotonic() - started), done.text
+
+    verdicts = []
     with ThreadPoolExecutor(_AT_ONCE) as pool:
-        ends = pool.map(partial(_captured, layout=layout, environ=environ), steps)
-        for step, (verdict, text) in zip(steps, ends, strict=True):
-            say(f"\n=== {step.name}\n{text.rstrip()}")
-            yield verdict
-
-
-def _captured(step: Step, layout: Layout, environ: Mapping[str, str]) -> tuple[Verdict, str]:
-    started = time.monotonic()
-    done = quiet(step.command, environ, cwd=layout.root)
-    return Verdict(step.name, done.ok, time.monotonic() - started), done.text
-
-
-def _rosbeat(layout: Layout) -> tuple[str, ...]:
-    return (str(layout.venv / "bin" / "rosbeat"),)
-
-
-def _sum(suites: Sequence[ElementTree.Element], name: str) -> int:
-    return sum(int(suite.get(name, "0")) for suite in suites)
+        for verdict, text in pool.map(run, commands):
+            say(f"\n=== {verdict.name}\n{text.rstrip()}")
+            verdicts.append(verdict)
+    return verdicts

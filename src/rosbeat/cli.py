@@ -52,13 +52,13 @@ def _build_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _build(options: argparse.Namespace) -> int:
-    from rosbeat.authoring import builder, layout
+    from rosbeat.authoring import build, source
     from rosbeat.exercises.registry import EXERCISES
 
-    course = layout.find_course((options.root or Path.cwd()).resolve())
+    course = source.find_course((options.root or Path.cwd()).resolve())
     choices = (tuple(options.pages), options.check, not options.no_run, options.fresh)
-    plan = builder.Plan(*choices, {one.id: one.points for one in EXERCISES.values()})
-    found = builder.build(course, plan, lambda line: print(line, flush=True))
+    plan = build.Plan(*choices, {one.id: one.points for one in EXERCISES.values()})
+    found = build.build(course, plan, lambda line: print(line, flush=True))
     changes = [change for change in found if change.matters]
     if not options.check or not changes:
         return 0
@@ -71,11 +71,11 @@ def _build(options: argparse.Namespace) -> int:
 
 
 def _lint(options: argparse.Namespace) -> int:
-    from rosbeat.authoring import layout, lint
+    from rosbeat.authoring import lint, source
 
-    course = layout.find_course((options.root or Path.cwd()).resolve())
+    course = source.find_course((options.root or Path.cwd()).resolve())
     lessons = course.lessons()
-    chosen = layout.choose(lessons, options.pages)
+    chosen = source.choose(lessons, options.pages)
     findings = lint.check_lessons(course, lessons, chosen)
     for finding in findings:
         print(finding)

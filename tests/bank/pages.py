@@ -3,8 +3,7 @@
 from functools import cache
 from pathlib import Path
 
-from rosbeat.authoring import markers
-from rosbeat.authoring.source import Lesson, read_lesson
+from rosbeat.authoring.source import Lesson, read_lesson, with_answers
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -31,7 +30,7 @@ def references() -> dict[str, str]:
     for page in sorted({exercise[:2] for exercise in NODE_EXERCISES}):
         for cell in lesson(page).cells:
             if cell.exercise in NODE_EXERCISES:
-                found[cell.exercise] = markers.solution(cell.source)
+                found[cell.exercise] = with_answers(cell.source)
     return found
 
 
@@ -49,6 +48,6 @@ def references_of(exercise: str) -> str:
     """
     page = exercise[:2]
     known = {exercise, *(page + letter for letter in "abc" if page + letter < exercise)}
-    parts = [markers.solution(c.source) for c in lesson(page).cells if c.exercise in known]
+    parts = [with_answers(c.source) for c in lesson(page).cells if c.exercise in known]
     profiles = [c.source for c in lesson(page).cells if c.source.startswith("LATCHED")]
     return "\n\n\n".join([*profiles, *parts]) + "\n"

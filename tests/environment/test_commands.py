@@ -1,11 +1,103 @@
+"""The commands, and how whatever goes wrong in them is said."""
+
 import ast
+import errno
 import subprocess
 
 import pytest
 
-from course_tool import bench, lab, prepare, relock, running, shell, testing
-from course_tool.messages import Problem
+from course_tool import cli, commands, prepare, running, testing
+from course_tool.problems import Problem, complain
 from course_tool.testing import Counts, Verdict
+
+
+def run(monkeypatch, error):
+    def command(layout, arguments):
+        raise error
+
+    monkeypatch.setitem(cli._COMMANDS, "doctor", command)
+    return cli.main(["doctor"])
+
+
+@pytest.mark.parametrize("arguments", [[], ["help"], ["--help"], ["-h"]])
+def test_help(arguments, capsys):
+    assert cli.main(arguments) == 0
+    out = capsys.readouterr().out
+    for name in ("lab", "test", "shell", "doctor", "bench", "lock"):
+        assert f"\n  {name} " in out
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"), [("lap", "lab"), ("tests", "test"), ("docter", "doctor")]
+)
+def test_a_slip_is_understood(typed, meant, capsys):
+    assert cli.main([typed]) == 1
+    assert f"Did you mean:  ./environment/course {meant}\n" in capsys.readouterr().err
+
+
+def test_an_unknown_word_gets_the_list(capsys):
+    assert cli.main(["xyzzy"]) == 1
+    err = capsys.readouterr().err
+    assert "lab, test, shell, doctor, bench, lock and help" in err
+    assert "variables" not in err
+
+
+def test_a_problem_is_said_in_three_parts(monkeypatch, capsys):
+    assert run(monkeypatch, Problem("a", "b", "c")) == 1
+    assert "What to try:         c" in capsys.readouterr().err
+
+
+def test_ctrl_c_gets_a_short_word(monkeypatch, capsys):
+    assert run(monkeypatch, KeyboardInterrupt()) == 130
+    out, err = capsys.readouterr()
+    assert len(out.strip().splitlines()) == 1
+    assert err == ""
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        (errno.ENOSPC, "not enough room"),
+        (errno.EACCES, "Nothing can be written"),
+        (errno.EROFS, "Nothing can be written"),
+        (errno.EIO, "does not know"),
+    ],
+)
+def test_what_the_system_refuses(monkeypatch, capsys, number, words):
+    assert run(monkeypatch, OSError(number, "no", "/some/file")) == 1
+    err = capsys.readouterr().err
+    assert words in err
+    assert "What to try:" in err
+
+
+def test_never_a_bare_traceback(monkeypatch, capsys):
+    assert run(monkeypatch, RuntimeError("oh")) == 1
+    err = capsys.readouterr().err
+    assert err.lstrip().startswith("What happened:")
+    assert "RuntimeError: oh" in err
+
+
+def test_three_parts_line_up():
+    text = Problem("It rains.", "You get wet.", "Take an umbrella,\nor wait.").text()
+    assert text == (
+        "What happened:       It rains.\n"
+        "What it means here:  You get wet.\n"
+        "What to try:         Take an umbrella,\n"
+        "                     or wait."
+    )
+
+
+def test_details_come_last():
+    text = Problem("a", "b", "c", "first\nsecond\n").text()
+    assert text.endswith("Its last words:\n    first\n    second")
+
+
+def test_problems_go_to_standard_error(capsys):
+    complain(Problem("a", "b", "c"))
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("\nWhat happened:       a\n")
+
 
 PYTEST_REPORT = """<?xml version="1.0" encoding="utf-8"?>
 <testsuites name="pytest tests"><testsuite name="pytest" errors="1" failures="2" skipped="3"
@@ -13,10 +105,10 @@ tests="20" time="1.0"></testsuite></testsuites>"""
 
 
 def test_lab_opens_the_first_page(layout):
-    page = layout.root / lab.FIRST_PAGE
+    page = layout.root / commands.FIRST_PAGE
     page.parent.mkdir()
     page.touch()
-    command = lab.lab_command(layout, ["--no-browser", "--port", "9000"], root_user=False)
+    command = commands.lab_command(layout, ["--no-browser", "--port", "9000"], root_user=False)
     assert command[1:3] == ["-m", "jupyterlab"]
     assert command[3] == f"--ServerApp.root_dir={layout.root}"
     page_address = "--LabApp.default_url=/lab/tree/notebooks/00_hear_the_heartbeat.ipynb"
@@ -24,7 +116,7 @@ def test_lab_opens_the_first_page(layout):
 
 
 def test_lab_opens_the_folder_when_the_page_is_not_there(layout, capsys):
-    command = lab.lab_command(layout, [], root_user=False)
+    command = commands.lab_command(layout, [], root_user=False)
     assert len(command) == 5
     assert "is not there" in capsys.readouterr().out
 
@@ -34,43 +126,44 @@ def test_lab_opens_the_first_page_that_there_is(layout):
         page = layout.root / "notebooks" / name
         page.parent.mkdir(exist_ok=True)
         page.touch()
-    command = lab.lab_command(layout, [], root_user=False)
+    command = commands.lab_command(layout, [], root_user=False)
     assert command[5:] == ["--LabApp.default_url=/lab/tree/notebooks/03_write.ipynb"]
 
 
 def test_lab_opens_another_page_when_asked(layout):
-    command = lab.lab_command(layout, ["notebooks/03.ipynb"], root_user=False)
+    command = commands.lab_command(layout, ["notebooks/03.ipynb"], root_user=False)
     assert command[5:] == ["notebooks/03.ipynb"]
 
 
 def test_labs_terminals_are_the_courses_shell(layout):
-    option, value = lab.lab_command(layout, ["x.ipynb"], root_user=False)[4].split("=", 1)
+    option, value = commands.lab_command(layout, ["x.ipynb"], root_user=False)[4].split("=", 1)
     assert option == "--ServerApp.terminado_settings"
-    assert ast.literal_eval(value) == {"shell_command": shell.interactive()}
+    assert ast.literal_eval(value) == {"shell_command": commands.interactive_shell()}
 
 
 def test_labs_terminals_are_the_persons_choice(layout):
     choice = "--ServerApp.terminado_settings={'shell_command': ['zsh']}"
-    command = lab.lab_command(layout, ["x.ipynb", choice], root_user=False)
+    command = commands.lab_command(layout, ["x.ipynb", choice], root_user=False)
     assert command[4:] == ["x.ipynb", choice]
 
 
 def test_lab_allows_the_root_user_once(layout):
-    assert lab.lab_command(layout, [], root_user=True).count("--allow-root") == 1
+    assert commands.lab_command(layout, [], root_user=True).count("--allow-root") == 1
     options = ["--allow-root"]
-    assert lab.lab_command(layout, options, root_user=True).count("--allow-root") == 1
+    assert commands.lab_command(layout, options, root_user=True).count("--allow-root") == 1
 
 
 def test_test_runs_every_kind_of_check(layout, tmp_path):
     steps = testing.steps(layout, tmp_path / "report.xml")
-    commands = [" ".join(step.command) for step in steps]
+    texts = [" ".join(command) for command in steps.values()]
     for words in ("ruff check", "ruff format --check", "mypy", "rosbeat build --check", "pytest"):
-        assert any(words in command for command in commands)
-    assert "--dist loadfile" in commands[-1]
-    assert "--thorough" not in commands[-1]
-    *others, tests = testing.steps(layout, tmp_path / "report.xml", thorough=True)
-    assert others == steps[:-1]
-    assert tests.command == (*steps[-1].command, "--thorough")
+        assert any(words in text for text in texts)
+    assert "--dist loadfile" in texts[-1]
+    assert "--thorough" not in texts[-1]
+    thorough = testing.steps(layout, tmp_path / "report.xml", thorough=True)
+    assert list(thorough) == list(steps)
+    assert thorough.popitem()[1] == [*steps.popitem()[1], "--thorough"]
+    assert thorough == steps
 
 
 @pytest.mark.parametrize(("cores", "number"), [(None, 3), (1, 3), (2, 3), (4, 5), (64, 6)])
@@ -146,7 +239,7 @@ def test_without_tests_nothing_is_installed(layout):
 def test_the_shell_is_told_only_what_differs():
     now = {"A": "1", "GONE": "x", "PATH": "/bin"}
     wanted = {"A": "1", "NEW": "two words; and $more", "PATH": "/venv/bin:/bin"}
-    assert shell.difference(now, wanted) == [
+    assert commands.shell_lines(now, wanted) == [
         "unset GONE",
         "export NEW='two words; and $more'",
         "export PATH=/venv/bin:/bin",
@@ -155,11 +248,11 @@ def test_the_shell_is_told_only_what_differs():
 
 def test_bench_says_when_its_files_are_missing(layout):
     with pytest.raises(Problem, match="not in this checkout"):
-        bench.bench(layout, [])
+        commands.bench(layout, [])
 
 
 def test_locks_are_made_for_every_python_and_name_no_machine(layout):
-    command = [str(part) for part in relock.compile_command(layout, "test", ["--upgrade"])]
+    command = [str(part) for part in commands.compile_command(layout, "test", ["--upgrade"])]
     text = " ".join(command[1:])
     assert "--universal --generate-hashes" in text
     assert "--python-version 3.10" in text
@@ -176,5 +269,5 @@ def test_every_lock_is_remade(layout, monkeypatch):
 
     monkeypatch.setattr(prepare, "ready", lambda layout, level: {})
     monkeypatch.setattr(running, "stream", stream)
-    assert relock.relock(layout, []) == 0
+    assert commands.lock(layout, []) == 0
     assert ran == ["bootstrap.lock", "build.lock", "course.lock", "test.lock"]

@@ -4,12 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from course_tool import diagnosis_commands as commands
-from course_tool import diagnosis_machine as machine
-from course_tool import diagnosis_ros as ros
-from course_tool import doctor, proof, stamp
-from course_tool.findings import note, ok, problem
+from course_tool import doctor, prepare
+from course_tool.doctor import Finding
 from course_tool.layout import Layout
+from course_tool.problems import Problem
 from course_tool.surroundings import Surroundings
 from rosbeat.workspace import place
 
@@ -38,17 +36,21 @@ def by_subject(findings):
 
 
 def test_a_finding_is_a_line_and_a_cure_another():
-    assert doctor.line(ok("clock", "now")) == "ok       clock              now"
-    assert doctor.line(problem("disk", "full", "empty it")).splitlines()[1].endswith("-> empty it")
+    assert str(Finding("ok", "clock", "now")) == "ok       clock              now"
+    assert (
+        str(Finding("problem", "disk", "full", "empty it")).splitlines()[1].endswith("-> empty it")
+    )
 
 
 @pytest.mark.parametrize(
-    ("findings", "code"), [([ok("a", "b"), note("c", "d")], 0), ([problem("a", "b", "c")], 1)]
+    ("findings", "code"),
+    [
+        ([Finding("ok", "a", "b"), Finding("note", "c", "d")], 0),
+        ([Finding("problem", "a", "b", "c")], 1),
+    ],
 )
 def test_the_exit_code_says_whether_something_needs_a_cure(layout, monkeypatch, findings, code):
-    monkeypatch.setattr(machine, "findings", lambda layout, clean: findings)
-    monkeypatch.setattr(ros, "findings", lambda layout, clean: [])
-    monkeypatch.setattr(commands, "findings", lambda layout, clean: [])
+    monkeypatch.setattr(doctor, "look", lambda layout, clean: findings)
     assert doctor.doctor(layout, []) == code
 
 
@@ -61,38 +63,40 @@ def test_before_anything_is_installed(layout, monkeypatch, capsys):
 
 
 def test_a_finished_environment(made):
-    stamp.write(made, "test")
-    assert machine.venv(made, CLEAN).state == "ok"
-    assert machine.lock(made) == ok("versions", ".venv is what environment/test.lock lists")
+    prepare.write_stamp(made, "test")
+    assert doctor.venv(made, CLEAN).state == "ok"
+    assert doctor.versions(made) == Finding(
+        "ok", "versions", ".venv is what environment/test.lock lists"
+    )
 
 
 def test_a_half_made_environment(made):
-    assert machine.venv(made, CLEAN).state == "problem"
-    assert "completes it" in machine.lock(made).cure
+    assert doctor.venv(made, CLEAN).state == "problem"
+    assert "completes it" in doctor.versions(made).cure
 
 
 def test_an_environment_that_the_course_has_left_behind(made):
-    stamp.write(made, "course")
+    prepare.write_stamp(made, "course")
     made.lock("course").write_text("newer\n")
-    assert "refreshes it" in machine.lock(made).cure
+    assert "refreshes it" in doctor.versions(made).cure
 
 
 def test_disk():
-    assert machine.disk(2 * 10**9, installed=False).state == "ok"
-    assert machine.disk(10**9, installed=False).state == "problem"
-    assert machine.disk(10**9, installed=True).state == "ok"
+    assert doctor.disk(2 * 10**9, installed=False).state == "ok"
+    assert doctor.disk(10**9, installed=False).state == "problem"
+    assert doctor.disk(10**9, installed=True).state == "ok"
 
 
 def test_shared_memory(tmp_path, monkeypatch):
-    assert machine.shared_memory(tmp_path).state == "ok"
-    assert machine.shared_memory(tmp_path / "gone").state == "problem"
-    monkeypatch.setattr(machine, "_ENOUGH_SHARED_MEMORY", 10**18)
-    assert "fastrtps_*" in machine.shared_memory(tmp_path).cure
+    assert doctor.shared_memory(tmp_path).state == "ok"
+    assert doctor.shared_memory(tmp_path / "gone").state == "problem"
+    monkeypatch.setattr(doctor, "_ENOUGH_SHARED_MEMORY", 10**18)
+    assert "fastrtps_*" in doctor.shared_memory(tmp_path).cure
 
 
 def test_a_clock_that_fell_back():
-    assert machine.clock(0.0).state == "problem"
-    assert machine.clock(1.8e9).state == "ok"
+    assert doctor.clock(0.0).state == "problem"
+    assert doctor.clock(1.8e9).state == "ok"
 
 
 @pytest.mark.parametrize(
@@ -103,31 +107,31 @@ def test_kernels(made, argv, state):
     spec = made.venv / "share" / "jupyter" / "kernels" / "python3" / "kernel.json"
     spec.parent.mkdir(parents=True)
     spec.write_text(json.dumps({"argv": [part.format(venv=made.venv) for part in argv]}))
-    assert machine.kernel(made).state == state
+    assert doctor.kernel(made).state == state
 
 
 def test_no_kernel(made):
-    assert machine.kernel(made).state == "problem"
+    assert doctor.kernel(made).state == "problem"
 
 
 def test_another_ros_is_noted_and_stops_nothing():
-    found = machine.foreign_ros(Surroundings({}, ("/opt/ros/humble",), ()))
+    found = doctor.another_ros(Surroundings({}, ("/opt/ros/humble",), ()))
     assert found.state == "note"
     assert "/opt/ros/humble" in found.text
 
 
 def test_a_sandbox_is_optional():
-    assert machine.isolation(False).state == "note"
-    assert machine.isolation(True).state == "ok"
+    assert doctor.sandbox(False).state == "note"
+    assert doctor.sandbox(True).state == "ok"
 
 
 def test_a_ros_that_is_as_it_should_be():
-    assert {finding.state for finding in ros.judge(FACTS, {}, "/c/.venv")} == {"ok"}
+    assert {finding.state for finding in doctor.judge(FACTS, {}, "/c/.venv")} == {"ok"}
 
 
 def test_who_chose_the_domain():
-    ours = by_subject(ros.judge(FACTS, {}, "/c/.venv"))["domain id"]
-    yours = by_subject(ros.judge(FACTS, {"ROS_DOMAIN_ID": "12"}, "/c/.venv"))["domain id"]
+    ours = by_subject(doctor.judge(FACTS, {}, "/c/.venv"))["domain id"]
+    yours = by_subject(doctor.judge(FACTS, {"ROS_DOMAIN_ID": "12"}, "/c/.venv"))["domain id"]
     assert "the course's choice" in ours.text
     assert "ROS_DOMAIN_ID in your environment" in yours.text
 
@@ -143,17 +147,17 @@ def test_who_chose_the_domain():
     ],
 )
 def test_what_is_not_as_it_should_be(change, environ, subject, state):
-    findings = by_subject(ros.judge({**FACTS, **change}, environ, "/c/.venv"))
+    findings = by_subject(doctor.judge({**FACTS, **change}, environ, "/c/.venv"))
     assert findings[subject].state == state
 
 
 def test_a_ros_that_cannot_be_asked(made, monkeypatch):
     def ask_ros(layout, environ):
-        raise proof.unheard()
+        raise Problem("A subscriber hears nothing.", "", "Look.\nAgain.", "last\nwords")
 
-    monkeypatch.setattr(proof, "ask_ros", ask_ros)
-    (found,) = ros.findings(made, CLEAN)
-    assert found.state == "problem"
+    monkeypatch.setattr(prepare, "ask_ros", ask_ros)
+    (found,) = doctor.ros(made, CLEAN, {})
+    assert (found.state, found.text) == ("problem", "A subscriber hears nothing. (words)")
 
 
 def test_without_an_environment_nothing_in_it_is_judged(layout):
@@ -163,10 +167,10 @@ def test_without_an_environment_nothing_in_it_is_judged(layout):
 
 
 def test_a_moved_checkout_is_told_once(made, tmp_path):
-    stamp.write(made, "course")
+    prepare.write_stamp(made, "course")
     moved = Layout(tmp_path / "elsewhere")
     shutil.move(made.root, moved.root)
-    lines = [doctor.line(finding) for finding in doctor.look(moved, CLEAN)]
+    lines = [str(finding) for finding in doctor.look(moved, CLEAN)]
     assert sum("was made in another place" in line for line in lines) == 1
     assert not any(str(made.root) in line for line in lines)
 
@@ -185,7 +189,7 @@ PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
     ],
 )
 def test_the_discovery_profile(seen, environ, state, words):
-    found = ros.profile(seen, environ)
+    found = doctor.profile(seen, environ)
     assert found.state == state
     assert words in found.text
 
@@ -193,49 +197,51 @@ def test_the_discovery_profile(seen, environ, state, words):
 def test_commands_that_start_and_that_do_not(made):
     program(made.venv / "bin" / "ros2", "exit 0")
     program(made.venv / "bin" / "colcon", "echo no such module; exit 1")
-    assert commands.command(made, "ros2", {}).state == "ok"
-    found = commands.command(made, "colcon", {})
+    assert doctor.command(made, "ros2", {}).state == "ok"
+    found = doctor.command(made, "colcon", {})
     assert found.state == "problem"
     assert "no such module" in found.text
 
 
 def test_a_place_with_a_space_is_told(layout):
-    assert commands.place(layout).state == "note"
-    assert commands.place(Layout(Path("/home/ada/course"))).state == "ok"
+    assert doctor.place(layout).state == "note"
+    assert doctor.place(Layout(Path("/home/ada/course"))).state == "ok"
 
 
 def test_an_underlay_that_works(made):
     (made.venv / "setup.bash").write_text(f"AMENT_PREFIX_PATH='/other:{made.venv}'\n")
-    assert commands.underlay(made, CLEAN).state == "ok"
+    assert doctor.underlay(made, CLEAN).state == "ok"
 
 
 @pytest.mark.parametrize("text", [None, "return 1\n", "AMENT_PREFIX_PATH=/other\n"])
 def test_an_underlay_that_does_not(made, text):
     if text is not None:
         (made.venv / "setup.bash").write_text(text)
-    found = commands.underlay(made, CLEAN)
+    found = doctor.underlay(made, CLEAN)
     assert found.state == "problem"
     assert "repairs .venv" in found.cure
 
 
 def test_where_the_workspace_lies(layout, tmp_path):
-    found = commands.workspace(layout, {})
+    found = doctor.workspace(layout, {})
     assert found.text == f"{layout.root}/ROS2_and_RL_Tutorials (page 01 makes it)"
     (tmp_path / "ROS2_and_RL_Tutorials").mkdir()
-    found = commands.workspace(layout, {"ROSBEAT_WORKSPACE_IN": str(tmp_path)})
+    found = doctor.workspace(layout, {"ROSBEAT_WORKSPACE_IN": str(tmp_path)})
     assert found.text == f"{tmp_path}/ROS2_and_RL_Tutorials, by ROSBEAT_WORKSPACE_IN"
 
 
 def test_a_workspace_that_cannot_be(layout, tmp_path):
-    found = commands.workspace(layout, {"ROSBEAT_WORKSPACE_IN": str(tmp_path / "gone")})
+    found = doctor.workspace(layout, {"ROSBEAT_WORKSPACE_IN": str(tmp_path / "gone")})
     assert (found.state, found.cure) == ("problem", f"mkdir -p {tmp_path / 'gone'}")
 
 
 def test_the_name_of_the_workspace_is_the_packages():
-    assert commands.WORKSPACE == place.NAME
-    assert commands.SETTING == place.SETTING
+    assert doctor.WORKSPACE == place.NAME
+    assert doctor.SETTING == place.SETTING
 
 
-def test_a_middleware_that_was_replaced_is_told():
+def test_a_middleware_that_was_replaced_is_told(made, monkeypatch):
+    monkeypatch.setattr(prepare, "ask_ros", lambda layout, environ: FACTS)
     clean = Surroundings({}, (), ("RMW_IMPLEMENTATION=x is not part of this ROS",))
-    assert ros.middleware_asked_for(clean)[0].state == "note"
+    *_, found = doctor.ros(made, clean, {})
+    assert (found.state, found.subject, found.text) == ("note", "middleware", clean.notes[0])

@@ -1,5 +1,8 @@
+"""What fills `.venv`: the installers, what they say when they stop, and the underlay."""
+
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -7,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from course_tool import installing, running
-from course_tool.messages import Problem, Untouched
+from course_tool.installing import pip_settings
+from course_tool.problems import Problem, Untouched, installer_stopped
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -94,14 +98,6 @@ def test_progress_shows_what_is_fetched_and_not_every_name():
     assert not shown("warning: Failed to hardlink files; falling back to full copy.")
 
 
-def test_a_cache_on_another_file_system_is_copied_from(layout, monkeypatch):
-    devices = {"cache": 1, ".venv": 2}
-    monkeypatch.setattr(installing, "_device", lambda path: devices[path.name])
-    assert installing.link_mode(layout, {"UV_CACHE_DIR": "/big/cache"}) == "copy"
-    devices["cache"] = 2
-    assert installing.link_mode(layout, {"UV_CACHE_DIR": "/big/cache"}) is None
-
-
 @pytest.fixture
 def started(made):
     """Start a Python as `.venv` would, and return what its environment says."""
@@ -167,3 +163,239 @@ def test_jupyterlab_stays_without_what_tests_bring_along(made):
     assert set(server.values()) == {False}
     lab = json.loads((folder / "labconfig" / "page_config.json").read_text())
     assert lab["disabledExtensions"]["@jupyter/nbgrader"] is True
+
+
+# What a person told pip.
+
+
+def test_the_usual_index_needs_no_word():
+    assert pip_settings("global.index-url='https://pypi.org/simple'\n", {}) == {}
+
+
+def test_an_index_of_ones_own_is_passed_on():
+    found = pip_settings("global.index-url='https://mirror.example/simple'\n", {})
+    assert found == {"UV_DEFAULT_INDEX": "https://mirror.example/simple"}
+
+
+def test_the_closer_setting_counts():
+    listing = (
+        ":env:.index-url='https://three.example'\n"
+        "global.index-url='https://one.example'\n"
+        "install.index-url='https://two.example'\n"
+    )
+    assert pip_settings(listing, {}) == {"UV_DEFAULT_INDEX": "https://three.example"}
+
+
+def test_what_was_said_to_uv_itself_stays():
+    listing = "global.index-url='https://mirror.example'\nglobal.proxy='http://p:1'\n"
+    assert pip_settings(listing, {"UV_INDEX_URL": "https://x", "HTTPS_PROXY": "http://q:2"}) == {}
+
+
+def test_certificates_proxies_and_trusted_hosts():
+    listing = (
+        "global.cert='/etc/my certs.pem'\n"
+        "global.proxy='http://proxy.example:3128'\n"
+        "global.trusted-host='\\none.example\\ntwo.example'\n"
+    )
+    assert pip_settings(listing, {}) == {
+        "SSL_CERT_FILE": "/etc/my certs.pem",
+        "ALL_PROXY": "http://proxy.example:3128",
+        "UV_INSECURE_HOST": "one.example two.example",
+    }
+
+
+def test_other_lines_are_passed_over():
+    assert pip_settings("global.timeout='60'\nWARNING: nonsense\n:env:.quiet='1'\n", {}) == {}
+
+
+# What installers say when they stop.
+
+PLACE = Path("/home/ada/course/.venv")
+
+# Lines as pip and uv print them.
+NETWORK = [
+    "error: Failed to fetch: `https://example.invalid/simple/anyio/`\n  Caused by: dns error",
+    "Temporary failure in name resolution')': /simple/uv/",
+    "ERROR: No matching distribution found for uv==0.13.9",
+    "error: Request failed\n  Caused by: operation timed out",
+    "  Caused by: tcp connect error: Connection refused (os error 111)",
+]
+DISK = [
+    "ERROR: Could not install packages due to an OSError: [Errno 28] No space left on device",
+    "error: failed to write to file: No space left on device (os error 28)",
+    "Caused by: Disk quota exceeded (os error 122)",
+]
+CERTIFICATE = [
+    "Caused by: invalid peer certificate: UnknownIssuer",
+    "SSLCertVerificationError(1, '[SSL: CERTIFICATE_VERIFY_FAILED] certificate verify failed",
+]
+HASH = [
+    "error: Hash mismatch for `anyio==4.16.0`",
+    "ERROR: THESE PACKAGES DO NOT MATCH THE HASHES FROM THE REQUIREMENTS FILE.",
+]
+PERMISSION = ["error: failed to create directory `/home/ada/.cache/uv`: Permission denied"]
+BUILD = ["  x Failed to build `rosbeat @ file:///home/ada/course`\n  The build backend returned"]
+
+
+def kinds():
+    for texts, words in (
+        (NETWORK, "cannot be reached"),
+        (DISK, "not enough room"),
+        (CERTIFICATE, "does not trust"),
+        (HASH, "not the one the course was locked to"),
+        (PERMISSION, "may not write"),
+        (BUILD, "could not be built"),
+    ):
+        yield from ((text, words) for text in texts)
+
+
+@pytest.mark.parametrize(("text", "words"), list(kinds()))
+def test_last_words_are_understood(text, words):
+    problem = installer_stopped(text, PLACE)
+    assert words in problem.happened
+    assert problem.means
+    assert problem.cure
+    assert problem.details == "\n".join(text.strip().splitlines())
+
+
+def test_a_full_disk_is_not_taken_for_a_network_that_failed():
+    text = "error: Failed to fetch: `anyio`\n  Caused by: No space left on device (os error 28)"
+    assert "not enough room" in installer_stopped(text, PLACE).happened
+
+
+def test_an_unknown_end_says_so_and_shows_the_last_lines():
+    problem = installer_stopped("\n".join(f"line {n}" for n in range(100)), PLACE)
+    assert "does not know the reason" in problem.happened
+    assert problem.details.splitlines() == [f"line {n}" for n in range(88, 100)]
+
+
+@pytest.mark.parametrize("text", NETWORK + CERTIFICATE + HASH + BUILD)
+def test_what_fails_before_anything_changes(text):
+    assert isinstance(installer_stopped(text, PLACE), Untouched)
+
+
+@pytest.mark.parametrize("text", [*DISK, *PERMISSION, "killed"])
+def test_what_may_fail_half_way(text):
+    problem = installer_stopped(text, PLACE)
+    assert isinstance(problem, Problem)
+    assert not isinstance(problem, Untouched)
+
+
+# The underlay.
+
+BARE = {"PATH": os.defpath, "HOME": "/nowhere"}
+SHELLS = ["bash", *(name for name in ("dash", "zsh", "sh") if shutil.which(name))]
+
+
+@pytest.fixture
+def prefix(made):
+    """A `.venv` in a folder with a space, made an underlay."""
+    module = made.root / "src" / "rosbeat" / "environment.py"
+    module.parent.mkdir(parents=True)
+    shutil.copy(ROOT / "src" / "rosbeat" / "environment.py", module)
+    made.python.unlink()
+    made.python.symlink_to(os.path.realpath(sys.executable))
+    installing.write_underlay(made, BARE)
+    return made.venv
+
+
+def sourced(shell, *files, environ=BARE, after="env -0"):
+    """What the environment is after files were sourced, and nothing may be said."""
+    lines = "; ".join(f". '{file}'" for file in files)
+    done = subprocess.run(
+        [shell, "-c", f"set -eu; {lines}; {after}"],
+        env=environ,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == ""
+    pairs = (entry.split("=", 1) for entry in done.stdout.split("\0") if "=" in entry)
+    return {name: value for name, value in pairs if name not in ("_", "PWD", "SHLVL", "OLDPWD")}
+
+
+def suffix(shell):
+    return shell if shell in ("bash", "zsh") else "sh"
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+@pytest.mark.parametrize("name", ["setup", "local_setup"])
+def test_sourcing_activates_ros_in_a_bare_shell(prefix, shell, name):
+    environ = sourced(shell, prefix / f"{name}.{suffix(shell)}")
+    assert environ["PATH"] == f"{prefix}/bin:{os.defpath}"
+    assert environ["AMENT_PREFIX_PATH"] == str(prefix)
+    assert environ["ROS_DISTRO"] == "jazzy"
+    assert environ["RMW_IMPLEMENTATION"] == "rmw_fastrtps_cpp"
+    assert 1 <= int(environ["ROS_DOMAIN_ID"]) <= 50
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+def test_sourcing_twice_is_sourcing_once(prefix, shell):
+    file = prefix / f"setup.{suffix(shell)}"
+    assert sourced(shell, file) == sourced(shell, file, file)
+
+
+def test_no_other_python_sees_the_packages_of_this_one(prefix):
+    environ = sourced("bash", prefix / "setup.bash")
+    assert not {"PYTHONPATH", "LD_LIBRARY_PATH", "PYTHONHOME"} & set(environ)
+
+
+def test_what_a_person_set_stays(prefix):
+    theirs = {**BARE, "ROS_DOMAIN_ID": "77", "AMENT_PREFIX_PATH": "/ws/install/arm"}
+    environ = sourced("bash", prefix / "setup.bash", environ=theirs)
+    assert environ["ROS_DOMAIN_ID"] == "77"
+    assert environ["AMENT_PREFIX_PATH"] == f"{prefix}:/ws/install/arm"
+
+
+def test_a_workspace_on_top_stays_on_top(prefix):
+    both = {**BARE, "AMENT_PREFIX_PATH": f"/ws/install/arm:{prefix}"}
+    environ = sourced("bash", prefix / "setup.bash", environ=both)
+    assert environ["AMENT_PREFIX_PATH"] == both["AMENT_PREFIX_PATH"]
+
+
+def test_nothing_stays_behind_in_the_shell(prefix):
+    names = "{ compgen -v; compgen -A function; } | grep rosbeat || :"
+    done = subprocess.run(
+        ["bash", "-c", f". '{prefix}/setup.bash'; {names}"],
+        env=BARE,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout == ""
+
+
+def test_a_broken_rosbeat_leaves_the_commands_where_they_are(prefix):
+    module = prefix.parent / "src" / "rosbeat" / "environment.py"
+    module.write_text("this is not Python (")
+    assert sourced("bash", prefix / "setup.bash")["PATH"].startswith(f"{prefix}/bin:")
+
+
+def test_completion_is_asked_for_once_and_read_by_bash(made, prefix, monkeypatch):
+    asked = []
+
+    def quiet(command, env, timeout):
+        asked.append(Path(command[0]).name)
+        return running.Result(0, f"complete -W 'run topic' {asked[-1]}\n")
+
+    monkeypatch.setattr(running, "quiet", quiet)
+    installing.write_underlay(made, BARE)
+    assert asked == ["ros2", "register-python-argcomplete"]
+    after = "complete -p ros2 >&2"
+    done = subprocess.run(
+        ["bash", "-c", f". '{prefix}/setup.bash'; {after}"],
+        env=BARE,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == "complete -W 'run topic' ros2\n"
+
+
+def test_a_command_that_cannot_say_how_it_completes_is_left_out(made, prefix):
+    assert list(made.completions.iterdir()) == []
+
+
+def test_every_mark_is_filled_in(prefix):
+    for file in prefix.glob("*setup.*"):
+        assert "@" not in file.read_text()

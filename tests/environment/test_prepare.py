@@ -1,22 +1,36 @@
+"""`.venv`: what must hold before, how it is made and kept, its stamp, and a first ROS message."""
+
+import errno
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from contextlib import nullcontext
+from types import SimpleNamespace
+
 import pytest
 
-from course_tool import checks, installing, making, prepare, proof, stamp
-from course_tool.messages import Problem, Untouched
+from course_tool import installing, prepare, running
+from course_tool.layout import Layout
+from course_tool.problems import Problem, Untouched
 
 
 @pytest.fixture
 def work(made, monkeypatch):
     """What preparing does, as a list of words, without doing it."""
     done = []
-    monkeypatch.setattr(checks, "before_installing", lambda layout: done.append("check"))
-    monkeypatch.setattr(making, "make_or_keep", lambda layout, environ: done.append("venv"))
+    monkeypatch.setattr(prepare, "check_space", lambda folder, needed: done.append("check"))
+    monkeypatch.setattr(prepare, "make_or_keep", lambda layout, environ: done.append("venv"))
     monkeypatch.setattr(installing, "fill", lambda layout, level, environ: done.append(level))
 
     def ask_ros(layout, environ):
         done.append("listen")
         return {"milliseconds": 200.0, "rclpy": "7.1.6"}
 
-    monkeypatch.setattr(proof, "ask_ros", ask_ros)
+    monkeypatch.setattr(prepare, "ask_ros", ask_ros)
     return done
 
 
@@ -30,7 +44,7 @@ def fails(problem):
 def test_everything_is_done_in_order_and_the_stamp_comes_last(made, work):
     environ = prepare.ready(made, "course")
     assert work == ["check", "venv", "course", "listen"]
-    assert stamp.satisfied(made, "course")
+    assert prepare.is_satisfied(made, "course")
     assert environ["VIRTUAL_ENV"] == str(made.venv)
 
 
@@ -49,14 +63,18 @@ def test_a_refresh_keeps_the_tools_for_tests(made, work):
     assert work == ["check", "venv", "test", "listen"]
 
 
-def test_what_another_command_has_just_done_is_not_done_again(made, work):
-    stamp.write(made, "course")
-    prepare._complete(made, "course", {})
-    assert work == []
+def test_what_another_command_has_just_done_is_not_done_again(made, work, monkeypatch):
+    def meanwhile(folder):
+        prepare.write_stamp(made, "course")
+        return nullcontext()
+
+    monkeypatch.setattr(prepare, "exclusive", meanwhile)
+    prepare.ready(made, "course")
+    assert work == ["check"]
 
 
 def test_an_interrupted_one_has_no_stamp(made, work, monkeypatch):
-    stamp.write(made, "course")
+    prepare.write_stamp(made, "course")
     made.lock("course").write_text("newer\n")
     monkeypatch.setattr(installing, "fill", fails(KeyboardInterrupt()))
     with pytest.raises(KeyboardInterrupt):
@@ -65,7 +83,7 @@ def test_an_interrupted_one_has_no_stamp(made, work, monkeypatch):
 
 
 def test_a_disk_that_filled_leaves_no_stamp(made, work, monkeypatch):
-    stamp.write(made, "course")
+    prepare.write_stamp(made, "course")
     made.lock("course").write_text("newer\n")
     monkeypatch.setattr(installing, "fill", fails(Problem("disk", "", "")))
     with pytest.raises(Problem):
@@ -74,21 +92,21 @@ def test_a_disk_that_filled_leaves_no_stamp(made, work, monkeypatch):
 
 
 def test_offline_the_old_environment_is_not_lost(made, work, monkeypatch):
-    stamp.write(made, "course")
-    before = stamp.read(made)
+    prepare.write_stamp(made, "course")
+    before = made.stamp.read_text()
     made.lock("course").write_text("newer\n")
     monkeypatch.setattr(installing, "fill", fails(Untouched("network", "", "")))
     with pytest.raises(Untouched):
         prepare.ready(made, "course")
-    assert stamp.read(made) == before
-    assert not stamp.satisfied(made, "course")
+    assert made.stamp.read_text() == before
+    assert not prepare.is_satisfied(made, "course")
 
 
 def test_ros_that_is_not_heard_leaves_no_stamp(made, work, monkeypatch):
     def ask_ros(layout, environ):
-        raise proof.unheard()
+        raise Problem("hears nothing", "", "")
 
-    monkeypatch.setattr(proof, "ask_ros", ask_ros)
+    monkeypatch.setattr(prepare, "ask_ros", ask_ros)
     with pytest.raises(Problem, match="hears nothing"):
         prepare.ready(made, "course")
     assert not made.stamp.exists()
@@ -100,3 +118,364 @@ def test_the_first_time_is_announced(layout, made, work, capsys):
     made.lock("course").write_text("newer\n")
     prepare.ready(made, "course")
     assert "Something changed" in capsys.readouterr().out
+
+
+# What must hold before.
+
+HERE = "{}.{}".format(*sys.version_info[:2])
+
+
+@pytest.mark.parametrize("version", ["2.28", "2.36", "2.41", "3.0"])
+def test_new_enough_c_libraries(version):
+    prepare.check_libc(version)
+
+
+@pytest.mark.parametrize(
+    ("version", "words"), [("2.27", "glibc 2.27"), ("", "another C library than glibc")]
+)
+def test_unfit_c_libraries(version, words):
+    with pytest.raises(Problem) as caught:
+        prepare.check_libc(version)
+    assert words in caught.value.happened
+    assert "Dockerfile" in caught.value.cure
+
+
+def test_this_machine_is_read(monkeypatch):
+    monkeypatch.setattr("os.confstr", lambda name: "glibc 2.36")
+    assert prepare.glibc_version() == "2.36"
+
+
+@pytest.mark.parametrize("answer", [None, ValueError("unrecognized configuration name")])
+def test_a_machine_without_glibc_is_read(monkeypatch, answer):
+    def confstr(name):
+        if answer is not None:
+            raise answer
+
+    monkeypatch.setattr("os.confstr", confstr)
+    assert prepare.glibc_version() == ""
+
+
+@pytest.mark.parametrize("missing", ["venv", "ensurepip"])
+def test_an_incomplete_python_gets_the_right_apt_line(layout, monkeypatch, missing):
+    find = importlib.util.find_spec
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name: None if name == missing else find(name)
+    )
+    with pytest.raises(Problem) as caught:
+        prepare.make_or_keep(layout, ENV)
+    assert f"sudo apt install python{HERE}-venv" in caught.value.cure
+
+
+def test_a_folder_of_ones_own(tmp_path):
+    prepare.check_writable(tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        (errno.EACCES, "Nothing can be written"),
+        (errno.EROFS, "Nothing can be written"),
+        (errno.ENOSPC, "not enough room on the disk"),
+    ],
+)
+def test_a_folder_that_cannot_be_written_to(monkeypatch, tmp_path, number, words):
+    def refuse(dir):
+        raise OSError(number, "no")
+
+    monkeypatch.setattr(tempfile, "TemporaryFile", refuse)
+    with pytest.raises(Problem) as caught:
+        prepare.check_writable(tmp_path)
+    assert words in caught.value.happened
+
+
+def test_a_disk_with_room(tmp_path):
+    prepare.check_space(tmp_path, 1)
+
+
+def test_a_full_disk_is_said_before_it_is_filled(monkeypatch, tmp_path):
+    monkeypatch.setattr(shutil, "disk_usage", lambda folder: SimpleNamespace(free=400_000_000))
+    with pytest.raises(Problem) as caught:
+        prepare.check_space(tmp_path, prepare.FIRST_TIME)
+    assert "0.4 GB free, 1.5 needed" in caught.value.happened
+
+
+def test_a_refresh_needs_less_room_than_a_first_start(made, work, monkeypatch):
+    asked = []
+    monkeypatch.setattr(prepare, "check_space", lambda folder, needed: asked.append(needed))
+    prepare.ready(made, "course")
+    made.uv.parent.mkdir(parents=True)
+    made.uv.touch()
+    prepare.ready(made, "test")
+    assert asked == [prepare.FIRST_TIME, prepare.REFRESH]
+
+
+# One command at a time.
+
+HOLD = """
+import fcntl, os, sys
+descriptor = os.open(sys.argv[1], os.O_RDONLY)
+fcntl.flock(descriptor, fcntl.LOCK_EX)
+print("held", flush=True)
+sys.stdin.readline()
+"""
+
+
+def test_alone_nothing_is_said(tmp_path, capsys):
+    with prepare.exclusive(tmp_path):
+        pass
+    assert capsys.readouterr().out == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_second_command_waits_and_says_so(tmp_path, monkeypatch):
+    said = []
+    with subprocess.Popen(
+        [sys.executable, "-I", "-S", "-c", HOLD, str(tmp_path)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as other:
+        assert other.stdout.readline() == "held\n"
+
+        def say(text):
+            said.append(text)
+            other.stdin.write("\n")
+            other.stdin.flush()
+
+        monkeypatch.setattr("course_tool.prepare.say", say)
+        with prepare.exclusive(tmp_path):
+            pass
+    assert "waiting" in said[0]
+
+
+def test_a_file_system_without_locks_is_no_obstacle(tmp_path, monkeypatch):
+    def refuse(descriptor, how):
+        raise OSError(9, "Bad file descriptor")
+
+    monkeypatch.setattr("fcntl.flock", refuse)
+    with prepare.exclusive(tmp_path):
+        pass
+
+
+# The virtual environment.
+
+ENV = {"PATH": os.defpath}
+
+
+@pytest.fixture
+def finished(made):
+    prepare.write_stamp(made, "course")
+    return made
+
+
+@pytest.fixture
+def runs(monkeypatch):
+    """How often Python's venv module was run, which is not really done."""
+    seen, quiet = [], running.quiet
+
+    def run(command, env, timeout=None):
+        if "venv" not in command:
+            return quiet(command, env, timeout)
+        seen.append("make")
+        return running.Result(0, "")
+
+    monkeypatch.setattr(running, "quiet", run)
+    return seen
+
+
+def answers(layout, text):
+    layout.python.write_text(f"#!/bin/sh\n{text}\n")
+
+
+def test_a_finished_one_is_kept(finished, runs):
+    prepare.make_or_keep(finished, ENV)
+    assert runs == []
+    assert finished.venv.is_dir()
+
+
+def test_none_is_made(layout, runs, capsys):
+    prepare.make_or_keep(layout, ENV)
+    assert runs == ["make"]
+    assert "again" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("harm", "reason"),
+    [
+        (lambda layout: layout.stamp.unlink(), "is not finished"),
+        (lambda layout: layout.python.unlink(), "is not finished"),
+        (lambda layout: answers(layout, "exit 1"), "has a Python that does not run"),
+        (lambda layout: answers(layout, "echo 3.9 /usr"), "belongs to another Python (3.9, /usr)"),
+        (
+            lambda layout: answers(layout, "echo {}.{} /elsewhere".format(*sys.version_info[:2])),
+            "belongs to another Python",
+        ),
+    ],
+    ids=["no stamp", "no python", "broken python", "other version", "other place of Python"],
+)
+def test_an_unusable_one_is_made_again(finished, runs, capsys, harm, reason):
+    harm(finished)
+    prepare.make_or_keep(finished, ENV)
+    assert runs == ["make"]
+    assert f".venv {reason}" in capsys.readouterr().out
+    assert not finished.venv.exists()
+
+
+def test_a_moved_one_is_made_again(finished, tmp_path, runs, capsys):
+    there = Layout(tmp_path / "elsewhere")
+    shutil.move(finished.root, there.root)
+    prepare.make_or_keep(there, ENV)
+    assert runs == ["make"]
+    assert "was made in another place" in capsys.readouterr().out
+
+
+def test_of_a_link_only_the_link_is_removed(layout, tmp_path, runs):
+    (tmp_path / "precious").mkdir()
+    layout.venv.symlink_to(tmp_path / "precious")
+    prepare.make_or_keep(layout, ENV)
+    assert (tmp_path / "precious").is_dir()
+    assert not os.path.lexists(layout.venv)
+
+
+def test_one_that_cannot_be_removed(made, monkeypatch):
+    def refuse(folder):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(shutil, "rmtree", refuse)
+    with pytest.raises(Problem, match="Nothing can be written"):
+        prepare.make_or_keep(made, ENV)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("The virtual environment was not created: ensurepip is not available.", "venv module"),
+        ("Error: [Errno 28] No space left on device", "not enough room"),
+        ("something else", "does not know the reason"),
+    ],
+)
+def test_what_pythons_own_module_says_is_understood(layout, monkeypatch, text, words):
+    monkeypatch.setattr(running, "quiet", lambda command, env: running.Result(1, text))
+    with pytest.raises(Problem, match=words):
+        prepare.make_or_keep(layout, ENV)
+
+
+# The stamp.
+
+
+def test_a_fresh_stamp_satisfies(made):
+    prepare.write_stamp(made, "course")
+    assert prepare.is_satisfied(made, "course")
+
+
+def test_no_stamp_is_a_half_made_environment(made):
+    assert prepare.stamped_level(made) is None
+    assert not prepare.is_satisfied(made, "course")
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"level": "gold", "fingerprint": "x"}'])
+def test_a_stamp_that_cannot_be_read_is_none(made, text):
+    made.stamp.write_text(text)
+    assert prepare.stamped_level(made) is None
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "environment/course.lock",
+        "environment/build.lock",
+        "pyproject.toml",
+        "src/ros2_command/pyproject.toml",
+    ],
+)
+def test_whatever_it_was_made_from_makes_it_stale(made, name):
+    prepare.write_stamp(made, "course")
+    (made.root / name).write_text("another version\n")
+    assert not prepare.is_satisfied(made, "course")
+
+
+def test_another_underlay_makes_it_stale(made, tmp_path, monkeypatch):
+    prepare.write_stamp(made, "course")
+    (tmp_path / "local_setup.sh").write_text("another version\n")
+    monkeypatch.setattr(installing, "underlay_templates", lambda: [tmp_path / "local_setup.sh"])
+    assert not prepare.is_satisfied(made, "course")
+
+
+def test_another_python_makes_it_stale(made, monkeypatch):
+    prepare.write_stamp(made, "course")
+    monkeypatch.setattr("sys.version_info", (3, 99, 0, "final", 0))
+    assert not prepare.is_satisfied(made, "course")
+
+
+def test_moving_makes_it_stale(made, tmp_path):
+    prepare.write_stamp(made, "course")
+    there = tmp_path / "elsewhere"
+    shutil.move(made.root, there)
+    assert not prepare.is_satisfied(Layout(there), "course")
+
+
+def test_a_python_that_is_gone_makes_it_stale(made):
+    prepare.write_stamp(made, "course")
+    made.python.unlink()
+    assert not prepare.is_satisfied(made, "course")
+
+
+def test_an_environment_for_tests_serves_learners_too(made):
+    prepare.write_stamp(made, "test")
+    made.lock("course").write_text("learners' lock alone says little here\n")
+    assert prepare.is_satisfied(made, "course")
+    assert prepare.is_satisfied(made, "test")
+
+
+def test_an_environment_for_learners_does_not_serve_tests(made):
+    prepare.write_stamp(made, "course")
+    assert not prepare.is_satisfied(made, "test")
+
+
+@pytest.mark.parametrize(
+    ("there", "wanted", "made_for"),
+    [("test", "course", "test"), ("course", "test", "test"), ("course", "course", "course")],
+)
+def test_nobody_loses_tools(made, there, wanted, made_for):
+    prepare.write_stamp(made, there)
+    assert prepare.at_least(made, wanted) == made_for
+
+
+# A first message.
+
+
+def answer(layout, monkeypatch, code, text):
+    monkeypatch.setattr(running, "quiet", lambda command, env, timeout: running.Result(code, text))
+    return prepare.ask_ros(layout, {})
+
+
+def test_facts_are_the_last_line(layout, monkeypatch):
+    text = "a warning\n" + json.dumps({"milliseconds": 200.0}) + "\n"
+    assert answer(layout, monkeypatch, 0, text) == {"milliseconds": 200.0}
+
+
+@pytest.mark.parametrize(
+    ("code", "text"),
+    [
+        (1, "Traceback\nImportError: librcl.so"),
+        (124, "It did not end within 60 s."),
+        (0, ""),
+        (0, "3"),
+    ],
+)
+def test_a_ros_that_does_not_start(layout, monkeypatch, code, text):
+    with pytest.raises(Problem, match="does not start") as caught:
+        answer(layout, monkeypatch, code, text)
+    assert caught.value.details == text
+
+
+def test_a_wrong_middleware_is_named(layout, monkeypatch):
+    with pytest.raises(Problem) as caught:
+        answer(layout, monkeypatch, 102, "")
+    assert "RMW_IMPLEMENTATION" in caught.value.cure
+
+
+def test_a_message_that_never_comes(layout, monkeypatch):
+    with pytest.raises(Problem, match="hears nothing"):
+        answer(layout, monkeypatch, 0, '{"milliseconds": null}')

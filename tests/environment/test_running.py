@@ -20,7 +20,7 @@ def test_interesting_lines_are_shown_and_all_are_kept(capsys):
 
 
 def test_what_goes_to_standard_error_is_kept_too():
-    result = running.stream(python("import sys; sys.exit('no')"), ENV)
+    result = running.stream(python("import sys; sys.exit('no')"), ENV, bool)
     assert (result.code, result.text) == (1, "no\n")
 
 

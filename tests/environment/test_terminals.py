@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from tornado.websocket import websocket_connect
 
-from course_tool import lab, layout, shell, surroundings
+from course_tool import commands, layout, surroundings
 
 LAYOUT = layout.of_this_checkout()
 TOKEN = "only-for-this-test"
@@ -41,13 +41,13 @@ def environ(tmp_path):
         program.write_text("#!/bin/sh\necho wrong\n")
         program.chmod(0o755)
     plain = {"HOME": str(tmp_path), "PATH": os.defpath, "TERM": "dumb"}
-    return shell.for_shells(surroundings.inside(plain, LAYOUT), LAYOUT)
+    return commands.for_shells(surroundings.inside(plain, LAYOUT), LAYOUT)
 
 
 def typed(text, environ, folder=LAYOUT.root):
     """What an interactive bash of the course prints when a text is typed into it."""
     done = subprocess.run(
-        [*shell.interactive(), "-i"],
+        [*commands.interactive_shell(), "-i"],
         input=text,
         env=environ,
         cwd=folder,
@@ -107,7 +107,7 @@ def test_sourcing_the_underlay_in_a_bare_bash_is_enough():
 def server(environ, tmp_path):
     """The address of a JupyterLab that was started as `course lab` starts it."""
     options = ["--no-browser", "--ServerApp.port=0", f"--IdentityProvider.token={TOKEN}"]
-    command = lab.lab_command(LAYOUT, options, root_user=os.geteuid() == 0)
+    command = commands.lab_command(LAYOUT, options, root_user=os.geteuid() == 0)
     folders = {
         f"JUPYTER_{name}_DIR": str(tmp_path / name) for name in ("RUNTIME", "CONFIG", "DATA")
     }

@@ -16,9 +16,9 @@ from nbformat import NotebookNode
 from nbformat.v4 import output_from_msg
 
 from rosbeat.authoring import pages
-from rosbeat.authoring.files import Change, compare
+from rosbeat.authoring.build import Change, compare
+from rosbeat.authoring.pages import Transform
 from rosbeat.authoring.source import Lesson, read_lesson
-from rosbeat.authoring.transforms import Transform
 
 _OUTPUTS = ("stream", "display_data", "execute_result", "error")
 

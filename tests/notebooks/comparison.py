@@ -7,7 +7,7 @@ from typing import Any
 from nbformat import NotebookNode, from_dict
 
 from rosbeat.authoring.execution import BACKGROUND
-from rosbeat.authoring.transforms.failures import quiet_message, quiet_traceback
+from rosbeat.authoring.pages import quiet_message, quiet_traceback
 
 REPLACING = ("clear_output", "update_display_data")
 

@@ -10,7 +10,7 @@ from typing import Any
 from jupyter_client.manager import KernelManager
 from nbval.kernel import RunningKernel
 
-from rosbeat.authoring.kernel import kernel_place
+from rosbeat.authoring.execution import kernel_place
 
 _LOOK_EVERY = 0.5
 _LEAVE_WITHIN = 20.0
@@ -32,7 +32,7 @@ class WatchedKernel(RunningKernel):
         self.reply: dict[str, Any] = {}
         self.asked = ""
         self._stack = ExitStack()
-        # PYTEST_CURRENT_TEST stays behind, and the sockets are files: see rosbeat.authoring.kernel.
+        # PYTEST_CURRENT_TEST stays behind, and sockets are files: see rosbeat.authoring.execution.
         self.place = self._stack.enter_context(kernel_place())
         log = self._stack.enter_context(self.place.log.open("wb"))
         self.km = KernelManager(**self.place.options())

@@ -8,10 +8,9 @@ import nbformat
 import pytest
 
 from rosbeat.authoring import pages
-from rosbeat.authoring.files import compare, stale_pages
-from rosbeat.authoring.layout import Course
+from rosbeat.authoring.build import compare, stale_pages
 from rosbeat.authoring.lint import check_lessons
-from rosbeat.authoring.source import read_lesson
+from rosbeat.authoring.source import Course, read_lesson
 from rosbeat.exercises.registry import EXERCISES
 
 COURSE = Course(Path(__file__).parents[2])

@@ -1,30 +1,52 @@
-"""The two trees of pages, each a list of transformations."""
+"""The two trees of pages: each page is a lesson that went through a list of transformations.
+
+A transformation takes a page, changes it and returns it; the lists are in `notebook_page`,
+`solution_draft` and `solution_page`. Up to the last step cells carry working notes in their
+metadata: the line of the source, and the tree that they belong to.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+import re
+import tempfile
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from itertools import groupby
 from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
 import nbformat
-from nbformat import NotebookNode
+from nbformat import NotebookNode, v4
 
-from rosbeat.authoring.execution import Deadlines
-from rosbeat.authoring.source import Lesson
-from rosbeat.authoring.transforms import Transform
-from rosbeat.authoring.transforms.answers import blank_answers, fill_answers
-from rosbeat.authoring.transforms.assemble import assemble
-from rosbeat.authoring.transforms.failures import quiet_failures
-from rosbeat.authoring.transforms.nbgrader import NO_POINTS, mark_for_nbgrader
-from rosbeat.authoring.transforms.repeatable import refuse_unrepeatable
-from rosbeat.authoring.transforms.run import run_in
-from rosbeat.authoring.transforms.selection import keep_cells_of
-from rosbeat.authoring.transforms.streams import merge_streams
-from rosbeat.authoring.transforms.uncompared import keep_uncompared
-from rosbeat.authoring.transforms.whitelist import keep_known_metadata
+from rosbeat.authoring.execution import DISPLAY_NAME, KERNEL_NAME, run_page
+from rosbeat.authoring.source import Lesson, SourceCell, with_answers, with_blanks
+from rosbeat.errors import LessonError
 
-_NOTEBOOK: list[Transform] = [keep_cells_of("notebook"), blank_answers]
-_SOLUTION: list[Transform] = [keep_cells_of("solution"), fill_answers]
-_AFTER_RUN: list[Transform] = [merge_streams, quiet_failures, refuse_unrepeatable]
+Transform = Callable[[NotebookNode], NotebookNode]
+"""Takes a page, changes it, and returns it."""
+
+#: What exercises are worth when nobody says anything: one point each.
+NO_POINTS: Mapping[str, int] = MappingProxyType({})
+#: nbval's tag for a cell whose output is stored and not compared.
+UNCOMPARED = "nbval-ignore-output"
+
+_USUAL_POINTS = 1
+_NBGRADER_SCHEMA = 3
+_NO_ROLE = {"grade": False, "locked": False, "solution": False, "task": False}
+_PAGE_KEYS = ("kernelspec", "language_info", "title", "rosbeat")
+_CELL_KEYS = ("nbgrader", "rosbeat", "tags")
+
+_CELL_FILE = re.compile(r"[^\s\"'(]*ipykernel_\d+[^\s\"')]*\.py|(?<=\()\d+\.py(?=, line)")
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+#: A frame of an installed library, with its line of code; and what marks a part of a line.
+_LIBRARY_FRAME = re.compile(r'(?m)^  File "[^"\n]*site-packages[^"\n]*", line .*\n(?:    .*\n)*')
+_MARKS = re.compile(r"(?m)^    [ ^~]*[\^~][ ^~]*\n")
+_UNREPEATABLE = {
+    "a memory address": re.compile(r"\b0x[0-9a-f]{6,}\b"),
+    "a terminal colour": re.compile(r"\x1b\["),
+}
 
 
 def notebook_page(lesson: Lesson, points: Mapping[str, int] = NO_POINTS) -> NotebookNode:
@@ -37,7 +59,8 @@ def notebook_page(lesson: Lesson, points: Mapping[str, int] = NO_POINTS) -> Note
     Raises:
         LessonError: An answer marker is wrong.
     """
-    return _apply(lesson, [*_NOTEBOOK, mark_for_nbgrader(points), keep_known_metadata])
+    steps = [keep_cells_of("notebook"), rewrite(with_blanks)]
+    return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
 
 
 def solution_draft(lesson: Lesson, points: Mapping[str, int] = NO_POINTS) -> NotebookNode:
@@ -50,13 +73,13 @@ def solution_draft(lesson: Lesson, points: Mapping[str, int] = NO_POINTS) -> Not
     Raises:
         LessonError: An answer marker is wrong.
     """
-    return _apply(lesson, [*_SOLUTION, mark_for_nbgrader(points), keep_known_metadata])
+    steps = [keep_cells_of("solution"), rewrite(with_answers)]
+    return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
 
 
 def solution_page(
     lesson: Lesson,
     folder: Path,
-    deadlines: Deadlines | None = None,
     *,
     fresh: bool = False,
     points: Mapping[str, int] = NO_POINTS,
@@ -67,7 +90,6 @@ def solution_page(
     Args:
         lesson: The lesson source.
         folder: The kernel's current directory, and where the page is kept.
-        deadlines: How long the page may take.
         fresh: Store new outputs in cells of which the outputs are not compared, too.
         points: What each exercise is worth, by its id.
         run: The step that runs the page; by default in a fresh kernel of its own.
@@ -75,13 +97,16 @@ def solution_page(
     Raises:
         LessonError: An answer marker is wrong, a cell fails, or an output is not repeatable.
     """
-    kept = [] if fresh else [keep_uncompared(folder / f"{lesson.name}.ipynb")]
-    ran = [run or run_in(folder, deadlines), *_AFTER_RUN, *kept]
-    return _apply(lesson, [*_SOLUTION, *ran, mark_for_nbgrader(points), keep_known_metadata])
+    steps = [
+        *(keep_cells_of("solution"), rewrite(with_answers)),
+        *(run or run_in(folder), merge_streams, quiet_failures, refuse_unrepeatable),
+        *([] if fresh else [keep_uncompared(folder / f"{lesson.name}.ipynb")]),
+    ]
+    return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
 
 
 def to_bytes(page: NotebookNode) -> bytes:
-    """Write a page as it stands in a file.
+    """Return a page as it stands in a file.
 
     Args:
         page: The page.
@@ -96,3 +121,265 @@ def _apply(lesson: Lesson, steps: list[Transform]) -> NotebookNode:
     for step in steps:
         page = step(page)
     return page
+
+
+# Before a page runs.
+
+
+def assemble(lesson: Lesson) -> NotebookNode:
+    """Make the page that every list begins with: answers and markers are still in its cells.
+
+    Args:
+        lesson: The lesson source.
+    """
+    page = v4.new_notebook(cells=[_cell(cell) for cell in lesson.cells])
+    # Fixed, so that a newer nbformat does not rewrite every page.
+    page.nbformat, page.nbformat_minor = 4, 5
+    page.metadata.kernelspec = {
+        "display_name": DISPLAY_NAME,
+        "language": "python",
+        "name": KERNEL_NAME,
+    }
+    page.metadata.language_info = {"name": "python"}
+    page.metadata.title = lesson.header.title
+    page.metadata.rosbeat = {"lesson": lesson.name}
+    return page
+
+
+def _cell(cell: SourceCell) -> Any:  # noqa: ANN401 - untyped library
+    make = v4.new_code_cell if cell.kind == "code" else v4.new_markdown_cell
+    made = make(cell.page_text)
+    made.id = cell.id
+    made.metadata.update({"line": cell.line, "only": cell.only})
+    if cell.tags:
+        made.metadata.tags = list(cell.tags)
+    roles = {"exercise": cell.exercise, "check": cell.check}
+    marks = {role: name for role, name in roles.items() if name}
+    if marks:
+        made.metadata.rosbeat = marks
+    return made
+
+
+def keep_cells_of(tree: str) -> Transform:
+    """Make the step that drops cells meant for the other tree.
+
+    Args:
+        tree: ``"notebook"`` or ``"solution"``.
+    """
+
+    def keep(page: NotebookNode) -> NotebookNode:
+        page.cells = [cell for cell in page.cells if cell.metadata.only in (None, tree)]
+        return page
+
+    return keep
+
+
+def rewrite(text: Callable[[str], str]) -> Transform:
+    """Make the step that fills answers in, or puts blanks in their place.
+
+    Args:
+        text: Makes the text of a code cell of the page from that of the source.
+    """
+
+    def filled(page: NotebookNode) -> NotebookNode:
+        for cell in _code(page):
+            cell.source = text(cell.source)
+        return page
+
+    return filled
+
+
+def mark_for_nbgrader(points: Mapping[str, int]) -> Transform:
+    """Make the step that tells nbgrader what the cells of exercises and checks are.
+
+    An institution that runs nbgrader can use the pages as they are; the course itself looks at
+    nothing of this. The cells of an answer become solution cells, which learners change; the check
+    below them becomes a locked cell, which nbgrader puts back before it grades, and which gives the
+    points. The fields are those of the schema's version 3 (`nbgrader/nbgraderformat/v3.py`).
+
+    Args:
+        points: What each exercise is worth, by its id; one point where nothing is said.
+    """
+
+    def mark(page: NotebookNode) -> NotebookNode:
+        parts: Counter[str] = Counter()
+        for cell in page.cells:
+            role = cell.metadata.get("rosbeat", {})
+            if "exercise" in role:
+                parts[role.exercise] += 1
+                part = parts[role.exercise]
+                # A second cell of the same exercise has a name of its own.
+                name = role.exercise if part == 1 else f"{role.exercise}-{part}"
+                cell.metadata.nbgrader = _role(name, solution=True)
+            elif "check" in role:
+                worth = points.get(role.check, _USUAL_POINTS)
+                name = f"{role.check}-check"
+                cell.metadata.nbgrader = _role(name, grade=True, locked=True, points=worth)
+        return page
+
+    return mark
+
+
+def _role(name: str, **known: int) -> NotebookNode:
+    fields = {**_NO_ROLE, "grade_id": name, "schema_version": _NBGRADER_SCHEMA, **known}
+    return NotebookNode(fields)
+
+
+def keep_known_metadata(page: NotebookNode) -> NotebookNode:
+    """Drop metadata that Jupyter, nbclient or the builder added on the way.
+
+    Versions of Python, times of execution and editors' notes would change from build to build.
+    """
+    page.metadata = _only(page.metadata, _PAGE_KEYS)
+    page.metadata.language_info = {"name": "python"}
+    for cell in page.cells:
+        cell.metadata = _only(cell.metadata, _CELL_KEYS)
+        for output in cell.get("outputs", ()):
+            if "metadata" in output:
+                output.metadata = NotebookNode()
+    return page
+
+
+def _only(metadata: NotebookNode, names: tuple[str, ...]) -> NotebookNode:
+    return NotebookNode({name: metadata[name] for name in names if name in metadata})
+
+
+# The run, and the outputs that it leaves.
+
+
+def run_in(folder: Path) -> Transform:
+    """Make the step that runs a page in a fresh kernel.
+
+    Args:
+        folder: The kernel's current directory; it is made if it does not exist.
+    """
+
+    def run(page: NotebookNode) -> NotebookNode:
+        folder.mkdir(parents=True, exist_ok=True)
+        run_page(page, folder)
+        return page
+
+    return run
+
+
+def merge_streams(page: NotebookNode) -> NotebookNode:
+    """Join the chunks of a stream between two other outputs, stdout before stderr.
+
+    A kernel sends what is printed whenever a timer says so; where the pieces are cut, and how the
+    two streams interleave, is chance and must not show in a page.
+    """
+    for cell in _code(page):
+        merged: list[Any] = []
+        for is_stream, group in groupby(cell.outputs, lambda one: one.output_type == "stream"):
+            outputs = list(group)
+            merged += _joined(outputs) if is_stream else outputs
+        cell.outputs = merged
+    return page
+
+
+def _joined(run: list[Any]) -> Iterator[NotebookNode]:
+    for name in ("stdout", "stderr"):
+        text = "".join(stream.text for stream in run if stream.name == name)
+        if text:
+            yield v4.new_output("stream", name=name, text=text)
+
+
+def quiet_failures(page: NotebookNode) -> NotebookNode:
+    """Reduce every traceback to the error's name and message.
+
+    Frames name files of the machine and lines of the Python version that built the page. Of one
+    that a simulated program printed, the learner's own lines stay.
+    """
+    for cell in _code(page):
+        for output in cell.outputs:
+            if output.output_type == "error":
+                output.evalue = quiet_message(output.evalue)
+                output.traceback = f"{output.ename}: {output.evalue}".split("\n")
+            elif output.output_type == "stream" and output.name == "stderr":
+                output.text = quiet_traceback(output.text)
+    return page
+
+
+def quiet_message(message: str) -> str:
+    """Replace the names of a kernel's temporary files, and drop colours.
+
+    Args:
+        message: An exception's text.
+    """
+    return _CELL_FILE.sub("cell", _COLOUR.sub("", message))
+
+
+def quiet_traceback(printed: str) -> str:
+    """Leave the learner's own frames in tracebacks that a program printed, without files.
+
+    The frames of libraries are other ones in another version, and so are the marks below a line.
+
+    Args:
+        printed: What the program wrote to standard error.
+    """
+    return quiet_message(_MARKS.sub("", _LIBRARY_FRAME.sub("", printed)))
+
+
+def refuse_unrepeatable(page: NotebookNode) -> NotebookNode:
+    """Return the page if its outputs name no address, no folder of this machine and no colour.
+
+    Raises:
+        LessonError: A text output holds one of them.
+    """
+    here = {f"{path}/" for path in (Path.home(), os.getcwd(), tempfile.gettempdir())} - {"//"}
+    for cell in _code(page):
+        for line in [] if _is_uncompared(cell) else _printed_lines(cell):
+            reasons = [name for name, pattern in _UNREPEATABLE.items() if pattern.search(line)]
+            reasons += ["a folder of this machine"] if any(path in line for path in here) else []
+            if reasons:
+                where = f"{page.metadata.rosbeat.lesson}.py:{cell.metadata.line}"
+                raise LessonError(
+                    f"{where}: the output shows {reasons[0]}: {line.strip()!r}.",
+                    "The page would be different on the next run or the next machine.",
+                    "Print a value instead of an object, or a path relative to the page.",
+                )
+    return page
+
+
+def _printed_lines(cell: Any) -> Iterator[str]:  # noqa: ANN401 - untyped library
+    for output in cell.outputs:
+        plain = output.get("data", {}).get("text/plain", "")
+        for text in (output.get("text", ""), output.get("evalue", ""), plain):
+            yield from text.splitlines()
+
+
+def keep_uncompared(path: Path) -> Transform:
+    """Make the step that takes outputs of tagged cells from the page that is there already.
+
+    What two processes really say to each other cannot come out the same twice. Nothing compares the
+    output of such a cell, another cell asserts what matters in it, and a rebuild changes nothing.
+
+    Args:
+        path: The page; it need not exist, nor be readable.
+    """
+
+    def keep(page: NotebookNode) -> NotebookNode:
+        before = _uncompared_outputs(path)
+        for cell in filter(_is_uncompared, page.cells):
+            kept = before.get((cell.id, cell.source), [])
+            if [one.output_type for one in kept] == [one.output_type for one in cell.outputs]:
+                cell.outputs = kept
+        return page
+
+    return keep
+
+
+def _is_uncompared(cell: Any) -> bool:  # noqa: ANN401 - untyped library
+    return cell.cell_type == "code" and UNCOMPARED in cell.metadata.get("tags", ())
+
+
+def _uncompared_outputs(path: Path) -> dict[tuple[str, str], list[Any]]:
+    try:
+        page = nbformat.read(path, as_version=4)
+    except Exception:  # whatever the file is, it holds nothing to keep
+        return {}
+    return {(one.id, one.source): one.outputs for one in filter(_is_uncompared, page.cells)}
+
+
+def _code(page: NotebookNode) -> Iterator[Any]:
+    return (cell for cell in page.cells if cell.cell_type == "code")

@@ -1,27 +1,73 @@
-"""A lesson source: jupytext's percent format, read into plain data."""
+"""Lesson sources: `src/lessons/NN_slug.py` in jupytext's percent format, read into plain data.
+
+A source stays Python that runs, with the answers in force. An answer and what a learner sees in its
+place stand between markers, on lines of their own at the indentation of the code::
+
+    # --- answer
+    self.timer = self.create_timer(1.0, self.publish_temperature)
+    # --- blank
+    # self.timer = self.create_timer(____, ____)
+    # --- end
+
+What is no Python (commands for a terminal, a file of another kind) stands behind comment signs.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import re
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import jupytext
 
-from rosbeat.authoring.cell_magics import SAVE, read_magic
-from rosbeat.authoring.header import Header, split_header
-from rosbeat.authoring.identity import cell_ids
 from rosbeat.errors import LessonError
 
+BLANK = "____"
+SAVE = "%%save "
+
 _FILE_NAME = re.compile(r"\d\d_[a-z0-9]+(_[a-z0-9]+)*\.py")
+_EXAMPLE = ("# ---", "# title: Write a publisher", "# minutes: 40", '# needs: ["00", "03"]',
+            "# summary: One sentence for lists of pages.", "# ---")  # fmt: skip
+_NUMBERS = r"""(?:["']?\d\d["']?(?:, *|(?=\])))*"""
+_HEADER = ("# ---", r"# title: *(.+)", r"# minutes: *(\d+)", rf"# needs: *\[({_NUMBERS})\]",
+           r"# summary: *(.+)", "# ---")  # fmt: skip
+
 _MARKER = re.compile(r"# ?%%(\s|$)")
 _KNOWN_KEYS = {"exercise", "check", "only", "predict", "tags", "terminal", "save"}
+#: What a key may be where not every text or list is allowed.
+_VALUES = {"only": ("notebook", "solution"), "predict": (True,)}
 # jupytext would take `# ls` for a magic, and its comment sign away.
 _FORMAT = {"extension": ".py", "format_name": "percent", "comment_magics": False}
-_TREES = (None, "notebook", "solution")
 # jupytext's note to itself about blank lines; it says nothing about the cell.
 _JUPYTEXT_KEYS = {"lines_to_next_cell", "lines_to_end_of_cell_marker"}
+
+_BLOCK = re.compile(
+    r"^(?P<indent> *)# --- answer\n(?P<answer>(?:.*\n)*?)(?P=indent)# --- blank\n"
+    r"(?P<blank>(?:(?P=indent)#(?: .*)?\n)*?)(?P=indent)# --- end$",
+    re.MULTILINE,
+)
+# Anything that was probably meant as a marker: other case, other spacing, a word too many.
+_NEARLY = re.compile(r"^\s*#\s*-{2,}\s*(answer|blank|end)\b", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Header:
+    """The four facts at the top of a lesson.
+
+    Attributes:
+        title: The page's title, beginning with a verb.
+        minutes: How long a learner needs.
+        needs: Numbers of the pages to read first, such as ``("00", "03")``.
+        summary: One sentence for lists of pages.
+    """
+
+    title: str
+    minutes: int
+    needs: tuple[str, ...]
+    summary: str
 
 
 @dataclass(frozen=True)
@@ -33,12 +79,12 @@ class SourceCell:
         kind: ``"code"`` or ``"markdown"``.
         source: The text, with answers, blanks and their markers.
         line: The line of the source file on which the text begins.
-        magic: The IPython magic that stands above the text on the page, or an empty text.
         exercise: The id of the exercise that is solved here, such as ``"03a"``.
         check: The id of the exercise that is checked here.
         only: ``"notebook"`` or ``"solution"`` if the cell appears in one tree only.
         tags: Jupyter's cell tags.
         predict: Whether a prediction is made here, which is compared with what the cell does.
+        magic: The IPython magic that stands above the text on the page, or an empty text.
     """
 
     id: str
@@ -54,22 +100,22 @@ class SourceCell:
 
     @property
     def page_text(self) -> str:
-        """What the cell holds on a page, answer markers still included."""
+        """Return the text with its magic, answer markers still included."""
         return f"{self.magic}\n{self.source}".strip("\n") if self.magic else self.source
 
     @property
     def saved_as(self) -> str:
-        """The file of the workspace that this cell becomes, or an empty text."""
+        """Return the file of the workspace that this cell becomes, or an empty text."""
         return self.magic.removeprefix(SAVE) if self.magic.startswith(SAVE) else ""
 
     @property
     def is_python(self) -> bool:
-        """Whether the text is Python: not commands for a terminal, not a file of another kind."""
+        """Tell whether the text is Python: no commands for a terminal, no file of another kind."""
         return self.kind == "code" and (not self.magic or Path(self.saved_as).suffix == ".py")
 
     @property
     def runs(self) -> bool:
-        """Whether the kernel runs the text; of a saved file only if it is a module of a package."""
+        """Tell whether the kernel runs the text; of saved files it runs a package's modules."""
         return self.is_python and Path(self.saved_as).name != "setup.py"
 
 
@@ -89,13 +135,106 @@ class Lesson:
 
     @property
     def name(self) -> str:
-        """The stem of the file name, such as ``03_write_a_publisher``."""
+        """Return the stem of the file name, such as ``03_write_a_publisher``."""
         return self.path.stem
 
     @property
     def number(self) -> str:
-        """The page's number, two digits."""
+        """Return the page's number, two digits."""
         return self.path.name[:2]
+
+
+@dataclass(frozen=True)
+class Block:
+    """An answer and its blank.
+
+    Attributes:
+        line: The line of the cell, counted from 0, of the marker that opens the block.
+        answer: The lines of the answer, as they stand.
+        blank: The lines of the blank, uncommented, at the same indentation.
+    """
+
+    line: int
+    answer: tuple[str, ...]
+    blank: tuple[str, ...]
+
+
+# The trees of a checkout.
+
+
+@dataclass(frozen=True)
+class Course:
+    """A checkout of the course.
+
+    Attributes:
+        root: The folder that holds ``src``, ``notebooks`` and ``solutions``.
+    """
+
+    root: Path
+
+    @property
+    def sources(self) -> Path:
+        """Return the folder of the lesson sources."""
+        return self.root / "src" / "lessons"
+
+    @property
+    def notebooks(self) -> Path:
+        """Return the folder of the learner's pages."""
+        return self.root / "notebooks"
+
+    @property
+    def solutions(self) -> Path:
+        """Return the folder of the solution pages."""
+        return self.root / "solutions"
+
+    def lessons(self) -> list[Lesson]:
+        """Read every lesson, in order.
+
+        Raises:
+            LessonError: A source breaks the format.
+        """
+        return [read_lesson(path) for path in sorted(self.sources.glob("*.py"))]
+
+
+def find_course(start: Path) -> Course:
+    """Find the course that a folder belongs to.
+
+    Args:
+        start: The folder, or any folder inside the course.
+
+    Raises:
+        LessonError: Neither the folder nor one above it has ``src/lessons``.
+    """
+    for folder in (start, *start.parents):
+        if (folder / "src" / "lessons").is_dir():
+            return Course(folder)
+    raise LessonError(
+        f"no lessons are found from {start}.",
+        "Pages are built from src/lessons in a checkout of the course.",
+        "Change into the checkout, or name it with --root.",
+    )
+
+
+def choose(lessons: list[Lesson], names: list[str]) -> list[Lesson]:
+    """Choose lessons by number, name or file.
+
+    Args:
+        lessons: The lessons to choose from.
+        names: ``03``, ``03_write_a_publisher`` or a path of its source or page; none means all.
+
+    Raises:
+        LessonError: A name fits no lesson.
+    """
+    known = {key: lesson.name for lesson in lessons for key in (lesson.number, lesson.name)}
+    for name in names:
+        if Path(name).stem not in known:
+            listed = ", ".join(lesson.name for lesson in lessons) or "none"
+            raise LessonError(f"no lesson is called {name!r}.", "", f"The lessons are: {listed}.")
+    wanted = {known[Path(name).stem] for name in names}
+    return [lesson for lesson in lessons if not names or lesson.name in wanted]
+
+
+# From a file to a lesson.
 
 
 def read_lesson(path: Path) -> Lesson:
@@ -110,49 +249,87 @@ def read_lesson(path: Path) -> Lesson:
     if not _FILE_NAME.fullmatch(path.name):
         what = f"{path.name}: a lesson is named NN_slug.py, in lower case."
         raise LessonError(what, "The number orders the pages.", "Rename it, as 03_write_nodes.py.")
-    header, body, offset = split_header(path.read_text(encoding="utf-8"), path.name)
-    lines = [n for n, text in enumerate(body.splitlines(), offset + 1) if _MARKER.match(text)]
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    header = read_header(lines, path.name)
+    first = len(_HEADER)
+    while first < len(lines) and not lines[first].strip():
+        first += 1
+    body = "".join(lines[first:])
+    markers = [n for n, line in enumerate(lines, 1) if n > first and _MARKER.match(line)]
     raw = jupytext.reads(body, fmt=_FORMAT).cells
-    if len(raw) != len(lines) or not _MARKER.match(body):
+    if len(raw) != len(markers) or not _MARKER.match(body):
         raise LessonError(
-            f"{path.name}: {len(lines)} lines begin a cell, but jupytext sees {len(raw)} cells.",
+            f"{path.name}: {len(markers)} lines begin a cell, but jupytext sees {len(raw)} cells.",
             "Text stands before the first cell, or '# %%' or '# In[' stands inside a cell.",
             "Begin the text with '# %%', and use that at the start of a line for nothing else.",
         )
-    rows = [_row(cell, line, path.name) for cell, line in zip(raw, lines, strict=True)]
-    ids = cell_ids([_opening(row) for row in rows])
-    cells = tuple(SourceCell(id=i, **row) for i, row in zip(ids, rows, strict=True))
-    return Lesson(path, header, cells)
+    seen: Counter[str] = Counter()
+    pairs = zip(raw, markers, strict=True)
+    return Lesson(path, header, tuple(_cell(cell, n, path.name, seen) for cell, n in pairs))
 
 
-def _row(cell: Any, line: int, name: str) -> dict[str, Any]:  # noqa: ANN401 - untyped library
+def read_header(lines: list[str], name: str) -> Header:
+    """Read the comment header that opens a lesson.
+
+    Args:
+        lines: The lines of the lesson.
+        name: The file's name, for messages.
+
+    Raises:
+        LessonError: A line of the header is missing, wrong or in another place.
+    """
+    values: list[str] = []
+    for number, (pattern, example) in enumerate(zip(_HEADER, _EXAMPLE, strict=True), 1):
+        line = lines[number - 1].rstrip() if number <= len(lines) else ""
+        match = re.fullmatch(pattern, line)
+        if not match:
+            raise LessonError(
+                f"{name}:{number}: the header has {line!r} where a line like {example!r} belongs.",
+                "A header has four lines in this order, and nothing else, between '# ---'.",
+                "Begin the file with:\n" + "\n".join(f"    {line}" for line in _EXAMPLE),
+            )
+        values += match.groups()
+    title, minutes, needs, summary = (value.strip("\"'") for value in values)
+    return Header(title, int(minutes), tuple(re.findall(r"\d\d", needs)), summary)
+
+
+def _cell(cell: Any, marker: int, name: str, seen: Counter[str]) -> SourceCell:  # noqa: ANN401 - untyped
+    where = f"{name}:{marker}"
     metadata = {k: v for k, v in cell.metadata.items() if k not in _JUPYTEXT_KEYS}
-    _refuse_unknown(cell.cell_type, metadata, f"{name}:{line}")
-    blank = len(cell.source) - len(cell.source.lstrip("\n"))
-    text, magic = read_magic(cell.source.strip("\n"), metadata, f"{name}:{line}")
-    return {
-        "kind": cell.cell_type,
-        "source": text,
-        "magic": magic,
-        "line": line + 1 + blank,
-        "exercise": metadata.get("exercise"),
-        "check": metadata.get("check"),
-        "only": metadata.get("only"),
-        "tags": tuple(metadata.get("tags", ())),
-        "predict": metadata.get("predict", False),
-    }
-
-
-def _opening(row: dict[str, Any]) -> tuple[str, str, str | None, str | None]:
+    _refuse_unknown(cell.cell_type, metadata, where)
+    source, magic = _magic(cell.source.strip("\n"), metadata, where)
+    exercise, check = metadata.get("exercise"), metadata.get("check")
     # Many cells begin with the same magic; what tells them apart is the line below it.
-    text = f"{row['magic']} {row['source']}" if row["magic"] else row["source"]
-    return row["kind"], text, row["exercise"], row["check"]
+    opening = (f"{magic} {source}" if magic else source).split("\n", 1)[0]
+    return SourceCell(
+        id=_cell_id(seen, cell.cell_type, exercise or "", check or "", opening),
+        kind=cell.cell_type,
+        source=source,
+        line=marker + 1 + len(cell.source) - len(cell.source.lstrip("\n")),
+        exercise=exercise,
+        check=check,
+        only=metadata.get("only"),
+        tags=tuple(metadata.get("tags", ())),
+        predict=metadata.get("predict", False),
+        magic=magic,
+    )
+
+
+def _cell_id(seen: Counter[str], *opening: str) -> str:
+    """Return a hash of what opens a cell; cells that open alike are numbered.
+
+    Two builds give the same ids, both trees share them, and a sentence that is changed further down
+    in a cell is one changed line in each page instead of two.
+    """
+    stem = hashlib.sha256("\0".join(opening).encode()).hexdigest()[:10]
+    seen[stem] += 1
+    return stem if seen[stem] == 1 else f"{stem}-{seen[stem]}"
 
 
 def _refuse_unknown(kind: str, metadata: dict[str, Any], where: str) -> None:
-    unknown = sorted(set(metadata) - _KNOWN_KEYS)
     if kind not in ("code", "markdown"):
         raise LessonError(f"{where}: a page has no cells of the kind {kind!r}.")
+    unknown = sorted(set(metadata) - _KNOWN_KEYS)
     if unknown:
         raise LessonError(
             f"{where}: a cell marker does not know {', '.join(map(repr, unknown))}.",
@@ -160,9 +337,118 @@ def _refuse_unknown(kind: str, metadata: dict[str, Any], where: str) -> None:
             f"Use {', '.join(f'{key}=' for key in sorted(_KNOWN_KEYS))}; "
             "for prose write '# %% [markdown]'.",
         )
-    if metadata.get("only") not in _TREES:
-        what = f"{where}: only= is {metadata['only']!r}."
-        raise LessonError(what, "", 'Write only="notebook" or only="solution".')
-    if metadata.get("predict", True) is not True:
-        what = f"{where}: predict= is {metadata['predict']!r}."
-        raise LessonError(what, "", "Write predict=true, or leave it out.")
+    for key, values in _VALUES.items():
+        if key in metadata and metadata[key] not in values:
+            ways = " or ".join(f"{key}={value!r}" for value in values).lower().replace("'", '"')
+            raise LessonError(f"{where}: {key}= is {metadata[key]!r}.", "", f"Write {ways}.")
+
+
+def _magic(source: str, metadata: dict[str, Any], where: str) -> tuple[str, str]:
+    """Return a cell's text as it stands on the page, and the magic above it."""
+    terminal, save = metadata.get("terminal"), metadata.get("save")
+    if terminal and save:
+        raise LessonError(f"{where}: terminal= and save= do not go together.")
+    if terminal:
+        # Without a command it is a line magic: a look, or a key that is pressed.
+        text = _uncommented(source, where)
+        return text, f"{'%%' if text else '%'}terminal {terminal}"
+    if save:
+        is_python = Path(save).suffix == ".py"
+        return source if is_python else _uncommented(source, where), f"{SAVE}{save}"
+    return source, ""
+
+
+def _uncommented(source: str, where: str) -> str:
+    lines = source.split("\n")
+    for number, line in enumerate(lines):
+        if line == "#" or (line.startswith("# ") and not _NEARLY.match(line)):
+            lines[number] = line[2:]
+        elif line and not _NEARLY.match(line):
+            raise LessonError(
+                f"{where}: {line!r} stands without a comment sign.",
+                "A lesson source is Python; what is typed in a terminal is not.",
+                "Begin each line of this cell with '# '.",
+            )
+    return "\n".join(lines)
+
+
+# Answers and blanks.
+
+
+def with_answers(text: str) -> str:
+    """Return the text with its answers, markers and blanks gone.
+
+    Raises:
+        LessonError: A marker is wrong.
+    """
+    find_blocks(text)
+    return _BLOCK.sub(lambda match: match["answer"][:-1], text)
+
+
+def with_blanks(text: str) -> str:
+    """Return the text with blanks in place of its answers.
+
+    Raises:
+        LessonError: A marker is wrong.
+    """
+    find_blocks(text)
+    return _BLOCK.sub(lambda match: "\n".join(_blank(match)), text)
+
+
+def with_blanks_in_place(text: str) -> str:
+    """Return the learner's text on the lines of the source; lines that are gone are empty."""
+
+    def in_place(match: re.Match[str]) -> str:
+        return "\n" * (2 + match["answer"].count("\n")) + "\n".join([*_blank(match), ""])
+
+    return _BLOCK.sub(in_place, text)
+
+
+def find_blocks(text: str, where: str = "cell", first_line: int = 1) -> list[Block]:
+    """Find the answers of a cell.
+
+    Args:
+        text: The text of a cell.
+        where: The file, for messages.
+        first_line: The line of the file on which the cell begins, for messages.
+
+    Raises:
+        LessonError: A marker is unclosed, nested, stray or misspelt, or a blank is not a blank.
+    """
+    blocks, markers = [], set()
+    for match in _BLOCK.finditer(text):
+        line = text.count("\n", 0, match.start())
+        answer, blank = tuple(match["answer"].split("\n")[:-1]), tuple(_blank(match))
+        blocks.append(Block(line, answer, blank))
+        markers |= {line, line + 1 + len(answer), line + 2 + len(answer) + len(blank)}
+    for number, line_text in enumerate(text.split("\n")):
+        if _NEARLY.match(line_text) and number not in markers:
+            what = f"{line_text.strip()!r} is not a marker of a complete block."
+            raise LessonError(f"{where}:{first_line + number}: {what}", _EXPOSED, _SPELLING)
+    for block in blocks:
+        _require_content(block, f"{where}:{first_line + block.line}")
+    return blocks
+
+
+_EXPOSED = "Without strict markers an answer could end up on the learner's page."
+_SPELLING = (
+    "Write '# --- answer', '# --- blank' and '# --- end', in this order, each on a line of its "
+    "own at the indentation of the code; begin each line of the blank there, with '# '."
+)
+
+
+def _blank(match: re.Match[str]) -> list[str]:
+    start = len(match["indent"]) + 2
+    lines = match["blank"].split("\n")[:-1]
+    return [(match["indent"] + line[start:]).rstrip() for line in lines]
+
+
+def _require_content(block: Block, place: str) -> None:
+    if not any(line.strip() for line in block.answer):
+        raise LessonError(f"{place}: the block has no answer.")
+    if not any(BLANK in line for line in block.blank):
+        raise LessonError(
+            f"{place}: the blank has no {BLANK}.",
+            "A learner would not see that something is to be done here.",
+            f"Put {BLANK} where the learner writes.",
+        )

@@ -4,9 +4,7 @@ import textwrap
 
 import pytest
 
-from rosbeat.authoring.layout import Course
-from rosbeat.authoring.lint import Desk
-from rosbeat.authoring.source import read_lesson
+from rosbeat.authoring.source import Course, read_lesson
 
 HEADER = """\
 # ---
@@ -16,8 +14,6 @@ HEADER = """\
 # summary: A page for the tests.
 # ---
 """
-# As many words and cells as the first page needs.
-FILLER = "\n".join(f"# %% [markdown]\n# {' '.join(['word'] * 40)} {n}\n" for n in range(12))
 
 
 class Checkout:
@@ -28,8 +24,8 @@ class Checkout:
         self.course.sources.mkdir(parents=True)
         self.course.notebooks.mkdir()
 
-    def write(self, body, name="00_hear_it", title="Hear it", needs="[]", filler=False):
-        top = f"\n# %% [markdown]\n# # {title}\n\n{FILLER if filler else ''}\n"
+    def write(self, body, name="00_hear_it", title="Hear it", needs="[]"):
+        top = f"\n# %% [markdown]\n# # {title}\n\n"
         text = HEADER.format(title=title, needs=needs) + top + textwrap.dedent(body)
         path = self.course.sources / f"{name}.py"
         path.write_text(text, encoding="utf-8")
@@ -37,10 +33,6 @@ class Checkout:
 
     def lesson(self, body, **options):
         return read_lesson(self.write(body, **options))
-
-    def desk(self, body, **options):
-        lesson = self.lesson(body, **options)
-        return Desk(self.course, tuple(self.course.lessons()), lesson)
 
 
 @pytest.fixture

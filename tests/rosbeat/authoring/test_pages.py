@@ -1,6 +1,7 @@
-"""The golden course: one small lesson and both of its pages, byte for byte.
+"""The two trees of pages: what a lesson becomes, byte for byte.
 
-After a wanted change: `rosbeat build --root tests/golden`, and look at the difference.
+`tests/golden` holds a small lesson and both of its pages. After a wanted change:
+`rosbeat build --root tests/golden`, and look at the difference.
 """
 
 from __future__ import annotations
@@ -9,11 +10,15 @@ import json
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from nbformat import v4
 
 from rosbeat.authoring import pages
-from rosbeat.authoring.layout import Course
 from rosbeat.authoring.lint import check_lessons
-from rosbeat.authoring.source import read_lesson
+from rosbeat.authoring.pages import notebook_page, solution_draft
+from rosbeat.authoring.source import Course, read_lesson
+from rosbeat.errors import LessonError
 
 GOLDEN = Course(Path(__file__).parents[2] / "golden")
 NAME = "00_hear_a_pulse.ipynb"
@@ -67,3 +72,313 @@ def test_the_solution_page_counts_its_cells():
     page = json.loads((GOLDEN.solutions / NAME).read_text())
     counts = [cell["execution_count"] for cell in page["cells"] if cell["cell_type"] == "code"]
     assert counts == list(range(1, len(counts) + 1))
+
+
+# Before a page runs.
+
+BODY = """
+# %% exercise="00a" tags=["hide-input"]
+def f():
+    # --- answer
+    return 1
+    # --- blank
+    # return ____
+    # --- end
+
+# %% [markdown] only="solution"
+# Why.
+
+# %% [markdown] only="notebook"
+# Your turn.
+"""
+
+
+def test_each_tree_gets_its_cells_and_its_part(checkout):
+    lesson = checkout.lesson(BODY)
+    learner, solution = notebook_page(lesson), solution_draft(lesson)
+    assert [c.source for c in learner.cells] == [
+        "# Hear it", "def f():\n    return ____", "Your turn."
+    ]  # fmt: skip
+    assert [c.source for c in solution.cells] == ["# Hear it", "def f():\n    return 1", "Why."]
+
+
+def test_shared_cells_have_the_same_id_and_metadata(checkout):
+    lesson = checkout.lesson(BODY)
+    pairs = list(zip(notebook_page(lesson).cells, solution_draft(lesson).cells, strict=True))[:2]
+    assert all(left.id == right.id and left.metadata == right.metadata for left, right in pairs)
+    assert set(pairs[1][0].metadata) == {"nbgrader", "rosbeat", "tags"}
+    assert pairs[1][0].metadata.rosbeat == {"exercise": "00a"}
+    assert pairs[1][0].metadata.tags == ["hide-input"]
+
+
+def test_the_page_says_what_it_is_and_no_more(checkout):
+    metadata = notebook_page(checkout.lesson(BODY)).metadata
+    assert set(metadata) == {"kernelspec", "language_info", "title", "rosbeat"}
+    assert metadata.kernelspec.display_name == "Python 3 (ipykernel)"
+    assert metadata.rosbeat == {"lesson": "00_hear_it"}
+
+
+MAGICS = """
+    # %% terminal="build"
+    # cd ws
+    # # a comment of bash
+    # --- answer
+    # mkdir -p one/two
+    # --- blank
+    # # mkdir ____
+    # --- end
+    #
+    # ls
+
+    # %% terminal="sensor --ctrl-c"
+
+    # %% save="src/p/package.xml"
+    # <package>
+    #   <name>p</name>
+
+    # %% save="src/p/setup.py"
+    setup(
+        # --- answer
+        entry="sensor = p.sensor:main",
+        # --- blank
+        # entry=____,
+        # --- end
+    )
+"""
+
+
+def test_what_stands_behind_comment_signs_stands_bare_on_the_page(checkout):
+    lesson = checkout.lesson(MAGICS)
+    _, terminal, key, xml, setup = (cell.source for cell in solution_draft(lesson).cells)
+    bash = "%%terminal build\ncd ws\n# a comment of bash\n{}\n\nls"
+    assert terminal == bash.format("mkdir -p one/two")
+    assert key == "%terminal sensor --ctrl-c"
+    assert xml == "%%save src/p/package.xml\n<package>\n  <name>p</name>"
+    python = "%%save src/p/setup.py\nsetup(\n    entry={},\n)"
+    assert setup == python.format('"sensor = p.sensor:main"')
+    blank = [cell.source for cell in notebook_page(lesson).cells]
+    assert (blank[1], blank[4]) == (bash.format("mkdir ____"), python.format("____"))
+
+
+def test_a_prediction_is_asked_for_on_one_page_and_made_on_the_other(checkout):
+    lesson = checkout.lesson("""
+        # %% predict=true
+        x = [1, 2]
+        # --- answer
+        predict(2, len(x), because="It counts.")
+        # --- blank
+        # predict("____", len(x), because="It counts.")
+        # --- end
+    """)
+    (asked,), (made,) = (page(lesson).cells[1:] for page in (notebook_page, solution_draft))
+    assert asked.source == 'x = [1, 2]\npredict("____", len(x), because="It counts.")'
+    assert made.source == 'x = [1, 2]\npredict(2, len(x), because="It counts.")'
+    assert asked.metadata == {}
+
+
+# What a page tells nbgrader, for which `tests/with_nbgrader` then runs nbgrader itself.
+
+GRADED = """
+# %%
+import time
+
+# %% exercise="00a"
+def f():
+    # --- answer
+    return 1
+    # --- blank
+    # return ____
+    # --- end
+
+# %% terminal="one" exercise="00a"
+# # --- answer
+# ls
+# # --- blank
+# # ____
+# # --- end
+
+# %% check="00a"
+check("00a", f)
+
+# %% save="src/a.py" exercise="00b"
+# --- answer
+b = 1
+# --- blank
+# b = ____
+# --- end
+
+# %% check="00b"
+check("00b", b)
+"""
+NOTHING = {"grade": False, "locked": False, "solution": False, "task": False, "schema_version": 3}
+
+
+def told(page):
+    return [cell.metadata.nbgrader for cell in page.cells if "nbgrader" in cell.metadata]
+
+
+@pytest.mark.parametrize("make", [notebook_page, solution_draft])
+def test_answers_are_solutions_and_checks_give_the_points(checkout, make):
+    page = make(checkout.lesson(GRADED), {"00a": 4})
+    check = {**NOTHING, "grade": True, "locked": True}
+    assert told(page) == [
+        {**NOTHING, "solution": True, "grade_id": "00a"},
+        {**NOTHING, "solution": True, "grade_id": "00a-2"},
+        {**check, "grade_id": "00a-check", "points": 4},
+        {**NOTHING, "solution": True, "grade_id": "00b"},
+        {**check, "grade_id": "00b-check", "points": 1},
+    ]
+
+
+def test_other_cells_are_nothing_to_nbgrader(checkout):
+    page = notebook_page(checkout.lesson(GRADED))
+    assert [("nbgrader" in cell.metadata) for cell in page.cells][:2] == [False, False]
+
+
+def test_a_name_does_not_depend_on_the_text_of_its_cell(checkout):
+    before = told(notebook_page(checkout.lesson(GRADED)))
+    after = told(notebook_page(checkout.lesson(GRADED.replace("def f", "def g"))))
+    assert before == after
+
+
+# The outputs of a page that has run.
+
+
+def ran(*outputs, **metadata):
+    cell = v4.new_code_cell("x", outputs=list(outputs), metadata={"line": 7, **metadata})
+    made = v4.new_notebook(cells=[cell])
+    made.metadata.rosbeat = {"lesson": "00_hear_it"}
+    return made
+
+
+def stream(text, name="stdout"):
+    return v4.new_output("stream", text=text, name=name)
+
+
+def result(text):
+    return v4.new_output("execute_result", {"text/plain": text}, execution_count=1)
+
+
+CHUNKS = st.lists(
+    st.tuples(
+        st.text(alphabet="ab\n", min_size=1, max_size=4), st.sampled_from(["stdout", "stderr"])
+    )
+)
+
+
+@given(CHUNKS)
+def test_chunks_become_one_text_per_stream_whatever_the_pieces(chunks):
+    outputs = pages.merge_streams(ran(*(stream(*chunk) for chunk in chunks))).cells[0].outputs
+    expected = {
+        name: "".join(text for text, other in chunks if other == name)
+        for name in ("stdout", "stderr")
+    }
+    assert [(o.name, o.text) for o in outputs] == [(n, t) for n, t in expected.items() if t]
+
+
+def test_streams_are_not_moved_past_other_outputs():
+    merged = pages.merge_streams(ran(stream("a"), result("1"), stream("b"), stream("c")))
+    outputs = merged.cells[0].outputs
+    assert [output.get("text", "result") for output in outputs] == ["a", "result", "bc"]
+
+
+def test_a_failure_keeps_its_message_and_loses_its_frames():
+    error = v4.new_output(
+        "error", ename="E", evalue="no \x1b[31mway\x1b[0m\n(123.py, line 1)", traceback=["frame"]
+    )
+    output = pages.quiet_failures(ran(error)).cells[0].outputs[0]
+    assert output.evalue == "no way\n(cell, line 1)"
+    assert output.traceback == ["E: no way", "(cell, line 1)"]
+
+
+def test_of_a_printed_traceback_the_learners_own_lines_stay():
+    printed = (
+        "Traceback (most recent call last):\n"
+        '  File "/tmp/ipykernel_12/34.py", line 9, in main\n'
+        "    rclpy.shutdown()\n"
+        "    ~~~~~~~~~~~~~~^^\n"
+        '  File "/x/site-packages/rclpy/__init__.py", line 134, in shutdown\n'
+        "    _shutdown(context=context)\n"
+        "    ^^^^^^^^^^\n"
+        "RCLError: no\n"
+    )
+    quiet = pages.quiet_failures(ran(stream(printed, "stderr"))).cells[0].outputs[0].text
+    assert quiet == (
+        "Traceback (most recent call last):\n"
+        '  File "cell", line 9, in main\n'
+        "    rclpy.shutdown()\n"
+        "RCLError: no\n"
+    )
+
+
+def test_a_kernels_file_names_are_nobodys_business():
+    assert pages.quiet_message('File "/x/ipykernel_12/34.py", line 1') == 'File "cell", line 1'
+
+
+@pytest.mark.parametrize("text", ["<Node at 0x7f12ab34cd56>", "\x1b[31mred\x1b[0m", "/tmp/x/y"])
+def test_an_output_that_cannot_be_repeated_is_refused(text, monkeypatch):
+    monkeypatch.setattr("tempfile.gettempdir", lambda: "/tmp")
+    for output in (stream(text), result(text)):
+        with pytest.raises(LessonError, match=r"00_hear_it\.py:7"):
+            pages.refuse_unrepeatable(ran(output))
+    ignored = ran(stream(text), tags=["nbval-ignore-output"])
+    assert pages.refuse_unrepeatable(ignored) is ignored
+
+
+def test_ordinary_outputs_pass():
+    good = ran(stream("[INFO] [sensor]: 21.5 (0x10)"), result("1"))
+    assert pages.refuse_unrepeatable(good) is good
+
+
+def test_only_known_metadata_is_written():
+    made = ran(result("1"), tags=["t"], execution={"iopub.status.busy": "now"}, only=None)
+    made.metadata.language_info = {"name": "python", "version": "3.11.7"}
+    made.metadata.widgets = {}
+    kept = pages.keep_known_metadata(made)
+    assert kept.cells[0].metadata == {"tags": ["t"]}
+    assert kept.metadata == {
+        "language_info": {"name": "python"}, "rosbeat": {"lesson": "00_hear_it"}
+    }  # fmt: skip
+
+
+def tagged(text, *, source="roll()", tags=(pages.UNCOMPARED,), cell_id="a"):
+    output = v4.new_output("stream", text=text, name="stdout")
+    cell = v4.new_code_cell(source, outputs=[output], metadata={"tags": list(tags)})
+    cell.id = cell_id
+    return v4.new_notebook(cells=[cell])
+
+
+def rebuilt(path, new):
+    return pages.keep_uncompared(path)(new).cells[0].outputs[0].text
+
+
+@pytest.fixture
+def stored(tmp_path):
+    path = tmp_path / "page.ipynb"
+    path.write_bytes(pages.to_bytes(tagged("3\n")))
+    return path
+
+
+def test_a_tagged_cell_keeps_the_output_it_has(stored):
+    assert rebuilt(stored, tagged("5\n")) == "3\n"
+
+
+@pytest.mark.parametrize(
+    "change", [{"source": "roll(2)"}, {"tags": ()}, {"cell_id": "b"}], ids=lambda c: next(iter(c))
+)
+def test_a_changed_cell_gets_its_new_output(stored, change):
+    assert rebuilt(stored, tagged("5\n", **change)) == "5\n"
+
+
+def test_another_kind_of_output_is_stored(stored):
+    failed = tagged("5\n")
+    failed.cells[0].outputs = [v4.new_output("error", ename="E", evalue="no", traceback=[])]
+    assert pages.keep_uncompared(stored)(failed).cells[0].outputs[0].output_type == "error"
+
+
+@pytest.mark.parametrize("content", [None, b"", b"{", b"\xff\xfe"])
+def test_a_page_that_cannot_be_read_has_nothing_to_keep(tmp_path, content):
+    path = tmp_path / "page.ipynb"
+    if content is not None:
+        path.write_bytes(content)
+    assert rebuilt(path, tagged("5\n")) == "5\n"

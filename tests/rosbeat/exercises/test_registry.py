@@ -4,9 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from rosbeat.authoring.layout import Course
-from rosbeat.authoring.markers import find_blocks
-from rosbeat.authoring.solved import answer_files
+from rosbeat.authoring.build import answer_files
+from rosbeat.authoring.source import Course, find_blocks
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises.registry import EXERCISES, PAGES, find, scenario
 

@@ -1,0 +1,133 @@
+"""The short commands: JupyterLab, a shell, the measurements, and the locks for maintainers."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import signal
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NoReturn
+
+from course_tool import prepare, running, surroundings
+from course_tool.layout import Layout
+from course_tool.problems import Problem, installer_stopped, say
+
+FIRST_PAGE = Path("notebooks") / "00_hear_the_heartbeat.ipynb"
+_TERMINALS = "--ServerApp.terminado_settings"
+_SHELL = ["bash", "--rcfile", str(Path(__file__).with_name("shellrc.bash"))]
+
+
+def lab(layout: Layout, options: Sequence[str]) -> NoReturn:
+    """Become JupyterLab, with a person's options passed through."""
+    environ = for_shells(prepare.ready(layout, "course"), layout)
+    command = lab_command(layout, options, root_user=os.geteuid() == 0)
+    os.chdir(layout.root)
+    # Started in the background of a script, it would hand an ignored Ctrl+C on to every terminal.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    os.execve(layout.python, command, environ)
+
+
+def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list[str]:
+    """Return the command that opens JupyterLab.
+
+    Args:
+        layout: The checkout.
+        options: What the person added; a page of their own takes the first page's place.
+        root_user: Whether to allow what Jupyter refuses to the root user, as in a container.
+    """
+    command = [str(layout.python), "-m", "jupyterlab", f"--ServerApp.root_dir={layout.root}"]
+    if root_user and "--allow-root" not in options:
+        command.append("--allow-root")
+    if not any(option.startswith(_TERMINALS) for option in options):
+        # The same as `course shell`: a person's start file may put another Python or ROS first.
+        command.append(f"{_TERMINALS}={ {'shell_command': interactive_shell()}!r}")
+    if not any(option.endswith(".ipynb") for option in options):
+        # What an instructor hands out may begin later.
+        folder = FIRST_PAGE.parent
+        pages = sorted((layout.root / folder).glob("[0-9][0-9]_*.ipynb"))
+        if pages:
+            # As an address, not as a file: so it is also in what --no-browser prints.
+            command.append(f"--LabApp.default_url=/lab/tree/{(folder / pages[0].name).as_posix()}")
+        else:
+            say(f"{FIRST_PAGE} is not there; JupyterLab opens on the folder.")
+    return [*command, *options]
+
+
+def shell(layout: Layout, arguments: Sequence[str]) -> NoReturn:
+    """Become a bash with the environment active; arguments are bash's own (`-c "command"`)."""
+    environ = surroundings.with_ros(prepare.ready(layout, "course"), layout)
+    command = ["bash", *arguments] if arguments else interactive_shell()
+    os.execvpe("bash", command, for_shells(environ, layout))
+
+
+def interactive_shell() -> list[str]:
+    """Return the command of a bash to type in; its environment comes from `for_shells`."""
+    return list(_SHELL)
+
+
+def for_shells(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
+    """Return an environment in which the start file of our shells finds this tool."""
+    return {**environ, "ROSBEAT_COURSE": str(layout.environment / "course")}
+
+
+def variables(layout: Layout, arguments: Sequence[str]) -> int:
+    """Print the shell lines that put this process's environment right.
+
+    The user's own start file may source another ROS or put another Python first, so the shell asks
+    for this after it.
+    """
+    clean = surroundings.cleaned(os.environ, layout).environ
+    wanted = surroundings.with_ros(surroundings.inside(clean, layout), layout)
+    print("\n".join(shell_lines(os.environ, wanted)))
+    return 0
+
+
+def shell_lines(now: Mapping[str, str], wanted: Mapping[str, str]) -> list[str]:
+    """Return the shell lines that turn one environment into another."""
+    changed = {name: value for name, value in sorted(wanted.items()) if now.get(name) != value}
+    return [
+        *(f"unset {name}" for name in sorted(now) if name not in wanted),
+        *(f"export {name}={shlex.quote(value)}" for name, value in changed.items()),
+    ]
+
+
+def bench(layout: Layout, arguments: Sequence[str]) -> int:
+    """Run the benchmarks."""
+    script = layout.root / "tests" / "benchmarks" / "run.py"
+    if not script.exists():
+        raise Problem(
+            f"{script.relative_to(layout.root)} is not in this checkout.",
+            "The benchmarks are files of the course, and this copy of it does not have them.",
+            "Get the whole repository:  git status  shows what is missing.",
+        )
+    environ = prepare.ready(layout, "test")
+    return subprocess.call([layout.python, script, *arguments], env=environ, cwd=layout.root)
+
+
+def lock(layout: Layout, options: Sequence[str]) -> int:
+    """Remake every lock; versions stay unless `--upgrade` is among the options."""
+    environ = prepare.ready(layout, "course")
+    for name in ("bootstrap", "build", "course", "test"):
+        say(f"  {name}.in -> {name}.lock")
+        command = compile_command(layout, name, options)
+        result = running.stream(
+            command, environ, lambda line: line.startswith("error"), cwd=layout.environment
+        )
+        if not result.ok:
+            raise installer_stopped(result.text, layout.environment)
+    return 0
+
+
+def compile_command(layout: Layout, name: str, options: Sequence[str]) -> list[str | Path]:
+    """Return the command that makes one lock, valid for every Python of the course."""
+    # The tests run on the very versions that learners get.
+    same_versions = ["--constraint", "course.lock"] if name == "test" else []
+    return [
+        *(layout.uv, "pip", "compile", "--universal", "--generate-hashes", "--quiet"),
+        *("--python-version", "3.10", "--no-emit-index-url", "--no-emit-find-links"),
+        *("--no-annotate", "--custom-compile-command", "./environment/course lock"),
+        *("--override", "override.in"),
+        *(*same_versions, *options, f"{name}.in", "--output-file", f"{name}.lock"),
+    ]

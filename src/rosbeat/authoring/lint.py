@@ -1,0 +1,573 @@
+"""The rules of a lesson, one function each.
+
+A rule takes a `Desk` (the lesson, its neighbours, the course's folders) and yields every place that
+breaks it; the function's name is the rule's. To add one, put it in `LINTS`, at the end. Rules
+guard learners and builds: an answer that can be read, a page that stops, a link that leads nowhere.
+How a good page reads is in `docs/authoring.md`, and no rule counts words.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+from urllib.parse import unquote
+
+from rosbeat.authoring.source import (
+    BLANK,
+    Course,
+    Lesson,
+    SourceCell,
+    find_blocks,
+    with_answers,
+    with_blanks_in_place,
+)
+from rosbeat.errors import LessonError
+
+_FENCE = re.compile(r"^ {0,3}(```|~~~)")
+_MAGIC = re.compile(r"^(\s*)[%!?].*|^(\s*)\S+\?$")
+_LINK = re.compile(r"(?P<image>!?)\[(?P<text>[^\]]*)\]\((?P<target>[^)\s]*)(?:\s+\"[^\"]*\")?\)")
+_IMG = re.compile(r"<img\b[^>]*>", re.IGNORECASE)
+_ALT = re.compile(r"\balt=(\"[^\"]*\w[^\"]*\"|'[^']*\w[^']*')", re.IGNORECASE)
+_SRC = re.compile(r"\bsrc=[\"']([^\"']*)[\"']", re.IGNORECASE)
+_ELSEWHERE = ("http://", "https://", "mailto:")
+_MACHINE = re.compile(r"(?<![\w.:~/>-])/(?:home|Users|root|tmp|work|mnt|media|var)/\w|\b[A-Z]:\\\w")
+_REPLACING = {"clear_output", "update_display", "display_id"}
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
+# Shorter lines of an answer (`pass`, `return`, `count = 0`) are everybody's.
+_SHORTEST = 12
+# So is this one: an answer that is a whole class begins with it, like any class.
+_EVERYBODYS = {"def__init__(self):"}
+
+
+class Place(NamedTuple):
+    """A place that breaks a rule.
+
+    Attributes:
+        line: The line in the lesson source, counted from 1.
+        what: What is wrong.
+        to_try: What to do about it.
+    """
+
+    line: int
+    what: str
+    to_try: str = ""
+
+
+@dataclass(frozen=True, order=True)
+class Finding:
+    """A place in a file, and the rule that it breaks.
+
+    Attributes:
+        file: The lesson source.
+        line: The line in it, counted from 1.
+        lint: The rule's name.
+        what: What is wrong.
+        to_try: What to do about it.
+    """
+
+    file: str
+    line: int
+    lint: str
+    what: str
+    to_try: str = ""
+
+    def __str__(self) -> str:
+        cure = f" {self.to_try}" if self.to_try else ""
+        return f"{self.file}:{self.line}: {self.lint}: {self.what}{cure}"
+
+
+@dataclass(frozen=True)
+class Desk:
+    """One lesson, with everything a rule may look at.
+
+    Attributes:
+        course: The folders that links lead into.
+        lessons: All lessons of the course.
+        lesson: The lesson to check.
+    """
+
+    course: Course
+    lessons: tuple[Lesson, ...]
+    lesson: Lesson
+
+    @cached_property
+    def learner_cells(self) -> list[SourceCell]:
+        """Return the cells of the learner's page, answers still inside."""
+        return [cell for cell in self.lesson.cells if cell.only != "solution"]
+
+    @cached_property
+    def code(self) -> list[SourceCell]:
+        """Return the code cells of the learner's page."""
+        return [cell for cell in self.learner_cells if cell.kind == "code"]
+
+    @cached_property
+    def python(self) -> list[SourceCell]:
+        """Return the code cells of the learner's page that hold Python."""
+        return [cell for cell in self.code if cell.is_python]
+
+    @cached_property
+    def headings(self) -> list[tuple[int, int, str]]:
+        """Return the headings of the learner's page: source line, level, text."""
+        return [found for cell in self.learner_cells for found in headings(cell)]
+
+
+Lint = Callable[[Desk], Iterator[Place]]
+
+
+def check_lessons(course: Course, lessons: list[Lesson], chosen: list[Lesson]) -> list[Finding]:
+    """Apply every rule to the chosen lessons.
+
+    Args:
+        course: Where links lead.
+        lessons: All lessons of the course.
+        chosen: The lessons to check.
+
+    Returns:
+        What breaks a rule, by file and line.
+    """
+    found = []
+    for lesson in chosen:
+        desk = Desk(course, tuple(lessons), lesson)
+        # The other rules rely on the markers.
+        for lint in [answer_markers] if any(answer_markers(desk)) else LINTS:
+            name = lint.__name__.replace("_", "-")
+            file = f"src/lessons/{lesson.path.name}"
+            found += [Finding(file, line, name, *said) for line, *said in lint(desk)]
+    return sorted(found)
+
+
+# Answers and blanks.
+
+
+def answer_markers(desk: Desk) -> Iterator[Place]:
+    """Require that markers are closed, in order, not nested, and that a blank holds a blank."""
+    for cell in desk.lesson.cells:
+        try:
+            find_blocks(cell.source, "", cell.line)
+        except LessonError as error:
+            _, line, what = error.what.split(":", 2)
+            yield Place(int(line), what.strip(), error.to_try)
+
+
+def leaked_answer(desk: Desk) -> Iterator[Place]:
+    """Require that no line of an answer stands anywhere else on the learner's page."""
+    answers = {key: line for cell in desk.code for key, line in _distinctive(cell)}
+    for line, text in _page_texts(desk):
+        for key, answer in answers.items():
+            if key in _squeeze(text):
+                rows = [_squeeze(row) for row in text.split("\n")]
+                yield Place(
+                    line + next((n for n, row in enumerate(rows) if key in row), 0),
+                    f"the answer {answer.strip()!r} can be read here.",
+                    "Reword this place, or move the line out of the answer.",
+                )
+
+
+def _distinctive(cell: SourceCell) -> Iterator[tuple[str, str]]:
+    for block in find_blocks(cell.source):
+        for line in block.answer:
+            key = _squeeze(_without_comment(line.strip()))
+            if len(key) >= _SHORTEST and key not in _EVERYBODYS:
+                yield key, line
+
+
+def _without_comment(line: str) -> str:
+    try:
+        tokens = list(tokenize.generate_tokens(io.StringIO(line).readline))
+    except (tokenize.TokenError, SyntaxError):
+        return line
+    comments = [token.start[1] for token in tokens if token.type == tokenize.COMMENT]
+    return line[: comments[0]] if comments else line
+
+
+def _page_texts(desk: Desk) -> Iterator[tuple[int, str]]:
+    for cell in desk.learner_cells:
+        yield cell.line, learner_text(cell)
+        for line, target in _targets(cell):
+            image = _resolve(desk, target.partition("#")[0])
+            # A drawing is text too, and its labels are on the page.
+            if image.suffix == ".svg" and image.is_file():
+                yield line, image.read_text(encoding="utf-8").replace("\n", " ")
+
+
+def _squeeze(text: str) -> str:
+    return re.sub(r"[\s'\"`]+", "", text)
+
+
+def syntax(desk: Desk) -> Iterator[Place]:
+    """Require that code is Python on both pages, with blanks and with answers."""
+    for cell in desk.python:
+        texts = {"learner's": learner_text(cell), "solution": with_answers(cell.source)}
+        wrong = [page for page, text in texts.items() if tree_of(text) is None]
+        if wrong:
+            what = f"this cell is not Python on the {wrong[0]} page."
+            cure = "A forgotten [markdown]? A blank that is only half a line?"
+            yield Place(cell.line, what, cure)
+
+
+def prose_as_code(desk: Desk) -> Iterator[Place]:
+    """Require that a code cell holds code, and not only sentences behind comment signs."""
+    for cell in (cell for cell in desk.code if not cell.magic):
+        lines = [line.strip() for line in learner_text(cell).split("\n") if line.strip()]
+        if not lines:
+            yield Place(cell.line, "this code cell is empty.")
+        elif not cell.exercise and all(line.startswith("#") for line in lines):
+            cure = "Begin it with '# %% [markdown]'."
+            yield Place(cell.line, "this code cell is prose.", cure)
+
+
+def blank_outside_function(desk: Desk) -> Iterator[Place]:
+    """Require that a blank does not run with its cell, which would end the untouched page."""
+    for cell in (cell for cell in desk.python if cell.runs):
+        for node in _run_at_once(learner_text(cell)):
+            if BLANK in _names(node):
+                yield Place(
+                    cell.line + getattr(node, "lineno", 1) - 1,
+                    f"{BLANK} would be run at once, and the untouched page would stop here.",
+                    "Move it into the body of a function or method.",
+                )
+
+
+def stray_blank(desk: Desk) -> Iterator[Place]:
+    """Require that blanks stand in exercises and predictions only."""
+    for cell in (cell for cell in desk.code if not (cell.exercise or cell.predict)):
+        for number, line in enumerate(learner_text(cell).split("\n"), cell.line):
+            if BLANK in line:
+                what = f"{BLANK} stands outside of an exercise."
+                yield Place(number, what, 'Mark the cell exercise="..".')
+
+
+# Exercises, checks and predictions.
+
+
+def answer_outside_exercise(desk: Desk) -> Iterator[Place]:
+    """Require that answers stand in exercises and predictions, and that an exercise has one."""
+    for cell in desk.lesson.cells:
+        blocks = find_blocks(cell.source)
+        if blocks and (cell.kind != "code" or not (cell.exercise or cell.predict)):
+            line = cell.line + blocks[0].line
+            cure = f"Begin the cell with '# %% exercise=\"{desk.lesson.number}a\"'."
+            yield Place(line, "this is no exercise cell.", cure)
+        if cell.exercise and not blocks:
+            what = f"exercise {cell.exercise} has no answer."
+            yield Place(cell.line, what)
+        if cell.only and (cell.exercise or cell.check):
+            what = "an exercise or its check stands on both pages."
+            yield Place(cell.line, what, "Remove only=.")
+
+
+def exercise_names(desk: Desk) -> Iterator[Place]:
+    """Require that exercises are named NNa, NNb, NNc, in order."""
+    letters, before = iter("abcdefghijklmnopqrstuvwxyz"), None
+    for cell in (cell for cell in desk.lesson.cells if cell.exercise or cell.check):
+        # An exercise may have several cells, one after the other, before its check.
+        if cell.exercise and cell.exercise != before:
+            expected = desk.lesson.number + next(letters)
+            if cell.exercise != expected:
+                what = f"exercise {cell.exercise} would be {expected} by its place on the page."
+                yield Place(cell.line, what, "Rename it, and its check.")
+        before = cell.exercise
+
+
+def exercise_pairs(desk: Desk) -> Iterator[Place]:
+    """Require that every exercise has one check below it, and every check its exercise."""
+    known: set[str] = set()
+    checks = Counter(cell.check for cell in desk.lesson.cells if cell.check)
+    for cell in desk.lesson.cells:
+        known |= {cell.exercise} if cell.exercise else set()
+        if cell.exercise and checks[cell.exercise] != 1:
+            what = f"exercise {cell.exercise} has {checks[cell.exercise]} check cells."
+            cure = f"Give it one, with '# %% check=\"{cell.exercise}\"'."
+            yield Place(cell.line, what, cure)
+        if cell.check and cell.check not in known:
+            what = f"check {cell.check} has no exercise above it."
+            yield Place(cell.line, what)
+
+
+def predictions(desk: Desk) -> Iterator[Place]:
+    """Require that the learner's page asks, the solution page answers, and both run."""
+    for cell in desk.lesson.cells:
+        what, cure = _prediction_flaw(cell)
+        if what:
+            yield Place(cell.line, what, cure)
+
+
+def _prediction_flaw(cell: SourceCell) -> tuple[str, str]:
+    """Return what is wrong with a cell's predictions and what to do; empty texts for nothing."""
+    answered = _guesses(with_answers(cell.source)) if cell.is_python else []
+    if not cell.predict:
+        cure = "Begin the cell with '# %% predict=true'."
+        return ("predict is called in a cell that is not marked.", cure) if answered else ("", "")
+    if cell.kind != "code" or cell.magic or cell.exercise or cell.check or cell.only:
+        return "a prediction stands in a cell that is something else, too.", "Make two cells of it."
+    if not find_blocks(cell.source):
+        return "the prediction has no answer.", "Put predict(...) between the answer markers."
+    asked = _guesses(learner_text(cell))
+    if not asked or len(asked) != len(answered) or set(asked) != {BLANK}:
+        cure = (
+            f'On the learner\'s page its first argument is "{BLANK}", in quotes, so that it runs.'
+        )
+        return "the learner's page asks for no prediction.", cure
+    if BLANK in answered:
+        return "the solution page makes no prediction.", "Put the right guess into the answer."
+    return "", ""
+
+
+def _guesses(text: str) -> list[object]:
+    """Return the first argument of every call of `predict`, None for what is no constant."""
+    return [
+        getattr(node.args[0], "value", None)
+        for node in ast.walk(tree_of(text) or ast.Module([], []))
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "predict" and node.args
+    ]
+
+
+# Links, images, headings and numbers.
+
+
+def broken_link(desk: Desk) -> Iterator[Place]:
+    """Require that a link leads to a file of the course, a page, or a heading that exists."""
+    for cell in desk.lesson.cells:
+        for line, target in _targets(cell):
+            problem = _link_problem(desk, target)
+            if problem:
+                yield Place(line, f"{target!r} leads nowhere: {problem}.")
+
+
+def alt_text(desk: Desk) -> Iterator[Place]:
+    """Require that an image has words for those who do not see it."""
+    for cell in desk.lesson.cells:
+        for line, text in prose_lines(cell):
+            named = all(m["text"].strip() for m in _LINK.finditer(text) if m["image"])
+            if not named or not all(_ALT.search(tag) for tag in _IMG.findall(text)):
+                what = "an image has no alternative text."
+                cure = "Say in words what it shows: ![what it shows](image.svg)."
+                yield Place(line, what, cure)
+
+
+def _targets(cell: SourceCell) -> Iterator[tuple[int, str]]:
+    for line, text in prose_lines(cell):
+        plain = re.sub(r"`[^`]*`", "", text)
+        for target in [m["target"] for m in _LINK.finditer(plain)] + _SRC.findall(plain):
+            yield line, target
+
+
+def _link_problem(desk: Desk, target: str) -> str:
+    if target.startswith(_ELSEWHERE):
+        return ""
+    if target.startswith("attachment:"):
+        return "pages have no attachments"
+    file, _, anchor = target.partition("#")
+    lesson = desk.lesson if not file else _lesson_at(desk, _resolve(desk, file))
+    if lesson is None:
+        return "" if _resolve(desk, file).exists() else "there is no such file"
+    # What JupyterLab makes of a heading: markup gone, spaces to hyphens, letters as they are.
+    titles = [text for cell in lesson.cells for _, _, text in headings(cell)]
+    known = {re.sub(r"[`*]", "", text).replace(" ", "-") for text in titles}
+    return f"{lesson.name} has no such heading" if anchor and unquote(anchor) not in known else ""
+
+
+def _resolve(desk: Desk, file: str) -> Path:
+    # Both trees lie side by side, so a relative link leads to the same place from either.
+    return Path(desk.course.notebooks, unquote(file))
+
+
+def _lesson_at(desk: Desk, path: Path) -> Lesson | None:
+    trees = (desk.course.notebooks.resolve(), desk.course.solutions.resolve())
+    names = {lesson.name: lesson for lesson in desk.lessons}
+    is_page = path.suffix == ".ipynb" and path.resolve().parent in trees
+    return names.get(path.stem) if is_page else None
+
+
+def page_numbers(desk: Desk) -> Iterator[Place]:
+    """Require that a number belongs to one page, and that a page needs earlier ones."""
+    lesson = desk.lesson
+    twins = [o.name for o in desk.lessons if o.number == lesson.number and o.name != lesson.name]
+    if twins:
+        what = f"the number {lesson.number} also belongs to {', '.join(twins)}."
+        yield Place(1, what, "Rename one of them.")
+    known = {other.number for other in desk.lessons}
+    for number in lesson.header.needs:
+        if number not in known:
+            yield Place(1, f"needs names page {number}, which is not there.")
+        elif number >= lesson.number:
+            yield Place(1, f"needs names page {number}, which comes later.")
+
+
+def title(desk: Desk) -> Iterator[Place]:
+    """Require that the page opens with the header's title, the only heading of level 1."""
+    wanted = desk.lesson.header.title
+    tops = [(line, text) for line, level, text in desk.headings if level == 1]
+    first = desk.lesson.cells[0] if desk.lesson.cells else None
+    if len(tops) != 1 or desk.headings[0][1] != 1 or not first or first.kind != "markdown":
+        what = f"the page has {len(tops)} headings of level 1; it opens with exactly one."
+        yield Place(1, what, f"Begin the first cell with '# # {wanted}'.")
+    elif tops[0][1] != wanted:
+        what = f"the heading {tops[0][1]!r} is not the title of the header, {wanted!r}."
+        yield Place(tops[0][0], what)
+
+
+def heading_levels(desk: Desk) -> Iterator[Place]:
+    """Require that a heading is at most one level below the one before it."""
+    above = 0
+    for line, level, text in desk.headings:
+        if level > above + 1:
+            what = f"{text!r} jumps from level {above} to level {level}."
+            yield Place(line, what)
+        above = level
+
+
+def heading_numbers(desk: Desk) -> Iterator[Place]:
+    """Require that numbers in headings count from 1, and name exercises that exist."""
+    count = 0
+    exercises = {cell.exercise for cell in desk.lesson.cells}
+    for line, _, text in desk.headings:
+        match = re.match(r"(\d+)[.):]? ", text)
+        count += 1 if match else 0
+        if match and int(match[1]) != count:
+            what = f"{text!r} should have the number {count}."
+            yield Place(line, what)
+        for name in re.findall(r"\b\d\d[a-z]\b", text):
+            if name not in exercises:
+                yield Place(line, f"the page has no exercise {name}.")
+
+
+# Code that would never end, could not be compared, or runs on one machine only.
+
+
+def endless(desk: Desk) -> Iterator[Place]:
+    """Require that no cell waits for ever: no spin and no open loop at the top level."""
+    for cell in (cell for cell in desk.python if not cell.saved_as):
+        if any(_never_returns(node) for node in _run_at_once(with_answers(cell.source))):
+            cure = "Run for a bounded time instead: ros.run(seconds=10)."
+            yield Place(cell.line, "this cell would never end.", cure)
+
+
+def unseen_by_nbval(desk: Desk) -> Iterator[Place]:
+    """Require that no output is replaced: nbval compares what came, not what is left."""
+    for cell in desk.python:
+        tree = tree_of(with_answers(cell.source)) or ast.Module([], [])
+        used = {name for node in ast.walk(tree) for name in _names(node)}
+        for name in sorted(_REPLACING & used):
+            what = f"{name} replaces an output, which the tests cannot compare."
+            yield Place(cell.line, what, "Show it once, at the end.")
+
+
+def machine_path(desk: Desk) -> Iterator[Place]:
+    """Require that no path of one machine stands in a page."""
+    for cell in desk.lesson.cells:
+        for number, line in enumerate(cell.source.split("\n"), cell.line):
+            if _MACHINE.search(line):
+                what = f"a path of one machine: {line.strip()!r}."
+                yield Place(number, what, "Use a relative path.")
+
+
+def _never_returns(node: ast.AST) -> bool:
+    if isinstance(node, ast.Call):
+        return ast.unparse(node.func).rpartition(".")[2] == "spin"
+    return (
+        isinstance(node, ast.While)
+        and isinstance(node.test, ast.Constant)
+        and bool(node.test.value)
+        and not any(isinstance(inner, (ast.Break, ast.Return)) for inner in ast.walk(node))
+    )
+
+
+# What rules look at.
+
+
+def learner_text(cell: SourceCell) -> str:
+    """Return what a learner sees of a cell, on the lines it has in the source.
+
+    Args:
+        cell: The cell.
+    """
+    return with_blanks_in_place(cell.source) if cell.kind == "code" else cell.source
+
+
+def tree_of(text: str) -> ast.Module | None:
+    """Parse code, with IPython's magics out of the way; None if it is no Python.
+
+    Args:
+        text: The text of a code cell.
+    """
+    if text.lstrip().startswith("%%"):
+        return ast.Module([], [])
+    plain = [_MAGIC.sub(lambda m: f"{m[1] or m[2] or ''}pass", line) for line in text.split("\n")]
+    try:
+        return ast.parse("\n".join(plain))
+    except SyntaxError:
+        return None
+
+
+def prose_lines(cell: SourceCell) -> Iterator[tuple[int, str]]:
+    """Yield the lines of a markdown cell that are not fenced code, with their source lines.
+
+    Args:
+        cell: The cell; of a code cell nothing is prose.
+    """
+    fence = ""
+    for number, line in enumerate(cell.source.split("\n"), cell.line):
+        match = _FENCE.match(line)
+        if match and fence in ("", match[1]):
+            fence = "" if fence else match[1]
+        elif not fence and cell.kind == "markdown":
+            yield number, line
+
+
+def headings(cell: SourceCell) -> Iterator[tuple[int, int, str]]:
+    """Yield the headings of a cell: source line, level, text.
+
+    Args:
+        cell: The cell; a code cell has none.
+    """
+    for number, line in prose_lines(cell):
+        match = re.match(r"(#{1,6}) +(.*?) *#*$", line)
+        if match:
+            yield number, len(match[1]), match[2]
+
+
+def _run_at_once(text: str) -> Iterator[ast.AST]:
+    """Yield what is evaluated when a cell runs: everything but the bodies of functions."""
+    todo: list[ast.AST] = [tree_of(text) or ast.Module([], [])]
+    for node in todo:
+        yield node
+        for name, value in ast.iter_fields(node):
+            if name != "body" or not isinstance(node, _FUNCTIONS):
+                children = value if isinstance(value, list) else [value]
+                todo += [child for child in children if isinstance(child, ast.AST)]
+
+
+def _names(node: ast.AST) -> set[object]:
+    return {getattr(node, field, None) for field in ("id", "attr", "arg", "name")}
+
+
+LINTS: tuple[Lint, ...] = (
+    leaked_answer,
+    syntax,
+    prose_as_code,
+    blank_outside_function,
+    stray_blank,
+    answer_outside_exercise,
+    exercise_names,
+    exercise_pairs,
+    predictions,
+    broken_link,
+    alt_text,
+    page_numbers,
+    title,
+    heading_levels,
+    heading_numbers,
+    endless,
+    unseen_by_nbval,
+    machine_path,
+)
+"""Every rule but `answer_markers`, which comes first: the others rely on it."""
