@@ -78,7 +78,7 @@ def scenario(exercise: str) -> Callable[..., Any]:
     Raises:
         ExerciseError: If there is no such exercise.
     """
-    return find(exercise, "{}").scenario
+    return find(exercise, "{}").observed
 
 
 def find(exercise: object, example: str) -> Exercise[Any]:
