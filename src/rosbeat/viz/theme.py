@@ -66,7 +66,7 @@ BANDS = ("#D9EBF8", "#E8F5EA", "#FCE3CE", "#F5E6EF")
 
 @dataclass(frozen=True)
 class Style:
-    """How one series of a picture is marked, in three ways at once.
+    """Describe how one series of a picture is marked, in three ways at once.
 
     Attributes:
         colour: Line colour.
@@ -81,7 +81,7 @@ class Style:
 
 @dataclass(frozen=True)
 class Bar:
-    """How a stretch of time is marked: by its colour and by its hatch.
+    """Describe how a stretch of time is marked: by its colour and by its hatch.
 
     Attributes:
         fill: Colour inside.
@@ -131,5 +131,5 @@ RC = {
 
 
 def style(number: int) -> Style:
-    """The style of series `number`, counted from 0; after the last the first comes again."""
+    """Return the style of series `number`, counted from 0; after the last the first comes again."""
     return STYLES[number % len(STYLES)]

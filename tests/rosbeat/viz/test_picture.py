@@ -14,9 +14,7 @@ from PIL import Image
 
 from rosbeat.errors import PictureError
 from rosbeat.records import queue_steps
-from rosbeat.viz import theme
-from rosbeat.viz.picture import Picture
-from rosbeat.viz.queue_columns import queue
+from rosbeat.viz import Picture, queue, theme
 
 
 def draw():
