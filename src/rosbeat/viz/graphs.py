@@ -93,8 +93,8 @@ class Label:
             # A cross on the rim, at the upper right.
             width, height = self.size
             at = (x + width / 2 * 0.62, y + height / 2 * 0.78)
-            look: dict[str, Any] = {"mfc": theme.ALERT, "mec": theme.CARD, "mew": 1.2, "zorder": 5}
-            canvas.axes.plot(*at, marker="X", ms=12, **look)
+            look: dict[str, Any] = {"color": theme.ALERT, "mec": theme.CARD, "zorder": 5}
+            canvas.axes.plot(*at, marker="X", ms=12, mew=1.2, **look)
         top = y + sum(line_height(line.size) for line in self.lines) / 2
         for line in self.lines:
             high = line_height(line.size)
