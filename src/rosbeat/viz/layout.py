@@ -79,14 +79,11 @@ class Layering:
         """Return for every name those right before it and right after it on the chains."""
         before: dict[str, list[str]] = {name: [] for layer in self.layers for name in layer}
         after: dict[str, list[str]] = {name: [] for name in before}
-        for one, other in self.steps():
-            after[one].append(other)
-            before[other].append(one)
+        for chain in self.chains.values():
+            for one, other in itertools.pairwise(chain):
+                after[one].append(other)
+                before[other].append(one)
         return before, after
-
-    def steps(self) -> list[Link]:
-        """Return every step of a chain from one column to the next."""
-        return [step for chain in self.chains.values() for step in itertools.pairwise(chain)]
 
 
 @dataclass(frozen=True)
@@ -222,10 +219,6 @@ def _crossings(layers: Layers, after: dict[str, list[str]]) -> int:
 
 # Clusters: what belongs to each, and one order for all columns.
 
-#: From how many blocks on an order is taken as it comes, since trying others takes too long.
-_MOST_BLOCKS = 40
-_PASSES = 3
-
 
 def enclosed(
     groups: Sequence[Collection[str]], links: Sequence[Link], others: Collection[str]
@@ -268,66 +261,10 @@ def clustered(plan: Layering, groups: Sequence[Collection[str]]) -> Layering:
     framed = [tuple(sorted(group, key=lambda name: (place[name], name))) for group in members]
     loose = [(name,) for name in place if not any(name in group for group in members)]
     blocks = sorted([*framed, *loose], key=lambda block: _mean([place[one] for one in block], 0.0))
-    blocks = _improved(plan, blocks)
     rank = {name: k for k, name in enumerate(itertools.chain.from_iterable(blocks))}
     layers = [sorted(layer, key=rank.__getitem__) for layer in plan.layers]
     clusters = tuple(block for block in blocks if set(block) in members)
     return replace(plan, layers=layers, blocks=tuple(blocks), clusters=clusters)
-
-
-def _improved(plan: Layering, blocks: list[Block]) -> list[Block]:
-    """Move blocks, and names within a block, while that undoes crossings or shortens arrows."""
-    measure = _Measure(plan, blocks)
-    best, cost = blocks, measure(blocks)
-    for _ in range(_PASSES if len(blocks) <= _MOST_BLOCKS else 0):
-        start = cost
-        for block in blocks:
-            for trial in _moves(best, set(block)):
-                if (found := measure(trial)) < cost:
-                    best, cost = trial, found
-        if cost == start:
-            break
-    return best
-
-
-def _moves(blocks: list[Block], names: set[str]) -> Iterator[list[Block]]:
-    """Yield the orders in which one block stands elsewhere, or two of its names change places."""
-    at = next(rank for rank, block in enumerate(blocks) if set(block) == names)
-    block, rest = blocks[at], blocks[:at] + blocks[at + 1 :]
-    for rank in range(len(blocks)):
-        yield [*rest[:rank], block, *rest[rank:]]
-    for k in range(len(block) - 1):
-        swapped = (*block[:k], block[k + 1], block[k], *block[k + 2 :])
-        yield [*blocks[:at], swapped, *blocks[at + 1 :]]
-
-
-class _Measure:
-    """Count crossings, of arrows with arrows and with frames, and add up how far arrows go."""
-
-    def __init__(self, plan: Layering, blocks: Sequence[Block]) -> None:
-        column = {name: k for k, layer in enumerate(plan.layers) for name in layer}
-        self._steps = plan.steps()
-        self._beside = [
-            (one, other)
-            for one, other in itertools.combinations(self._steps, 2)
-            if column[one[0]] == column[other[0]]
-        ]
-        #: Steps that may run through a frame, each with a name in it.
-        self._passing = [
-            (step, block[0])
-            for block in blocks
-            for step in self._steps
-            if len(block) > 1
-            and not set(step) & set(block)
-            and min(column[one] for one in block) - 1 <= column[step[0]]
-            and column[step[0]] <= max(column[one] for one in block)
-        ]
-
-    def __call__(self, blocks: Sequence[Block]) -> tuple[int, int]:
-        at = {name: k for k, name in enumerate(itertools.chain.from_iterable(blocks))}
-        crossed = sum((at[a] - at[c]) * (at[b] - at[d]) < 0 for (a, b), (c, d) in self._beside)
-        through = sum((at[a] < at[one]) != (at[b] < at[one]) for (a, b), one in self._passing)
-        return crossed + through, sum(abs(at[a] - at[b]) for a, b in self._steps)
 
 
 # Coordinates.
@@ -439,7 +376,7 @@ def _across(
 ) -> tuple[dict[str, float], Sequence[Extent]]:
     """Return the middle of every name, and begin and end of every cluster; the least begin is 0."""
     breadths = {name: sizes.get(name, (0, THREAD))[1] for layer in plan.layers for name in layer}
-    at = _with_frames(plan, breadths) if plan.clusters else _freely(plan, breadths)
+    at = _placed(plan, breadths)
     stretches = [
         _tight(block, at, breadths, plan.rim, (at[_begin(number)], at[_end(number)]))
         for number, block in enumerate(plan.clusters)
@@ -450,48 +387,6 @@ def _across(
     return places, [(begin - top, end - top) for begin, end in stretches]
 
 
-def _freely(plan: Layering, breadths: Mapping[str, float]) -> dict[str, float]:
-    """Find places column by column, forth and back."""
-    sides = plan.neighbours()
-    gaps = [
-        [(breadths[a] + breadths[b]) / 2 + SPACE for a, b in itertools.pairwise(layer)]
-        for layer in plan.layers
-    ]
-    at = dict.fromkeys(breadths, 0.0)
-    columns = list(zip(plan.layers, gaps, strict=True))
-    for layer, distances in columns:
-        at.update(zip(layer, spread([0.0] * len(layer), distances), strict=True))
-    for sweep in range(_PLACE_SWEEPS):
-        back = sweep % 2
-        for layer, distances in columns[:: -1 if back else 1]:
-            wishes = [_mean([at[one] for one in sides[back][name]], at[name]) for name in layer]
-            at.update(zip(layer, spread(wishes, distances), strict=True))
-    return at
-
-
-def spread(wishes: Sequence[float], distances: Sequence[float]) -> list[float]:
-    """Return the places nearest to the wishes (least squares) that keep order and distances.
-
-    With the distances subtracted it is isotonic regression, solved by pooling adjacent violators
-    (Ayer et al., "An Empirical Distribution Function for Sampling with Incomplete Information",
-    Annals of Mathematical Statistics 26(4), 1955).
-
-    Args:
-        wishes: Wished places, one for each item, in the order that is kept.
-        distances: Least distance from each item to the next, one fewer than items.
-    """
-    offsets = [sum(distances[:rank]) for rank in range(len(wishes))]
-    pools: list[tuple[float, int]] = []
-    for wish, offset in zip(wishes, offsets, strict=True):
-        mean, size = wish - offset, 1
-        while pools and pools[-1][0] > mean:
-            other, others = pools.pop()
-            mean, size = (mean * size + other * others) / (size + others), size + others
-        pools.append((mean, size))
-    means = [mean for mean, size in pools for _ in range(size)]
-    return [mean + offset for mean, offset in zip(means, offsets, strict=True)]
-
-
 def _begin(number: int) -> str:
     return f"begin of cluster {number}"
 
@@ -500,24 +395,28 @@ def _end(number: int) -> str:
     return f"end of cluster {number}"
 
 
-def _with_frames(plan: Layering, breadths: Mapping[str, float]) -> dict[str, float]:
+def _placed(plan: Layering, breadths: Mapping[str, float]) -> dict[str, float]:
     """Find places for names and for the ends of frames, all columns at once."""
     rules = list(_rules(plan, breadths))
     order: list[str] = []  # every rule runs along it
-    for block in plan.blocks:
+    for block in plan.blocks or [(name,) for layer in plan.layers for name in layer]:
         number = plan.clusters.index(block) if block in plan.clusters else None
         order += block if number is None else (_begin(number), *block, _end(number))
-    at = _pushed(dict.fromkeys(order, 0.0), order, rules)
+    at = _apart(dict.fromkeys(order, 0.0), order, rules)
     sides = plan.neighbours()
     for sweep in range(_PLACE_SWEEPS):
         # On from column to column, looking back; then back again, looking on.
-        wishes, back = dict(at), sweep % 2
-        for name in itertools.chain.from_iterable(plan.layers[:: -1 if back else 1]):
-            wishes[name] = _mean([wishes[one] for one in sides[back][name]], wishes[name])
-        for number, block in enumerate(plan.clusters):
-            ends = _tight(block, wishes, breadths, plan.rim, (-inf, inf))
-            wishes[_begin(number)], wishes[_end(number)] = ends
-        at = _pushed(_projected(wishes, rules), order, rules)
+        back = sweep % 2
+        layers = plan.layers[:: -1 if back else 1]
+        # A frame reaches over columns, so with frames all columns give way together.
+        for names in [list(itertools.chain(*layers))] if plan.clusters else layers:
+            wishes = dict(at)
+            for name in names:
+                wishes[name] = _mean([wishes[one] for one in sides[back][name]], at[name])
+            for number, block in enumerate(plan.clusters):
+                ends = _tight(block, wishes, breadths, plan.rim, (-inf, inf))
+                wishes[_begin(number)], wishes[_end(number)] = ends
+            at = _apart(wishes, order, rules)
     return at
 
 
@@ -550,42 +449,26 @@ def _rules_outside(plan: Layering, number: int, breadths: Mapping[str, float]) -
             yield _end(number), _begin(home[name]) if framed else name, half + OUTSIDE
 
 
-def _pushed(
-    at: Mapping[str, float], order: Sequence[str], rules: Sequence[Rule]
+def _apart(
+    wishes: Mapping[str, float], order: Sequence[str], rules: Sequence[Rule]
 ) -> dict[str, float]:
-    """Move everything on until every rule holds."""
+    """Return places near the wishes at which every rule holds.
+
+    Pushing everything on until the rules hold is one solution, and pushing everything back is
+    another. Rules are linear, so they hold half way between the two as well.
+    """
+    before: dict[str, list[tuple[str, float]]] = {name: [] for name in order}
     behind: dict[str, list[tuple[str, float]]] = {name: [] for name in order}
     for one, other, distance in rules:
-        behind[other].append((one, distance))
-    found: dict[str, float] = {}
+        before[other].append((one, distance))
+        behind[one].append((other, distance))
+    on: dict[str, float] = {}
     for name in order:
-        found[name] = max([at[name], *(found[one] + gap for one, gap in behind[name])])
-    return found
-
-
-def _projected(wishes: Mapping[str, float], rules: Sequence[Rule]) -> dict[str, float]:
-    """Return the places nearest to the wishes (least squares) at which nearly every rule holds.
-
-    This is Hildreth's method ("A quadratic programming procedure", Naval Research Logistics
-    Quarterly 4(1), 1957): each rule in turn pushes its two variables apart, or lets go of them as
-    far as it has pushed before. The ends of a frame give way ten times as far as a box does. A
-    place is found when nothing is pushed further than a hundredth of a pixel.
-    """
-    at = dict(wishes)
-    yielding = {name: 10.0 for k in range(len(rules)) for name in (_begin(k), _end(k))}
-    pairs = [(*rule, yielding.get(rule[0], 1.0), yielding.get(rule[1], 1.0)) for rule in rules]
-    forces = [0.0] * len(pairs)
-    for _ in range(100):
-        furthest = 0.0
-        for k, (one, other, distance, here, there) in enumerate(pairs):
-            push = max(-forces[k], (distance - at[other] + at[one]) / (here + there))
-            at[one] -= here * push
-            at[other] += there * push
-            forces[k] += push
-            furthest = max(furthest, abs(push))
-        if furthest < 0.01:
-            break
-    return at
+        on[name] = max([wishes[name], *(on[one] + gap for one, gap in before[name])])
+    back: dict[str, float] = {}
+    for name in reversed(order):
+        back[name] = min([wishes[name], *(back[one] - gap for one, gap in behind[name])])
+    return {name: (on[name] + back[name]) / 2 for name in order}
 
 
 def _tight(

@@ -15,7 +15,6 @@ from rosbeat.errors import PictureError
 from rosbeat.records import Sample
 from rosbeat.viz import sources, theme
 from rosbeat.viz.canvas import Canvas, Entry, blank, line_height, text_width
-from rosbeat.viz.layout import spread
 from rosbeat.viz.picture import Picture
 from rosbeat.viz.words import count, listing, number, rounded, sentence_case
 
@@ -250,6 +249,29 @@ def _name_bands(canvas: Canvas, axes: Axes, ranges: Sequence[Band], unit: str) -
         canvas.text(x, y + line_height(theme.SMALL) / 2, band.name, weight="bold")
         limits = band.words(unit)
         canvas.text(x, y - line_height() / 2, limits, theme.SMALL, theme.MUTED)
+
+
+def spread(wishes: Sequence[float], distances: Sequence[float]) -> list[float]:
+    """Return the places nearest to the wishes (least squares) that keep order and distances.
+
+    With the distances subtracted it is isotonic regression, solved by pooling adjacent violators
+    (Ayer et al., "An Empirical Distribution Function for Sampling with Incomplete Information",
+    Annals of Mathematical Statistics 26(4), 1955).
+
+    Args:
+        wishes: Wished places, one for each item, in the order that is kept.
+        distances: Least distance from each item to the next, one fewer than items.
+    """
+    offsets = [sum(distances[:rank]) for rank in range(len(wishes))]
+    pools: list[tuple[float, int]] = []
+    for wish, offset in zip(wishes, offsets, strict=True):
+        mean, size = wish - offset, 1
+        while pools and pools[-1][0] > mean:
+            other, others = pools.pop()
+            mean, size = (mean * size + other * others) / (size + others), size + others
+        pools.append((mean, size))
+    means = [mean for mean, size in pools for _ in range(size)]
+    return [mean + offset for mean, offset in zip(means, offsets, strict=True)]
 
 
 def _say_values(lines: Sequence[Series], bands: Sequence[Band], name: str, unit: str) -> str:

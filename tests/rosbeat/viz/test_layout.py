@@ -1,7 +1,7 @@
 """Columns, order, places and frames, as examples and as properties of any graph."""
 
 from dataclasses import replace
-from itertools import combinations, pairwise
+from itertools import combinations
 
 import pytest
 from hypothesis import given, settings
@@ -16,7 +16,6 @@ from rosbeat.viz.layout import (
     layering,
     needed,
     place,
-    spread,
 )
 
 nodes = [f"n{k}" for k in range(6)]
@@ -93,24 +92,6 @@ def test_forward_links_run_forward_in_any_graph(links):
         assert [at[name] for name in chain] == list(range(at[chain[0]], at[chain[-1]] + 1))
     assert back_links(list(starts), list(plan.chains)) == []
     assert layering(starts, links) == plan
-
-
-def test_wishes_that_agree_are_granted():
-    assert spread([0, 50], [10]) == [0, 50]
-
-
-def test_wishes_that_clash_meet_in_the_middle():
-    assert spread([10, 10, 10], [4, 6]) == pytest.approx([10 - 14 / 3, 10 - 2 / 3, 10 + 16 / 3])
-
-
-@given(st.lists(st.tuples(st.floats(-1e3, 1e3), st.floats(0, 99)), min_size=1, max_size=9))
-def test_spread_keeps_distances_and_the_mean(items):
-    wishes = [wish for wish, _ in items]
-    distances = [gap for _, gap in items[1:]]
-    places = spread(wishes, distances)
-    for (one, other), gap in zip(pairwise(places), distances, strict=True):
-        assert other - one >= gap - 1e-6
-    assert sum(places) == pytest.approx(sum(wishes), abs=1e-6)
 
 
 def apart(one, other):
