@@ -11,9 +11,8 @@ from matplotlib.path import Path
 
 from rosbeat.errors import PictureError
 from rosbeat.records import NANOSECONDS, LogRecord
-from rosbeat.viz import canvas as draw
 from rosbeat.viz import theme
-from rosbeat.viz.canvas import Canvas, Entry, line_height, text_width
+from rosbeat.viz.canvas import Canvas, Entry, Stroke, blank, lane_scale, line_height, text_width
 from rosbeat.viz.picture import Picture
 from rosbeat.viz.words import count, listing, not_shown
 
@@ -197,7 +196,7 @@ def crossing(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pictur
     others = _others(ours, shown), _others(theirs, shown)
     height = _HEAD + 2 * _RIM + _LANE + _FOOT
     note = not_shown(shown.skipped, "later message")
-    with draw.blank(height, entries=_key(shown, others), note=note) as canvas:
+    with blank(height, entries=_key(shown, others), note=note) as canvas:
         _Drawing(canvas, shown, others, (_name_of(ours), _name_of(theirs))).draw()
     words = describe(shown, _name_of(ours), _name_of(theirs))
     return Picture(canvas.figure, words, "Messages from one process to another")
@@ -253,19 +252,19 @@ class _Drawing:
         times = [line.time_ns for line in shown.sent + shown.received]
         times += others[0] + others[1]
         self._start = min(times)
-        self._scale = draw.lane_scale(names, (max(times) - self._start) / NANOSECONDS, 100.0)
+        self._scale = lane_scale(names, (max(times) - self._start) / NANOSECONDS, 100.0)
 
     def draw(self) -> None:
         shown = self._shown
         ends = (self._receiver - _RIM, self._sender + _RIM)
-        draw.draw_time_axis(self._canvas, self._scale, *ends)
+        self._canvas.time_axis(self._scale, *ends)
         lost = [f"{len(shown.lost)} lost"] if shown.lost else []
         self._draw_lane(0, self._sender, [f"{len(shown.sent)} sent", *lost])
         self._draw_lane(1, self._receiver, [f"{len(shown.received)} received"])
-        stroke = draw.Stroke(_MESSAGE.colour, _MESSAGE.dash, 1.3)
+        stroke = Stroke(_MESSAGE.colour, _MESSAGE.dash, 1.3)
         for line in shown.arrived:
             way = [(self._x(line.time_ns), self._sender), (self._end(line), self._receiver + 6)]
-            draw.draw_arrow(self._canvas, Path(way), stroke)
+            self._canvas.arrow(Path(way), stroke)
         for line in shown.sent:
             look = _LOST if line in shown.lost else _LATE
             self._mark(line, self._sender, _SENT if line.partner is not None else look)
@@ -282,7 +281,7 @@ class _Drawing:
         return self._x((line if line.partner is None else received[line.partner]).time_ns)
 
     def _draw_lane(self, side: int, y: float, sums: Sequence[str]) -> None:
-        draw.draw_lane(self._canvas, self._scale, y, self._names[side], has_text_below=True)
+        self._canvas.lane(self._scale, y, self._names[side], has_text_below=True)
         for rank, words in enumerate(sums, 1):
             colour = theme.ALERT_TEXT if words.endswith("lost") else theme.MUTED
             at = y - rank * line_height(theme.SMALL) - 3

@@ -17,9 +17,20 @@ from matplotlib.patches import Ellipse, FancyBboxPatch, Patch
 from rosbeat.diagnosis.silence import LINK, NEAR, NODE, TOPIC, TWINS, Explanation, Mark
 from rosbeat.errors import PictureError
 from rosbeat.records import GraphSnapshot
-from rosbeat.viz import canvas as draw
 from rosbeat.viz import sources, theme
-from rosbeat.viz.canvas import ROOM, Canvas, line_height, text_width, wrap
+from rosbeat.viz.canvas import (
+    BROKEN,
+    PLAIN,
+    ROOM,
+    Canvas,
+    blank,
+    cornered,
+    least_frame_width,
+    line_height,
+    smooth,
+    text_width,
+    wrap,
+)
 from rosbeat.viz.layout import (
     Layering,
     Placement,
@@ -289,7 +300,7 @@ def graph(
         strong |= {source.topic} & set(shown.wiring.topics)
     layout = _layout(shown, strong)
     width, height = layout.size
-    with draw.blank(height, width) as canvas:
+    with blank(height, width) as canvas:
         _draw(canvas, shown, layout)
     return Picture(canvas.figure, words + describe(shown.plain), "Nodes and topics")
 
@@ -345,7 +356,7 @@ def _layout(shown: Marked, strong: set[str]) -> _Layout:
 
 def _rimmed(plan: Layering, down: bool) -> Layering:
     """Return the plan with room in its frames for the label on the upper edge, left."""
-    width = draw.least_frame_width()
+    width = least_frame_width()
     if down:
         # Arrows come in over the upper edge, too, so the boxes stand beside the label.
         return replace(plan, rim=Rim((16.0, width - 8), (10.0, 10.0)))
@@ -385,13 +396,13 @@ def _draw(canvas: Canvas, shown: Marked, layout: _Layout) -> None:
         half = frame.length / 2, frame.breadth / 2
         left, top = layout.point(canvas, frame.along - half[0], frame.across - half[1])
         right, bottom = layout.point(canvas, frame.along + half[0], frame.across + half[1])
-        draw.draw_frame(canvas, left, bottom, right, top)
+        canvas.frame(left, bottom, right, top)
     for edge in shown.edges():
-        link, stroke = (edge.source, edge.target), draw.BROKEN if edge.fault else draw.PLAIN
+        link, stroke = (edge.source, edge.target), BROKEN if edge.fault else PLAIN
         is_forward = link in placed.routes
         way = placed.routes[link] if is_forward else placed.returns[link]
         points = [layout.point(canvas, *point) for point in way]
-        path = draw.smooth(points, layout.down) if is_forward else draw.cornered(points)
-        draw.draw_arrow(canvas, path, stroke, edge.has_head)
+        path = smooth(points, layout.down) if is_forward else cornered(points)
+        canvas.arrow(path, stroke, edge.has_head)
     for name, box in placed.boxes.items():
         layout.labels[name].draw(canvas, *layout.point(canvas, box.along, box.across))

@@ -28,9 +28,8 @@ from rosbeat.records import (
     WaitRecord,
     is_hidden,
 )
-from rosbeat.viz import canvas as draw
 from rosbeat.viz import sources, theme
-from rosbeat.viz.canvas import Canvas, Entry
+from rosbeat.viz.canvas import Canvas, Entry, Stroke, blank, lane_scale, smooth
 from rosbeat.viz.picture import Picture
 from rosbeat.viz.wiring import say_shared, shared
 from rosbeat.viz.words import count, listing, not_shown, number, seconds
@@ -357,7 +356,7 @@ def timeline(
     shown = happenings(seen, wanted, _nanoseconds(until), everyone=topics is None)
     stack = _stack(shown)
     height = _HEAD + stack.height + _FOOT
-    with draw.blank(height, entries=_key(shown), note=_left_out(shown)) as canvas:
+    with blank(height, entries=_key(shown), note=_left_out(shown)) as canvas:
         _Drawing(canvas, shown, stack).draw()
     return Picture(canvas.figure, describe(shown), "Callbacks and messages over time")
 
@@ -418,17 +417,17 @@ class _Drawing:
     def __init__(self, canvas: Canvas, shown: Happenings, stack: _Stack) -> None:
         self._canvas, self._shown, self._stack = canvas, shown, stack
         self._top = canvas.top - _HEAD
-        self._scale = draw.lane_scale(shown.lanes, shown.end)
+        self._scale = lane_scale(shown.lanes, shown.end)
         self._rank = {name: k for k, name in enumerate(shown.lanes)}
 
     def draw(self) -> None:
         canvas, shown = self._canvas, self._shown
-        draw.draw_time_axis(canvas, self._scale, self._top - self._stack.height, self._top)
+        canvas.time_axis(self._scale, self._top - self._stack.height, self._top)
         for begin, end in self._stack.frames:
             ends = (self._top - end, theme.WIDTH - _SIDE, self._top - begin)
-            draw.draw_frame(canvas, _SIDE, *ends)
+            canvas.frame(_SIDE, *ends)
         for name in shown.lanes:
-            draw.draw_lane(canvas, self._scale, self._y(name), name)
+            canvas.lane(self._scale, self._y(name), name)
         for run in shown.runs:
             self._draw_run(run)
         for message in shown.messages:
@@ -453,14 +452,14 @@ class _Drawing:
             for one in run.waits
             if one.time <= last
         ]
-        draw.draw_bar(self._canvas, parts, self._y(run.node, run.level), _BAR, run.callback)
+        self._canvas.bar(parts, self._y(run.node, run.level), _BAR, run.callback)
 
     def _draw_message(self, message: Message) -> None:
         x = self._scale(message.time_ns / NANOSECONDS)
         y = self._y(message.source, self._shown.level_at(message.source, message.time_ns))
         if not message.targets:
-            stroke = draw.Stroke(_LOST.colour, _LOST.dash, 1.6)
-            draw.draw_arrow(self._canvas, Path([(x, y - 7), (x, y - 32)]), stroke)
+            stroke = Stroke(_LOST.colour, _LOST.dash, 1.6)
+            self._canvas.arrow(Path([(x, y - 7), (x, y - 32)]), stroke)
         look = _topic_style(self._shown, message.topic)
         for target in message.targets:
             if target in self._rank and target != message.source:
@@ -470,8 +469,8 @@ class _Drawing:
                 path = Path([(x, y), (x, end)])
                 if abs(self._rank[target] - self._rank[message.source]) > 1:
                     # Around the marks of the lanes between.
-                    path = draw.smooth([(x, y), (x + 14, (y + end) / 2), (x, end)], downward=True)
-                draw.draw_arrow(self._canvas, path, draw.Stroke(look.colour, look.dash, 1.6))
+                    path = smooth([(x, y), (x + 14, (y + end) / 2), (x, end)], downward=True)
+                self._canvas.arrow(path, Stroke(look.colour, look.dash, 1.6))
 
     def _draw_calls(self) -> None:
         alike = Counter(
