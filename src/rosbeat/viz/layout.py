@@ -402,7 +402,7 @@ def _placed(plan: Layering, breadths: Mapping[str, float]) -> dict[str, float]:
     for block in plan.blocks or [(name,) for layer in plan.layers for name in layer]:
         number = plan.clusters.index(block) if block in plan.clusters else None
         order += block if number is None else (_begin(number), *block, _end(number))
-    at = _apart(dict.fromkeys(order, 0.0), order, rules)
+    at = apart(dict.fromkeys(order, 0.0), order, rules)
     sides = plan.neighbours()
     for sweep in range(_PLACE_SWEEPS):
         # On from column to column, looking back; then back again, looking on.
@@ -416,7 +416,7 @@ def _placed(plan: Layering, breadths: Mapping[str, float]) -> dict[str, float]:
             for number, block in enumerate(plan.clusters):
                 ends = _tight(block, wishes, breadths, plan.rim, (-inf, inf))
                 wishes[_begin(number)], wishes[_end(number)] = ends
-            at = _apart(wishes, order, rules)
+            at = apart(wishes, order, rules)
     return at
 
 
@@ -449,13 +449,18 @@ def _rules_outside(plan: Layering, number: int, breadths: Mapping[str, float]) -
             yield _end(number), _begin(home[name]) if framed else name, half + OUTSIDE
 
 
-def _apart(
+def apart(
     wishes: Mapping[str, float], order: Sequence[str], rules: Sequence[Rule]
 ) -> dict[str, float]:
     """Return places near the wishes at which every rule holds.
 
     Pushing everything on until the rules hold is one solution, and pushing everything back is
     another. Rules are linear, so they hold half way between the two as well.
+
+    Args:
+        wishes: Wished place of every variable.
+        order: The variables, in an order that every rule runs along.
+        rules: What is at least how far behind what.
     """
     before: dict[str, list[tuple[str, float]]] = {name: [] for name in order}
     behind: dict[str, list[tuple[str, float]]] = {name: [] for name in order}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from rosbeat.errors import PictureError
 from rosbeat.records import Sample
 from rosbeat.viz import sources, theme
 from rosbeat.viz.canvas import Canvas, Entry, blank, line_height, text_width
+from rosbeat.viz.layout import apart
 from rosbeat.viz.picture import Picture
 from rosbeat.viz.words import count, listing, number, rounded, sentence_case
 
@@ -240,38 +242,18 @@ def _name_bands(canvas: Canvas, axes: Axes, ranges: Sequence[Band], unit: str) -
     """Write each band's name beside its middle, moved as little as keeps the names apart."""
     bottom, top = axes.get_ylim()
     x = canvas.width - theme.MARGIN - _room_for_names(ranges, unit)
-    middles = [sum(_visible(axes, band)) / 2 for band in ranges]
-    wishes = [
-        canvas.bottom + _FOOT + (middle - bottom) / (top - bottom) * _PLOT for middle in middles
-    ]
+    wishes = {}
+    for band in ranges:
+        part = (sum(_visible(axes, band)) / 2 - bottom) / (top - bottom)
+        wishes[band.name] = canvas.bottom + _FOOT + part * _PLOT
     high = line_height() + line_height(theme.SMALL)
-    for band, y in zip(ranges, spread(wishes, [high] * (len(ranges) - 1)), strict=True):
+    rules = [(one, other, high) for one, other in itertools.pairwise(wishes)]
+    places = apart(wishes, list(wishes), rules)
+    for band in ranges:
+        y = places[band.name]
         canvas.text(x, y + line_height(theme.SMALL) / 2, band.name, weight="bold")
         limits = band.words(unit)
         canvas.text(x, y - line_height() / 2, limits, theme.SMALL, theme.MUTED)
-
-
-def spread(wishes: Sequence[float], distances: Sequence[float]) -> list[float]:
-    """Return the places nearest to the wishes (least squares) that keep order and distances.
-
-    With the distances subtracted it is isotonic regression, solved by pooling adjacent violators
-    (Ayer et al., "An Empirical Distribution Function for Sampling with Incomplete Information",
-    Annals of Mathematical Statistics 26(4), 1955).
-
-    Args:
-        wishes: Wished places, one for each item, in the order that is kept.
-        distances: Least distance from each item to the next, one fewer than items.
-    """
-    offsets = [sum(distances[:rank]) for rank in range(len(wishes))]
-    pools: list[tuple[float, int]] = []
-    for wish, offset in zip(wishes, offsets, strict=True):
-        mean, size = wish - offset, 1
-        while pools and pools[-1][0] > mean:
-            other, others = pools.pop()
-            mean, size = (mean * size + other * others) / (size + others), size + others
-        pools.append((mean, size))
-    means = [mean for mean, size in pools for _ in range(size)]
-    return [mean + offset for mean, offset in zip(means, offsets, strict=True)]
 
 
 def _say_values(lines: Sequence[Series], bands: Sequence[Band], name: str, unit: str) -> str:

@@ -1,17 +1,13 @@
 """Numbers over virtual time: values of topics with their bands, and two runs compared."""
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from rosbeat.comparisons import compare
 from rosbeat.errors import PictureError
 from rosbeat.viz import differences, theme, values
-from rosbeat.viz.plots import spread
 
 BANDS = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
 
@@ -173,27 +169,6 @@ def test_a_band_that_is_none_gets_three_parts(make, pair):
         said(make, [1.0], {"Odd": pair})
     assert "'Odd'" in caught.value.what
     assert "bands=" in caught.value.to_try
-
-
-# Names of bands, moved apart.
-
-
-def test_wishes_that_agree_are_granted():
-    assert spread([0, 50], [10]) == [0, 50]
-
-
-def test_wishes_that_clash_meet_in_the_middle():
-    assert spread([10, 10, 10], [4, 6]) == pytest.approx([10 - 14 / 3, 10 - 2 / 3, 10 + 16 / 3])
-
-
-@given(st.lists(st.tuples(st.floats(-1e3, 1e3), st.floats(0, 99)), min_size=1, max_size=9))
-def test_spread_keeps_distances_and_the_mean(items):
-    wishes = [wish for wish, _ in items]
-    distances = [gap for _, gap in items[1:]]
-    places = spread(wishes, distances)
-    for (one, other), gap in zip(pairwise(places), distances, strict=True):
-        assert other - one >= gap - 1e-6
-    assert sum(places) == pytest.approx(sum(wishes), abs=1e-6)
 
 
 # Two runs.
