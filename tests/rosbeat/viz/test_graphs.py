@@ -200,9 +200,10 @@ def test_one_broken_reader_does_not_break_the_others(make):
     assert "QoS does not match for /b." in picture.description
 
 
-def test_two_publishers_of_one_node_are_one_arrow(make):
-    ends = (make.pub("/a", "/t", 0), make.pub("/a", "/t", 1), make.sub("/b", "/t"))
-    lines = patches(graph(make.graph(*ends)), PathPatch)
+@pytest.mark.parametrize("matched", [(0, 1), (1, 0)])
+def test_two_publishers_of_one_node_are_one_arrow(make, matched):
+    ends = [make.pub("/a", "/t", number) for number in matched]
+    lines = patches(graph(make.graph(*ends, make.sub("/b", "/t"))), PathPatch)
     assert [line.get_linestyle() for line in lines] == ["-", "-"]
 
 

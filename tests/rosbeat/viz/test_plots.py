@@ -158,6 +158,11 @@ def test_a_limit_belongs_to_the_band_that_is_closed_as_in_the_monitor(make, valu
     assert f"1 {name} (" in said(make, [value], BANDS)
 
 
+@pytest.mark.parametrize(("value", "open_band"), [(26.0, (26.0, None)), (20.0, (None, 20.0))])
+def test_an_open_band_does_not_include_its_limit(make, value, open_band):
+    assert "none Open (" in said(make, [value], {"Open": open_band})
+
+
 def test_a_value_in_two_bands_counts_for_the_first(make):
     words = said(make, [0, 5, 9, 10], {"a": (0, 5), "b": (5, 9)})
     assert "Of these, 2 a (0 to 5), 1 b (5 to 9) and 1 in no band." in words

@@ -77,3 +77,9 @@ def test_the_queue_in_words():
 def test_nothing_dropped_nothing_taken():
     said = queue(queue_steps([0], [], 3), 3).description
     assert "at 0 s: 1 message arrived. None was taken. None was dropped." in said
+
+
+def test_a_message_that_comes_after_a_drop_drops_nothing():
+    picture = queue(queue_steps([0, 1, 2, 4], [3], 2), 2)
+    assert "1 was dropped: number 1." in picture.description
+    assert marks(picture, "X") == 1 + 1

@@ -272,6 +272,15 @@ def test_overlapping_callbacks_of_one_node_are_stacked(is_tidy, words_in):
     assert is_tidy(picture)
 
 
+def test_a_callback_at_the_begin_or_the_end_of_another_is_not_below_it():
+    calls = [call(1, "/arm", "move"), call(1, "/arm", "blink"), call(2, "/arm", "blink")]
+    picture = timeline(seen(calls, [wait(1, 2, "/arm", "move")]))
+    ((_, _, middle, *_),) = bars(picture)
+    heights = {y for _, y in marks(picture, "s")}
+    assert heights == {min(heights)}
+    assert min(heights) == pytest.approx(middle)
+
+
 def test_callbacks_one_after_the_other_share_a_row():
     waits = [wait(k, k + 1, "/arm", "move") for k in range(1, 4)]
     calls = [call(k, "/arm", "move") for k in range(1, 4)]
