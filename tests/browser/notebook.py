@@ -149,6 +149,8 @@ class Notebook:
         self._do("apputils:change-theme", theme=f"JupyterLab {name.title()}")
         wanted = "true" if name == "light" else "false"
         self.page.wait_for_selector(f"body[data-jp-theme-light='{wanted}']", state="attached")
+        # While it fades out, another change would make JupyterLab remove it twice.
+        self.page.wait_for_selector("#jupyterlab-splash", state="detached")
 
     def wait_until_drawn(self):
         """Wait until all cells and pictures are on the page; it has to fit on the screen."""

@@ -8,7 +8,7 @@ from math import isfinite
 from typing import Any
 
 from rosbeat.records import NANOSECONDS, Sample
-from rosbeat.viz.fields import paths
+from rosbeat.viz.sources import paths
 from rosbeat.viz.words import rounded
 
 #: Seconds of the strip chart, and points that it has room for: one for each look.

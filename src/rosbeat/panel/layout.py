@@ -7,9 +7,8 @@ from itertools import pairwise
 from typing import Any
 
 from rosbeat.viz import theme
-from rosbeat.viz.labels import Label, node_label, topic_label
-from rosbeat.viz.layers import Layering, layering
-from rosbeat.viz.placement import Box, Placement, Point, needed, place
+from rosbeat.viz.graphs import Label, node_label, topic_label
+from rosbeat.viz.layout import Box, Layering, Placement, Point, layering, needed, place
 from rosbeat.viz.wiring import Wiring, describe, node_key, topic_key
 
 #: Types of message that a slider can publish, and whose numbers a fault can change.

@@ -22,7 +22,7 @@ def is_for_a_browser() -> bool:
 
 def still(graph: GraphSnapshot) -> dict[str, str]:
     """The graph as a MIME bundle: the same for the same nodes, at any time."""
-    from rosbeat.viz.node_graph import graph as draw  # matplotlib takes a while to load
+    from rosbeat.viz.graphs import graph as draw  # matplotlib takes a while to load
 
     if not any(graph.nodes):
         return {"text/plain": f"{_HEADING} There are no nodes yet."}

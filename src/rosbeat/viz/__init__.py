@@ -1,4 +1,4 @@
-"""Pictures of what was observed: records in, a `Picture` out.
+"""Draw pictures of what was observed: records in, a `Picture` out.
 
 Every function here draws from records alone and needs no ROS. Importing this package does not
 import matplotlib; that happens when a picture is asked for the first time (PEP 562).
@@ -17,24 +17,24 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rosbeat.viz.node_graph import graph as graph
+    from rosbeat.viz.crossings import crossing as crossing
+    from rosbeat.viz.graphs import graph as graph
     from rosbeat.viz.picture import Picture as Picture
-    from rosbeat.viz.queue_columns import queue as queue
-    from rosbeat.viz.time_lanes import timeline as timeline
-    from rosbeat.viz.topic_values import values as values
-    from rosbeat.viz.two_lanes import crossing as crossing
-    from rosbeat.viz.two_runs import differences as differences
+    from rosbeat.viz.plots import differences as differences
+    from rosbeat.viz.plots import values as values
+    from rosbeat.viz.queues import queue as queue
+    from rosbeat.viz.timelines import timeline as timeline
 
 __all__ = ["Picture", "crossing", "differences", "graph", "queue", "timeline", "values"]
 
 _HOMES = {
     "Picture": "picture",
-    "crossing": "two_lanes",
-    "differences": "two_runs",
-    "graph": "node_graph",
-    "queue": "queue_columns",
-    "timeline": "time_lanes",
-    "values": "topic_values",
+    "crossing": "crossings",
+    "differences": "plots",
+    "graph": "graphs",
+    "queue": "queues",
+    "timeline": "timelines",
+    "values": "plots",
 }
 
 

@@ -6,10 +6,16 @@ without an `alt` attribute, whatever the output's metadata say (`renderImage` in
 as a data URI, in documents that are not trusted as well, because JupyterLab's sanitizer allows
 `figure`, and `img` with `alt` and `src`. So a picture shows itself as HTML, and its plain-text form
 is the description, which is what terminals print and what nbval compares.
+
+**How it follows the theme of the page.** The image is an SVG with two sets of colours; the media
+feature `prefers-color-scheme` chooses one. Inside an image, browsers answer it with the property
+`color-scheme` of the `<img>`. It is inherited, and JupyterLab sets it on the page's body by its
+theme (seen in 4.6). Where no page sets it, the preference of the browser counts.
 """
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -28,13 +34,16 @@ from rosbeat.viz import theme
 _COLOURS = 255
 _HTML = """<figure class="rosbeat-picture" style="margin: 0">
 <img alt="{alt}" width="{width}" style="max-width: 100%; height: auto; border-radius: 8px"
-src="data:image/png;base64,{data}">
+src="data:image/svg+xml;base64,{data}">
 </figure>"""
+#: Nothing but the drawing; the words are beside it.
+_BARE = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+_COLOUR = re.compile(r"#[0-9a-f]{6}\b")
 
 
 @dataclass(frozen=True, repr=False)
 class Picture:
-    """A figure and its text alternative; shows itself at the end of a cell.
+    """Hold a figure and its text alternative; show it at the end of a cell.
 
     Attributes:
         figure: The matplotlib figure. It belongs to no pyplot state, so nothing shows it twice.
@@ -50,7 +59,10 @@ class Picture:
         return self.description
 
     def png(self) -> bytes:
-        """The picture as PNG, `theme.DENSITY` image pixels per CSS pixel, description inside."""
+        """Return the picture as PNG for a light page, `theme.DENSITY` image pixels per CSS pixel.
+
+        Title and description are inside.
+        """
         words = PngInfo()
         words.add_text("Title", self.title)
         words.add_itxt("Description", self.description)
@@ -62,16 +74,16 @@ class Picture:
             return target.getvalue()
 
     def svg(self) -> str:
-        """The picture as SVG, named and described for screen readers."""
+        """Return the picture as SVG for a light page, named and described for screen readers."""
         words = {"Title": self.title, "Description": self.description, "Date": None}
         code = self._print("svg", words, theme.DPI).decode("utf-8")
         name = escape(self.description, quote=True)
         return code.replace("<svg ", f'<svg role="img" aria-label="{name}" ', 1)
 
     def html(self) -> str:
-        """The picture as an HTML figure whose image has the description as its `alt`."""
+        """Return an HTML figure that follows the theme; its image has the description as `alt`."""
         width = min(theme.WIDTH, round(self.figure.get_figwidth() * theme.DPI))
-        data = b64encode(self.png()).decode("ascii")
+        data = b64encode(self._in_both_themes().encode()).decode("ascii")
         return _HTML.format(alt=escape(self.description, quote=True), width=width, data=data)
 
     def save(self, path: str | Path) -> Path:
@@ -101,6 +113,20 @@ class Picture:
 
     def _repr_mimebundle_(self, **_: object) -> Mapping[str, str]:
         return {"text/html": self.html(), "text/plain": self.description}
+
+    def _in_both_themes(self) -> str:
+        """Return the picture as SVG whose colours are variables, with values for both themes."""
+        code = self._print("svg", _BARE, theme.DPI).decode("utf-8")
+        dark = {light.lower(): one.lower() for light, one in theme.DARK.items()}
+        used = sorted(set(_COLOUR.findall(code)) & set(dark))
+        light = "".join(f"--{one[1:]}:{one};" for one in used)
+        other = "".join(f"--{one[1:]}:{dark[one]};" for one in used)
+        query = "@media (prefers-color-scheme: dark)"
+        rules = f"<style>:root{{{light}}}{query}{{:root{{{other}}}}}</style>"
+        code = _COLOUR.sub(
+            lambda found: f"var(--{found[0][1:]})" if found[0] in dark else found[0], code
+        )
+        return code.replace("<defs>", f"{rules}<defs>", 1)
 
     def _print(self, form: str, words: Mapping[str, str | None], dpi: int) -> bytes:
         # The page may have changed matplotlib's settings; ours hold while we draw.

@@ -1,4 +1,4 @@
-"""How far somebody is with the course: one row for each page, one mark for each exercise."""
+"""Draw how far somebody is with the course: one row for each page, one mark for each exercise."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from rosbeat.records import Outcome
 from rosbeat.viz import theme
-from rosbeat.viz.canvas import Canvas, blank, text_width
+from rosbeat.viz.canvas import ROOM, Canvas, blank, text_width
 from rosbeat.viz.picture import Picture
 from rosbeat.viz.words import count, listing, sentence_case
 
@@ -36,10 +36,10 @@ def progress_map(rows: Sequence[Row]) -> Picture:
     lines = [line for row in rows for line in _lines(row, chip)]
     left = theme.MARGIN + _heading_width(rows) + _GAP
     head = _ROW + 8
-    with blank(2 * theme.MARGIN + head + _ROW * len(lines)) as canvas:
+    with blank(head + _ROW * len(lines)) as canvas:
         _draw_head(canvas, every)
         for number, (heading, found) in enumerate(lines):
-            y = canvas.height - theme.MARGIN - head - (number + 0.5) * _ROW
+            y = canvas.top - head - (number + 0.5) * _ROW
             canvas.text(theme.MARGIN, y, heading)
             for place, one in enumerate(found):
                 _draw_mark(canvas, one.status, one.exercise, left + place * chip, y)
@@ -47,7 +47,7 @@ def progress_map(rows: Sequence[Row]) -> Picture:
 
 
 def describe(rows: Sequence[Row]) -> str:
-    """The same in one line of words.
+    """Tell the same in one line of words.
 
     Args:
         rows: As for `progress_map`.
@@ -63,7 +63,7 @@ def describe(rows: Sequence[Row]) -> str:
 
 
 def summary(every: Sequence[Outcome]) -> str:
-    """How many exercises are passed and how many points reached, in words.
+    """Tell how many exercises are passed and how many points reached, in words.
 
     Args:
         every: The best outcome of each exercise.
@@ -78,10 +78,9 @@ def _every(rows: Iterable[Row]) -> list[Outcome]:
 
 
 def _lines(row: Row, chip: float) -> list[Row]:
-    """A row broken so that its marks fit; the heading stands beside the first part."""
+    """Break a row so that its marks fit; the heading stands beside the first part."""
     heading, found = row
-    room = theme.WIDTH - 2 * theme.MARGIN - _WIDEST_HEADING - _GAP
-    most = max(1, int(room // chip))
+    most = max(1, int((ROOM - _WIDEST_HEADING - _GAP) // chip))
     parts = [found[at : at + most] for at in range(0, len(found), most)] or [[]]
     return [(_short(heading) if not at else "", part) for at, part in enumerate(parts)]
 
@@ -103,8 +102,7 @@ def _width(words: str) -> float:
 
 
 def _draw_head(canvas: Canvas, every: Sequence[Outcome]) -> None:
-    top = canvas.height - theme.MARGIN
-    x, y, right = float(theme.MARGIN), top - _ROW / 2, canvas.width - theme.MARGIN
+    x, y, right = float(theme.MARGIN), canvas.top - _ROW / 2, canvas.width - theme.MARGIN
     for status, (word, *_) in _STATES.items():
         _draw_mark(canvas, status, word, x, y)
         x += _width(word) + _GAP

@@ -1,45 +1,38 @@
-"""From what a caller gives to what a picture needs, with an error that helps when it cannot be."""
+"""Read what a caller gives to a picture, with an error that helps when it cannot be read."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Protocol, runtime_checkable
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
+from rosbeat.comparisons import Observer
 from rosbeat.errors import PictureError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, GraphSnapshot, Observation, Sample
 from rosbeat.viz.words import listing, nearest
 
-
-@runtime_checkable
-class Observer(Protocol):
-    """Anything that can say what it has observed so far, such as a session."""
-
-    def observation(self) -> Observation:
-        """What was observed so far."""
-        ...
-
-
-#: Whatever `timeline` can draw from.
+#: Whatever `timeline` can draw from: a session, or what it observed.
 Observed = Observation | Observer
 #: Whatever `values` can take its messages from.
 Samples = Observed | Sequence[Sample]
 
 
-def snapshot(source: Observed | GraphSnapshot) -> GraphSnapshot:
-    """The graph in an observation, or the graph itself.
+def snapshot(source: object) -> GraphSnapshot:
+    """Return the graph in an observation, or the graph itself.
 
     Raises:
         PictureError: If `source` is neither.
     """
     if isinstance(source, GraphSnapshot):
         return source
-    if isinstance(source, Observation | Observer):
-        return observed(source).graph
-    raise _wrong_kind(source, "an Observation or a GraphSnapshot")
+    return observed(source, "an Observation or a GraphSnapshot").graph
 
 
-def observed(source: Observed) -> Observation:
-    """The observation itself, or the one of a session as far as it has run.
+def observed(source: object, wanted: str = "an Observation") -> Observation:
+    """Return the observation itself, or the one of a session as far as it has run.
+
+    Args:
+        source: The observation or the session.
+        wanted: What an error says that is needed.
 
     Raises:
         PictureError: If it is neither.
@@ -48,26 +41,29 @@ def observed(source: Observed) -> Observation:
         return source
     if isinstance(source, Observer) and not isinstance(source, type):
         return source.observation()
-    raise _wrong_kind(source, "an Observation")
+    raise PictureError(
+        f"A picture cannot be drawn from {type(source).__name__!r}.",
+        f"It is drawn from recorded data: {wanted}.",
+        "Give it the session, or what the session observed: `ros.observation()`.",
+    )
 
 
-def samples(source: Samples) -> tuple[Sample, ...]:
-    """The messages in an observation or a sequence.
+def samples(source: object) -> tuple[Sample, ...]:
+    """Return the messages in an observation or a sequence.
 
     Raises:
         PictureError: If `source` is neither, or holds anything but `Sample` records.
     """
-    if isinstance(source, Observation | Observer):
-        return observed(source).samples
-    if isinstance(source, Iterable) and not isinstance(source, (str, bytes)):
+    wanted = "an Observation or a sequence of Sample records"
+    if isinstance(source, Iterable) and not isinstance(source, str | Observer):
         items = tuple(source)
-        if all(isinstance(item, Sample) for item in items):
+        if all(isinstance(one, Sample) for one in items):
             return items
-    raise _wrong_kind(source, "an Observation or a sequence of Sample records")
+    return observed(source, wanted).samples
 
 
 def topic_names(wanted: str | Iterable[str] | None, known: Sequence[str]) -> tuple[str, ...]:
-    """Full names of the topics wanted; a missing leading slash is forgiven.
+    """Return full names of the topics wanted; a missing leading slash is forgiven.
 
     Args:
         wanted: One name, several, or None for all but the infrastructure topics.
@@ -83,7 +79,7 @@ def topic_names(wanted: str | Iterable[str] | None, known: Sequence[str]) -> tup
 
 
 def known_name(name: str, known: Sequence[str], kind: str) -> str:
-    """The full name for `name`, with or without its leading slash.
+    """Return the full name for `name`, with or without its leading slash.
 
     Raises:
         PictureError: If it is not among `known`; it suggests the nearest one.
@@ -99,9 +95,52 @@ def known_name(name: str, known: Sequence[str], kind: str) -> str:
     )
 
 
-def _wrong_kind(source: object, wanted: str) -> PictureError:
-    return PictureError(
-        f"A picture cannot be drawn from {type(source).__name__!r}.",
-        f"It is drawn from recorded data: {wanted}.",
-        "Give it the session, or what the session observed: `ros.observation()`.",
+def number_in(sample: Sample, field: str | None = None) -> float:
+    """Return the number in one message; truth values count as 0 and 1.
+
+    Args:
+        sample: The message.
+        field: Name of the field to read, nested ones with dots, such as `position.x`. None for the
+            only field of the message.
+
+    Raises:
+        PictureError: If there is no such field or it is not a number.
+    """
+    value = sample.value if field is None else _field(sample, field)
+    if isinstance(value, (bool, int, float)):
+        return float(value)
+    numeric = [
+        repr(name) for name, inside in paths(sample.data) if isinstance(inside, (int, float))
+    ]
+    text = repr(value)
+    raise PictureError(
+        f"{field or 'The message'} on {sample.topic} is not a number.",
+        f"A {sample.type_name} message here holds "
+        f"{text if len(text) <= 40 else f'{text[:37]}...'}; only numbers have a place on an axis.",
+        f"Choose a field: {listing(numeric, 'or')}."
+        if numeric
+        else "Choose a topic that carries numbers.",
     )
+
+
+def paths(data: Mapping[str, Any], prefix: str = "") -> list[tuple[str, Any]]:
+    """Return every field of a message with its dotted path, nested messages resolved."""
+    found: list[tuple[str, Any]] = []
+    for name, value in data.items():
+        inside = isinstance(value, Mapping)
+        found += paths(value, f"{prefix}{name}.") if inside else [(prefix + name, value)]
+    return found
+
+
+def _field(sample: Sample, field: str) -> Any:  # noqa: ANN401 - a field may be of any plain type
+    value: Any = sample.data
+    for part in field.split("."):
+        if not isinstance(value, Mapping) or part not in value:
+            known = listing(repr(name) for name, _ in paths(sample.data))
+            raise PictureError(
+                f"Messages on {sample.topic} have no field {field!r}.",
+                f"A {sample.type_name} message has {known or 'no fields'}.",
+                "Choose one of these.",
+            )
+        value = value[part]
+    return value

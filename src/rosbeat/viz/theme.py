@@ -5,8 +5,8 @@ https://jfly.uni-koeln.de/color/), which people with any common kind of colour b
 apart. Green and purple are darkened until a thin line in them is readable, and the colours for
 text until text is. Colour is never alone: what differs in colour differs in shape or dash as well.
 
-A picture brings its own opaque, soft background, the card. So it looks the same on a light and on
-a dark page, and one contrast holds for both.
+A picture brings its own opaque, soft background, the card. Figures are drawn in the colours for a
+light page; `DARK` has the counterpart of each for a dark page. One contrast holds for both.
 """
 
 from __future__ import annotations
@@ -63,10 +63,36 @@ TAKEN_TEXT = "#00694D"
 #: Background tints of threshold bands, from the lowest to the highest, then around again.
 BANDS = ("#D9EBF8", "#E8F5EA", "#FCE3CE", "#F5E6EF")
 
+#: From each colour to the one in its place on a dark page.
+DARK = {
+    CARD: "#1B1F24",
+    INK: "#E8ECF0",
+    MUTED: "#A7B2BD",
+    RULE: "#3D4650",
+    BLUE: "#56B4E9",
+    GREEN: "#28A97F",
+    VERMILLION: "#F5853F",
+    PURPLE: "#D58AB8",
+    FRAME: "#8793A0",
+    FRAME_FILL: "#242A31",
+    SLEEP_FILL: "#1D4157",
+    WAIT_FILL: "#4F3D14",
+    BAR_EDGE: "#B4BFCA",
+    HATCH: "#86672A",
+    NODE_FILL: "#1C3342",
+    NODE_FILL_STRONG: "#1F4A66",
+    TOPIC_FILL: "#3A2F12",
+    TOPIC_FILL_STRONG: "#503E10",
+    TOPIC_EDGE: "#D9A53A",
+    ALERT_TEXT: "#FFA46B",
+    TAKEN_TEXT: "#5FD6B1",
+    **dict(zip(BANDS, ("#1D3342", "#21362A", "#45331F", "#3A2836"), strict=True)),
+}
+
 
 @dataclass(frozen=True)
 class Style:
-    """How one series of a picture is marked, in three ways at once.
+    """Describe how one series of a picture is marked, in three ways at once.
 
     Attributes:
         colour: Line colour.
@@ -81,7 +107,7 @@ class Style:
 
 @dataclass(frozen=True)
 class Bar:
-    """How a stretch of time is marked: by its colour and by its hatch.
+    """Describe how a stretch of time is marked: by its colour and by its hatch.
 
     Attributes:
         fill: Colour inside.
@@ -131,5 +157,5 @@ RC = {
 
 
 def style(number: int) -> Style:
-    """The style of series `number`, counted from 0; after the last the first comes again."""
+    """Return the style of series `number`, counted from 0; after the last the first comes again."""
     return STYLES[number % len(STYLES)]

@@ -1,4 +1,4 @@
-"""Words for descriptions and labels: counts, lists, times, numbers. Pure functions."""
+"""Write words for descriptions and labels: counts, lists, times, numbers. Pure functions."""
 
 from __future__ import annotations
 
@@ -9,13 +9,19 @@ from rosbeat.records import NANOSECONDS
 
 
 def count(number: int, noun: str, plural: str = "") -> str:
-    """A number with its noun: `1 node`, `2 nodes`, `no nodes`."""
+    """Return a number with its noun: `1 node`, `2 nodes`, `no nodes`."""
     many = plural or f"{noun}s"
     return f"{number or 'no'} {noun if number == 1 else many}"
 
 
+def not_shown(number: int, noun: str, plural: str = "") -> str:
+    """Tell how many things a picture has left out; an empty string if none."""
+    verb = "is" if number == 1 else "are"
+    return f"{count(number, noun, plural)} {verb} not shown." if number else ""
+
+
 def listing(names: Iterable[str], last: str = "and") -> str:
-    """Names as a sentence has them: `a`, `a and b`, `a, b and c`."""
+    """Join names as a sentence has them: `a`, `a and b`, `a, b and c`."""
     items = list(names)
     if len(items) < 2:
         return "".join(items)
@@ -23,24 +29,24 @@ def listing(names: Iterable[str], last: str = "and") -> str:
 
 
 def number(value: float) -> str:
-    """A number in at most six significant digits, without a trailing `.0`, with a true minus."""
+    """Write a number in at most six significant digits, with a true minus: `20`, `−1.5`."""
     return f"{value:.6g}".replace("-", "−")
 
 
 def rounded(value: float) -> str:
-    """A measured number in four significant digits, from 1,000 up in six."""
+    """Write a measured number in four significant digits, from 1,000 up in six."""
     return number(value if abs(value) >= 1000 else float(f"{value:.4g}"))
 
 
 def seconds(time_ns: int) -> str:
-    """A time in nanoseconds as seconds: `0 s`, `1.5 s`; nothing is rounded away."""
+    """Write a time in nanoseconds as seconds: `0 s`, `1.5 s`; nothing is rounded away."""
     whole, rest = divmod(abs(time_ns), NANOSECONDS)
     decimals = f".{rest:09d}".rstrip("0").rstrip(".")
     return f"{'−' if time_ns < 0 else ''}{whole}{decimals} s"
 
 
 def ranges(numbers: Sequence[int], most: int = 8) -> str:
-    """Ascending whole numbers with runs drawn together: `1 to 5, 8 and 9`.
+    """Join ascending whole numbers, with runs drawn together: `1 to 5, 8 and 9`.
 
     After `most` runs comes only how many numbers follow, since nobody listens to longer lists.
     """
@@ -50,22 +56,20 @@ def ranges(numbers: Sequence[int], most: int = 8) -> str:
             runs[-1].append(item)
         else:
             runs.append([item])
-    parts = [part for run in runs[:most] for part in _run(run)]
+    parts: list[str] = []
+    for run in runs[:most]:
+        parts += [f"{run[0]} to {run[-1]}"] if len(run) > 2 else map(str, run)
     rest = sum(map(len, runs[most:]))
     return listing([*parts, f"{rest} more"] if rest else parts)
 
 
-def _run(run: Sequence[int]) -> list[str]:
-    return [f"{run[0]} to {run[-1]}"] if len(run) > 2 else [str(item) for item in run]
-
-
 def sentence_case(text: str) -> str:
-    """The text with its first letter as a capital, the others as they are."""
+    """Return the text with its first letter as a capital, the others as they are."""
     return text[:1].upper() + text[1:]
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name most like `name`, or an empty string when none is like it."""
+    """Return the known name most like `name`, or an empty string when none is like it."""
     by_bare = {item.lstrip("/"): item for item in known}
     hits = get_close_matches(name.lstrip("/"), sorted(by_bare), n=1, cutoff=0.5)
     return by_bare[hits[0]] if hits else ""

@@ -1,4 +1,5 @@
 import os
+import re
 import subprocess
 import sys
 from base64 import b64decode
@@ -14,9 +15,7 @@ from PIL import Image
 
 from rosbeat.errors import PictureError
 from rosbeat.records import queue_steps
-from rosbeat.viz import theme
-from rosbeat.viz.picture import Picture
-from rosbeat.viz.queue_columns import queue
+from rosbeat.viz import Picture, queue, theme
 
 
 def draw():
@@ -43,21 +42,38 @@ def test_its_plain_text_is_the_description(picture):
     assert set(bundle) == {"text/html", "text/plain"}
 
 
-def test_the_image_in_the_page_has_the_description_as_alt(picture):
+def image_of(picture):
+    """The attributes of the image in a page, and the SVG in it."""
     tags = Tags()
     tags.feed(picture.html())
-    image = tags.found["img"]
+    head, data = tags.found["img"]["src"].split(",")
+    assert head == "data:image/svg+xml;base64"
+    return tags.found["img"], b64decode(data).decode()
+
+
+def test_the_image_in_the_page_has_the_description_as_alt(picture):
+    image, code = image_of(picture)
     assert image["alt"] == picture.description
     assert image["width"] == str(theme.WIDTH)
-    head, data = image["src"].split(",")
-    assert head == "data:image/png;base64"
-    assert b64decode(data) == picture.png()
+    assert ElementTree.fromstring(code).tag.endswith("svg")
+
+
+def test_every_colour_in_the_page_has_a_value_for_light_and_for_dark(picture):
+    _, code = image_of(picture)
+    rules, drawing = code.split("</style>", 1)
+    light, dark = rules.split("@media (prefers-color-scheme: dark)")
+    used = set(re.findall(r"var\((--[0-9a-f]{6})\)", drawing))
+    assert not re.search(r"[ :\"]#[0-9a-f]{6}", drawing)
+    for part in (light, dark):
+        assert dict(re.findall(r"(--\w+):(#\w+);", part)).keys() == used
+    assert f"--fafaf7:{theme.CARD.lower()}" in light
+    assert f"--fafaf7:{theme.DARK[theme.CARD].lower()}" in dark
 
 
 def test_the_image_stands_on_a_line_of_its_own(picture):
     lines = [line for line in picture.html().splitlines() if "base64" in line]
     assert len(lines) == 1
-    assert lines[0].startswith('src="data:image/png;base64,')
+    assert lines[0].startswith('src="data:image/svg+xml;base64,')
 
 
 def test_words_of_a_page_are_escaped(picture):
@@ -75,7 +91,7 @@ def test_png_carries_title_and_description_and_no_date(picture):
         assert image.size[0] == theme.WIDTH * theme.DENSITY
 
 
-def test_the_card_is_opaque_to_the_corners(picture):
+def test_a_saved_card_is_light_and_opaque_to_the_corners(picture):
     with Image.open(BytesIO(picture.png())) as image:
         corner = image.convert("RGBA").getpixel((0, 0))
     wanted = tuple(int(theme.CARD[at : at + 2], 16) for at in (1, 3, 5))

@@ -55,3 +55,40 @@ def test_an_unknown_name_gets_the_nearest():
 def test_an_unknown_name_unlike_any_gets_advice():
     with pytest.raises(PictureError, match="Check the name"):
         sources.known_name("zzz", (), "topic")
+
+
+# The number in a message.
+
+
+@pytest.mark.parametrize(("value", "number"), [(True, 1.0), (7, 7.0), (2.5, 2.5)])
+def test_numbers_and_truth_values(make, value, number):
+    assert sources.number_in(make.sample(1, value)) == number
+
+
+def test_nested_fields(make):
+    pose = {"header": {"frame_id": "map"}, "position": {"x": 1.5, "y": 2.0}}
+    assert sources.number_in(make.sample(1, pose), "position.x") == 1.5
+    assert [name for name, _ in sources.paths(pose)] == [
+        "header.frame_id",
+        "position.x",
+        "position.y",
+    ]
+
+
+def test_a_message_with_fields_names_those_that_are_numbers(make):
+    with pytest.raises(PictureError, match="Choose a field: 'x' or 'y'"):
+        sources.number_in(make.sample(1, {"x": 1.0, "y": 2.0, "name": "a"}))
+
+
+@pytest.mark.parametrize("value", ["warm", [1.0, 2.0], None, "long " * 20])
+def test_what_is_not_a_number_is_refused(make, value):
+    with pytest.raises(PictureError, match="is not a number") as caught:
+        sources.number_in(make.sample(1, value))
+    assert "Choose a topic that carries numbers." in str(caught.value)
+
+
+@pytest.mark.parametrize("field", ["dta", "data.x"])
+def test_an_unknown_field_names_the_known(make, field):
+    with pytest.raises(PictureError, match="have no field") as caught:
+        sources.number_in(make.sample(1, 1.0), field)
+    assert "'data'" in caught.value.means

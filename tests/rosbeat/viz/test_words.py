@@ -60,3 +60,10 @@ def test_nearest_forgives_the_slash_and_a_slip():
 
 def test_sentence_case():
     assert words.sentence_case("a ROS node") == "A ROS node"
+
+
+@pytest.mark.parametrize(
+    ("number", "said"), [(0, ""), (1, "1 moment is not shown."), (2, "2 moments are not shown.")]
+)
+def test_not_shown(number, said):
+    assert words.not_shown(number, "moment") == said

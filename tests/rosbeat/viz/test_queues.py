@@ -2,7 +2,8 @@ import pytest
 
 from rosbeat.errors import PictureError
 from rosbeat.records import queue_steps
-from rosbeat.viz.queue_columns import MOST_MOMENTS, queue
+from rosbeat.viz import queue
+from rosbeat.viz.queues import MOST_MOMENTS
 
 SECOND = 10**9
 
@@ -55,3 +56,30 @@ def test_bad_input_gets_three_parts(steps, depth, words):
         queue(steps, depth)
     assert caught.value.means
     assert caught.value.to_try
+
+
+def test_a_drop_and_its_cause_are_one_column(words_in):
+    picture = queue(queue_steps([0, 1, 2], [5], 2), 2)
+    marks = {text.get_text(): text for text in picture.figure.axes[0].texts}
+    below = [one for one in picture.figure.axes[0].texts if one.get_weight() == "bold"]
+    assert [one.get_text() for one in below] == ["1", "2"]
+    assert marks["3"].get_position()[0] == pytest.approx(below[1].get_position()[0])
+
+
+def test_the_queue_in_words():
+    assert queue(queue_steps([0] * 5, [SECOND], 3), 3).description == (
+        "A queue of depth 3, from 0 s to 1 s: 5 messages arrived. 1 was taken: number 3. "
+        "2 were dropped: numbers 1 and 2. 2 wait at the end: numbers 4 and 5. "
+        "At its fullest the queue held 3 messages."
+    )
+
+
+def test_nothing_dropped_nothing_taken():
+    said = queue(queue_steps([0], [], 3), 3).description
+    assert "at 0 s: 1 message arrived. None was taken. None was dropped." in said
+
+
+def test_a_message_that_comes_after_a_drop_drops_nothing():
+    picture = queue(queue_steps([0, 1, 2, 4], [3], 2), 2)
+    assert "1 was dropped: number 1." in picture.description
+    assert marks(picture, "X") == 1 + 1

@@ -1,0 +1,343 @@
+"""Draw what crossed between two processes: two lanes of log lines, an arrow for each message."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from matplotlib.path import Path
+
+from rosbeat.errors import PictureError
+from rosbeat.records import NANOSECONDS, LogRecord
+from rosbeat.viz import theme
+from rosbeat.viz.canvas import Canvas, Entry, Stroke, blank, lane_scale, line_height, text_width
+from rosbeat.viz.picture import Picture
+from rosbeat.viz.words import count, listing, not_shown
+
+#: More messages than this cannot be told apart in one picture.
+MOST = 60
+#: A publisher may log after it has published, so the other side may have logged before; and a time
+#: may be that of reading the line, which is late when the machine is busy.
+_HASTE_NS = 2 * NANOSECONDS
+# Not the 2 of `sensor2`; the unit may follow without a space, as in 22.13C.
+_NUMBER = re.compile(r"(?<![\w.])[-+−]?\d+(?:\.\d+)?")
+
+_LANE, _RIM, _HEAD, _FOOT = 150.0, 52.0, 6.0, 26.0
+#: So many numbers are written beside their marks.
+_VALUES = 8
+_SENT = theme.Style(theme.BLUE, "s", "")
+_RECEIVED = theme.Style(theme.TAKEN, "o", "")
+_MESSAGE = theme.Style(theme.BLUE, "", "-")
+_LOST = theme.Style(theme.ALERT, "s", "")
+_LATE = theme.Style(theme.MUTED, "s", "")
+_STRANGE = theme.Style(theme.PURPLE, "o", "")
+_OTHER = theme.Style(theme.MUTED, "|", "")
+
+
+# Which lines of two logs tell of the same message.
+
+
+@dataclass(frozen=True)
+class Line:
+    """Hold a log line with a number in it.
+
+    Attributes:
+        time_ns: When it was logged, in nanoseconds.
+        words: The number as it was written.
+        partner: Place of the line of the same message in the other log, or None.
+    """
+
+    time_ns: int
+    words: str
+    partner: int | None = None
+
+    @property
+    def value(self) -> float:
+        """Return the number."""
+        return float(self.words.replace("−", "-"))
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """Hold two logs, side by side.
+
+    Attributes:
+        sent: Lines of the sender that carry a number, in order.
+        received: Lines of the receiver that carry a number, in order.
+        skipped: How many later lines of the sender are left out.
+    """
+
+    sent: tuple[Line, ...]
+    received: tuple[Line, ...]
+    skipped: int = 0
+
+    @property
+    def arrived(self) -> tuple[Line, ...]:
+        """Return what was sent and received."""
+        return tuple(line for line in self.sent if line.partner is not None)
+
+    @property
+    def late(self) -> tuple[Line, ...]:
+        """Return what was sent after the receiver's last line: nobody can say if it arrived."""
+        if not self.received:
+            return ()
+        last = max(line.time_ns for line in self.received)
+        return tuple(one for one in self.sent if one.partner is None and one.time_ns > last)
+
+    @property
+    def lost(self) -> tuple[Line, ...]:
+        """Return what was sent while the receiver was there or not yet there, and not received."""
+        late = self.late
+        return tuple(one for one in self.sent if one.partner is None and one not in late)
+
+    @property
+    def early(self) -> tuple[Line, ...]:
+        """Return what was lost before anything arrived."""
+        ranks = [rank for rank, line in enumerate(self.sent) if line.partner is not None]
+        return self.sent[: ranks[0]] if ranks else self.lost
+
+    @property
+    def strange(self) -> tuple[Line, ...]:
+        """Return what was received although the sender's lines do not have it."""
+        return tuple(line for line in self.received if line.partner is None)
+
+
+def pairs(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pairs:
+    """Pair the lines that carry the same number, in order, as many as possible.
+
+    The number is the first one in the text. If there is a choice, lines close in time are paired.
+
+    Args:
+        sent: What the sender logged.
+        received: What the receiver logged.
+    """
+    every, others = _numbered(sent), _numbered(received)
+    here = every[:MOST]
+    if len(every) > MOST:
+        others = [line for line in others if line.time_ns < every[MOST].time_ns]
+    there = others[: 2 * MOST]
+    links = _links(here, there)
+    back = {target: source for source, target in links.items()}
+    return Pairs(
+        tuple(Line(one.time_ns, one.words, links.get(rank)) for rank, one in enumerate(here)),
+        tuple(Line(one.time_ns, one.words, back.get(rank)) for rank, one in enumerate(there)),
+        len(every) - len(here),
+    )
+
+
+def first_number(text: str) -> str:
+    """Return the first number in a text as it is written there, or an empty string."""
+    found = _NUMBER.search(text)
+    return found.group() if found else ""
+
+
+def _numbered(records: Sequence[LogRecord]) -> list[Line]:
+    found = ((one, first_number(one.text)) for one in records)
+    lines = (Line(one.time_ns, words) for one, words in found if words)
+    return sorted(lines, key=lambda line: line.time_ns)
+
+
+def _links(here: Sequence[Line], there: Sequence[Line]) -> dict[int, int]:
+    """Return the longest common subsequence; among those the one with the least time between."""
+    # best[i][j]: the pairs among here[i:] and there[j:], and minus the time between them.
+    best = [[(0, 0)] * (len(there) + 1) for _ in range(len(here) + 1)]
+    for i in reversed(range(len(here))):
+        for j in reversed(range(len(there))):
+            choices, apart = [best[i + 1][j], best[i][j + 1]], there[j].time_ns - here[i].time_ns
+            if here[i].value == there[j].value and apart >= -_HASTE_NS:
+                total, time = best[i + 1][j + 1]
+                choices.append((total + 1, time - abs(apart)))
+            best[i][j] = max(choices)
+    links: dict[int, int] = {}
+    i = j = 0
+    while i < len(here) and j < len(there):
+        if best[i][j] == best[i + 1][j]:
+            i += 1
+        elif best[i][j] == best[i][j + 1]:
+            j += 1
+        else:
+            links[i] = j
+            i, j = i + 1, j + 1
+    return links
+
+
+# The picture.
+
+
+def crossing(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Picture:
+    """Draw which messages crossed from one process to another, from what both have logged.
+
+    Each log line is a mark at its time, counted from the first line. A line that tells of a message
+    has a number in it: the first in its text, such as 22.13 in `Publishing: 22.13C`. A line sent
+    and a line received with equal numbers are one message and joined by an arrow, in order, as many
+    as possible. A mark without its partner is hollow: the message was lost, as those are that came
+    before anybody listened. Only what was sent after the receiver's last line is not called lost.
+
+    Args:
+        sent: Log lines of the process that publishes, such as `Terminal.logs()` has them.
+        received: Log lines of the process that subscribes.
+
+    Returns:
+        The picture. Its description tells names and numbers of messages, and no times.
+
+    Raises:
+        PictureError: If these are no log lines, or no line of `sent` has a number.
+    """
+    ours, theirs = _records(sent), _records(received)
+    shown = pairs(ours, theirs)
+    if not shown.sent:
+        raise PictureError(
+            "There is no message to draw.",
+            "A line that tells of a message has a number in it, and none of those sent has one.",
+            "Let the publisher log what it publishes, and wait for some lines.",
+        )
+    others = _others(ours, shown), _others(theirs, shown)
+    height = _HEAD + 2 * _RIM + _LANE + _FOOT
+    note = not_shown(shown.skipped, "later message")
+    with blank(height, entries=_key(shown, others), note=note) as canvas:
+        _Drawing(canvas, shown, others, (_name_of(ours), _name_of(theirs))).draw()
+    words = describe(shown, _name_of(ours), _name_of(theirs))
+    return Picture(canvas.figure, words, "Messages from one process to another")
+
+
+def _records(given: object) -> tuple[LogRecord, ...]:
+    if isinstance(given, Iterable) and not isinstance(given, (str, bytes)):
+        items = tuple(given)
+        if all(isinstance(item, LogRecord) for item in items):
+            return items
+    raise PictureError(
+        f"What crossed cannot be drawn from {type(given).__name__!r}.",
+        "It is drawn from the log lines of two processes: those sent, then those received.",
+        'Give it lines of two terminals: `workspace.terminal("sensor").logs()`.',
+    )
+
+
+def _others(records: Sequence[LogRecord], shown: Pairs) -> tuple[int, ...]:
+    """Return when the lines without a number were logged, as far as the picture goes."""
+    last = max(line.time_ns for line in shown.sent + shown.received)
+    times = (one.time_ns for one in records if not first_number(one.text))
+    return tuple(at for at in times if not shown.skipped or at <= last)
+
+
+def _key(shown: Pairs, others: tuple[tuple[int, ...], ...]) -> list[Entry]:
+    """Return the marks in use, each with its meaning."""
+    hollow = theme.CARD
+    entries = (
+        (Entry("line of the sender", _SENT), shown.arrived),
+        (Entry("line of the receiver", _RECEIVED), shown.arrived),
+        (Entry("message", _MESSAGE), shown.arrived),
+        (Entry("lost message", _LOST, hollow), shown.lost),
+        (Entry("sent after the receiver's last line", _LATE, hollow), shown.late),
+        (Entry("not among what was sent", _STRANGE, hollow), shown.strange),
+        (Entry("other log line", _OTHER), any(others)),
+    )
+    return [entry for entry, used in entries if used]
+
+
+class _Drawing:
+    """Draw two lanes and what is between them."""
+
+    def __init__(
+        self,
+        canvas: Canvas,
+        shown: Pairs,
+        others: tuple[tuple[int, ...], tuple[int, ...]],
+        names: tuple[str, str],
+    ) -> None:
+        self._canvas, self._shown, self._others, self._names = canvas, shown, others, names
+        self._sender = canvas.top - _HEAD - _RIM
+        self._receiver = self._sender - _LANE
+        times = [line.time_ns for line in shown.sent + shown.received]
+        times += others[0] + others[1]
+        self._start = min(times)
+        self._scale = lane_scale(names, (max(times) - self._start) / NANOSECONDS, 100.0)
+
+    def draw(self) -> None:
+        shown = self._shown
+        ends = (self._receiver - _RIM, self._sender + _RIM)
+        self._canvas.time_axis(self._scale, *ends)
+        lost = [f"{len(shown.lost)} lost"] if shown.lost else []
+        self._draw_lane(0, self._sender, [f"{len(shown.sent)} sent", *lost])
+        self._draw_lane(1, self._receiver, [f"{len(shown.received)} received"])
+        stroke = Stroke(_MESSAGE.colour, _MESSAGE.dash, 1.3)
+        for line in shown.arrived:
+            way = [(self._x(line.time_ns), self._sender), (self._end(line), self._receiver + 6)]
+            self._canvas.arrow(Path(way), stroke)
+        for line in shown.sent:
+            look = _LOST if line in shown.lost else _LATE
+            self._mark(line, self._sender, _SENT if line.partner is not None else look)
+        for line in shown.received:
+            self._mark(line, self._receiver, _STRANGE if line.partner is None else _RECEIVED)
+        self._write_values()
+
+    def _x(self, time_ns: int) -> float:
+        return self._scale((time_ns - self._start) / NANOSECONDS)
+
+    def _end(self, line: Line) -> float:
+        """Return where a message's arrow ends; where it begins if it has none."""
+        received = self._shown.received
+        return self._x((line if line.partner is None else received[line.partner]).time_ns)
+
+    def _draw_lane(self, side: int, y: float, sums: Sequence[str]) -> None:
+        self._canvas.lane(self._scale, y, self._names[side], has_text_below=True)
+        for rank, words in enumerate(sums, 1):
+            colour = theme.ALERT_TEXT if words.endswith("lost") else theme.MUTED
+            at = y - rank * line_height(theme.SMALL) - 3
+            self._canvas.text(self._scale.left - 18, at, words, theme.SMALL, colour, "right")
+        for at_ns in self._others[side]:
+            look: dict[str, Any] = {"ms": 9, "color": _OTHER.colour, "zorder": 3}
+            self._canvas.axes.plot([self._x(at_ns)], [y], _OTHER.marker, **look)
+
+    def _mark(self, line: Line, y: float, look: theme.Style) -> None:
+        """Draw a mark, hollow if the message has no partner."""
+        fill, edge, width, above = look.colour, theme.CARD, 0.8, 4
+        if line.partner is None:
+            fill, edge, width, above = theme.CARD, look.colour, 1.6, 5
+        more: dict[str, Any] = {"mfc": fill, "mec": edge, "mew": width, "zorder": above}
+        self._canvas.axes.plot([self._x(line.time_ns)], [y], look.marker, ms=7, **more)
+
+    def _write_values(self) -> None:
+        """Write the first few numbers beside both marks of their message, where there is room."""
+        free, written = self._scale.left - 60, 0
+        more = (theme.SMALL, theme.MUTED, "center")
+        for line in self._shown.sent:
+            half = text_width(line.words, theme.SMALL) / 2
+            x, end = self._x(line.time_ns), self._end(line)
+            if min(x, end) - half > free and written < _VALUES:
+                self._canvas.text(x, self._sender + 20, line.words, *more)
+                if line.partner is not None:
+                    words = self._shown.received[line.partner].words
+                    self._canvas.text(end, self._receiver - 20, words, *more)
+                free, written = max(x, end) + half + 5, written + 1
+
+
+# The same in words.
+
+
+def _name_of(records: Iterable[LogRecord]) -> str:
+    """Return who logged these lines: one name, or several if a process has several nodes."""
+    return listing(dict.fromkeys(one.name for one in records)) or "the receiver"
+
+
+def describe(shown: Pairs, sender: str, receiver: str) -> str:
+    """Tell what became of the messages, without times."""
+    arrived, lost, late = len(shown.arrived), len(shown.lost), len(shown.late)
+    every = "all" if arrived == len(shown.sent) > 1 else str(arrived or "none")
+    sums = [f"{every} arrived at {receiver}", f"{lost or 'none'} {_was(lost or 1)} lost"]
+    sums += [f"{late} {_was(late)} sent after its last line"] if late else []
+    said = [f"{sender} sent {count(len(shown.sent), 'message')}: {listing(sums)}."]
+    if shown.early and shown.arrived:
+        early = len(shown.early)
+        which = "The first one" if early == 1 else f"The first {early}"
+        said.append(f"{which} {_was(early)} sent before anything arrived.")
+    if shown.strange:
+        verb = "has" if len(shown.strange) == 1 else "have"
+        lines = count(len(shown.strange), "line")
+        said.append(f"{lines} of {receiver} {verb} a number that {sender} did not log.")
+    return " ".join([*said, not_shown(shown.skipped, "later message")]).strip()
+
+
+def _was(number: int) -> str:
+    return "was" if number == 1 else "were"

@@ -1,0 +1,408 @@
+"""Draw the graph of nodes and topics: who publishes, who listens, where the cause of a silence is.
+
+Nodes are ellipses and topics are rectangles, as rqt_graph draws them. The causes of an explanation
+are marked where they are. Words stand on the arrow where nothing passes; the arrow is dashed. A
+node that does not run is dashed, has a cross, and says why below its name. A topic that nobody uses
+is dashed. Two topics whose names are almost the same have words between them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from matplotlib.patches import Ellipse, FancyBboxPatch, Patch
+
+from rosbeat.diagnosis.silence import LINK, NEAR, NODE, TOPIC, TWINS, Explanation, Mark
+from rosbeat.errors import PictureError
+from rosbeat.records import GraphSnapshot
+from rosbeat.viz import sources, theme
+from rosbeat.viz.canvas import (
+    BROKEN,
+    PLAIN,
+    ROOM,
+    Canvas,
+    blank,
+    cornered,
+    least_frame_width,
+    line_height,
+    smooth,
+    text_width,
+    wrap,
+)
+from rosbeat.viz.layout import (
+    Layering,
+    Placement,
+    Point,
+    Rim,
+    clustered,
+    enclosed,
+    layering,
+    needed,
+    place,
+)
+from rosbeat.viz.picture import Picture
+from rosbeat.viz.wiring import Edge, Wiring, describe, node_key, short_type, topic_key, wiring
+
+#: Widest line of a name in CSS pixels and font size in points, tried in this order.
+_FITS = ((200.0, 10.0), (150.0, 10.0), (115.0, 10.0), (115.0, 9.0), (95.0, 8.5))
+_TOPIC_PADDING, _NOTE_PADDING = (13.0, 7.0), (5.0, 5.0)
+
+
+# What is written in boxes, and how large that makes them.
+
+
+@dataclass(frozen=True)
+class Line:
+    """Hold one line of text in a box."""
+
+    words: str
+    size: float
+    colour: str = theme.INK
+
+
+@dataclass(frozen=True)
+class Label:
+    """Hold what is written in one box.
+
+    Attributes:
+        lines: From top to bottom.
+        shape: `node` (an ellipse), `topic` (a rectangle) or `note` (words without a box).
+        strong: Whether it is highlighted.
+        broken: Whether nothing passes here.
+        dashed: Whether it does not run, or is not there.
+    """
+
+    lines: tuple[Line, ...]
+    shape: str
+    strong: bool = False
+    broken: bool = False
+    dashed: bool = False
+
+    @property
+    def is_node(self) -> bool:
+        """Return whether the box is that of a node."""
+        return self.shape == "node"
+
+    @property
+    def size(self) -> Point:
+        """Return width and height of the box in CSS pixels."""
+        width = max(text_width(line.words, line.size, self._weight(line)) for line in self.lines)
+        height = sum(line_height(line.size) for line in self.lines)
+        if self.is_node:
+            # An ellipse around a text is wider and higher than the text: (1/a)² + (1/b)² = 1.
+            return width * 1.2 + 14, height * 1.8 + 6
+        padding = _NOTE_PADDING if self.shape == "note" else _TOPIC_PADDING
+        return width + 2 * padding[0], height + 2 * padding[1]
+
+    def draw(self, canvas: Canvas, x: float, y: float) -> None:
+        """Draw box and text with the middle at (`x`, `y`), in CSS pixels."""
+        if self.shape != "note":
+            canvas.axes.add_patch(self._box(x, y))
+        if self.dashed and self.is_node:
+            # A cross on the rim, at the upper right.
+            width, height = self.size
+            at = (x + width / 2 * 0.62, y + height / 2 * 0.78)
+            look: dict[str, Any] = {"color": theme.ALERT, "mec": theme.CARD, "zorder": 5}
+            canvas.axes.plot(*at, marker="X", ms=12, mew=1.2, **look)
+        top = y + sum(line_height(line.size) for line in self.lines) / 2
+        for line in self.lines:
+            high = line_height(line.size)
+            more = (line.size, line.colour, "center", self._weight(line))
+            canvas.text(x, top - high / 2, line.words, *more)
+            top -= high
+
+    def _weight(self, line: Line) -> str:
+        """Return the weight of a line: only the name in a highlighted box is bold."""
+        return "bold" if self.strong and line.colour == theme.INK else "normal"
+
+    def _box(self, x: float, y: float) -> Patch:
+        width, height = self.size
+        look: dict[str, Any] = {"lw": 2.6 if self.strong else 1.3, "zorder": 3}
+        look["ls"] = "--" if self.dashed else "-"
+        if self.is_node:
+            fill = theme.NODE_FILL_STRONG if self.strong else theme.NODE_FILL
+            edge = theme.ALERT if self.dashed else theme.BLUE
+            return Ellipse((x, y), width, height, fc=fill, ec=edge, **look)
+        fill = theme.TOPIC_FILL_STRONG if self.strong else theme.TOPIC_FILL
+        edge = theme.ALERT if self.broken else theme.TOPIC_EDGE
+        corner = (x - width / 2 + 3, y - height / 2 + 3)
+        box = "round,pad=3,rounding_size=4"
+        return FancyBboxPatch(corner, width - 6, height - 6, box, fc=fill, ec=edge, **look)
+
+
+def node_label(
+    name: str,
+    limit: float,
+    size: float,
+    strong: bool,
+    faults: tuple[str, ...] = (),
+    stopped: bool = False,
+) -> Label:
+    """Return the label of a node: its name, broken at `limit` CSS pixels, and what is wrong."""
+    lines = [Line(row, size) for row in wrap(name, limit, size)]
+    lines += [Line(row, min(size, theme.SMALL), theme.ALERT_TEXT) for row in faults]
+    return Label(tuple(lines), "node", strong=strong, dashed=stopped)
+
+
+def topic_label(
+    name: str,
+    types: tuple[str, ...],
+    faults: tuple[str, ...],
+    limit: float,
+    size: float,
+    strong: bool,
+    unused: bool = False,
+) -> Label:
+    """Return the label of a topic: name, types without their package, what is wrong."""
+    small = min(size, theme.SMALL)
+    lines = [Line(row, size) for row in wrap(name, limit, size)]
+    lines += [Line(short_type(kind), small, theme.MUTED) for kind in types]
+    lines += [Line(fault, small, theme.ALERT_TEXT) for fault in faults]
+    return Label(tuple(lines), "topic", strong=strong, broken=bool(faults), dashed=unused)
+
+
+# The causes of an explanation, marked in its graph.
+
+
+@dataclass(frozen=True)
+class Marked:
+    """Hold what a graph picture shows, and what is marked in it.
+
+    Attributes:
+        plain: The nodes, topics and arrows without marks.
+        wiring: The nodes, topics and arrows; arrows lead through the notes.
+        notes: Words of each note by its key.
+        stopped: Words below the names of nodes that do not run, by the node's name.
+        twins: Words below a name that several nodes have, by the name.
+        unused: Names of topics that nobody uses, and words about them.
+    """
+
+    plain: Wiring
+    wiring: Wiring
+    notes: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    stopped: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    twins: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    unused: dict[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def edges(self) -> list[Edge]:
+        """Return all arrows: along topics, and from clients to those who offer what they use."""
+        return [*self.wiring.edges, *(edge for one in self.wiring.offers for edge in one.edges)]
+
+
+def marked(source: Explanation, infrastructure: bool = False) -> Marked:
+    """Mark the causes in the graph of an explanation.
+
+    Args:
+        source: The explanation.
+        infrastructure: Whether to show the topics that every node brings along, too.
+    """
+    # The topic that is asked about is shown even if every node brings it along.
+    brought = set(source.graph.topics(True)) - set(source.graph.topics())
+    plain = wiring(source.graph, infrastructure or source.topic in brought)
+    made = Marked(plain, plain)
+    for mark in source.marks:
+        made = _with(made, mark)
+    return made
+
+
+def _with(made: Marked, mark: Mark) -> Marked:
+    if mark.kind == NODE:
+        return replace(made, stopped={**made.stopped, mark.subject: mark.words})
+    if mark.kind == TWINS:
+        return replace(made, twins={**made.twins, mark.subject: mark.words})
+    if mark.kind == TOPIC:
+        topics = {**made.wiring.topics, mark.subject: ()}
+        shown = replace(made.wiring, topics=topics)
+        return replace(made, wiring=shown, unused={**made.unused, mark.subject: mark.words})
+    if mark.kind == NEAR:
+        return _noted(made, mark, topic_key(mark.subject), topic_key(mark.other))
+    ends = (node_key(mark.subject), topic_key(mark.other))
+    return _noted(made, mark, *(ends if mark.side == "publisher" else ends[::-1]))
+
+
+def _noted(made: Marked, mark: Mark, source: str, target: str) -> Marked:
+    """Lead an arrow through a note, or put a note between two topics."""
+    edges = [one for one in made.wiring.edges if (one.source, one.target) != (source, target)]
+    if mark.kind == LINK and len(edges) == len(made.wiring.edges):
+        return made  # a hidden node
+    key = f"note {source} > {target}"
+    edges.append(Edge(source, key, "marked", has_head=False))
+    edges.append(Edge(key, target, "marked", has_head=mark.kind == LINK))
+    shown = replace(made.wiring, edges=tuple(edges))
+    return replace(made, wiring=shown, notes={**made.notes, key: mark.words})
+
+
+def say(source: Explanation) -> str:
+    """Tell what is marked, in whole sentences."""
+    return " ".join((source.title, *map(_say_mark, source.marks)))
+
+
+def _say_mark(mark: Mark) -> str:
+    words = " ".join(mark.words)
+    if mark.kind == NODE:
+        return f"{mark.subject} has a cross: {words}."
+    if mark.kind == TWINS:
+        return f"{mark.subject} stands for several nodes: {words}."
+    if mark.kind in (LINK, NEAR):
+        return f"Between {mark.subject} and {mark.other} is a broken line: {words}."
+    return f"{mark.subject} is dashed: {words}."
+
+
+# The picture.
+
+
+def graph(
+    source: sources.Observed | GraphSnapshot | Explanation,
+    highlight: str | Iterable[str] = (),
+    infrastructure: bool = False,
+) -> Picture:
+    """Draw which nodes publish to which topics and which nodes subscribe.
+
+    Nodes that share a process have a frame around them, with what only they use.
+
+    Services and actions have boxes, too, with what they are below their names; an arrow leads from
+    who uses one to who offers it. What every node brings along is left out.
+
+    An arrow is dashed where nothing passes: nobody is on the other side, the qualities of service
+    do not match, or the types differ. Nodes whose name has a part that begins with `_` are left
+    out. Of an explanation the causes are marked where they are, in words, and its topic is drawn
+    boldly.
+
+    Args:
+        source: A session, what it observed, a graph, or what `ros.explain` returned.
+        highlight: Name of a node or topic, or several, to draw boldly.
+        infrastructure: Whether to show `/rosout`, `/parameter_events` and `/clock`, too.
+
+    Returns:
+        The picture.
+
+    Raises:
+        PictureError: If there is no node, or a highlighted name is not in the graph.
+    """
+    if isinstance(source, Explanation):
+        shown, words = marked(source, infrastructure), f"{say(source)} "
+    else:
+        plain = wiring(sources.snapshot(source), infrastructure)
+        shown, words = Marked(plain, plain), ""
+    if not shown.plain.nodes:
+        raise PictureError(
+            "There is no node to draw.",
+            "The graph was taken before a node was added, or all of its nodes are hidden.",
+            "Add a node to the session first.",
+        )
+    names = [highlight] if isinstance(highlight, str) else list(highlight)
+    offered = (offer.name for offer in shown.wiring.offers)
+    known = (*shown.wiring.nodes, *shown.wiring.topics, *offered)
+    strong = {sources.known_name(name, known, "node or topic") for name in names}
+    if isinstance(source, Explanation):
+        strong |= {source.topic} & set(shown.wiring.topics)
+    layout = _layout(shown, strong)
+    width, height = layout.size
+    with blank(height, width) as canvas:
+        _draw(canvas, shown, layout)
+    return Picture(canvas.figure, words + describe(shown.plain), "Nodes and topics")
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """Hold a placement with its labels, and whether it flows down instead of to the right."""
+
+    labels: dict[str, Label]
+    placement: Placement
+    down: bool
+
+    @property
+    def size(self) -> Point:
+        """Return the width of the picture, and the height between its margins."""
+        extent = (self.placement.length, self.placement.breadth)
+        width, height = reversed(extent) if self.down else extent
+        # Boxes that just fit may be wider by an error of rounding.
+        return max(theme.WIDTH, round(width + 2 * theme.MARGIN, 3)), height
+
+    def point(self, canvas: Canvas, along: float, across: float) -> Point:
+        """Return canvas coordinates of a point of the placement; the picture is centred."""
+        if self.down:
+            return (canvas.width - self.placement.breadth) / 2 + across, canvas.top - along
+        return (canvas.width - self.placement.length) / 2 + along, canvas.top - across
+
+
+def _layout(shown: Marked, strong: set[str]) -> _Layout:
+    """Return the first layout that fits: from left to right if possible, else downwards."""
+    starts = {node_key(name): 0 for name in shown.wiring.nodes}
+    starts.update((topic_key(name), 1) for name in shown.wiring.topics)
+    starts.update(dict.fromkeys(shown.notes, 1))
+    starts.update((offer.key, 1) for offer in shown.wiring.offers)
+    links = [(edge.source, edge.target) for edge in shown.edges()]
+    plan = layering(starts, links)
+    if shown.wiring.processes:
+        groups = [list(map(node_key, names)) for names in shown.wiring.processes]
+        others = [name for name, column in starts.items() if column == 1]
+        plan = clustered(plan, enclosed(groups, [*plan.chains, *plan.back], others))
+    across = _rimmed(plan, down=False)
+    for fit in _FITS:
+        labels = _labels(shown, strong, *fit)
+        if needed(across, _sizes(labels, down=False)) <= ROOM:
+            return _Layout(labels, place(across, _sizes(labels, down=False), ROOM), down=False)
+    for fit in _FITS:
+        labels = _labels(shown, strong, *fit)
+        sizes = _sizes(labels, down=True)
+        layout = _Layout(labels, place(_rimmed(plan, down=True), sizes, 0.0), down=True)
+        if layout.size[0] <= theme.WIDTH:
+            break
+    return layout
+
+
+def _rimmed(plan: Layering, down: bool) -> Layering:
+    """Return the plan with room in its frames for the label on the upper edge, left."""
+    width = least_frame_width()
+    if down:
+        # Arrows come in over the upper edge, too, so the boxes stand beside the label.
+        return replace(plan, rim=Rim((16.0, width - 8), (10.0, 10.0)))
+    return replace(plan, rim=Rim((10.0, 16.0), (10.0, 10.0), (width, 0.0)))
+
+
+def _sizes(labels: dict[str, Label], down: bool) -> dict[str, Point]:
+    """Return every label's size along and across the flow."""
+    sizes = {name: label.size for name, label in labels.items()}
+    return {name: size[::-1] for name, size in sizes.items()} if down else sizes
+
+
+def _labels(shown: Marked, strong: set[str], limit: float, size: float) -> dict[str, Label]:
+    labels: dict[str, Label] = {}
+    for key, words in shown.notes.items():
+        lines = [Line(one, theme.SMALL, theme.ALERT_TEXT) for one in words]
+        labels[key] = Label(tuple(lines), "note")
+    for name in shown.wiring.nodes:
+        stopped, twins = shown.stopped.get(name, ()), shown.twins.get(name, ())
+        wrong = (stopped + twins, bool(stopped))
+        labels[node_key(name)] = node_label(name, limit, size, name in strong, *wrong)
+    for name, types in shown.wiring.topics.items():
+        unused = shown.unused.get(name, ())
+        said = shown.plain.faults(name) or unused
+        look = (limit, size, name in strong, bool(unused))
+        labels[topic_key(name)] = topic_label(name, types, said, *look)
+    for offer in shown.wiring.offers:
+        kind = f"{offer.word} {short_type(offer.type_name)}"
+        look = (limit, size, offer.name in strong, False)
+        labels[offer.key] = topic_label(offer.name, (kind,), (), *look)
+    return labels
+
+
+def _draw(canvas: Canvas, shown: Marked, layout: _Layout) -> None:
+    placed = layout.placement
+    for frame in placed.frames:
+        half = frame.length / 2, frame.breadth / 2
+        left, top = layout.point(canvas, frame.along - half[0], frame.across - half[1])
+        right, bottom = layout.point(canvas, frame.along + half[0], frame.across + half[1])
+        canvas.frame(left, bottom, right, top)
+    for edge in shown.edges():
+        link, stroke = (edge.source, edge.target), BROKEN if edge.fault else PLAIN
+        is_forward = link in placed.routes
+        way = placed.routes[link] if is_forward else placed.returns[link]
+        points = [layout.point(canvas, *point) for point in way]
+        path = smooth(points, layout.down) if is_forward else cornered(points)
+        canvas.arrow(path, stroke, edge.has_head)
+    for name, box in placed.boxes.items():
+        layout.labels[name].draw(canvas, *layout.point(canvas, box.along, box.across))

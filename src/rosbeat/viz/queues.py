@@ -1,0 +1,229 @@
+"""Draw a subscription's queue: what waits in it, what is taken, what is dropped."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from matplotlib.patches import Rectangle
+
+from rosbeat.errors import PictureError
+from rosbeat.records import QueueStep
+from rosbeat.viz import theme
+from rosbeat.viz.canvas import ROOM, Canvas, Entry, blank, text_width
+from rosbeat.viz.picture import Picture
+from rosbeat.viz.words import count, not_shown, ranges, seconds
+
+#: More moments than this have no room side by side.
+MOST_MOMENTS = 220
+
+#: The lines of an almost empty queue are as long as if so many moments were drawn.
+_FEWEST = 8
+_CELL, _WIDEST, _ROOMY = 22.0, 34.0, 17.0
+_HEAD, _FOOT = 12.0, 56.0
+_WAITS = theme.Style(theme.BLUE, "s", "")
+_TAKEN = theme.Style(theme.TAKEN, "v", "")
+_DROPPED = theme.Style(theme.ALERT, "X", "")
+_LIMIT = theme.Style(theme.INK, "", "--")
+
+
+@dataclass(frozen=True)
+class Moment:
+    """Hold one column of the picture: a message arrives (and may push one out), or one is taken.
+
+    Attributes:
+        time_ns: When, in nanoseconds of virtual time.
+        waiting: Numbers of the messages in the queue afterwards, the oldest first.
+        arrived: Number of the message that arrived, or 0.
+        taken: Number of the message that was taken, or 0.
+        dropped: Number of the message that was dropped, or 0.
+    """
+
+    time_ns: int
+    waiting: tuple[int, ...]
+    arrived: int = 0
+    taken: int = 0
+    dropped: int = 0
+
+
+def moments(steps: Sequence[QueueStep]) -> list[Moment]:
+    """Replay the steps; a drop and the arrival that caused it are one moment."""
+    found: list[Moment] = []
+    waiting: tuple[int, ...] = ()
+    dropped = 0
+    for step in steps:
+        if step.kind == "arrived":
+            waiting = (*waiting, step.number)
+            found.append(Moment(step.time_ns, waiting, arrived=step.number, dropped=dropped))
+            dropped = 0
+            continue
+        waiting = tuple(number for number in waiting if number != step.number)
+        if step.kind == "taken":
+            found.append(Moment(step.time_ns, waiting, taken=step.number))
+        else:
+            dropped = step.number
+    return found
+
+
+# The picture.
+
+
+def queue(steps: Sequence[QueueStep], depth: int) -> Picture:
+    """Draw a queue filling, emptying and dropping.
+
+    One column for every moment at which something happened, from left to right; in it the messages
+    that wait then, the oldest at the bottom. Moments at the same virtual time stand side by side,
+    since a burst has no width on a time axis.
+
+    Args:
+        steps: From `rosbeat.records.queue_steps`.
+        depth: Queue length in messages, at least 1.
+
+    Returns:
+        The picture.
+
+    Raises:
+        PictureError: If these are no steps, or there are none, or the depth is below 1 or below
+            what waited.
+    """
+    _check(steps, depth)
+    every = moments(steps)
+    shown = every[:MOST_MOMENTS]
+    note = not_shown(len(every) - len(shown), "later moment")
+    cell = max(3.0, min(_CELL, 264 / depth))
+    height = _HEAD + depth * cell + _FOOT
+    with blank(height, entries=_key(shown, depth), note=note) as canvas:
+        grid = _Grid(canvas.bottom + _FOOT, min(_WIDEST, ROOM / len(shown)), cell)
+        _draw(canvas, shown, depth, grid)
+    words = f"{describe(every, depth)} {note}".strip()
+    return Picture(canvas.figure, words, "A queue filling and dropping")
+
+
+def _check(steps: Sequence[QueueStep], depth: int) -> None:
+    if not isinstance(steps, Sequence) or not all(isinstance(one, QueueStep) for one in steps):
+        raise PictureError(
+            "A picture of a queue is drawn from its steps, and these are none.",
+            "A step is a `QueueStep`: what came, was taken or was dropped at one moment.",
+            "Make them with `queue_steps(arrivals, takes, depth)`.",
+        )
+    if not steps:
+        raise PictureError(
+            "There are no steps of a queue to draw.",
+            "No message arrived, so nothing waited, was taken or was dropped.",
+            "Make them with `queue_steps(arrivals, takes, depth)`.",
+        )
+    longest = max(step.length for step in steps)
+    if not isinstance(depth, int) or depth < max(1, longest):
+        raise PictureError(
+            f"A queue of depth {depth!r} does not fit these steps.",
+            f"In them up to {count(longest, 'message')} wait at once; a depth is at least 1.",
+            "Give the same depth as to `queue_steps`.",
+        )
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """Hold where columns and cells are, in CSS pixels."""
+
+    bottom: float
+    step: float
+    cell: float
+
+    def x(self, rank: float) -> float:
+        """Return the middle of a column."""
+        return theme.MARGIN + (rank + 0.5) * self.step
+
+    def y(self, place: float) -> float:
+        """Return the middle of a place in the queue, counted from 0 at the bottom."""
+        return self.bottom + (place + 0.5) * self.cell
+
+
+def _key(shown: Sequence[Moment], depth: int) -> list[Entry]:
+    entries = [Entry("waits", _WAITS, theme.NODE_FILL), Entry(f"depth {depth}", _LIMIT)]
+    if any(one.taken for one in shown):
+        entries.append(Entry("taken by the callback", _TAKEN))
+    if any(one.dropped for one in shown):
+        entries.append(Entry("dropped", _DROPPED))
+    return entries
+
+
+def _draw(canvas: Canvas, shown: Sequence[Moment], depth: int, grid: _Grid) -> None:
+    for rank, one in enumerate(shown):
+        _draw_column(canvas, one, grid.x(rank), grid)
+        if one.taken or one.dropped:
+            _draw_exit(canvas, one, grid.x(rank), grid)
+    right = theme.MARGIN + grid.step * max(len(shown), _FEWEST)
+    for level, look in ((0, "-"), (depth, "--")):
+        y = grid.bottom + level * grid.cell
+        canvas.axes.plot([theme.MARGIN, right], [y, y], color=theme.INK, lw=1.3, ls=look, zorder=4)
+    _draw_times(canvas, shown, grid)
+
+
+def _draw_column(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
+    if grid.step < _ROOMY or grid.cell < 12:
+        # Too narrow for cells: one bar as high as the queue is long.
+        height = len(one.waiting) * grid.cell
+        bar = Rectangle((x - grid.step / 2, grid.bottom), grid.step, height)
+        bar.set(fc=theme.NODE_FILL_STRONG, lw=0, aa=False)
+        canvas.axes.add_patch(bar)
+        return
+    for place, number in enumerate(one.waiting):
+        fill = theme.NODE_FILL_STRONG if number == one.arrived else theme.NODE_FILL
+        corner = (x - grid.step / 2 + 1, grid.y(place) - grid.cell / 2 + 1)
+        cell = Rectangle(corner, grid.step - 2, grid.cell - 2, fc=fill, ec=theme.BLUE, lw=0.8)
+        canvas.axes.add_patch(cell)
+        canvas.text(x, grid.y(place), str(number), theme.TINY, align="center")
+
+
+def _draw_exit(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
+    look, colour = (_TAKEN, theme.TAKEN_TEXT) if one.taken else (_DROPPED, theme.ALERT_TEXT)
+    size = min(8.0, grid.step * 0.6)
+    canvas.axes.plot([x], [grid.bottom - 12], look.marker, ms=size, color=look.colour, mew=0)
+    if grid.step >= _ROOMY:
+        number = str(one.taken or one.dropped)
+        canvas.text(x, grid.bottom - 28, number, theme.TINY, colour, "center", "bold")
+
+
+def _draw_times(canvas: Canvas, shown: Sequence[Moment], grid: _Grid) -> None:
+    """Draw one bracket under the moments of each instant, and its time where there is room."""
+    free, y = 0.0, grid.bottom - 42
+    ranked = itertools.groupby(enumerate(shown), key=lambda one: one[1].time_ns)
+    for time_ns, group in ranked:
+        columns = [rank for rank, _ in group]
+        ends = [grid.x(columns[0]) - grid.step * 0.4, grid.x(columns[-1]) + grid.step * 0.4]
+        canvas.axes.plot(ends, [y, y], color=theme.MUTED, lw=1)
+        words = seconds(time_ns)
+        half = text_width(words, theme.SMALL) / 2
+        rim = theme.MARGIN + half
+        middle = min(max(sum(ends) / 2, rim), canvas.width - rim)
+        if middle - half >= free:
+            canvas.text(middle, y - 13, words, theme.SMALL, theme.MUTED, "center")
+            free = middle + half + 8
+
+
+# The same in words.
+
+
+def describe(every: Sequence[Moment], depth: int) -> str:
+    """Tell which messages arrived, were taken, were dropped and wait at the end."""
+    first, last = seconds(every[0].time_ns), seconds(every[-1].time_ns)
+    span = f"at {first}" if first == last else f"from {first} to {last}"
+    arrived = sum(one.arrived > 0 for one in every)
+    fullest = max(len(one.waiting) for one in every)
+    return " ".join(
+        (
+            f"A queue of depth {depth}, {span}: {count(arrived, 'message')} arrived.",
+            _share("was taken", "were taken", [one.taken for one in every if one.taken]),
+            _share("was dropped", "were dropped", [one.dropped for one in every if one.dropped]),
+            _share("waits at the end", "wait at the end", every[-1].waiting),
+            f"At its fullest the queue held {count(fullest, 'message')}.",
+        )
+    )
+
+
+def _share(one: str, many: str, numbers: Sequence[int]) -> str:
+    if not numbers:
+        return f"None {one}."
+    which = f"number {ranges(numbers)}" if len(numbers) == 1 else f"numbers {ranges(numbers)}"
+    return f"{len(numbers)} {one if len(numbers) == 1 else many}: {which}."
