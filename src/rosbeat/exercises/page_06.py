@@ -6,11 +6,11 @@ import re
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.packages import diagnose_flaw
 from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
 from rosbeat.exercises.scenarios import TypedIn, Workspace, look_at_terminal, look_at_workspace
 from rosbeat.exercises.workspace_model import alike, diagnose_script, diagnosis_of
 from rosbeat.records import Outcome
-from rosbeat.workspace.meanings import diagnose_flaw
 from rosbeat.workspace.packages import Package
 from rosbeat.workspace.place import workspace
 

@@ -20,6 +20,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.packages import parse
 from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.exercises.exercise import Exercise, failed_by, not_attempted, passed
 from rosbeat.exercises.model import Suspect, Track, fitting, named, parting
@@ -34,7 +35,6 @@ from rosbeat.ros.programs import (
     program_environment,
 )
 from rosbeat.workspace.packages import Package
-from rosbeat.workspace.parsing import parse
 
 ID = "system"
 PACKAGE = "sensor_simulator"
