@@ -88,7 +88,7 @@ class Situation:
         """Return the commands one by one, each with the folder that `cd` had led to."""
         place = self.folder
         found = []
-        for words in _commands(self.command):
+        for words in split_commands(self.command):
             found.append(Call(words, place))
             if words[0] == "cd":
                 place = self._after_cd(place, words)
@@ -145,7 +145,12 @@ class Situation:
         return path.resolve() if path.is_dir() else place
 
 
-def _commands(text: str) -> list[tuple[str, ...]]:
+def split_commands(text: str) -> list[tuple[str, ...]]:
+    """Return the words of each command in a text, without settings and `timeout` in front.
+
+    Args:
+        text: What was typed; several lines, or several commands in a line, are fine.
+    """
     found: list[tuple[str, ...]] = []
     for line in text.replace("\\\n", " ").splitlines():
         try:
@@ -770,7 +775,7 @@ def _missing_word(_: Situation, __: Call, found: Found) -> Diagnosis:
 _WORD_RULES = (
     Rule(
         "{1}",
-        r"^(\w+).*: error: .*invalid choice: '?([^'\s]+)'? \(choose from ([^)]*)\)",
+        r"^(\w+)\b.*: error: .*invalid choice: '?([^'\s]+)'? \(choose from ([^)]*)\)",
         _unknown_word,
     ),
     # An option counted as one of the two names, or there was nothing.

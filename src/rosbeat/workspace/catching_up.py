@@ -7,7 +7,6 @@ a learner has made; if that is in the way it raises `InTheWay`, which says what 
 from __future__ import annotations
 
 import errno
-import os
 import re
 import subprocess
 import sys
@@ -18,12 +17,12 @@ from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
-from rosbeat import environment
 from rosbeat.errors import WorkspaceError
 from rosbeat.workspace.packages import find_packages, parse_manifest, read_package
-from rosbeat.workspace.place import steady_home, workspace
+from rosbeat.workspace.place import workspace
 from rosbeat.workspace.saving import save, save_bytes, trouble
 from rosbeat.workspace.setup_script import with_entry_points
+from rosbeat.workspace.terminals.environment import program_environment
 
 _PAGE = re.compile(r"(\d{1,2})(_\w*)?(\.ipynb)?")
 PACKAGE = "sensor_simulator"
@@ -338,7 +337,7 @@ def run_command(command: Sequence[str], folder: Path, seconds: float) -> tuple[i
     place = Path(sys.prefix) / "bin" / command[0]
     try:
         done = subprocess.run(
-            [str(place), *command[1:]], cwd=folder, env=command_environment(), timeout=seconds,
+            [str(place), *command[1:]], cwd=folder, env=program_environment(), timeout=seconds,
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         )  # fmt: skip
     except FileNotFoundError:
@@ -346,21 +345,6 @@ def run_command(command: Sequence[str], folder: Path, seconds: float) -> tuple[i
     except subprocess.TimeoutExpired:
         raise _too_slow(command, seconds) from None
     return done.returncode, done.stdout.decode("utf-8", "replace")
-
-
-def command_environment() -> dict[str, str]:
-    """Return the environment of such a program: ours, with the course's programs in front."""
-    found = dict(os.environ)
-    environment.apply(found)
-    programs = str(Path(sys.prefix) / "bin")
-    found["PATH"] = os.pathsep.join([programs, found.get("PATH", os.defpath)])
-    home = steady_home()
-    if home is not None:
-        found.update(dict.fromkeys(("USER", "LOGNAME", "LNAME", "USERNAME"), "you"))
-        for name in ("GIT_CONFIG_GLOBAL", "XDG_CONFIG_HOME"):
-            found.pop(name, None)
-        found.update(HOME=str(home), GIT_CONFIG_NOSYSTEM="1")
-    return found
 
 
 def _not_installed(program: str) -> WorkspaceError:

@@ -4,7 +4,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from rosbeat.workspace.catching_up import command_environment
+from rosbeat.workspace.terminals.environment import program_environment
 
 _RUN = r"""
 for line in "$@"; do
@@ -40,7 +40,7 @@ def typed(lines: str, root: Path, start: str = ".") -> Terminal:
         start: Where the bash starts, relative to the workspace.
     """
     env = {
-        **command_environment(),
+        **program_environment(),
         "HOME": str(root.parent),
         "ROS2_WORKSPACE": str(root),
         "LC_ALL": "C",
