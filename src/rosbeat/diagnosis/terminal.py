@@ -120,7 +120,7 @@ class Situation:
 
     @property
     def about_ros(self) -> bool:
-        """Whether the traceback is that of a node."""
+        """Return whether the traceback is that of a node."""
         return bool(self.traceback) and (
             "rclpy" in self.traceback or self.call("ros2 run") is not None
         )

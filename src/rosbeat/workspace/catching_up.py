@@ -38,7 +38,7 @@ _MAKING, _BUILDING = 120.0, 300.0
 
 @dataclass(frozen=True)
 class Report:
-    """What catching up made, and what it left for the learner to decide.
+    """Hold what catching up made, and what it left for the learner to decide.
 
     Attributes:
         made: What was made, in the order of the pages.
@@ -50,7 +50,7 @@ class Report:
 
     @property
     def complete(self) -> bool:
-        """Whether everything that was asked for is there now."""
+        """Return whether everything that was asked for is there now."""
         return not self.attention
 
     def __str__(self) -> str:
@@ -117,7 +117,7 @@ def _number(page: str) -> int:
 
 
 class InTheWay(Exception):  # noqa: N818 - not an error: something to tell
-    """Something of the learner's stands where a stage would make something."""
+    """Raise it if something of the learner's is where a stage would make something."""
 
 
 def finished(path: str) -> str:
@@ -296,7 +296,7 @@ def build(root: Path) -> str:
 
 
 def _last_line(output: str) -> str:
-    """The line that says most: the last one that names an error, or the last one."""
+    """Return the last line that names an error, or else the last line."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     errors = [line for line in lines if "rror" in line and len(line) < 300]
     return next(reversed(errors or lines), "it said nothing").rstrip(".")

@@ -138,7 +138,7 @@ class _Options:
 
 
 class _Parser(argparse.ArgumentParser):
-    """Speaks as the pages do, and never ends the kernel."""
+    """Raise errors in the words of the pages, and never end the kernel."""
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message[:1].upper()}{message[1:]}.\n{_USAGE}")

@@ -49,7 +49,7 @@ _MEANINGS = {
 
 @dataclass(frozen=True)
 class Saved:
-    """What was saved.
+    """Hold what was saved.
 
     Attributes:
         path: The file, relative to the workspace.
@@ -67,7 +67,7 @@ class Saved:
 
 
 def save(path: str, text: str, root: Path | None = None) -> Saved:
-    """Write a file of the workspace; a version with another content is copied aside first.
+    """Write a file of the workspace; a version with other content is copied to `kept/` first.
 
     Args:
         path: The file, relative to the workspace. Missing folders are made.
@@ -156,7 +156,7 @@ def _replace(relative: PurePosixPath, target: Path, content: bytes, base: Path) 
 
 
 def _mode_of(relative: PurePosixPath, target: Path) -> int:
-    """The rights of a file that may be replaced."""
+    """Return the permissions of a file that may be replaced."""
     if not target.is_file():
         raise WorkspaceError(
             f"{relative} cannot be saved: there is a folder of that name, or a device.",
@@ -197,7 +197,7 @@ def write(target: Path, content: bytes, mode: int | None = None) -> None:
 
 
 def keep(relative: PurePosixPath, content: bytes, root: Path) -> PurePosixPath:
-    """Copy content aside, unless a copy of this file has it already.
+    """Copy content to `kept/`, unless a copy of this file has it already.
 
     A copy is named `setup.py-1`: with such an ending neither Python, pytest nor colcon takes it for
     code, wherever they are started.
@@ -229,7 +229,7 @@ def _holds(copy: Path, content: bytes) -> bool:
 
 
 def _written(copy: Path, content: bytes) -> bool:
-    """Whether the copy could be made; False if another one has the name."""
+    """Make the copy; return False if another one has the name."""
     try:
         number = os.open(copy, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
     except FileExistsError:

@@ -155,7 +155,7 @@ def _meant(relative: PurePosixPath, root: Path) -> PurePosixPath | None:
 
 
 def _inner(parts: tuple[str, ...], root: Path) -> PurePosixPath | None:
-    """The path of a module that was put beside the folder with the modules."""
+    """Return where a module belongs that was put beside the folder with the modules."""
     if len(parts) != 2 or not parts[1].endswith(".py") or parts[1] in _BESIDE:
         return None
     package = parts[0]
@@ -200,7 +200,7 @@ def blank_line(text: str) -> int:
 
 
 def is_python(text: str) -> bool:
-    """Whether a text can be read as Python."""
+    """Return whether a text can be read as Python."""
     try:
         parse(text)
     except (SyntaxError, ValueError):
@@ -266,7 +266,7 @@ def run_as_module(shell: Any, text: str, name: str, path: Path, first_line: str)
 
 
 class BadSyntax(Exception):  # noqa: N818 - it stands for a SyntaxError
-    """A `SyntaxError` in the text of a module, shown as IPython shows one in a cell.
+    """Show a `SyntaxError` in the text of a module as IPython shows one in a cell.
 
     IPython shows a real one that comes from a command with every frame of the command.
 
@@ -291,7 +291,7 @@ def _shown(shell: Any, error: SyntaxError) -> BadSyntax:  # noqa: ANN401
 
 
 def _number_of_cell(shell: Any) -> int:  # noqa: ANN401
-    """The number that the running cell has on the page; the shell may count the next one by now."""
+    """Return the number of the running cell; the shell may count the next one by now."""
     numbers = getattr(shell.compile, "_filename_map", {})
     frame = sys._getframe()
     while frame.f_back is not None:
@@ -334,7 +334,7 @@ def _put_back(target: dict[str, Any], before: dict[str, Any]) -> None:
 
 
 def _render(shell: Any, error: BaseException, trace: TracebackType | None) -> None:  # noqa: ANN401
-    """Have IPython show an exception from the learner's own first frame on."""
+    """Make IPython show an exception from the learner's own first frame on."""
     if hasattr(error, "_render_traceback_") or isinstance(error, SyntaxError):
         return
     shown = shell.InteractiveTB.structured_traceback(type(error), error, trace, tb_offset=0)

@@ -60,7 +60,7 @@ class Goal:
 
 
 class Terminal:
-    """A bash that lives as long as the kernel does, or until it is closed.
+    """Run a bash that lives as long as the kernel does, or until it is closed.
 
     What it prints is read all the time, whether anybody watches or not.
 
