@@ -35,7 +35,9 @@ _SILENCE = 0.5
 _ENDS_SOON, _STOPS_WITHIN, _BEGINS_WITHIN = 2.0, 10.0, 5.0
 # Seconds after which Ctrl+C is pressed again if it has reached nobody.
 _AGAIN_AFTER = 0.2
-_LAST_LINES, _LINES_TO_EXPLAIN = 5, 2000
+_LAST_LINES = 5
+# What is looked at to explain a failure: so many lines, and characters of each.
+_LINES_TO_EXPLAIN, _LONGEST_TO_EXPLAIN = 2000, 1000
 _TOUCHES_PROMPT = re.compile(r"PS[12]|PROMPT_COMMAND|\b(exec|source|eval|unset)\b|(^|[;&|\s])\.\s")
 _LONGEST_LINE = 4095
 
@@ -437,8 +439,8 @@ class Terminal:
         # Loaded when the first command has ended: the first prompt does not wait for it.
         from rosbeat.workspace.meanings import explain
 
-        output = "\n".join(self._printed()[-_LINES_TO_EXPLAIN:])
-        said = explain(self.command, output, code, self._folder, workspace())
+        lines = (line[:_LONGEST_TO_EXPLAIN] for line in self._printed()[-_LINES_TO_EXPLAIN:])
+        said = explain(self.command, "\n".join(lines), code, self._folder, workspace())
         if said:
             say(show, "\n".join(map(polisher(), said.splitlines())))
 
