@@ -174,6 +174,11 @@ def test_what_is_calculated_is_found_by_running_it(setup_of, answer):
     assert all(one.line for one in setup.entry_points)
 
 
+def test_a_name_that_is_assigned_twice_is_no_literal(setup_of):
+    changed = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name")
+    assert setup_of(changed + "'console_scripts': []})\n").package_name == "q"
+
+
 def test_a_script_that_does_not_end_is_given_up(setup_of, monkeypatch):
     monkeypatch.setattr("rosbeat.workspace.setup_script._DEADLINE", 0.3)
     setup = setup_of("while True: pass\n" + HEAD + "'console_scripts': [f'a = {package_name}']})\n")
