@@ -106,9 +106,9 @@ def _given(tree: ast.Module, call: ast.Call, path: Path) -> _Given | None:
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
             env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
         )  # fmt: skip
-    except (OSError, subprocess.SubprocessError):  # it raises, or does not end
+        return _Given(json.loads(done.stdout)) if done.stdout else None
+    except (OSError, ValueError, subprocess.SubprocessError):  # it raises, or does not end
         return _Given(literal.values, literal.excluded, complete=False)
-    return _Given(json.loads(done.stdout)) if done.stdout else None
 
 
 # Literals. None stands for whatever is none.
@@ -174,9 +174,15 @@ def _patterns(
     """Return the patterns that `find_packages` includes and excludes."""
     given = {one.arg: _value(one.value, names) for one in call.keywords}
     is_usual = _ends(call, _FINDER) and not call.args and given.keys() <= {"include", "exclude"}
-    if not is_usual or not _is_known(given):
+    include, exclude = _texts(given.get("include", ["*"])), _texts(given.get("exclude", []))
+    return (include, exclude) if is_usual and include is not None and exclude is not None else None
+
+
+def _texts(value: object) -> tuple[str, ...] | None:
+    """Return the strings of a list; None if it is anything else."""
+    if not isinstance(value, list):
         return None
-    return tuple(given.get("include", ("*",))), tuple(given.get("exclude", ()))
+    return tuple(value) if all(isinstance(one, str) for one in value) else None
 
 
 # From arguments to a record.
@@ -230,11 +236,20 @@ def _script(given: _Given, source: _Source) -> SetupScript:
         incomplete=not (given.complete and known),
         keywords=tuple(sorted(values)),
         groups=tuple(sorted(groups or ())),
-        packages=None if hidden else tuple(values.get("packages") or ()),
+        packages=None if hidden else _packages(values),
         excluded=given.excluded,
         about=tuple((key, text) for key, text in about.items() if isinstance(text, str) and text),
         left_out=_left_out(values) if given.complete else (),
     )
+
+
+def _packages(values: Mapping[str, Any]) -> tuple[str, ...] | None:
+    """Return the packages that are installed; without any, setuptools does not find them itself.
+
+    It refuses where it finds two folders, and every ROS package has `resource` beside its code.
+    """
+    packages = values.get("packages", [])
+    return tuple(packages) if isinstance(packages, tuple) else _texts(packages)
 
 
 def _groups(value: object) -> Mapping[str, Any] | None:
