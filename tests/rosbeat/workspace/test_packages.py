@@ -150,6 +150,15 @@ def test_what_cannot_be_found_out_is_not_guessed(setup_of, given):
     assert setup.problem == ""
 
 
+@pytest.mark.parametrize(
+    ("files", "missing"),
+    [("[]", ("resource/p", "package.xml")), ("unknown()", ()), ("[('a', 'b', 'c')]", ())],
+)
+def test_data_files_are_missing_only_if_all_of_them_are_known(setup_of, files, missing):
+    script = f"from setuptools import setup\nsetup(name='p', data_files={files})\n"
+    assert setup_of(script).left_out == missing
+
+
 def test_what_stands_beside_an_unknown_name_is_read(setup_of):
     setup = setup_of(scripts("*others,", "'b = p.b:main',"))
     assert [one.executable for one in setup.entry_points] == ["b"]
