@@ -267,6 +267,8 @@ def test_a_command_that_fails_before_the_text_comes_has_said_so(terminal, says):
     shown = []
     terminal.type("ls nowhere", until="somewhere", show=shown.append)
     assert "# exit code 2" in shown
+    with pytest.raises(TerminalError):
+        terminal.look(until="somewhere", show=str)
     with pytest.raises(TerminalError) as caught:
         terminal.type("echo nothing", until="somewhere", show=str)
     says(caught.value, "before the command ended")
@@ -349,6 +351,14 @@ def test_a_question_without_a_newline_counts_when_the_program_is_silent(terminal
     assert shown[-1] == "Your name: "
     terminal.answer("Ada", show=shown.append)
     assert shown[-2:] == ["Your name: Ada", "Hello Ada"]
+
+
+def test_a_question_is_completed_by_its_own_answer_only(terminal):
+    terminal.type("read -p 'One? ' a; echo more; read b", until="One?", show=str)
+    shown = []
+    terminal.answer("x", show=shown.append)
+    terminal.answer("y", show=shown.append)
+    assert shown == ["One? x", "more", "y"]
 
 
 def test_what_comes_between_two_cells_is_kept_and_not_shown(terminal, eventually, home):
