@@ -418,6 +418,7 @@ def test_much_output_is_cut_and_counted(seen, terminal):
     assert shown[500] == "# 99,481 lines left out"
     assert shown[-1] == "100000"
     assert len(terminal.text.splitlines()) <= 20_001
+    assert not [line for line in seen("seq 510") if "left out" in line]
 
 
 def test_output_without_end_is_borne(terminal, seen):
