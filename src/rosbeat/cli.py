@@ -102,7 +102,7 @@ def _explain_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _explain(options: argparse.Namespace) -> int:
     from rosbeat.explain_command import explain_domain
-    from rosbeat.workspace.stale import stale_builds
+    from rosbeat.workspace.packages import stale_builds
 
     try:
         found = explain_domain(options.topic, options.domain_id, options.seconds, stale_builds)

@@ -23,8 +23,8 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
+from rosbeat.workspace.catching_up import FOLDERS
 from rosbeat.workspace.place import NAME, workspace
-from rosbeat.workspace.stages import FOLDERS
 
 # Lines that were typed.
 

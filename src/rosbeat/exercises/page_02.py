@@ -10,10 +10,10 @@ from typing import Any
 from packaging.licenses import InvalidLicenseExpression, canonicalize_license_expression
 
 from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.packages import Manifest
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.scenarios import Workspace, look_at_workspace
 from rosbeat.exercises.workspace_model import alike
-from rosbeat.workspace.manifest import Manifest
 from rosbeat.workspace.packages import Package
 
 # A manifest is text, and what is wrong with a text is told by looking at it: nothing is simulated

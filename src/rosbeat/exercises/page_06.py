@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.packages import diagnose_flaw
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.scenarios import (
     Answer,
@@ -15,7 +16,6 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
 )
 from rosbeat.exercises.workspace_model import alike, diagnose_script, diagnosis_of
-from rosbeat.workspace.meanings import diagnose_flaw
 from rosbeat.workspace.packages import Package
 from rosbeat.workspace.place import workspace
 

@@ -22,6 +22,7 @@ from types import MappingProxyType
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.diagnosis.packages import parse
 from rosbeat.diagnosis.programs import diagnose_output
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import STATUSES, Mismatch, Track, diagnose, status_of, variants
@@ -36,7 +37,6 @@ from rosbeat.ros.programs import (
     program_environment,
 )
 from rosbeat.workspace.packages import Package
-from rosbeat.workspace.parsing import parse
 
 ID = "system"
 PACKAGE = "sensor_simulator"

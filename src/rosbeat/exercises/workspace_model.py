@@ -5,11 +5,10 @@ from __future__ import annotations
 from difflib import SequenceMatcher
 
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN, Diagnosis
+from rosbeat.diagnosis.packages import NO_CALL, diagnose_flaw
 from rosbeat.exercises.model import Mismatch, Track, diagnose, variants
 from rosbeat.exercises.scenarios import CommandMeaning
-from rosbeat.workspace.meanings import diagnose_flaw
 from rosbeat.workspace.packages import Package
-from rosbeat.workspace.setup_script import NO_CALL
 
 #: How much alike two names have to be, from 0 to 1, to be taken for one with a letter wrong.
 _ALIKE = 0.75

@@ -18,7 +18,7 @@ from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.course_pages import CoursePage
 from rosbeat.grading.release_pages import page_bytes
 from rosbeat.grading.weights import Points
-from rosbeat.workspace.stages import NODES, PACKAGE
+from rosbeat.workspace.catching_up import NODES, PACKAGE
 
 #: Folders of the course that learners get, and single files.
 _FOLDERS = ("environment", "src/rosbeat", "src/ros2_command", ".devcontainer")

@@ -55,7 +55,7 @@ def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
 
 
 def _running_shell() -> Any:  # noqa: ANN401
-    """The shell of this process, without loading IPython where there is none."""
+    """Return the shell of this process, without loading IPython where there is none."""
     ipython = sys.modules.get("IPython")
     return ipython.get_ipython() if ipython else None
 

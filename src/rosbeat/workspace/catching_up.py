@@ -1,17 +1,68 @@
-"""Pages run in any order: what earlier ones make and is missing is made, and said."""
+"""Make what earlier pages leave in the workspace, as far as it is missing: pages run in any order.
+
+A stage makes what one page leaves, and returns what it made or an empty text. It never changes what
+a learner has made; if that is in the way it raises `InTheWay`, which says what to do.
+"""
 
 from __future__ import annotations
 
+import errno
 import re
+import subprocess
+import sys
+import tempfile
+import textwrap
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib.resources import files
 from pathlib import Path
 
 from rosbeat.errors import WorkspaceError
+from rosbeat.workspace.packages import find_packages, parse_manifest, read_package
 from rosbeat.workspace.place import workspace
-from rosbeat.workspace.reports import Report
-from rosbeat.workspace.stages import STAGES, InTheWay
-from rosbeat.workspace.troubles import trouble
+from rosbeat.workspace.saving import save, save_bytes, trouble
+from rosbeat.workspace.setup_script import with_entry_points
+from rosbeat.workspace.terminals.environment import program_environment
 
 _PAGE = re.compile(r"(\d{1,2})(_\w*)?(\.ipynb)?")
+PACKAGE = "sensor_simulator"
+FOLDERS = ("src", "docs", "scripts", "resources/images")
+NODES = ("temperature_publisher", "temperature_subscriber")
+_CREATE = (
+    *("ros2", "pkg", "create", "--build-type", "ament_python", PACKAGE),
+    *("--dependencies", "rclpy", "std_msgs"),
+)
+_SCRIPTS = [f"{one} = {PACKAGE}.{one}:main" for one in NODES]
+_MAKING, _BUILDING = 120.0, 300.0
+
+
+@dataclass(frozen=True)
+class Report:
+    """Hold what catching up made, and what it left for the learner to decide.
+
+    Attributes:
+        made: What was made, in the order of the pages.
+        attention: What stands in the way, each with what to do about it.
+    """
+
+    made: tuple[str, ...] = ()
+    attention: tuple[str, ...] = ()
+
+    @property
+    def complete(self) -> bool:
+        """Return whether everything that was asked for is there now."""
+        return not self.attention
+
+    def __str__(self) -> str:
+        rows = [f"Please look: {one}" for one in self.attention]
+        if self.made:
+            made = "; ".join(self.made)
+            rows.insert(0, f"Made for you, because it was not there yet: {made}.")
+        rows = rows or ["Everything this page needs is there."]
+        return "\n".join(textwrap.fill(row, 100, break_long_words=False, break_on_hyphens=False)
+                         for row in rows)  # fmt: skip
+
+    __repr__ = __str__
 
 
 def catch_up(page: str, root: Path | None = None) -> Report:
@@ -60,3 +111,253 @@ def _number(page: str) -> int:
             'Name the page by its number:  workspace.catch_up("05")',
         )
     return int(found[1])
+
+
+# The stages.
+
+
+class InTheWay(Exception):  # noqa: N818 - not an error: something to tell
+    """Raise it if something of the learner's is where a stage would make something."""
+
+
+def finished(path: str) -> str:
+    """Return a file of the finished package.
+
+    Args:
+        path: Its path in the package.
+    """
+    return (files("rosbeat.workspace") / "finished" / path).read_text(encoding="utf-8")
+
+
+def folders(root: Path) -> str:
+    """Make the folders of page 01."""
+    missing = [one for one in FOLDERS if not (root / one).is_dir()]
+    for one in missing:
+        if (root / one).exists():
+            raise InTheWay(f"{one} is a file, and it has to be a folder. Rename the file.")
+        (root / one).mkdir(parents=True, exist_ok=True)
+    plural = "s" if len(missing) > 1 else ""
+    return f"the folder{plural} {_listed(missing)} (page 01)" if missing else ""
+
+
+def package(root: Path) -> str:
+    """Make the package of page 02 with `ros2 pkg create`, in one step."""
+    folder = root / "src" / PACKAGE
+    _check_place(folder, root)
+    if (folder / "package.xml").is_file():
+        return ""
+    with tempfile.TemporaryDirectory(prefix=".making-", dir=root) as name:
+        code, output = run_command(_CREATE, Path(name), _MAKING)
+        if code:
+            raise InTheWay(f"`ros2 pkg create` did not work: {_last_line(output)}")
+        _fill_in(Path(name) / PACKAGE)
+        _put_in_place(Path(name) / PACKAGE, folder)
+    return f"the package {PACKAGE} (page 02)"
+
+
+def _put_in_place(made: Path, folder: Path) -> None:
+    try:
+        made.rename(folder)
+    except OSError as error:
+        if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+            raise
+        raise InTheWay("another page has just made the package: run the cell again.") from None
+
+
+def _check_place(folder: Path, root: Path) -> None:
+    """Say what is wrong with a package that is half made, or lies elsewhere."""
+    others = [
+        one
+        for one in find_packages(root)
+        if one != folder and read_package(one, root).name == PACKAGE
+    ]
+    nested = folder / PACKAGE
+    if (nested / "package.xml").is_file():
+        others.append(nested)
+    if others:
+        place = others[0].relative_to(root)
+        raise InTheWay(_elsewhere(place.as_posix(), folder.exists()))
+    if folder.is_dir() and not (folder / "package.xml").is_file():
+        raise InTheWay(_half_made(folder))
+    if folder.exists() and not folder.is_dir():
+        raise InTheWay(f"src/{PACKAGE} is a file where the package would be. Rename it.")
+    _check_kind(folder, root)
+
+
+def _check_kind(folder: Path, root: Path) -> None:
+    """Say so if the package is not one for Python, or its manifest cannot be read."""
+    if not folder.is_dir():
+        return
+    manifest = read_package(folder, root).manifest
+    if manifest.problem:
+        raise InTheWay(f"src/{PACKAGE}/package.xml cannot be read: {manifest.problem}.")
+    if manifest.build_type != "ament_python":
+        raise InTheWay(
+            f"the package {PACKAGE} has the build type {manifest.build_type or '(none)'}: it was "
+            f"made without `--build-type ament_python`. Move it out of the workspace with "
+            f"`mv src/{PACKAGE} ~/{PACKAGE}-old`, then make it again with the whole command."
+        )
+
+
+def _elsewhere(place: str, twice: bool) -> str:
+    if twice:
+        return (
+            f"there is a second package {PACKAGE} in {place}, and colcon builds neither of two. "
+            f"Keep one, in src, and move the other one out of the workspace."
+        )
+    return (
+        f"the package {PACKAGE} lies in {place}, and it belongs into src. "
+        f"Move it there: `mv {place} src/` in the workspace."
+    )
+
+
+def _half_made(folder: Path) -> str:
+    if any(folder.iterdir()):
+        return (
+            f"the folder src/{PACKAGE} has no package.xml, so it is no package. Rename it, "
+            f"then run this cell again and move your files over."
+        )
+    return (
+        f"the folder src/{PACKAGE} is there and empty, so `ros2 pkg create` would refuse. "
+        f"Remove it with `rmdir src/{PACKAGE}`, then run this cell again."
+    )
+
+
+def _fill_in(folder: Path) -> None:
+    """Put description and license in place of the two TODOs."""
+    manifest = read_package(folder, folder.parent).manifest
+    wanted = _finished_manifest_texts()
+    for name in ("package.xml", "setup.py"):
+        path = folder / name
+        text = path.read_text(encoding="utf-8")
+        for old, new in zip((manifest.description, manifest.license), wanted, strict=True):
+            text = text.replace(old, new)
+        path.write_text(text, encoding="utf-8")
+
+
+def _finished_manifest_texts() -> tuple[str, str]:
+    manifest = parse_manifest(finished("package.xml").encode())
+    return manifest.description, manifest.license
+
+
+def node(name: str, page: str) -> Callable[[Path], str]:
+    """Return the stage that makes the file of one node."""
+
+    def stage(root: Path) -> str:
+        path = f"src/{PACKAGE}/{PACKAGE}/{name}.py"
+        if (root / path).exists():
+            return ""
+        save(path, finished(f"{PACKAGE}/{name}.py"), root)
+        return f"{PACKAGE}/{name}.py (page {page})"
+
+    return stage
+
+
+def entry_points(root: Path) -> str:
+    """Put the entry points of page 05 into a `setup.py` that has none yet."""
+    path = f"src/{PACKAGE}/setup.py"
+    if not (root / path).exists():
+        raise InTheWay(f"{path} is not there. Page 05 shows the whole file.")
+    setup = read_package(root / "src" / PACKAGE, root).setup
+    if setup.problem:
+        line = f" (line {setup.line})" if setup.line else ""
+        raise InTheWay(
+            f"{path} cannot be read: {setup.problem}{line}. Page 05 goes through it line by line."
+        )
+    missing = sorted(set(NODES) - {one.executable for one in setup.entry_points})
+    if not missing:
+        return ""
+    after = None
+    if not (setup.entry_points or setup.incomplete):
+        after = with_entry_points(root / path, _SCRIPTS)
+    if after is None:
+        raise InTheWay(
+            f"I see no entry point for {_listed(missing)} in {path}. "
+            "The file is yours, so it stays as it is; page 05 shows the line."
+        )
+    save_bytes(path, after, root)
+    return "the entry points in setup.py (page 05)"
+
+
+def build(root: Path) -> str:
+    """Build the package, as page 06 does, if it never was built with both nodes."""
+    installed = read_package(root / "src" / PACKAGE, root).installed
+    if installed and set(NODES) <= set(installed.executables):
+        return ""
+    print("Building the package with colcon; this takes some seconds ...", flush=True)
+    command = ("colcon", "build", "--packages-select", PACKAGE)
+    code, output = run_command(command, root, _BUILDING)
+    if code:
+        raise InTheWay(
+            f"`colcon build` did not work: {_last_line(output)}. "
+            "Run it in a terminal to see everything that it says."
+        )
+    return "the build (page 06)"
+
+
+def _last_line(output: str) -> str:
+    """Return the last line that names an error, or else the last line."""
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    errors = [line for line in lines if "rror" in line and len(line) < 300]
+    return next(reversed(errors or lines), "it said nothing").rstrip(".")
+
+
+def _listed(names: list[str]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+#: The page that makes something, and the stage that makes it, in order.
+STAGES: tuple[tuple[str, Callable[[Path], str]], ...] = (
+    ("01", folders),
+    ("02", package),
+    ("03", node(NODES[0], "03")),
+    ("04", node(NODES[1], "04")),
+    ("05", entry_points),
+    ("06", build),
+)
+
+
+# Programs of the course.
+
+
+def run_command(command: Sequence[str], folder: Path, seconds: float) -> tuple[int, str]:
+    """Run a program of the course and wait for it.
+
+    Args:
+        command: Its name, `ros2` or `colcon`, and its arguments.
+        folder: Where it runs.
+        seconds: How long it may take.
+
+    Returns:
+        Its exit code, and everything that it wrote.
+
+    Raises:
+        WorkspaceError: If it is not installed, or takes longer.
+    """
+    place = Path(sys.prefix) / "bin" / command[0]
+    try:
+        done = subprocess.run(
+            [str(place), *command[1:]], cwd=folder, env=program_environment(), timeout=seconds,
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+    except FileNotFoundError:
+        raise _not_installed(command[0]) from None
+    except subprocess.TimeoutExpired:
+        raise _too_slow(command, seconds) from None
+    return done.returncode, done.stdout.decode("utf-8", "replace")
+
+
+def _not_installed(program: str) -> WorkspaceError:
+    return WorkspaceError(
+        f"The program {program} is not installed beside this Python.",
+        "It makes or builds packages, and this page needs one.",
+        "Start the course with `./environment/course lab`; it installs what is missing.",
+    )
+
+
+def _too_slow(command: Sequence[str], seconds: float) -> WorkspaceError:
+    return WorkspaceError(
+        f"`{' '.join(command)}` was not done after {seconds:g} seconds and has been stopped.",
+        "The computer is very busy, or the program waits for something.",
+        "Run the cell again when the computer is less busy.",
+    )

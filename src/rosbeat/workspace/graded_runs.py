@@ -24,7 +24,7 @@ VARIABLE = "NBGRADER_EXECUTION"
 
 
 def execution() -> str:
-    """Why nbgrader runs this page: `autograde` or `validate`; empty if it does not."""
+    """Return why nbgrader runs this page, `autograde` or `validate`; empty if it does not."""
     return os.environ.get(VARIABLE, "")
 
 

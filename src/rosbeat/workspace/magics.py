@@ -2,13 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Any
+import argparse
+import re
+import shlex
+from dataclasses import dataclass
+from typing import Any, NoReturn
 
 from IPython.core.error import UsageError
 from IPython.core.magic import no_var_expand
 
-from rosbeat.workspace.terminals.options import Options, parse
 from rosbeat.workspace.terminals.registry import Terminals, terminals_of
+
+_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]*")
+_USAGE = """\
+%%terminal NAME [--until TEXT [--lines N]] [--for SECONDS] [--timeout SECONDS] [--answer]
+    types the cell into the terminal NAME
+%terminal NAME [--until TEXT [--lines N]] [--for SECONDS] [--timeout SECONDS]
+    shows what came since the last look
+%terminal NAME --ctrl-c | --ctrl-d | --kill [--timeout SECONDS]
+    presses a key, or ends what runs
+%terminal NAME --close
+    ends the terminal
+%terminal
+    lists the terminals"""
 
 
 def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
@@ -39,7 +55,7 @@ def run(shell: Any, line: str, cell: str | None) -> None:  # noqa: ANN401
         TerminalError: If the terminal cannot do it.
         KeyboardInterrupt: If the cell is interrupted.
     """
-    options = parse(line, cell is not None)
+    options = _parse(line, cell is not None)
     terminals = terminals_of(shell)
     if cell is not None:
         _type(terminals, options, cell)
@@ -49,7 +65,7 @@ def run(shell: Any, line: str, cell: str | None) -> None:  # noqa: ANN401
         _list(terminals)
 
 
-def _type(terminals: Terminals, options: Options, cell: str) -> None:
+def _type(terminals: Terminals, options: _Options, cell: str) -> None:
     if not cell.strip():
         raise UsageError("There is nothing to type: write the commands below `%%terminal NAME`.")
     terminal = terminals.get(options.name)
@@ -57,7 +73,7 @@ def _type(terminals: Terminals, options: Options, cell: str) -> None:
     act(cell, **options.watching())  # type: ignore[arg-type] # the names fit
 
 
-def _look(terminals: Terminals, options: Options) -> None:
+def _look(terminals: Terminals, options: _Options) -> None:
     terminal = terminals.find(options.name)
     if terminal is None:
         raise UsageError(
@@ -82,3 +98,149 @@ def _list(terminals: Terminals) -> None:
         print(f"{one.name:<{width}}  {one.state}")
     if not rows:
         print("No terminal is open. `%%terminal NAME` with commands below it opens one.")
+
+
+# Options.
+
+
+@dataclass(frozen=True)
+class _Options:
+    """Hold what was asked for.
+
+    Attributes:
+        name: The terminal; empty to list all of them.
+        until: The text to watch for.
+        lines: In how many lines it has to come.
+        seconds: How long to watch.
+        timeout: Seconds after which to give up.
+        action: `answer`, `ctrl_c`, `ctrl_d`, `kill`, `close` or nothing.
+    """
+
+    name: str
+    until: str | None
+    lines: int
+    seconds: float | None
+    timeout: float | None
+    action: str
+
+    def watching(self) -> dict[str, object]:
+        """Return the keyword arguments of `Terminal.type` and its relatives."""
+        return {
+            "until": self.until,
+            "lines": self.lines,
+            "seconds": self.seconds,
+            "timeout": self.timeout,
+        }
+
+    def ending(self) -> dict[str, float]:
+        """Return the keyword arguments of `Terminal.ctrl_c` and its relatives."""
+        return {} if self.timeout is None else {"timeout": self.timeout}
+
+
+class _Parser(argparse.ArgumentParser):
+    """Raise errors in the words of the pages, and never end the kernel."""
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{message[:1].upper()}{message[1:]}.\n{_USAGE}")
+
+
+def _parse(line: str, in_cell: bool) -> _Options:
+    """Return what stands behind the magic's name.
+
+    Args:
+        line: The text.
+        in_cell: Whether it is `%%terminal`.
+
+    Raises:
+        UsageError: If it cannot be understood; the text says what can.
+    """
+    given, unknown = _parser().parse_known_args(_words(line))
+    if unknown:
+        raise _unknown(unknown[0])
+    action = given.action or ""
+    _require_sense(given, action, in_cell)
+    return _Options(given.name, given.until, given.lines, given.seconds, given.timeout, action)
+
+
+def _words(line: str) -> list[str]:
+    try:
+        return shlex.split(line)
+    except ValueError:
+        raise UsageError(f"A quote is not closed: {line.strip()}\n{_USAGE}") from None
+
+
+def _parser() -> _Parser:
+    parser = _Parser(add_help=False, allow_abbrev=False, prog="terminal")
+    parser.add_argument("name", nargs="?", default="")
+    parser.add_argument("--until")
+    parser.add_argument("--lines", type=_count, default=1)
+    parser.add_argument("--for", dest="seconds", type=_seconds)
+    parser.add_argument("--timeout", type=_seconds)
+    actions = parser.add_mutually_exclusive_group()
+    for action in ("answer", "ctrl-c", "ctrl-d", "kill", "close"):
+        value = action.replace("-", "_")
+        actions.add_argument(f"--{action}", dest="action", action="store_const", const=value)
+    return parser
+
+
+def _count(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"`{text}` is not a number of lines, such as 3")
+    return int(text)
+
+
+def _seconds(text: str) -> float:
+    try:
+        seconds = float(text.removesuffix("s"))
+    except ValueError:
+        seconds = -1.0
+    if not 0 <= seconds < float("inf"):
+        raise argparse.ArgumentTypeError(f"`{text}` is not a number of seconds, such as 2.5")
+    return seconds
+
+
+def _unknown(word: str) -> UsageError:
+    if word.startswith("-"):
+        return UsageError(f"There is no option `{word}`. These exist:\n{_USAGE}")
+    return UsageError(
+        f"One name is enough, and `{word}` is too much. A text with spaces needs quotes.\n{_USAGE}"
+    )
+
+
+def _require_sense(given: argparse.Namespace, action: str, in_cell: bool) -> None:
+    """Refuse what does not go together.
+
+    Raises:
+        UsageError: Then.
+    """
+    if not given.name and (in_cell or action or given.until or given.seconds is not None):
+        raise UsageError(f"Which terminal? Give it a name: `terminal sensor`.\n{_USAGE}")
+    if given.name and not _NAME.fullmatch(given.name):
+        raise UsageError(f"`{given.name}` is no name: use letters, digits, `-` and `_`.")
+    if in_cell and action not in ("", "answer"):
+        option = action.replace("_", "-")
+        raise UsageError(f"`--{option}` belongs into a line: `%terminal {given.name} --{option}`.")
+    if not in_cell and action == "answer":
+        raise UsageError("`--answer` types the cell below it: it needs `%%terminal`.")
+    _require_one_purpose(given, action)
+    if given.until == "":
+        raise UsageError("`--until` needs a text to wait for.")
+    if given.lines > 1 and given.until is None:
+        raise UsageError("`--lines` counts lines with a text: it needs `--until TEXT`.")
+
+
+def _require_one_purpose(given: argparse.Namespace, action: str) -> None:
+    """Refuse to watch a program in the same line in which it is ended.
+
+    Raises:
+        UsageError: Then.
+    """
+    if action in ("", "answer"):
+        return
+    useless = {"until": given.until, "for": given.seconds}
+    if action == "close":
+        useless["timeout"] = given.timeout
+    for option, value in useless.items():
+        if value is not None:
+            word = action.replace("_", "-")
+            raise UsageError(f"`--{option}` does not go with `--{word}`.\n{_USAGE}")

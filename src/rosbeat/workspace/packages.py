@@ -1,69 +1,40 @@
-"""A package as it lies in the workspace: looked at, and never run."""
+"""Read the packages of a workspace from their files.
+
+`setup.py` is read by `rosbeat.workspace.setup_script`, `package.xml` without its entities, and what
+is installed through the files that colcon made.
+"""
 
 from __future__ import annotations
 
+import ast
 import configparser
-from dataclasses import dataclass, replace
+import os
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
+from typing import NoReturn
+from xml.etree import ElementTree
+from xml.parsers import expat
 
-from rosbeat.workspace.installed import Installed, read_installed
-from rosbeat.workspace.manifest import Manifest, read_manifest
-from rosbeat.workspace.setup_script import SetupScript, entry_points_in, read_setup
-from rosbeat.workspace.targets import Flaw, flaw_of, top_level_names
+from rosbeat.diagnosis.packages import Installed, Manifest, Package, SetupScript, flaw_of, parse
+from rosbeat.diagnosis.situation import StaleBuild
+from rosbeat.workspace.place import VARIABLE, workspace
+from rosbeat.workspace.setup_script import entry_points_in, read_setup
 
+__all__ = ["Package", "find_packages", "parse_manifest", "read_package", "stale_builds"]
 
-@dataclass(frozen=True)
-class Package:
-    """A ROS package in a workspace.
-
-    Attributes:
-        folder: Where it lies.
-        name: What its manifest calls it, or else its folder.
-        manifest: Its `package.xml`.
-        setup: Its `setup.py`.
-        scripts_folder: Where `setup.cfg` installs executables, or empty.
-        has_marker: Whether `resource/<name>` is there.
-        has_init: Whether `<name>/__init__.py` is there.
-        tests: The files of its test folder, sorted.
-        modules: The modules of its Python package, without `__init__`, sorted.
-        flaws: What is wrong with its entry points and the modules that they name.
-        installed: What `colcon build` made of it, or None.
-    """
-
-    folder: Path
-    name: str
-    manifest: Manifest
-    setup: SetupScript
-    scripts_folder: str
-    has_marker: bool
-    has_init: bool
-    tests: tuple[str, ...]
-    modules: tuple[str, ...]
-    flaws: tuple[Flaw, ...]
-    installed: Installed | None
-
-    @property
-    def scripts_are_found(self) -> bool:
-        """Whether `setup.cfg` installs executables where `ros2 run` looks for them."""
-        return self.scripts_folder == f"$base/lib/{self.name}"
-
-    def module_with_syntax_error(self) -> tuple[str, int] | None:
-        """Return the first module that Python cannot read and the line, or None."""
-        for module in self.modules:
-            line = top_level_names(self.folder / self.name / f"{module}.py")[1]
-            if line:
-                return module, line
-        return None
+_LARGEST = 1_000_000
+_DEPENDS = ("depend", "exec_depend", "build_depend", "build_export_depend")
 
 
 def read_package(folder: Path, root: Path) -> Package:
-    """Look at a package.
+    """Return what the files of a package say.
 
     Args:
-        folder: Where it lies; what is absent there is absent in the result.
+        folder: The folder of the package; a file that is absent is absent in the result.
         root: The workspace that it is built in.
     """
-    manifest = read_manifest(folder / "package.xml")
+    manifest = _read_manifest(folder / "package.xml")
     configured = _read_configuration(folder / "setup.cfg")
     setup = read_setup(folder / "setup.py")
     setup = _with_configured(setup, configured)
@@ -77,7 +48,7 @@ def read_package(folder: Path, root: Path) -> Package:
         tests=tuple(sorted(one.name for one in (folder / "test").glob("*.py"))),
         modules=_modules(folder / name),
         flaws=tuple(flaw for flaw in flaws if flaw),
-        installed=read_installed(name, folder, root),
+        installed=_read_installed(name, folder, root),
     )  # fmt: skip
 
 
@@ -114,7 +85,7 @@ def _modules(folder: Path) -> tuple[str, ...]:
 
 
 def _read_configuration(path: Path) -> configparser.ConfigParser:
-    """A `setup.cfg`; one that is absent or cannot be read is empty."""
+    """Return a `setup.cfg`; one that is absent or cannot be read is empty."""
     parser = configparser.ConfigParser(interpolation=None)
     try:
         parser.read(path, encoding="utf-8")
@@ -135,7 +106,7 @@ def _with_configured(setup: SetupScript, parser: configparser.ConfigParser) -> S
     if setup.groups or setup.incomplete or not parser.has_section(section):
         return setup
     lines = parser.get(section, "console_scripts", fallback="")
-    entries = tuple(entry_points_in(lines, 1, "setup.cfg"))
+    entries = entry_points_in(lines, "setup.cfg")
     return replace(setup, entry_points=entries, groups=tuple(sorted(parser[section])))
 
 
@@ -143,3 +114,138 @@ def _scripts_folder(parser: configparser.ConfigParser) -> str:
     # Older files have a dash in the name.
     dashed = parser.get("install", "install-scripts", fallback="")
     return parser.get("install", "install_scripts", fallback=dashed).strip()
+
+
+# The manifest.
+
+
+def _read_manifest(path: Path) -> Manifest:
+    try:
+        return parse_manifest(path.read_bytes())
+    except OSError as error:
+        return Manifest(problem=error.strerror or "it cannot be read")
+
+
+def parse_manifest(data: bytes) -> Manifest:
+    """Read the bytes of a manifest; bad ones give a `problem` and nothing else.
+
+    Args:
+        data: What the file holds.
+    """
+    if len(data) > _LARGEST:
+        return Manifest(problem="it is larger than any package.xml")
+    try:
+        _refuse_definitions(data)
+        root = ElementTree.fromstring(data)
+    except (expat.ExpatError, ElementTree.ParseError, ValueError, LookupError) as error:
+        return Manifest(problem=str(error))
+    return _manifest(root)
+
+
+def _manifest(root: ElementTree.Element) -> Manifest:
+    maintainer = root.find("maintainer")
+    return Manifest(
+        name=_text(root, "name"),
+        version=_text(root, "version"),
+        description=_text(root, "description"),
+        license=", ".join(_texts(root, "license")),
+        maintainer=_text(root, "maintainer"),
+        email=maintainer.get("email", "") if maintainer is not None else "",
+        build_type=_text(root, "export/build_type"),
+        depends=tuple(dict.fromkeys(one for tag in _DEPENDS for one in _texts(root, tag))),
+        format=root.get("format", ""),
+        tags=tuple(dict.fromkeys(one.tag for one in root)),
+    )
+
+
+def _texts(root: ElementTree.Element, path: str) -> list[str]:
+    return ["".join(one.itertext()).strip() for one in root.findall(path)]
+
+
+def _text(root: ElementTree.Element, path: str) -> str:
+    return next(iter(_texts(root, path)), "")
+
+
+def _refuse_definitions(data: bytes) -> None:
+    """Refuse a document type: its entities can make a short file fill the memory."""
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = _refuse
+    parser.Parse(data, True)
+
+
+def _refuse(*_: object) -> NoReturn:
+    raise ValueError("it holds a document type (<!DOCTYPE ...>), which no package.xml needs")
+
+
+# The build.
+
+
+def _read_installed(name: str, source: Path, root: Path) -> Installed | None:
+    """Return what `colcon build` has installed of a package, or None if it never was built."""
+    for prefix in (root / "install" / name, root / "install"):
+        if (prefix / "share" / name / "package.xml").exists():
+            libraries = sorted(prefix.glob("lib/python3*/site-packages"))
+            linked = any(_links(library, name) for library in libraries)
+            changed = () if linked else _changed(name, source, libraries)
+            return Installed(prefix, _executables(prefix / "lib" / name), linked, changed)
+    return None
+
+
+def _executables(folder: Path) -> tuple[str, ...]:
+    files = folder.iterdir() if folder.is_dir() else ()
+    return tuple(sorted(one.name for one in files if one.is_file() and os.access(one, os.X_OK)))
+
+
+def _links(library: Path, name: str) -> bool:
+    """Return whether a package is installed as a link: setuptools writes an `.egg-link`."""
+    names = {name, name.replace("_", "-")}
+    return any((library / f"{one}.egg-link").exists() for one in names)
+
+
+def _changed(name: str, source: Path, libraries: list[Path]) -> tuple[str, ...]:
+    modules = sorted((source / name).rglob("*.py"))
+    places = {module: module.relative_to(source) for module in modules}
+    return tuple(
+        place.as_posix()
+        for module, place in places.items()
+        if not any(_same(module, library / place) for library in libraries)
+    )
+
+
+def _same(one: Path, other: Path) -> bool:
+    try:
+        return one.read_bytes() == other.read_bytes()
+    except OSError:
+        return False
+
+
+def stale_builds(topic: str, root: Path | None = None) -> tuple[StaleBuild, ...]:
+    """Return the programs that name a topic and differ from what `ros2 run` would start.
+
+    Args:
+        topic: The topic's full name.
+        root: The workspace, by default the one that the terminal knows, or else the learner's.
+    """
+    place = root or Path(os.environ.get(VARIABLE) or workspace())
+    folders = find_packages(place) if place.is_dir() else []
+    return tuple(one for folder in folders for one in _of(read_package(folder, place), topic))
+
+
+def _of(package: Package, topic: str) -> Iterator[StaleBuild]:
+    for entry in package.setup.entry_points:
+        module = entry.module.replace(".", "/") + ".py"
+        installed = package.installed
+        if installed and module not in installed.changed:
+            continue
+        if topic.strip("/") in _strings(package.folder / module):
+            yield StaleBuild(package.name, entry.executable, module, installed is not None)
+
+
+def _strings(path: Path) -> set[str]:
+    """Return every string in a file of Python, without slashes around it."""
+    try:
+        tree = parse(path.read_bytes())
+    except (OSError, SyntaxError, ValueError):
+        return set()
+    found = (node.value for node in ast.walk(tree) if isinstance(node, ast.Constant))
+    return {text.strip("/") for text in found if isinstance(text, str)}

@@ -1,7 +1,11 @@
-"""Text becomes a file of the workspace: whole or not at all, and never at the cost of another."""
+"""Save text as a file of the workspace: whole or not at all, and never at the cost of another.
+
+A version with other content is copied to `kept/` before it is replaced.
+"""
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 import stat
@@ -12,15 +16,40 @@ from pathlib import Path, PurePosixPath
 from uuid import uuid4
 
 from rosbeat.errors import WorkspaceError
-from rosbeat.workspace.keeping import keep
-from rosbeat.workspace.locating import locate
-from rosbeat.workspace.place import workspace
-from rosbeat.workspace.troubles import trouble
+from rosbeat.workspace.place import NAME, workspace
+
+#: The folder of a workspace that holds copies of replaced files.
+KEPT = "kept"
+#: Folders that colcon or the course write themselves.
+RESERVED = ("build", "install", "log", KEPT)
+_NOT_A_PACKAGE = "COLCON_IGNORE"
+_EXAMPLE = "src/sensor_simulator/sensor_simulator/temperature_publisher.py"
+_SPACE = (
+    "The disk is full, or your share of it is.",
+    "Make room (empty the trash, remove downloads) and run the cell again. Nothing was changed.",
+)
+_MAY_NOT = (
+    "You may not write there: the file or its folder is read-only.",
+    "Give yourself the right with `chmod u+w` on it, or save under another name.",
+)
+_FILE_FOLDER = (
+    "A file is in the way where a folder has to be, or the other way round.",
+    "Rename what is in the way, then run the cell again.",
+)
+_MEANINGS = {
+    **dict.fromkeys((errno.ENOSPC, errno.EDQUOT), _SPACE),
+    **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), _MAY_NOT),
+    **dict.fromkeys((errno.ENOTDIR, errno.EISDIR, errno.EEXIST), _FILE_FOLDER),
+    errno.ENAMETOOLONG: (
+        "The name is longer than this file system allows.",
+        "Choose a shorter name.",
+    ),
+}
 
 
 @dataclass(frozen=True)
 class Saved:
-    """What was saved.
+    """Hold what was saved.
 
     Attributes:
         path: The file, relative to the workspace.
@@ -38,7 +67,7 @@ class Saved:
 
 
 def save(path: str, text: str, root: Path | None = None) -> Saved:
-    """Write a file of the workspace; a version with another content is copied aside first.
+    """Write a file of the workspace; a version with other content is copied to `kept/` first.
 
     Args:
         path: The file, relative to the workspace. Missing folders are made.
@@ -127,7 +156,7 @@ def _replace(relative: PurePosixPath, target: Path, content: bytes, base: Path) 
 
 
 def _mode_of(relative: PurePosixPath, target: Path) -> int:
-    """The rights of a file that may be replaced."""
+    """Return the permissions of a file that may be replaced."""
     if not target.is_file():
         raise WorkspaceError(
             f"{relative} cannot be saved: there is a folder of that name, or a device.",
@@ -165,3 +194,166 @@ def write(target: Path, content: bytes, mode: int | None = None) -> None:
     except BaseException:
         beside.unlink(missing_ok=True)
         raise
+
+
+def keep(relative: PurePosixPath, content: bytes, root: Path) -> PurePosixPath:
+    """Copy content to `kept/`, unless a copy of this file has it already.
+
+    A copy is named `setup.py-1`: with such an ending neither Python, pytest nor colcon takes it for
+    code, wherever they are started.
+
+    Args:
+        relative: The file, relative to the workspace.
+        content: What it holds now.
+        root: The workspace.
+
+    Returns:
+        The copy, relative to the workspace.
+
+    Raises:
+        OSError: If it cannot be written; then nothing was changed.
+    """
+    folder = root / KEPT / relative.parent
+    folder.mkdir(parents=True, exist_ok=True)
+    (root / KEPT / _NOT_A_PACKAGE).touch()
+    number = 1
+    while True:
+        copy = folder / f"{relative.name}-{number}"
+        if _holds(copy, content) or _written(copy, content):
+            return PurePosixPath(copy.relative_to(root))
+        number += 1
+
+
+def _holds(copy: Path, content: bytes) -> bool:
+    return copy.is_file() and copy.read_bytes() == content
+
+
+def _written(copy: Path, content: bytes) -> bool:
+    """Make the copy; return False if another one has the name."""
+    try:
+        number = os.open(copy, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+    except FileExistsError:
+        return False
+    try:
+        with os.fdopen(number, "wb") as file:
+            file.write(content)
+    except BaseException:
+        copy.unlink()
+        raise
+    return True
+
+
+# From the path that was typed to a file of the workspace.
+
+
+def locate(typed: str, root: Path | None = None) -> tuple[PurePosixPath, Path]:
+    """Return the file that a path relative to the workspace means.
+
+    Args:
+        typed: The path as typed, with `/` between its parts.
+        root: The workspace, by default the learner's.
+
+    Returns:
+        The tidy relative path, and the real file: links inside the workspace are followed.
+
+    Raises:
+        WorkspaceError: If the path is none, leaves the workspace, or belongs to colcon.
+    """
+    relative = _relative(typed)
+    base = (root or workspace()).resolve()
+    target = _real(base, relative)
+    if not target.is_relative_to(base) or target == base:
+        raise _outside(typed)
+    _refuse_reserved(relative, target.relative_to(base).parts[0])
+    return relative, target
+
+
+def _refuse_reserved(relative: PurePosixPath, real: str) -> None:
+    """Refuse a folder that is not the learner's, also behind a link of another name."""
+    for first in (relative.parts[0], real):
+        if first in RESERVED:
+            raise WorkspaceError(
+                f"{relative} cannot be saved: {first} is not for files of yours.",
+                "colcon and this course write build, install, log and kept themselves.",
+                "Save into src, docs, scripts or resources.",
+            )
+
+
+def _relative(typed: str) -> PurePosixPath:
+    text = typed.strip().strip("'\"")
+    if not text or "\0" in text:
+        raise WorkspaceError(
+            "There is no path to save to.",
+            "The path says which file of your workspace the text becomes.",
+            f"Write it behind the command:  %%save {_EXAMPLE}",
+        )
+    _refuse_more_than_a_path(text)
+    path = PurePosixPath(text)
+    if path.is_absolute() or text.startswith("~") or ".." in path.parts:
+        raise _outside(typed)
+    if not path.parts or text.endswith("/"):
+        raise WorkspaceError(
+            f"{text} names a folder, not a file.",
+            "What is saved becomes one file.",
+            f"Put the file's name at the end, as in {_EXAMPLE}",
+        )
+    if path.parts[0] == NAME:
+        raise WorkspaceError(
+            f"{text} begins with the workspace itself.",
+            f"Paths count from inside the workspace, so this would be {NAME} in {NAME}.",
+            f"Leave the first part out:  {'/'.join(path.parts[1:]) or _EXAMPLE}",
+        )
+    return path
+
+
+def _refuse_more_than_a_path(text: str) -> None:
+    path, mark, _ = text.partition(" #")
+    if mark:
+        raise WorkspaceError(
+            f"{text} is more than a path.",
+            "All of that line would be the file's name, also what looks like a comment.",
+            f"Leave the comment out:  {path.rstrip()}",
+        )
+    if "\\" in text:
+        raise WorkspaceError(
+            f"{text} has a `\\` in it.",
+            "ROS 2 runs on Linux here, and there `/` stands between the parts of a path.",
+            f"Write  {text.replace(chr(92), '/')}",
+        )
+
+
+def _real(base: Path, relative: PurePosixPath) -> Path:
+    try:
+        return (base / relative).resolve()
+    except (OSError, RuntimeError):  # links that lead in a circle
+        raise WorkspaceError(
+            f"{relative} leads nowhere.",
+            "A symbolic link on this path points back to itself.",
+            "Remove that link, or save under another name.",
+        ) from None
+
+
+def _outside(typed: str) -> WorkspaceError:
+    return WorkspaceError(
+        f"{typed.strip()} is not a path inside your workspace.",
+        f"Files are saved in {NAME} only, so that nothing else can be overwritten by mistake.",
+        f"Write a path that starts inside the workspace, as in {_EXAMPLE}",
+    )
+
+
+# Errors of the operating system.
+
+
+def trouble(doing: str, error: OSError) -> WorkspaceError:
+    """Return an error for a person, from one of the operating system.
+
+    Args:
+        doing: What was not done, as in `src/a.py cannot be saved`.
+        error: What the system said.
+    """
+    code = error.errno or 0
+    reason = os.strerror(code) if code else str(error)
+    means, to_try = _MEANINGS.get(
+        code, ("The operating system refused.", "Mend the cause, then run the cell again.")
+    )
+    return WorkspaceError(f"{doing}: {reason}.", means, to_try)

@@ -1,25 +1,30 @@
-"""`%%save PATH`: a cell becomes a file of the workspace, and a module runs on the page as well."""
+"""`%%save PATH`: save a cell as a file of the workspace, and run it on the page if a module."""
 
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
+from types import CodeType, TracebackType
 from typing import Any
 
 from IPython.core.magic import no_var_expand
 
+from rosbeat.diagnosis.packages import nearest, parse
 from rosbeat.errors import WorkspaceError
-from rosbeat.workspace.catching_up import catch_up
-from rosbeat.workspace.locating import locate, nearest
-from rosbeat.workspace.misplaced import refuse_other_place
-from rosbeat.workspace.modules import blank_line, module_name, refuse_magics
+from rosbeat.workspace.catching_up import PACKAGE, catch_up
 from rosbeat.workspace.place import workspace
-from rosbeat.workspace.running import run_as_module
-from rosbeat.workspace.saving import save
-from rosbeat.workspace.stages import PACKAGE
+from rosbeat.workspace.saving import locate, save
 
-#: The first page on which the package is expected to be there.
+# The first page on which the package is expected to exist.
 _PAGE_AFTER_PACKAGE = "03"
+# Files of Python that lie beside the folder with the modules.
+_BESIDE = ("setup.py", "conftest.py")
+_BLANK = re.compile(r"(?<!\w)_{4,}(?!\w)")
+_MAGIC = re.compile(r"^\s*(%%?\w|!|\?)|\?\s*$|^\s*\w+\s*=\s*[%!]")
+_ABSENT = object()
 
 
 def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
@@ -115,3 +120,223 @@ def _no_such_package(package: str, root: Path) -> WorkspaceError:
         "A file in src belongs to a package: a folder with a package.xml.",
         f"Did you mean {meant}?" if meant else "Make it with `ros2 pkg create` first.",
     )
+
+
+# Where the file belongs.
+
+
+def refuse_other_place(relative: PurePosixPath, root: Path) -> None:
+    """Refuse a path that leads beside a package instead of into it.
+
+    Args:
+        relative: The file, relative to the workspace.
+        root: The workspace.
+
+    Raises:
+        WorkspaceError: If a folder is left out. It names the path that was meant.
+    """
+    meant = _meant(relative, root)
+    if meant and not (root / relative).exists():
+        raise WorkspaceError(
+            f"{relative} is not saved: that is not where a package has its files.",
+            "Packages lie in src, and the modules of one in a second folder of the same name.",
+            f"Did you mean {meant}?",
+        )
+
+
+def _meant(relative: PurePosixPath, root: Path) -> PurePosixPath | None:
+    parts = relative.parts
+    if parts[0] == "src":
+        return _inner(parts[1:], root)
+    known = parts[0] == PACKAGE or (root / "src" / parts[0] / "package.xml").is_file()
+    if len(parts) < 2 or not known or (root / parts[0]).exists():
+        return None
+    return _inner(parts, root) or PurePosixPath("src", *parts)
+
+
+def _inner(parts: tuple[str, ...], root: Path) -> PurePosixPath | None:
+    """Return where a module belongs that was put beside the folder with the modules."""
+    if len(parts) != 2 or not parts[1].endswith(".py") or parts[1] in _BESIDE:
+        return None
+    package = parts[0]
+    if package != PACKAGE and not (root / "src" / package / package).is_dir():
+        return None
+    return PurePosixPath("src", package, package, parts[1])
+
+
+# What is in the cell.
+
+
+def module_name(relative: PurePosixPath, root: Path) -> str | None:
+    """Return the name under which nodes import a file, or None if it is no module of a package.
+
+    Args:
+        relative: The file, relative to the workspace.
+        root: The workspace.
+    """
+    package = next(
+        (one for one in relative.parents if (root / one / "package.xml").is_file()), None
+    )
+    if package is None or relative.suffix != ".py":
+        return None
+    inside = relative.relative_to(package).with_suffix("")
+    folders = inside.parts[:-1]
+    if not folders or not all(part.isidentifier() for part in inside.parts):
+        return None
+    if folders[0] != package.name and not _all_packages(root / package, folders):
+        return None
+    return ".".join(folders if inside.name == "__init__" else inside.parts)
+
+
+def _all_packages(start: Path, folders: tuple[str, ...]) -> bool:
+    places = [start.joinpath(*folders[: depth + 1]) for depth in range(len(folders))]
+    return all((place / "__init__.py").is_file() for place in places)
+
+
+def blank_line(text: str) -> int:
+    """Return the number of the first line that holds a blank `____`, or 0 if there is none."""
+    found = _BLANK.search(text)
+    return text.count("\n", 0, found.start()) + 1 if found else 0
+
+
+def is_python(text: str) -> bool:
+    """Return whether a text can be read as Python."""
+    try:
+        parse(text)
+    except (SyntaxError, ValueError):
+        return False
+    return True
+
+
+def refuse_magics(text: str, transform: Callable[[str], str]) -> None:
+    """Refuse a text that only IPython understands.
+
+    Args:
+        text: What is to become a file.
+        transform: What IPython makes of a cell before Python reads it.
+
+    Raises:
+        WorkspaceError: If a line is a command of the notebook.
+    """
+    if is_python(text) or not is_python(transform(text)):
+        return
+    lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)
+             if _MAGIC.search(line) and not is_python(line.strip())]  # fmt: skip
+    if lines:
+        number, line = lines[0]
+        raise WorkspaceError(
+            f"Nothing was saved: line {number} of the file would be `{line}`.",
+            "Lines with % or ! or ? are commands of the notebook, and Python on a robot has none.",
+            "Put that line into a cell of its own.",
+        )
+
+
+# Running a module's text on the page, without its `main`.
+
+
+def run_as_module(shell: Any, text: str, name: str, path: Path, first_line: str) -> None:  # noqa: ANN401
+    """Run a module's text in the namespace of the page.
+
+    While it runs, `__name__` is the module's name, so `if __name__ == "__main__":` is not met.
+
+    Args:
+        shell: The IPython shell of the page.
+        text: The module's text.
+        name: The module's name.
+        path: The module's file.
+        first_line: The line of the cell before the text, so that the numbers of lines that an error
+            shows are those of the cell.
+
+    Raises:
+        BadSyntax: If it is no Python.
+        BaseException: What the text raises. A page shows it without frames that are not the page's.
+    """
+    source = f"# {first_line}\n{text}"
+    try:
+        code = _compiled(shell, source)
+    except SyntaxError as error:
+        raise _shown(shell, error) from None
+    with _as_module(shell, name, path):
+        try:
+            exec(code, shell.user_ns)
+        except BaseException as error:
+            trace = error.__traceback__
+            _render(shell, error, trace.tb_next if trace else None)
+            raise
+
+
+class BadSyntax(Exception):  # noqa: N818 - it stands for a SyntaxError
+    """Show a `SyntaxError` in the text of a module as IPython shows one in a cell.
+
+    IPython shows a real one that comes from a command with every frame of the command.
+
+    Args:
+        message: What Python says.
+        shown: The lines that a page shows.
+    """
+
+    def __init__(self, message: str, shown: list[str]) -> None:
+        super().__init__(message)
+        self._shown = shown
+
+    def _render_traceback_(self) -> list[str]:
+        return self._shown
+
+
+BadSyntax.__name__ = "SyntaxError"
+
+
+def _shown(shell: Any, error: SyntaxError) -> BadSyntax:  # noqa: ANN401
+    return BadSyntax(str(error), shell.SyntaxTB.structured_traceback(type(error), error, []))
+
+
+def _number_of_cell(shell: Any) -> int:  # noqa: ANN401
+    """Return the number of the running cell; the shell may count the next one by now."""
+    numbers = getattr(shell.compile, "_filename_map", {})
+    frame = sys._getframe()
+    while frame.f_back is not None:
+        frame = frame.f_back
+        if frame.f_code.co_filename in numbers:
+            return int(numbers[frame.f_code.co_filename])
+    return int(shell.execution_count)
+
+
+def _compiled(shell: Any, source: str) -> CodeType:  # noqa: ANN401
+    filename = shell.compile.cache(source, _number_of_cell(shell), raw_code=source)
+    code: CodeType = shell.compile(source, filename, "exec")
+    return code
+
+
+@contextmanager
+def _as_module(shell: Any, name: str, path: Path) -> Iterator[None]:  # noqa: ANN401
+    """Give the page a module's name while a module's text runs on it.
+
+    The page is found under that name too: decorators such as `dataclass` look there.
+    """
+    names, modules = shell.user_ns, sys.modules
+    before = {key: names.get(key, _ABSENT) for key in ("__name__", "__file__")}
+    imported = modules.get(name, _ABSENT)
+    names.update(__name__=name, __file__=str(path))
+    modules[name] = shell.user_module
+    try:
+        yield
+    finally:
+        _put_back(names, before)
+        _put_back(modules, {name: imported})
+
+
+def _put_back(target: dict[str, Any], before: dict[str, Any]) -> None:
+    for key, value in before.items():
+        if value is _ABSENT:
+            target.pop(key, None)
+        else:
+            target[key] = value
+
+
+def _render(shell: Any, error: BaseException, trace: TracebackType | None) -> None:  # noqa: ANN401
+    """Make IPython show an exception from the learner's own first frame on."""
+    if hasattr(error, "_render_traceback_") or isinstance(error, SyntaxError):
+        return
+    shown = shell.InteractiveTB.structured_traceback(type(error), error, trace, tb_offset=0)
+    with suppress(AttributeError, TypeError):  # an exception may refuse attributes
+        error._render_traceback_ = lambda: shown  # type: ignore[attr-defined]

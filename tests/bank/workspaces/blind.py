@@ -3,7 +3,7 @@
 
 from bank.answer import edited
 from bank.workspaces.answer import Answer, right, untried, wrong
-from rosbeat.workspace.stages import finished
+from rosbeat.workspace.catching_up import finished
 
 _DEF = "def entry_point(executable, package, module, function='main'):\n    "
 _SETUP = finished("setup.py")

@@ -2,7 +2,7 @@
 
 from bank.answer import edited
 from bank.workspaces.answer import Answer, right, untried, wrong
-from rosbeat.workspace.stages import finished
+from rosbeat.workspace.catching_up import finished
 
 _SETUP = finished("setup.py")
 _FIRST = "'temperature_publisher = sensor_simulator.temperature_publisher:main'"

@@ -2,7 +2,7 @@
 
 from bank.answer import edited
 from bank.workspaces.answer import Answer, right, untried, wrong
-from rosbeat.workspace.stages import finished
+from rosbeat.workspace.catching_up import finished
 
 _XML = finished("package.xml")
 _DESCRIPTION = "A simulated temperature sensor and a monitor that judges its readings."

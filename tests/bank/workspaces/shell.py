@@ -4,7 +4,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from rosbeat.workspace.commands import surroundings
+from rosbeat.workspace.terminals.environment import program_environment
 
 _RUN = r"""
 for line in "$@"; do
@@ -39,7 +39,12 @@ def typed(lines: str, root: Path, start: str = ".") -> Terminal:
         root: The workspace; the folder that holds it is the home.
         start: Where the bash starts, relative to the workspace.
     """
-    env = {**surroundings(), "HOME": str(root.parent), "ROS2_WORKSPACE": str(root), "LC_ALL": "C"}
+    env = {
+        **program_environment(),
+        "HOME": str(root.parent),
+        "ROS2_WORKSPACE": str(root),
+        "LC_ALL": "C",
+    }
     done = subprocess.run(
         ["bash", "--norc", "-c", _RUN, "bash", *lines.strip("\n").splitlines()],
         cwd=root / start,

@@ -10,7 +10,7 @@ from bank.workspaces.shell import Terminal, typed
 from rosbeat.exercises import page_01
 from rosbeat.exercises.check import check
 from rosbeat.records import Outcome
-from rosbeat.workspace.stages import FOLDERS, NODES, PACKAGE, finished
+from rosbeat.workspace.catching_up import FOLDERS, NODES, PACKAGE, finished
 
 ANSWERS: tuple[Answer, ...] = (
     *folders.ANSWERS,

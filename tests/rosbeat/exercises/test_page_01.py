@@ -4,7 +4,7 @@ import pytest
 
 from rosbeat.exercises.page_01 import _SUSPECTS, EXERCISES, FolderMaking
 from rosbeat.exercises.scenarios import CommandMeaning, TypedIn, Workspace
-from rosbeat.workspace.stages import FOLDERS
+from rosbeat.workspace.catching_up import FOLDERS
 
 folder_01a, way_01b = EXERCISES
 PLACE = "ROS2_and_RL_Tutorials"

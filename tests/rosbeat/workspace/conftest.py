@@ -7,7 +7,7 @@ from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
 from rosbeat.workspace import saving_magic
-from rosbeat.workspace.stages import NODES, PACKAGE, finished
+from rosbeat.workspace.catching_up import NODES, PACKAGE, finished
 
 SETUP_CFG = (
     f"[develop]\nscript_dir=$base/lib/{PACKAGE}\n[install]\ninstall_scripts=$base/lib/{PACKAGE}\n"

@@ -1,11 +1,54 @@
+"""`catch_up` makes what earlier pages leave, and touches nothing that is there."""
+
 import errno
+import shutil
+import sys
 
 import pytest
 
 from rosbeat.errors import WorkspaceError
 from rosbeat.workspace import catch_up, catching_up
+from rosbeat.workspace.catching_up import NODES, PACKAGE, finished
 from rosbeat.workspace.packages import read_package
-from rosbeat.workspace.stages import NODES, PACKAGE, finished
+
+# What `ros2 pkg create` writes.
+EMPTY = """from setuptools import find_packages, setup
+
+package_name = 'sensor_simulator'
+
+setup(
+    name=package_name,
+    version='0.0.0',
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages',
+            ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    zip_safe=True,
+    maintainer='you',
+    maintainer_email='you@todo.todo',
+    description='TODO: Package description',
+    license='TODO: License declaration',
+    tests_require=['pytest'],
+    entry_points={
+        'console_scripts': [
+        ],
+    },
+)
+"""
+
+
+def tree(folder):
+    return {one: one.read_bytes() for one in folder.rglob("*") if one.is_file()}
+
+
+@pytest.fixture
+def furnished(root, package):
+    """The workspace as page 05 finds it."""
+    catch_up("05")
+    return root
 
 
 @pytest.mark.timeout(300)  # a build, while other tests keep the machine busy
@@ -26,27 +69,147 @@ def test_the_whole_course_from_nothing_and_it_can_be_built(root, capsys):
 
 def test_only_what_comes_before_the_page(root):
     assert catch_up("01").made == ()
-    (made,) = catch_up("02").made
-    assert made.endswith("(page 01)")
+    (root / "docs").mkdir()
+    assert catch_up("02").made == ("the folders scripts and resources/images (page 01)",)
     assert list((root / "src").iterdir()) == []
+
+
+def test_the_real_command_makes_the_package(root):
+    assert str(catch_up("03")).endswith(f"the package {PACKAGE} (page 02).")
+    made = read_package(root / "src" / PACKAGE, root)
+    assert made.manifest.build_type == "ament_python"
+    assert {"rclpy", "std_msgs"} <= set(made.manifest.depends)
+    assert "TODO" not in made.manifest.description + made.manifest.license
+    assert made.has_init
+    assert made.has_marker
+    assert made.scripts_are_found
+    assert "test_flake8.py" in made.tests
+    assert "TODO" not in (root / "src" / PACKAGE / "setup.py").read_text()
+    assert [one for one in root.iterdir() if one.name.startswith(".")] == []
+    before = tree(root)
+    assert catch_up("03").made == ()
+    assert tree(root) == before
 
 
 def test_what_is_there_stays(root, package):
     mine = package / PACKAGE / f"{NODES[0]}.py"
     mine.write_text("mine\n")
     (package / PACKAGE / f"{NODES[1]}.py").unlink()
-    report = catch_up("05")
-    assert any(NODES[1] in one for one in report.made)
+    assert f"{PACKAGE}/{NODES[1]}.py (page 04)" in catch_up("05").made
     assert mine.read_text() == "mine\n"
     assert (package / "setup.py").read_text() == finished("setup.py")
 
 
-def test_what_stands_in_the_way_ends_it_and_is_said(root):
-    (root / "src" / PACKAGE).mkdir()
+def cmake(folder):
+    path = folder / "package.xml"
+    path.write_text(path.read_text().replace("ament_python", "ament_cmake"))
+
+
+def nested(folder):
+    shutil.move(folder, folder.parent / "x")
+    folder.mkdir()
+    shutil.move(folder.parent / "x", folder / PACKAGE)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "says"),
+    [
+        (cmake, "--build-type ament_python"),
+        (nested, "second package"),
+        (lambda folder: shutil.move(folder, folder.parents[1]), f"mv {PACKAGE} src/"),
+        (lambda folder: shutil.copytree(folder, folder.parents[1] / "docs/a"), "in docs/a"),
+        (lambda folder: (folder / "package.xml").write_text("<"), "cannot be read"),
+        (lambda folder: (folder / "package.xml").unlink(), "no package.xml"),
+        (lambda folder: [shutil.rmtree(folder), folder.mkdir()], "rmdir"),
+        (lambda folder: [shutil.rmtree(folder), folder.touch()], "is a file"),
+    ],
+)
+def test_what_is_half_made_is_said_and_not_touched(furnished, package, spoil, says):
+    spoil(package)
+    before = tree(furnished)
     report = catch_up("06")
     assert not report.complete
-    assert "rmdir" in repr(report)
-    assert not (root / "src" / PACKAGE / PACKAGE).exists()
+    shown = str(report)
+    assert all(len(line) <= 100 for line in shown.splitlines())
+    assert says in " ".join(shown.split())
+    assert tree(furnished) == before
+
+
+def test_a_command_that_fails_leaves_nothing(root, monkeypatch):
+    monkeypatch.setattr(catching_up, "run_command", lambda *_: (1, "one\nsome error: why\nlast\n"))
+    assert "some error: why" in str(catch_up("03"))
+    assert list((root / "src").iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        EMPTY,
+        "# mine\n" + EMPTY.replace("[\n        ]", "[]"),
+        EMPTY.replace("        ],\n    },", "            # mine\n        ],\n    },"),
+    ],
+)
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_entry_points_go_into_an_empty_list_and_nothing_else_changes(furnished, package, text, end):
+    data = ("# coding: latin-1\n# é\n" + text).replace("\n", end).encode("latin-1")
+    (package / "setup.py").write_bytes(data)
+    assert catch_up("06").made == ("the entry points in setup.py (page 05)",)
+    found = read_package(package, furnished)
+    assert [one.executable for one in found.setup.entry_points] == list(NODES)
+    assert found.flaws == ()
+    assert (furnished / f"kept/src/{PACKAGE}/setup.py-1").read_bytes() == data
+    after = (package / "setup.py").read_bytes()
+    assert after.count(b"\n") == after.count(end.encode())
+    lines = [line for line in after.splitlines(keepends=True) if b"temperature_" in line]
+    assert [len(line) - len(line.lstrip()) for line in lines] == [12, 12]
+    assert b"".join(after.split()) == b"".join(data.split()).replace(
+        b"]," + b"".join(b"},)".split()), b"".join(b"".join(lines).split()) + b"],},)"
+    )
+    assert catch_up("06").made == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (finished("setup.py").replace("temperature_subscriber = ", "monitor = "), "subscriber"),
+        (EMPTY.replace("'console_scripts': [", "'console_scripts': "), "cannot be read"),
+        ("from setuptools import setup\nsetup(name='a')\n", "page 05"),
+        (EMPTY.replace("[\n        ]", "()"), "I see no entry point"),
+        (EMPTY.replace("[\n        ]", "names()"), "I see no entry point"),
+        ("x = 1\n", "it does not call setup()."),
+        (None, "is not there"),
+    ],
+)
+def test_a_setup_py_of_one_s_own_stays(furnished, package, text, says):
+    path = package / "setup.py"
+    path.unlink() if text is None else path.write_text(text)
+    assert says in " ".join(str(catch_up("06")).split())
+    assert (path.read_text() if path.exists() else None) == text
+
+
+def test_what_is_built_is_not_built_again(furnished, installed, monkeypatch):
+    monkeypatch.setattr(catching_up, "run_command", lambda *_: pytest.fail("it was built"))
+    assert catch_up("07").made == ()
+
+
+def test_a_build_that_fails_says_why(furnished, monkeypatch, capsys):
+    output = "Starting\nRuntimeError: boom.\nSummary: 0 packages\n"
+    monkeypatch.setattr(catching_up, "run_command", lambda *_: (1, output))
+    assert "RuntimeError: boom" in str(catch_up("07"))
+    assert "Building" in capsys.readouterr().out
+
+
+def test_another_page_makes_the_package_at_the_same_time(root, monkeypatch):
+    def slow(command, folder, seconds):
+        for place in (folder / PACKAGE, root / "src" / PACKAGE):
+            place.mkdir()
+            for name in ("package.xml", "setup.py"):
+                (place / name).write_text(finished(name))
+        return 0, ""
+
+    monkeypatch.setattr(catching_up, "run_command", slow)
+    assert "another page has just made the package: run the cell" in str(catch_up("03"))
+    assert [one for one in root.iterdir() if one.name.startswith(".")] == []
 
 
 @pytest.mark.parametrize("page", ["05", "5", 5, "05_set_entry_points", "05_set_entry_points.ipynb"])
@@ -75,3 +238,21 @@ def test_a_workspace_that_does_not_exist_yet(tmp_path, monkeypatch):
     monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path / "new"))
     assert catch_up("02").complete
     assert (tmp_path / "new" / "ROS2_and_RL_Tutorials" / "resources" / "images").is_dir()
+
+
+@pytest.mark.parametrize(
+    ("program", "words"), [("exec sleep 100", "0.2 seconds"), ("", "not installed")]
+)
+def test_a_program_that_does_not_end_or_is_not_there(
+    root, says, monkeypatch, tmp_path, program, words
+):
+    folder = tmp_path / "prefix" / "bin"
+    folder.mkdir(parents=True)
+    if program:
+        (folder / "ros2").write_text(f"#!/bin/sh\n{program}\n")
+        (folder / "ros2").chmod(0o755)
+    monkeypatch.setattr(sys, "prefix", str(folder.parent))
+    monkeypatch.setattr(catching_up, "_MAKING", 0.2)
+    with pytest.raises(WorkspaceError) as caught:
+        catch_up("03")
+    says(caught.value, "ros2", words)

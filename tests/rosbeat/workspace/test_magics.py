@@ -1,7 +1,9 @@
-"""`%%terminal` in a real kernel."""
+"""`%%terminal` in a real kernel, and its options."""
 
 import pytest
+from IPython.core.error import UsageError
 
+from rosbeat.workspace import magics
 from torture.kernel import Kernel
 
 
@@ -72,3 +74,51 @@ def test_the_extension_makes_the_magic_known(tmp_path, monkeypatch):
     with Kernel() as kernel:
         assert kernel.run("%load_ext rosbeat").error == ""
         assert kernel.run("%%terminal a\necho hello").text == "~$ echo hello\nhello\n"
+
+
+# Options. A shell without terminals is enough: nothing is started before they are understood.
+
+
+@pytest.mark.parametrize(
+    ("line", "in_cell", "said"),
+    [
+        ("", True, "Which terminal"),
+        ("--ctrl-c", False, "Which terminal"),
+        ("--until x", False, "Which terminal"),
+        ("sensor --untill x", True, "no option `--untill`(.|\n)*--until TEXT"),
+        ("sensor --unt x", True, "no option `--unt`"),
+        ("sensor --help", False, "--until TEXT"),
+        ("sensor monitor", True, "`monitor` is too much"),
+        ("sensor --until", True, "--until: expected one argument"),
+        ("sensor --until ''", True, "needs a text"),
+        ('sensor --until "a', True, "quote is not closed"),
+        ("sensor --lines 2", True, "--until TEXT"),
+        ("sensor --until a --lines none", True, "not a number of lines"),
+        ("sensor --until a --lines 0", True, "not a number of lines"),
+        ("sensor --for long", True, "not a number of seconds"),
+        ("sensor --for -1", True, "."),
+        ("sensor --for inf", True, "not a number of seconds"),
+        ("sensor --for nan", True, "not a number of seconds"),
+        ("sensor --kill --close", False, "not allowed with"),
+        ("sensor --ctrl-c", True, "%terminal sensor --ctrl-c"),
+        ("sensor --close", True, "%terminal sensor --close"),
+        ("sensor --ctrl-c --until x", False, "`--until` does not go with `--ctrl-c`"),
+        ("sensor --kill --for 0", False, "`--for` does not go with `--kill`"),
+        ("sensor --close --timeout 3", False, "`--timeout` does not go with `--close`"),
+        ("sensor --answer", False, "needs `%%terminal`"),
+        ("sen/sor", True, "is no name"),
+        ("../x", False, "is no name"),
+    ],
+)
+def test_what_cannot_be_is_explained(line, in_cell, said):
+    with pytest.raises(UsageError, match=said):
+        magics.run(object(), line, "ls" if in_cell else None)
+
+
+def test_every_way_of_watching_at_once(kernel):
+    cell = '%%terminal sensor --until "Publishing: 2" --lines 2 --timeout 90s\n'
+    loop = "for i in 20 1 21 3; do echo Publishing: $i; done; cat"
+    assert kernel.run(cell + loop).text.endswith("\nPublishing: 21\n")
+    assert kernel.run("%terminal sensor --ctrl-d --timeout 20").text == "^D\n# exit code 0\n"
+    assert kernel.run("%%terminal sensor --for 0.1\ncat").error == ""
+    assert kernel.run("%terminal sensor --kill").text.endswith("# exit code 137\n")

@@ -6,13 +6,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from rosbeat.diagnosis import terminal
 from rosbeat.diagnosis.mistakes import MISTAKES, Diagnosis
-from rosbeat.workspace import catch_up, meanings
-from rosbeat.workspace.commands import run_command
-from rosbeat.workspace.meanings import diagnose_flaw, explain
-from rosbeat.workspace.setup_script import EntryPoint
-from rosbeat.workspace.stages import NODES, PACKAGE, finished
-from rosbeat.workspace.targets import Flaw
+from rosbeat.diagnosis.packages import FLAWS, EntryPoint, Flaw, diagnose_flaw
+from rosbeat.workspace import catch_up
+from rosbeat.workspace.catching_up import NODES, PACKAGE, finished, run_command
+from rosbeat.workspace.meanings import explain, recognise
 
 RUN = f"ros2 run {PACKAGE} temperature_publisher"
 CREATE = f"ros2 pkg create --build-type ament_python {PACKAGE} --dependencies rclpy std_msgs"
@@ -546,7 +545,7 @@ def test_of_a_script_without_ros_nothing_is_said_about_ros(meaning):
 # Whatever there is.
 
 
-@pytest.mark.parametrize("kind", meanings.FLAWS)
+@pytest.mark.parametrize("kind", FLAWS)
 def test_each_flaw_has_words_of_two_sentences(kind):
     entry = EntryPoint("sensor = p.a:main", 26, "sensor", "p.a", "main")
     for right in ("", "right"):
@@ -581,14 +580,39 @@ def test_it_never_raises(root, package, command, output, code):
     assert said is None or said.strip()
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        'cd "$ROS2_WORKSPACE"/src && cd scr',
+        "cd ~/ROS2_and_RL_Tutorials\ncd scr",
+        "A=1 timeout -s INT 5 cd scr",
+        "cd scr 'a b",
+        "cd scr; pwd",
+    ],
+)
+def test_the_command_is_found_wherever_it_is_in_the_line(meaning, root, command):
+    (root / "src" / "src").mkdir()
+    said = meaning(command, f"bash: cd: scr: {NO_FILE}", folder=root.parent)
+    if "~" in command or "$" in command:
+        assert "Did you mean src?" in said
+    else:
+        assert "There is no folder scr" in said
+
+
+def test_a_traceback_belongs_to_a_program_that_ran(meaning):
+    output = traceback("NameError: name 'x' is not defined")
+    assert meaning("cat a.py", output, 0) is None
+    assert meaning("python3 a.py", output)
+
+
 def test_a_file_that_vanishes_meanwhile_is_no_error(root, monkeypatch):
     def vanished(_):
         raise FileNotFoundError
 
     found = Diagnosis("raised", "seen", "try")
-    monkeypatch.setattr(meanings, "_RULES", (vanished, lambda _: found))
+    monkeypatch.setattr(terminal, "_RULES", (vanished, lambda _: found))
     assert explain("", "", 0, root, root) == "seen try"
-    assert meanings.recognise("", "", 0, root, root).mistake == "raised"
+    assert recognise("", "", 0, root, root).mistake == "raised"
 
 
 @pytest.mark.timeout(300)  # two builds, while other tests keep the machine busy

@@ -1,13 +1,47 @@
+"""What is read from the files of a package, and what is wrong with its entry points."""
+
 import shutil
 
-from rosbeat.workspace.packages import find_packages, read_package
-from rosbeat.workspace.stages import NODES, PACKAGE
+import pytest
+
+from bank.workspaces import entries
+from rosbeat.diagnosis.packages import Manifest, SetupScript
+from rosbeat.diagnosis.situation import StaleBuild
+from rosbeat.workspace.catching_up import NODES, PACKAGE, finished
+from rosbeat.workspace.packages import find_packages, parse_manifest, read_package, stale_builds
+
+NAME = f"{PACKAGE}.{NODES[0]}"
+PUBLISHER = f"{PACKAGE}/{NODES[0]}.py"
+HEAD = "from setuptools import setup\npackage_name = 'p'\nsetup(name=package_name, entry_points={\n"
+BOMB = b"""<?xml version="1.0"?>
+<!DOCTYPE a [<!ENTITY x "ha"><!ENTITY y "&x;&x;&x;&x;">]>
+<package format="3"><name>&y;</name></package>"""
+
+
+@pytest.fixture
+def setup_of(root, package):
+    """Write the setup.py of the package, and return what is read."""
+
+    def setup_of(text):
+        data = text if isinstance(text, bytes) else text.encode()
+        (package / "setup.py").write_bytes(data)
+        return read_package(package, root).setup
+
+    return setup_of
+
+
+def scripts(*lines):
+    return HEAD + "'console_scripts': [\n" + "\n".join(lines) + "\n]})\n"
+
+
+def edit(package, text="# more\n"):
+    path = package / PUBLISHER
+    path.write_text(path.read_text() + text)
 
 
 def test_the_finished_one(root, package):
     found = read_package(package, root)
     assert found.name == PACKAGE
-    assert found.manifest.build_type == "ament_python"
     assert found.scripts_are_found
     assert found.has_marker
     assert found.has_init
@@ -15,13 +49,18 @@ def test_the_finished_one(root, package):
     assert found.flaws == ()
     assert found.installed is None
     assert found.module_with_syntax_error() is None
+    assert found.setup.package_name == PACKAGE
+    assert [one.executable for one in found.setup.entry_points] == list(NODES)
+    first = found.setup.entry_points[0]
+    assert (first.module, first.function) == (NAME, "main")
+    assert first.text in finished("setup.py").splitlines()[first.line - 1]
 
 
 def test_an_empty_folder(root):
     found = read_package(root / "src", root)
     assert found.name == "src"
-    assert found.manifest.problem
-    assert found.setup.problem
+    assert "No such file" in found.manifest.problem
+    assert "No such file" in found.setup.problem
     assert [found.has_marker, found.has_init, found.scripts_are_found] == [False] * 3
     assert found.modules == found.tests == found.flaws == ()
 
@@ -48,13 +87,166 @@ def test_packages_are_found_where_colcon_finds_them(root, package):
     assert find_packages(root) == [root / "docs" / "copy", package]
 
 
-def test_entry_points_in_setup_cfg(root, package):
+# The manifest.
+
+
+def test_what_a_manifest_says(root, package):
+    manifest = read_package(package, root).manifest
+    assert (manifest.name, manifest.version) == (PACKAGE, "0.0.0")
+    assert manifest.build_type == "ament_python"
+    assert {"rclpy", "std_msgs"} <= set(manifest.depends)
+    assert manifest.description
+    assert manifest.license
+    assert "@" in manifest.email
+    assert parse_manifest(b"<package><name> a </name></package>") == Manifest("a", tags=("name",))
+
+
+@pytest.mark.parametrize(
+    "data",
+    [BOMB, BOMB.decode().encode("utf-16"), b"", b"<package>", b"\xff\xfe\x00", b"x" * 1_000_001,
+     b'<?xml version="1.0" encoding="no-such"?><a/>'],
+)  # fmt: skip
+def test_a_bad_manifest_has_a_problem_and_nothing_else(data):
+    manifest = parse_manifest(data)
+    assert manifest.problem
+    assert manifest == Manifest(problem=manifest.problem)
+
+
+# The build script.
+
+
+def test_adjacent_strings(setup_of):
+    (joined,) = setup_of(scripts("'a = p.a:main'", "'b = p.b:main',")).entry_points
+    assert joined.joined
+    assert joined.line == 5
+    (one,) = setup_of(scripts("'a = '", "'p.a:main',")).entry_points
+    assert not one.joined  # one text in two parts
+    assert one.module == "p.a"
+    assert not setup_of(scripts("'a = b = c:d'")).entry_points[0].joined
+
+
+def test_a_part_is_absent(setup_of):
+    (one, two) = setup_of(scripts("'a = p.a',", "'b',")).entry_points
+    assert (one.module, one.function) == ("p.a", "")
+    assert (two.executable, two.module) == ("b", "")
+
+
+@pytest.mark.parametrize("text", [HEAD, "x = 'a\n", "x = 1\n", "", "\0", "(" * 500, b"\xff"])
+def test_a_bad_script_has_a_problem_and_nothing_else(setup_of, text):
+    setup = setup_of(text)
+    assert setup.problem
+    assert "detected" not in setup.problem
+    assert setup == SetupScript(problem=setup.problem, line=setup.line)
+
+
+@pytest.mark.parametrize(
+    "given",
+    ["{'console_scripts': names()}", "{**more}", "{}, **more", "names", "['a = b:c']"],
+)
+def test_what_cannot_be_found_out_is_not_guessed(setup_of, given):
+    setup = setup_of(f"from setuptools import setup\nsetup(name='p', entry_points={given})\n")
+    assert setup.entry_points == ()
+    assert setup.incomplete
+    assert setup.problem == ""
+
+
+@pytest.mark.parametrize(
+    ("files", "missing"),
+    [("[]", ("resource/p", "package.xml")), ("unknown()", ()), ("[('a', 'b', 'c')]", ())],
+)
+def test_data_files_are_missing_only_if_all_of_them_are_known(setup_of, files, missing):
+    script = f"from setuptools import setup\nsetup(name='p', data_files={files})\n"
+    assert setup_of(script).left_out == missing
+
+
+def test_what_stands_beside_an_unknown_name_is_read(setup_of):
+    setup = setup_of(scripts("*others,", "'b = p.b:main',"))
+    assert [one.executable for one in setup.entry_points] == ["b"]
+    assert setup.incomplete
+
+
+def test_literals_are_read_without_running_anything(setup_of):
+    setup = setup_of("raise SystemExit(3)\n" + scripts("'a = p.a:main'"))
+    assert [one.line for one in setup.entry_points] == [6]
+    assert not setup.incomplete
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [one for one in entries.ANSWERS if one.status == "passed" and not one.also],
+    ids=lambda one: one.name,
+)
+def test_what_is_calculated_is_found_by_running_it(setup_of, answer):
+    setup = setup_of(answer.given)
+    assert not setup.incomplete
+    assert set(NODES) <= {one.executable for one in setup.entry_points}
+    assert all(one.line for one in setup.entry_points)
+
+
+def test_a_name_that_is_assigned_twice_is_no_literal(setup_of):
+    changed = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name")
+    assert setup_of(changed + "'console_scripts': []})\n").package_name == "q"
+
+
+def test_a_script_that_does_not_end_is_given_up(setup_of, monkeypatch):
+    monkeypatch.setattr("rosbeat.workspace.setup_script._DEADLINE", 0.3)
+    setup = setup_of("while True: pass\n" + HEAD + "'console_scripts': [f'a = {package_name}']})\n")
+    assert (setup.package_name, setup.incomplete) == ("p", True)
+
+
+def test_what_a_script_prints_and_where_it_runs(setup_of, capfd):
+    text = "import os, sys\nprint('{', __file__, sys.argv)\nassert os.path.exists('package.xml')\n"
+    assert not setup_of(text + scripts("'a = ' + 'p.a:main'[:],")).incomplete
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("given", "installed"),
+    [
+        ("packages=find_packages()", True),
+        ("packages=find_packages(exclude=['test'])", True),
+        ("packages=find_packages('.', exclude=['sensor*'])", False),
+        ("packages=find_packages(include=['sensor_simulator', 'q.*'])", True),
+        ("packages=find_packages(include=['q'])", False),
+        ("packages=find_packages(where='test')", False),
+        ("packages=find_packages(exclude=unknown())", True),
+        ("packages=['sensor_simulator']", True),
+        ("packages=['q']", False),
+        ("packages=[]", False),
+        ("packages=5", True),
+        ("packages=[unknown()]", True),
+        ("packages=find_packages(include=5)", True),
+        ("packages=unknown()", True),
+        ("", False),
+        ("**unknown()", True),
+    ],
+)
+def test_whether_the_code_is_installed(setup_of, package, given, installed):
+    (package / "test").mkdir()
+    assert setup_of(f"from setuptools import *\nsetup({given})\n").installs(PACKAGE) == installed
+
+
+@pytest.mark.parametrize(
+    ("given", "found"),
+    [
+        ("entry_point={}", "entry_point"),
+        ("entry_points={'console_script': []}", "console_script"),
+        ("entry_points={'console_scripts': []}", ""),
+        ("entry_points={'gui_scripts': ['a = p.a:main']}", ""),
+        ("entry_points={'pytest11': []}", ""),
+        ("name='p'", ""),
+    ],
+)
+def test_entries_in_the_wrong_group(setup_of, given, found):
+    assert setup_of(f"setup({given})").misspelled_group == found
+
+
+def test_entry_points_in_setup_cfg(root, package, setup_of):
     path = package / "setup.cfg"
     path.write_text(path.read_text() + "[options.entry_points]\nconsole_scripts =\n  a = b:c\n")
     # setuptools reads them only if setup.py has none of its own.
     assert "a" not in [one.executable for one in read_package(package, root).setup.entry_points]
-    setup = package / "setup.py"
-    setup.write_text("from setuptools import setup\nsetup(packages=['sensor_simulator'])\n")
+    setup_of("from setuptools import setup\nsetup(packages=['sensor_simulator'])\n")
     found = read_package(package, root)
     assert [(one.text, one.file) for one in found.setup.entry_points] == [("a = b:c", "setup.cfg")]
     assert [flaw.kind for flaw in found.flaws] == ["no-module"]
@@ -62,8 +254,105 @@ def test_entry_points_in_setup_cfg(root, package):
     assert found.scripts_are_found
 
 
-def test_packages_that_setup_cfg_names(root, package):
-    (package / "setup.py").write_text("from setuptools import setup\nsetup()\n")
-    assert not read_package(package, root).setup.installs("sensor_simulator")
+def test_packages_that_setup_cfg_names(package, setup_of):
+    script = "from setuptools import setup\nsetup()\n"
+    assert not setup_of(script).installs(PACKAGE)
     (package / "setup.cfg").write_text("[options]\npackages = find:\n")
-    assert read_package(package, root).setup.installs("sensor_simulator")
+    assert setup_of(script).installs(PACKAGE)
+
+
+# What is wrong with an entry point.
+
+
+@pytest.mark.parametrize(
+    ("entry", "kind", "right"),
+    [
+        (f"sensor = {NAME}:main", None, ""),
+        (f"sensor = {NAME}:TemperatureSensor", None, ""),
+        (f"sensor = {NAME}:main [a==1]", None, ""),
+        (f"sensor = {NAME}:maine", "no-function", "main"),
+        (f"sensor = {NAME}", "no-function-part", "main"),
+        (f"sensor = {NAME}.py:main", "suffix", NAME),
+        (f"sensor = {NAME}:main()", "called", "main"),
+        (f"sensor = {NAME.replace('.', '/')}:main", "slash", NAME),
+        (f"sensor = {PACKAGE}.temprature_publisher:main", "no-module", NAME),
+        ("sensor = temperature_publisher:main", "no-module", NAME),
+        ("sensor = nothing.like_it:main", "no-module", ""),
+        (f"my sensor = {NAME}:main", "bad-name", ""),
+        ("sensor", "no-equals", ""),
+        (f"sensor == {NAME}:main", "two-equals", ""),
+    ],
+)
+def test_each_flaw_is_named(root, package, setup_of, entry, kind, right):
+    setup_of(scripts(f"'{entry}',"))
+    flaws = read_package(package, root).flaws
+    assert [(one.kind, one.right) for one in flaws] == ([(kind, right)] if kind else [])
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "line"),
+    [
+        ("x = 1\ndef f(:\n    pass\n", "syntax-error", 2),
+        ("return 3", "syntax-error", 1),
+        ("x = '\\d'\nmain = lambda: 0", None, 0),
+        ("from a import b as main", None, 0),
+        ("if True:\n    def main(): pass", None, 0),
+        ("from a import *", None, 0),
+        ("", "no-function", 0),
+    ],
+)
+def test_the_module_of_an_entry_point(root, package, text, kind, line):
+    (package / PUBLISHER).write_text(text)
+    flaws = read_package(package, root).flaws
+    assert [(one.kind, one.line) for one in flaws] == ([(kind, line)] if kind else [])
+
+
+# The build.
+
+
+def test_built_and_not_edited(root, package, installed):
+    found = read_package(package, root).installed
+    assert found.prefix == installed
+    assert found.executables == NODES
+    assert not found.linked
+    assert found.changed == ()
+    assert stale_builds("/temperature", root) == ()
+
+
+def test_edited_since(root, package, installed):
+    edit(package)
+    (package / PACKAGE / "other.py").write_text("x = 1\n")
+    assert read_package(package, root).installed.changed == (f"{PACKAGE}/other.py", PUBLISHER)
+    assert stale_builds("/temperature", root) == (StaleBuild(PACKAGE, NODES[0], PUBLISHER),)
+    assert stale_builds("/humidity", root) == ()
+
+
+def test_built_with_links(root, package, installed):
+    (installed / "lib/python3.11/site-packages/sensor-simulator.egg-link").write_text("")
+    edit(package)
+    found = read_package(package, root).installed
+    assert found.linked
+    assert found.changed == ()
+
+
+def test_without_the_right_to_run_it_is_no_executable(root, package, installed):
+    (installed / "lib" / PACKAGE / NODES[0]).chmod(0o644)
+    assert read_package(package, root).installed.executables == (NODES[1],)
+
+
+def test_the_workspace_that_the_terminal_knows(root, package, monkeypatch, tmp_path):
+    monkeypatch.setenv("ROS2_WORKSPACE", str(root))
+    assert [(one.executable, one.built) for one in stale_builds("/temperature")] == [
+        (node, False) for node in NODES
+    ]
+    monkeypatch.setenv("ROS2_WORKSPACE", str(tmp_path / "none"))
+    assert stale_builds("/temperature") == ()
+    monkeypatch.delenv("ROS2_WORKSPACE")
+    assert len(stale_builds("/temperature")) == 2
+
+
+@pytest.mark.parametrize("text", ["def (\n", "\0", None])
+def test_a_module_that_cannot_be_read_says_nothing(root, package, installed, text):
+    edit(package, text or "")
+    (package / PUBLISHER).unlink() if text is None else None
+    assert stale_builds("/temperature", root) == ()

@@ -22,6 +22,14 @@ def refuse(code):
     return fail
 
 
+@pytest.mark.parametrize(
+    "typed", ["src/a.py", " src/a.py ", "'src/a.py'", "./src/a.py", "src//a.py"]
+)
+def test_one_file_written_in_many_ways(root, typed):
+    save(typed, "x", root)
+    assert inside(root) == ["src/a.py"]
+
+
 def test_a_new_file_with_its_folders(root):
     saved = save("docs/notes/first.md", "hello", root)
     assert str(saved) == "saved docs/notes/first.md"

@@ -7,8 +7,8 @@ import sys
 import pytest
 
 from rosbeat import Session
+from rosbeat.workspace.catching_up import PACKAGE, finished
 from rosbeat.workspace.saving_magic import with_body
-from rosbeat.workspace.stages import PACKAGE, finished
 
 PUBLISHER = f"src/{PACKAGE}/{PACKAGE}/temperature_publisher.py"
 MODULE = f"{PACKAGE}.temperature_publisher"
@@ -134,6 +134,39 @@ def test_the_same_cell_again_says_nothing_about_copies(run, root):
     assert not (root / "kept").exists()
 
 
+@pytest.mark.parametrize(
+    ("path", "name"),
+    [
+        (f"src/{PACKAGE}/{PACKAGE}/deep/node.py", f"{PACKAGE}.deep.node"),
+        (f"src/{PACKAGE}/{PACKAGE}/__init__.py", PACKAGE),
+        (f"src/{PACKAGE}/second/a.py", "second.a"),
+        (f"src/{PACKAGE}/{PACKAGE}/a-b.py", None),
+        (f"src/{PACKAGE}/no_package/a.py", None),
+        (f"src/{PACKAGE}/test/test_a.py", None),
+        ("scripts/a.py", None),
+    ],
+)
+def test_which_files_are_modules(run, shell, package, path, name):
+    (package / "second").mkdir()
+    (package / "second" / "__init__.py").touch()
+    assert run(f"%%save {path}\nseen = __name__\n")[0].success
+    assert shell.user_ns.get("seen") == name
+
+
+def test_what_is_there_may_be_saved_again(run, package):
+    (package / "tool.py").touch()
+    assert run(f"%%save src/{PACKAGE}/tool.py\nx = 1\n")[0].success
+
+
+def test_a_module_that_is_imported_stays_the_imported_one(run, package):
+    import json
+
+    (package / "json").mkdir()
+    (package / "json" / "__init__.py").touch()
+    run(f"%%save src/{PACKAGE}/json/__init__.py\nseen = __name__\n")
+    assert sys.modules["json"] is json
+
+
 def test_dollars_and_braces_in_a_path_stay(run, root):
     run("x = 'no'")
     run("%%save docs/{x}$x.md\nhello\n")
@@ -210,9 +243,18 @@ def test_other_cells_of_one_line_stay_as_they_are():
         (f"{PACKAGE}/{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
         (f"src/{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
         (f"{PACKAGE}/setup.py", f"Did you mean src/{PACKAGE}/setup.py?"),
+        (f"ROS2_and_RL_Tutorials/{PUBLISHER}", f"Leave the first part out:  {PUBLISHER}"),
+        ("other/other/a.py", "Did you mean src/other/other/a.py?"),
+        ("other/a.py", "Did you mean src/other/other/a.py?"),
+        ("src/other/a.py", "Did you mean src/other/other/a.py?"),
+        ("linked/a.py", "kept is not for files of yours"),
     ],
 )
 def test_a_path_that_is_not_quite_one(run, root, typed, text):
+    (root / "src" / "other" / "other").mkdir(parents=True)
+    (root / "src" / "other" / "package.xml").touch()
+    (root / "kept").mkdir()
+    (root / "linked").symlink_to("kept")
     before = sorted(root.rglob("*"))
     result, shown = run(f"%%save {typed}\nx = 1\n")
     assert not result.success

@@ -1,26 +1,145 @@
-"""What a terminal says when it cannot do what it was asked."""
+"""Commands that a terminal does not type, and the errors that it raises."""
 
 from __future__ import annotations
 
+import re
+import subprocess
+from pathlib import Path
+
+from rosbeat.diagnosis.terminal import split_commands
 from rosbeat.errors import TerminalError
 
 _SHORT = 60
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
+_BLANK = re.compile(r"(?<!\w)____(?!\w)")
 
 
 def short(command: str) -> str:
-    """Return the first line of a command, no longer than reads well."""
+    """Return the first line of a command, cut to 60 characters."""
     line, *more = command.strip().splitlines() or [""]
     cut = line if len(line) <= _SHORT else f"{line[: _SHORT - 4]} ..."
     return f"{cut} ..." if more and cut == line else cut
 
 
+def lines_of(cell: str) -> list[str]:
+    """Return the lines of a cell to type, without blank ones at the end.
+
+    Args:
+        cell: The cell below its magic.
+
+    Raises:
+        TerminalError: If it holds a control character, which would be a key of its own.
+    """
+    cell = cell.replace("\r\n", "\n")
+    key = _CONTROL.search(cell)
+    if key:
+        raise TerminalError(
+            f"The cell holds the control character {key[0]!r}.",
+            "In a terminal such a character is a key of its own and not a part of the command.",
+            "Delete it; `%terminal NAME --ctrl-c` sends Ctrl+C.",
+        )
+    return cell.rstrip().split("\n")
+
+
+# Commands that are not typed: each function returns why, or an empty text.
+
+
+def blank_in(lines: list[str]) -> str:
+    """Return why a cell is not typed in which something is still to be filled in.
+
+    Args:
+        lines: The lines below the magic.
+    """
+    numbers = [number for number, line in enumerate(lines, 2) if _BLANK.search(line)]
+    return f"there is still a blank, ____, in line {numbers[0]}" if numbers else ""
+
+
+_BUILDS = re.compile(
+    r"\s*colcon(?:\s+--log-(?:base|level)[=\s]\S+)*\s+(?:build|test)"
+    r"(?=\s|$|[;&|])(?P<options>[^;&|]*)"
+)
+# Whoever names the folders knows them; help reads none.
+_CHOSEN = re.compile(r"(?<!\S)(?:--base-paths|--paths|--help|-h)(?=[\s=]|$)")
+
+
+def build_outside(line: str, folder: Path, workspace: Path, here: str) -> str:
+    """Return why a `colcon build` is not typed in a folder that is no workspace.
+
+    colcon reads whatever lies below the folder it is called in, and runs every setup.py that it
+    finds: one `cd ..` too many, and that is the whole checkout of the course.
+
+    Args:
+        line: The command; only its beginning counts.
+        folder: The folder of the terminal.
+        workspace: The learner's workspace.
+        here: The folder as the prompt names it.
+    """
+    colcon = _BUILDS.match(line)
+    if not colcon or _CHOSEN.search(colcon["options"]):
+        return ""
+    folder, exists, workspace = folder.resolve(), workspace.is_dir(), workspace.resolve()
+    around = {workspace, *workspace.parents}  # a folder around the learner's own is none
+    above = (folder, *folder.parents)
+    if workspace in above or any(_holds_package(one) for one in above if one not in around):
+        return ""
+    way = 'Go there first: `cd "$ROS2_WORKSPACE"`.' if exists else "Page 01 makes the workspace."
+    return (
+        f"the terminal is in `{here}`, which is outside of your workspace. "
+        f"colcon would build everything that lies below it. {way}"
+    )
+
+
+def _holds_package(folder: Path) -> bool:
+    try:
+        return any(any((folder / "src").glob(f"{depth}/package.xml")) for depth in ("*", "*/*"))
+    except OSError:  # a folder that nobody may read is no workspace
+        return False
+
+
+_EDITORS = frozenset(["vi", "vim", "nvim", "view", "vimdiff", "nano", "pico", "emacs"])
+_PAGERS = frozenset(["less", "more", "most"])
+_FULL_SCREEN = frozenset(
+    ["top", "htop", "btop", "atop", "iotop", "watch", "tmux", "screen", "mc", "ncdu", "ranger"]
+) | _EDITORS | _PAGERS  # fmt: skip
+# With one of these they print something and end.
+_PRINTS = {"--version", "--help", "-h", "-V", "-b", "-bn1"}
+_BEFORE = {"sudo", "exec", "command", "time", "(", "{", "!"}
+
+
+def full_screen(line: str) -> str:
+    """Return why a program that needs a whole screen is not started in a page.
+
+    Args:
+        line: The command, one line of it.
+    """
+    for words in split_commands(line):
+        rest = [word for word in words if word not in _BEFORE]
+        name = Path(rest[0]).name if rest else ""
+        if name in _FULL_SCREEN and not _PRINTS & set(rest[1:]):
+            return f"`{name}` needs a whole screen, and a page has none. {_instead(name)}"
+    return ""
+
+
+def _instead(name: str) -> str:
+    if name in _EDITORS:
+        return "To edit a file, double-click it in JupyterLab's file browser."
+    if name in _PAGERS:
+        return "`cat FILE` prints a whole file into the page."
+    printed = "`top -b -n 1` prints the list once. " if name == "top" else ""
+    return f"{printed}JupyterLab has a terminal of its own that can do that: File, New, Terminal."
+
+
+# Errors.
+
+
 def busy(name: str, command: str) -> TerminalError:
     """Return the error for a new command while another one runs."""
+    other = {"sensor": "monitor", "monitor": "sensor"}.get(name, f"{name}2")
     return TerminalError(
         f"The terminal `{name}` is busy: `{short(command)}` runs in it.",
         "A terminal runs one command at a time, and this one has not ended.",
         f"Stop it with `%terminal {name} --ctrl-c`, or use another terminal: "
-        f"`%%terminal {_another(name)}`. To type into the program, add `--answer`.",
+        f"`%%terminal {other}`. To type into the program, add `--answer`.",
     )
 
 
@@ -29,8 +148,8 @@ def does_not_stop(name: str, command: str, key: str, seconds: float) -> Terminal
 
     Args:
         name: The terminal.
-        command: What runs in it.
-        key: What was pressed, `^C` or `^D`; empty if the program was killed.
+        command: The command that runs in it.
+        key: The key that was pressed, `^C` or `^D`; empty if the program was killed.
         seconds: How long ago.
     """
     after = {"^C": "Ctrl+C", "^D": "Ctrl+D"}.get(key, "it was killed")
@@ -43,11 +162,11 @@ def does_not_stop(name: str, command: str, key: str, seconds: float) -> Terminal
 
 
 def not_seen(text: str, lines: int, seconds: float | None, last: list[str]) -> TerminalError:
-    """Return the error for a text that has not come.
+    """Return the error for a text that has not appeared.
 
     Args:
-        text: What was waited for.
-        lines: In how many lines it should have come.
+        text: The text.
+        lines: In how many lines it should have appeared.
         seconds: How long it was waited for; None if the command ended before.
         last: The last lines of the terminal.
     """
@@ -79,15 +198,6 @@ def nothing_to_answer(name: str) -> TerminalError:
     )
 
 
-def odd_character(character: str) -> TerminalError:
-    """Return the error for a key that has no place in a command."""
-    return TerminalError(
-        f"The cell holds the control character {character!r}.",
-        "In a terminal such a character is a key of its own and not a part of the command.",
-        "Delete it; `%terminal NAME --ctrl-c` sends Ctrl+C.",
-    )
-
-
 def too_long() -> TerminalError:
     """Return the error for an answer that a terminal would cut."""
     return TerminalError(
@@ -97,5 +207,33 @@ def too_long() -> TerminalError:
     )
 
 
-def _another(name: str) -> str:
-    return "monitor" if name == "sensor" else "sensor" if name == "monitor" else f"{name}2"
+_MISSING = {
+    '"': 'a closing quote `"`',
+    "'": "a closing quote `'`",
+    ")": "a closing bracket `)`",
+    "}": "a closing brace `}`",
+    "`": "a closing backquote",
+}
+_WANTED = re.compile(r"looking for matching `(.)'|wanted `(.+)'\)")
+
+
+def unfinished(command: str) -> TerminalError:
+    """Return the error for a command whose rest bash still waits for.
+
+    Args:
+        command: The whole command, so far. What is missing is asked of `bash -n`.
+    """
+    asked = subprocess.run(
+        ["bash", "--norc", "-n"],
+        input=command + "\n", capture_output=True, text=True, timeout=10, check=False,
+        env={"LC_ALL": "C", "PATH": "/usr/local/bin:/usr/bin:/bin"},
+    )  # fmt: skip
+    found = _WANTED.search(asked.stderr)
+    missing = "its end (`done`, `fi`, `}`, the line after a `\\` or the like)"
+    if found:
+        missing = _MISSING.get(found[1]) or f"the line `{found[2]}` that ends the text"
+    return TerminalError(
+        f"The command is not finished: {missing} is missing.",
+        "bash waited for the rest of it. The command was dropped, and nothing of it ran.",
+        "Complete the command in the cell, then run the cell again.",
+    )

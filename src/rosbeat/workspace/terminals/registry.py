@@ -20,7 +20,7 @@ _HELD_AS = "_rosbeat_terminals"
 
 
 class Terminals:
-    """A set of terminals, closed together; usable in a `with` block.
+    """Keep a set of terminals, closed together; usable in a `with` block.
 
     Args:
         parent: The folder in which they start, by default the one that holds the workspace.
@@ -45,7 +45,7 @@ class Terminals:
 
     @property
     def alien(self) -> bool:
-        """Whether they belong to the process that this one was forked from."""
+        """Return whether they belong to the process that this one was forked from."""
         return self._pid != os.getpid()
 
     def get(self, name: str) -> Terminal:

@@ -1,4 +1,10 @@
-"""A bash at the other end of a pseudo-terminal, and a thread that reads what it says."""
+"""A bash at the other end of a pseudo-terminal, and a thread that reads what it says.
+
+bash says by escape sequences in its prompts, which `startup.bash` sets, when it waits for a
+command, with which exit code and in which folder; nothing is guessed from the output. A library
+such as pexpect reads only while somebody expects something, and a node that runs on would be held
+up by a full buffer; here a thread reads all the time.
+"""
 
 from __future__ import annotations
 
@@ -6,56 +12,53 @@ import codecs
 import os
 import re
 import select
+import shutil
 import signal
+import termios
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from rosbeat.errors import TerminalError
-from rosbeat.workspace.terminals.foreground import Program, group, program, sleeps_within
-from rosbeat.workspace.terminals.history import History, Line
-from rosbeat.workspace.terminals.lines import LineBuilder
-from rosbeat.workspace.terminals.marks import PROMPT, RUN, Mark, MarkScanner
-from rosbeat.workspace.terminals.modes import Modes, modes_of
-from rosbeat.workspace.terminals.pty_process import (
-    alive,
-    close_quietly,
-    exit_code,
-    start_bash,
-    wait_for_event,
-)
-from rosbeat.workspace.terminals.steadiness import Polish
-from rosbeat.workspace.terminals.surroundings import STARTUP
-from rosbeat.workspace.terminals.whole_screen import painter
+from ptyprocess import PtyProcess, PtyProcessError
 
-#: What a shell does: it waits for a command, waits for more of one, runs one, has ended.
+from rosbeat.errors import TerminalError
+from rosbeat.workspace.terminals.environment import STARTUP, Polish, terminal_environment
+from rosbeat.workspace.terminals.output import History, Line, LineBuilder
+
+#: The states of a shell: it waits for a command, waits for more of one, runs one, has ended.
 READY, UNFINISHED, BUSY, ENDED = "ready", "unfinished", "busy", "ended"
-_STARTS_WITHIN = 20.0
-_TAKES_WITHIN = 20.0
-# Seconds between two looks whether the shell still lives.
-_LOOK_EVERY = 0.25
+# Lines are never wrapped, whatever the width. But programs ask for it, `ls` for its columns.
+_ROWS, _COLUMNS = 40, 120
+_SIGNALS = ("SIGINT", "SIGQUIT", "SIGTERM", "SIGHUP", "SIGPIPE", "SIGTSTP", "SIGTTIN", "SIGTTOU")
+# Seconds: for bash to start, for a terminal to take input, and between two looks whether it lives.
+_STARTS_WITHIN, _TAKES_WITHIN, _LOOK_EVERY = 20.0, 20.0, 0.25
 _ASLEEP_WITHIN, _AGAIN_AFTER = 2.0, 5.0
-_ON_ITS_WAY = 0.1
-# A program that wants one key has it within so many seconds; and how often to look.
-_TAKEN_WITHIN, _MOMENT = 1.0, 0.005
+# Our own prompt is on its way for so long; a program that wants one key has it within so long.
+_ON_ITS_WAY, _TAKEN_WITHIN, _MOMENT = 0.1, 1.0, 0.005
+# A program that prints without end is slowed down, so that it leaves the page some of the machine.
+_FLOOD, _PAUSE = 65_536, 0.01
 # After `set -v` bash shows its start-up, too.
 _OURS = "{ PS1=$__rosbeat_ps1"
 _FOREIGN_PROMPT = re.compile(r"[$#%>] ?$")
-# A program that prints without end is slowed down, so that it leaves the page some of the machine.
-_FLOOD, _PAUSE = 65_536, 0.01
+# A mark: an operating system command with a number that no terminal uses. The kinds: bash waits
+# for a command, or for more of one; it runs one.
+_HEAD = "\x1b]7771;"
+_PROMPT, _MORE, _RUN = "P", "M", "R"
+_LONGEST_MARK = 8192
 
 
 @dataclass(frozen=True)
 class Glance:
-    """What there is to see at one moment.
+    """Hold what there is to see at one moment.
 
     Attributes:
         lines: The complete lines since the last glance.
         partial: The line that is not complete yet.
-        state: What the shell does.
+        state: `READY`, `UNFINISHED`, `BUSY` or `ENDED`.
         moment: Changes whenever something comes.
     """
 
@@ -66,18 +69,18 @@ class Glance:
 
 
 class Shell:
-    """One bash. Its output is read all the time, so it never waits for a reader.
+    """Run one bash, and read its output all the time.
 
     Args:
-        folder: Where it starts.
-        token: Its mark.
-        polish: What each line goes through.
+        folder: The folder it starts in.
+        token: Its mark, in the environment of all its processes and in its escape sequences.
+        polish: A function that each line goes through.
 
     Attributes:
         state: `READY`, `UNFINISHED`, `BUSY` or `ENDED`.
         code: The exit code of the last command; None before there was one.
-        folder: Where the shell was at its last prompt.
-        begun: Whether bash has read what was typed last.
+        folder: The folder of the shell at its last prompt.
+        begun: Whether bash has read the command that was typed last.
 
     Raises:
         TerminalError: If it cannot start.
@@ -86,46 +89,43 @@ class Shell:
     def __init__(self, folder: Path, token: str, polish: Polish) -> None:
         self._polish = polish
         self._history, self._builder = History(), LineBuilder()
-        self._scanner = MarkScanner(token)
+        self._mark = re.compile(rf"\x1b\]7771;{re.escape(token)};([PMR]);(\d*);([^\x07]*)\x07")
+        self._held = ""
         self._decoder = codecs.getincrementaldecoder("utf-8")("replace")
         self._changed = threading.Condition()
         self._moment = self._asked_at = 0
-        self.state, self.folder = BUSY, folder
-        self.begun = True
+        self.state, self.folder, self.begun = BUSY, folder, True
         self._hidden = False
         self.code: int | None = None
-        self._process = start_bash(folder, token)
+        self._process = _start_bash(folder, token)
         os.set_blocking(self._process.fd, False)
         threading.Thread(target=self._read, name=f"terminal {token}", daemon=True).start()
         if not self.wait(lambda: self.state == READY, _STARTS_WITHIN):
-            raise self._stillborn()
+            self.hang_up()
+            raise TerminalError(
+                "The terminal did not start.",
+                f"bash did not come to its first prompt. It said: {self.text() or 'nothing'}",
+                "Run the cell again. A very busy computer may need a moment.",
+            )
         self.code = None
 
-    def _stillborn(self) -> TerminalError:
-        self.hang_up()
-        return TerminalError(
-            "The terminal did not start.",
-            f"bash did not come to its first prompt. It said: {self.text() or 'nothing'}",
-            "Run the cell again. A very busy computer may need a moment.",
-        )
-
-    # What is seen.
+    # Output.
 
     def glance(self, since: int) -> Glance:
-        """Return what came since a line, and what the shell does, of one and the same moment."""
+        """Return the lines from a number on, and the state, of one and the same moment."""
         with self._changed:
             lines, partial = self._history.since(since), self._builder.partial
             return Glance(lines, self._polish(partial), self.state, self._moment)
 
     def text(self) -> str:
-        """Return everything that is remembered, the unfinished line included."""
+        """Return everything that is remembered, the incomplete line included."""
         with self._changed:
             partial = self._polish(self._builder.partial)
             return "\n".join(filter(None, [self._history.text(), partial]))
 
     @property
     def end(self) -> int:
-        """The number of the next line."""
+        """Return the number of the next line."""
         with self._changed:
             return self._history.end
 
@@ -138,55 +138,59 @@ class Shell:
         with self._changed:
             return self._changed.wait_for(predicate, max(0.0, seconds))
 
-    # What is typed.
+    # Input.
 
     def enter(self, line: str, shown: str) -> None:
         """Type a line at the prompt.
 
         Args:
-            line: What is typed.
-            shown: How the terminal shows it.
+            line: The line, without its end.
+            shown: The line as the terminal shows it.
 
         Raises:
-            TerminalError: If bash takes no more.
+            TerminalError: If bash takes no more input.
         """
         with self._changed:
             self._history.add(self._polish(shown), time.time_ns(), typed=True)
             self.state, self.begun = BUSY, False
-        self.write(line + "\n")
+        self._write(line + "\n")
 
-    def enter_unseen(self, line: str) -> None:
-        """Type a line of our own at the prompt, and wait until it is done."""
-        code = self.code
-        with self._changed:
-            self.state, self._hidden = BUSY, True
-        self.write(f" {line}\n")
-        self.wait(lambda: self.state != BUSY, _TAKES_WITHIN)
-        self.code = code
+    def answer(self, line: str) -> None:
+        """Type a line into the running program.
 
-    def answer(self, keys: str, shown: str) -> None:
-        """Type into the running program; what it asks is completed by what is typed."""
-        self.note(shown)
-        line, asked = keys.removesuffix("\n"), self._modes
-        if line != keys and asked.may_want_no_enter(line):
-            self.write(line)
-            keys = "" if self._went_on(asked, _TAKEN_WITHIN) else "\n"
-        self.write(keys)
+        A program that asks for single keys may have all that it wants before Enter, which would go
+        to the shell.
+        """
+        self.note(line)
+        asked = modes = _Modes.of(self._process.fd)
+        if modes.takes_keys and line and (len(line) == 1 or not modes.edits_lines):
+            self._write(line)
+            line, deadline = "", time.monotonic() + _TAKEN_WITHIN
+            while self.state == BUSY and modes == asked and time.monotonic() < deadline:
+                self.wait(lambda: self.state != BUSY, _MOMENT)
+                modes = _Modes.of(self._process.fd)
+            if self.state != BUSY or modes != asked:
+                return
+        self._write(line + "\n")
 
-    def _went_on(self, asked: Modes, seconds: float) -> bool:
-        """Wait until the program that asked for a key asks no more; Enter would go to the next."""
-        deadline = time.monotonic() + seconds
-        while self.state == BUSY and self._modes == asked:
-            if time.monotonic() > deadline:
-                return False
-            self.wait(lambda: self.state != BUSY, _MOMENT)
-        return True
+    def end_of_input(self) -> None:
+        """Press Ctrl+D."""
+        self.note("^D")
+        self._write("\x04")
 
     def note(self, shown: str) -> None:
         """Show what is typed into the running program, behind what it asks."""
         with self._changed:
-            line = (self._builder.finish() or self._question()) + shown
+            asked = self._history.since(self._asked_at - 1) if self._asked_at else []
+            question = asked[0].text if len(asked) == 1 else ""
+            line = (self._builder.finish() or question) + shown
             self._history.add(self._polish(line), time.time_ns(), typed=True)
+
+    def break_line(self) -> None:
+        """Take the beginning of a line, such as a question, for a line of its own."""
+        with self._changed:
+            self._end_line()
+            self._asked_at = self._history.end
 
     def leave_unfinished(self) -> None:
         """Press Ctrl+C in the middle of a command.
@@ -196,27 +200,13 @@ class Shell:
         """
         deadline = time.monotonic() + _TAKES_WITHIN
         while self.state == UNFINISHED and time.monotonic() < deadline:
-            sleeps_within(self._process.pid, _ASLEEP_WITHIN)
+            asleep_by = time.monotonic() + _ASLEEP_WITHIN
+            while not _sleeps(self._process.pid) and time.monotonic() < asleep_by:
+                time.sleep(0.001)
             self.interrupt()
             self.wait(lambda: self.state != UNFINISHED, _AGAIN_AFTER)
 
-    def break_line(self) -> None:
-        """Take the beginning of a line for a line of its own."""
-        with self._changed:
-            self._end_line()
-            self._asked_at = self._history.end
-
-    def _question(self) -> str:
-        """Return what was taken for a line of its own, if nothing has come since."""
-        asked = self._history.since(self._asked_at - 1) if self._asked_at else []
-        return asked[0].text if len(asked) == 1 else ""
-
-    def write(self, text: str) -> None:
-        """Send characters to the terminal, as fast as it takes them.
-
-        Raises:
-            TerminalError: If it does not take them.
-        """
+    def _write(self, text: str) -> None:
         rest = text.encode("utf-8", "surrogateescape")
         deadline = time.monotonic() + _TAKES_WITHIN
         while rest and self.state != ENDED:
@@ -229,7 +219,7 @@ class Shell:
                 )
 
     def _write_some(self, data: bytes) -> int:
-        wait_for_event(self._process.fd, select.POLLOUT, 0.5)
+        _wait_for_event(self._process.fd, select.POLLOUT, 0.5)
         with self._changed:
             try:
                 return os.write(self._process.fd, data[:2048]) if self.state != ENDED else 0
@@ -239,50 +229,30 @@ class Shell:
                 self._changed.wait_for(lambda: self.state == ENDED, _TAKES_WITHIN)
                 return 0
 
-    # What runs in it.
+    # The running program.
 
     def reads_lines(self) -> bool:
-        """Tell whether the terminal collects what is typed into lines of limited length."""
-        return self._modes.reads_lines
+        """Return whether the terminal collects what is typed into lines of limited length."""
+        return _Modes.of(self._process.fd).collects_lines
 
-    def in_front(self) -> Program:
-        """Return the program that has the terminal; of number 0 if unknown."""
-        return program(group(self._process.fd))
-
-    def missed(self, before: Program) -> Program | None:
-        """Return the program that Ctrl+C has not reached and is to be pressed for again, if any.
-
-        It is never bash: with its prompt on its way, that would change the exit code. `before` is
-        who had the terminal when it was pressed.
-        """
-        now = self.in_front()
-        runs = self.state == BUSY and now.pid > 0 and now.pid != self._process.pid
-        return now if runs and now.was_missed(before) else None
+    def foreground(self) -> int:
+        """Return the process group that has the terminal; 0 if there is none, or if it is bash."""
+        group = _foreground(self._process.fd)
+        return 0 if self.state != BUSY or group == self._process.pid else group
 
     def interrupt(self, group: int = 0) -> None:
         """Do what Ctrl+C does.
 
         The key itself makes the terminal throw away what is on its way, after the signal: output
         would be lost now and then, our mark among it. Only a program that wants keys gets the key.
-        `group` is the process group that is meant; by default the one in front.
+
+        Args:
+            group: The process group that is meant, by default the one in front.
         """
-        if self._modes.obeys_ctrl_c:
+        if _Modes.of(self._process.fd).obeys_ctrl_c:
             self._signal(signal.SIGINT, group)
         else:
-            self.write("\x03")
-
-    def painter(self) -> str:
-        """Return the program in front if it is known to paint a whole screen, or nothing."""
-        front = group(self._process.fd)
-        if self.state != BUSY or front <= 0 or not self._modes.wants_keys:
-            return ""
-        name = painter(front)
-        # Bash wants keys, too, until it has read the command: only now are these its modes.
-        return name if name and self._modes.wants_keys else ""
-
-    def terminate(self) -> None:
-        """Ask the program in the foreground to end; bash itself would not listen."""
-        self._signal(signal.SIGTERM)
+            self._write("\x03")
 
     def kill(self) -> None:
         """Kill the program in the foreground; the shell itself if it is that."""
@@ -301,7 +271,10 @@ class Shell:
         self.wait(lambda: self.state == ENDED, _TAKES_WITHIN)
 
     def bring_prompt_back(self) -> bool:
-        """Put our prompt back if bash waits at a prompt that we cannot see; return whether so."""
+        """Put our prompt back if bash waits at another one, which says nothing; return whether so.
+
+        A `source ~/.bashrc` may set `PROMPT_COMMAND`, and `exec bash` starts without ours.
+        """
         # Our own prompt may just be on its way.
         if not self._waits_in_bash() or self.wait(lambda: self.state != BUSY, _ON_ITS_WAY):
             return False
@@ -311,7 +284,7 @@ class Shell:
             if _FOREIGN_PROMPT.search(self._builder.partial):
                 self._builder.finish()
             self._hidden = True
-        self.write(f" . '{STARTUP}'\n")
+        self._write(f" . '{STARTUP}'\n")
         return True
 
     def _waits_in_bash(self) -> bool:
@@ -319,33 +292,32 @@ class Shell:
             running = os.path.basename(os.readlink(f"/proc/{self._process.pid}/exe"))
         except OSError:
             return False
-        in_front = self.state == BUSY and group(self._process.fd) == self._process.pid
-        return in_front and running.startswith("bash") and self._modes.edits_lines
-
-    @property
-    def _modes(self) -> Modes:
-        return modes_of(self._process.fd)
+        in_front = self.state == BUSY and _foreground(self._process.fd) == self._process.pid
+        return in_front and running.startswith("bash") and _Modes.of(self._process.fd).edits_lines
 
     # The reading thread.
 
     def _read(self) -> None:
         come = 0
-        while True:
-            data = self._read_some()
-            if not data:
-                break
-            self._take(self._decoder.decode(data))
+        while data := self._read_some():
+            self._take(self._held + self._decoder.decode(data))
             come += len(data)
             if come > _FLOOD:
                 come = 0
                 time.sleep(_PAUSE)
-        self._end()
+        code = _exit_code(self._process)
+        with self._changed:
+            self._end_line()
+            self.code = code
+            _close(self._process)
+            self.state = ENDED
+            self._tell()
 
     def _read_some(self) -> bytes:
         """Return what has come; nothing when the shell has ended."""
         while True:
             # Programs in the background may keep the terminal open when the shell has gone.
-            lives = alive(self._process)
+            lives = _is_alive(self._process)
             try:
                 return os.read(self._process.fd, 65_536)
             except BlockingIOError:
@@ -353,35 +325,34 @@ class Shell:
                     return b""
             except OSError:
                 return b""
-            wait_for_event(self._process.fd, select.POLLIN, _LOOK_EVERY)
+            _wait_for_event(self._process.fd, select.POLLIN, _LOOK_EVERY)
 
     def _take(self, text: str) -> None:
+        """Take text and marks in their order; what may be the beginning of a mark is held back."""
         with self._changed:
-            for part in self._scanner.feed(text):
-                if isinstance(part, Mark):
-                    self._obey(part)
-                elif not self._hidden:
-                    self._add(self._builder.feed(part))
+            begin = 0
+            for mark in self._mark.finditer(text):
+                self._print(text[begin : mark.start()])
+                self._obey(mark[1], int(mark[2] or 0), mark[3])
+                begin = mark.end()
+            end = _beginning_of_mark(text, begin)
+            self._print(text[begin:end])
+            self._held = text[end:]
             self._tell()
 
-    def _obey(self, mark: Mark) -> None:
+    def _print(self, text: str) -> None:
+        if not self._hidden:
+            self._add(self._builder.feed(text))
+
+    def _obey(self, kind: str, code: int, folder: str) -> None:
         self.begun = True
-        if mark.kind == RUN:
+        if kind == _RUN:
             return
         self._end_line()
-        if mark.kind == PROMPT:
-            self.code, self.folder = mark.code, Path(mark.folder or "/")
+        self.state = UNFINISHED
+        if kind == _PROMPT:
+            self.state, self.code, self.folder = READY, code, Path(folder or "/")
             self._hidden = False
-        self.state = READY if mark.kind == PROMPT else UNFINISHED
-
-    def _end(self) -> None:
-        code = exit_code(self._process)
-        with self._changed:
-            self._end_line()
-            self.code = code
-            close_quietly(self._process)
-            self.state = ENDED
-            self._tell()
 
     def _end_line(self) -> None:
         line = self._builder.finish()
@@ -397,3 +368,142 @@ class Shell:
     def _tell(self) -> None:
         self._moment += 1
         self._changed.notify_all()
+
+
+def _beginning_of_mark(text: str, begin: int) -> int:
+    """Return where an unfinished mark begins, or the text's end."""
+    start = text.rfind("\x1b", begin)
+    tail = text[start:] if start >= 0 else ""
+    is_ours = tail.startswith(_HEAD) or _HEAD.startswith(tail)
+    held = tail and is_ours and "\x07" not in tail and len(tail) <= _LONGEST_MARK
+    return start if held else len(text)
+
+
+# The pseudo-terminal and its processes.
+
+
+@dataclass(frozen=True)
+class _Modes:
+    """Hold how a terminal treats the keyboard, by the manual page termios(3); 0 if it has ended.
+
+    Attributes:
+        input: The flags `c_iflag`.
+        local: The flags `c_lflag`.
+    """
+
+    input: int = 0
+    local: int = 0
+
+    @classmethod
+    def of(cls, descriptor: int) -> _Modes:
+        """Return the modes of a terminal."""
+        try:
+            found = termios.tcgetattr(descriptor)
+        except (termios.error, OSError, ValueError):
+            return cls()
+        return cls(int(found[0]), int(found[3]))
+
+    @property
+    def collects_lines(self) -> bool:
+        """Return whether a program gets whole lines."""
+        return bool(self.local & termios.ICANON)
+
+    @property
+    def takes_keys(self) -> bool:
+        """Return whether a program gets each key as it is pressed."""
+        return self.local != 0 and not self.collects_lines
+
+    @property
+    def edits_lines(self) -> bool:
+        """Return whether readline has the terminal: unlike `read -n 1` it tells CR from newline."""
+        return not self.collects_lines and not self.input & termios.ICRNL
+
+    @property
+    def obeys_ctrl_c(self) -> bool:
+        """Return whether Ctrl+C is a signal, and not a key like others."""
+        return bool(self.local & termios.ISIG)
+
+
+def _start_bash(folder: Path, token: str) -> PtyProcess:
+    """Start a bash without anybody's start-up files."""
+    command = shutil.which("bash")
+    if command is None:
+        raise TerminalError(
+            "This computer has no bash.",
+            "A terminal of a page is a real bash, and the program is not on the search path.",
+            "Install it (`sudo apt install bash`), then restart the kernel.",
+        )
+    # PWD keeps bash from finding its own idea of where it is.
+    environ = {**terminal_environment(token), "PWD": str(folder)}
+    try:
+        if not folder.is_dir():
+            raise NotADirectoryError("there is no such folder")
+        with warnings.catch_warnings():
+            # Python 3.12 warns whenever a process with threads forks. Here `exec` follows at once.
+            warnings.simplefilter("ignore", DeprecationWarning)
+            return PtyProcess.spawn(
+                [command, "--norc", "--noprofile", "-i"], cwd=str(folder), env=environ, echo=False,
+                preexec_fn=_usual_signals, dimensions=(_ROWS, _COLUMNS),
+            )  # fmt: skip
+    except (OSError, RuntimeError) as error:
+        raise TerminalError(
+            f"A terminal cannot start in {folder}: {error}.",
+            "The operating system refused.",
+            "See whether the folder is there and whether the computer is short of memory.",
+        ) from error
+
+
+def _usual_signals() -> None:
+    """Take back what a kernel, or whoever started it, has ignored: Ctrl+C is to work."""
+    for name in _SIGNALS:
+        signal.signal(getattr(signal, name), signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_SETMASK, [])
+
+
+def _is_alive(process: PtyProcess) -> bool:
+    try:
+        return bool(process.isalive())
+    except PtyProcessError:  # somebody else has waited for it
+        return False
+
+
+def _exit_code(process: PtyProcess) -> int | None:
+    """Wait for a process that has hung up; return its exit code as a shell counts, if known."""
+    try:
+        process.wait()
+    except PtyProcessError:
+        return None
+    number = process.signalstatus
+    return int(process.exitstatus) if number is None else 128 + int(number)
+
+
+def _close(process: PtyProcess) -> None:
+    """Give the pseudo-terminal back, without the waits of `PtyProcess.close`."""
+    if not process.closed:
+        process.closed = True
+        process.fileobj.close()
+        process.fd = -1
+
+
+def _wait_for_event(descriptor: int, event: int, seconds: float) -> None:
+    """Wait until a descriptor is ready; `select` would refuse those above 1023."""
+    poll = select.poll()
+    with suppress(OSError, ValueError):
+        poll.register(descriptor, event)
+        poll.poll(seconds * 1000)
+
+
+def _foreground(descriptor: int) -> int:
+    """Return the process group in front of a terminal; 0 if there is none to be found."""
+    with suppress(OSError):
+        return os.tcgetpgrp(descriptor)
+    return 0
+
+
+def _sleeps(pid: int) -> bool:
+    """Return whether a process sleeps; one that cannot be looked at is taken to sleep."""
+    try:
+        status = Path(f"/proc/{pid}/stat").read_text(errors="replace")
+    except OSError:
+        return True
+    return status.rpartition(") ")[2].startswith("S")

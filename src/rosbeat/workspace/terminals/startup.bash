@@ -22,8 +22,8 @@ __rosbeat_ps1='\[\e]7771;'$ROSBEAT_TERMINAL';P;$?;$PWD\a\]'
 __rosbeat_ps2='\[\e]7771;'$ROSBEAT_TERMINAL';M;;\a\]'
 # Printed when a command has been read and before it runs; bash 4.4 and later.
 PS0='\e]7771;'$ROSBEAT_TERMINAL';R;;\a'
-# A virtual environment's `activate` puts its name into PS1; here PS1 is put back.
-# `set -x` is not to show that.
-PROMPT_COMMAND='{ PS1=$__rosbeat_ps1 PS2=$__rosbeat_ps2; } 2>/dev/null'
+# A virtual environment's `activate` puts its name into PS1; here PS1 is put back. A command such as
+# `stty sane` turns the echo on. `set -x` is not to show that.
+PROMPT_COMMAND='{ PS1=$__rosbeat_ps1 PS2=$__rosbeat_ps2; stty -echo || :; } 2>/dev/null'
 PS1=$__rosbeat_ps1 PS2=$__rosbeat_ps2
 return $__rosbeat_code

@@ -1,83 +1,129 @@
-"""One terminal of a page, with everything that can be done to it."""
+"""One terminal of a page: commands are typed, and what becomes of them is followed and shown."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from rosbeat.errors import TerminalError
 from rosbeat.records import LogRecord
-from rosbeat.workspace.terminals.commands import Commands
-from rosbeat.workspace.terminals.history import Line
-from rosbeat.workspace.terminals.log_lines import log_records
+from rosbeat.workspace.place import workspace
+from rosbeat.workspace.terminals import refusals
+from rosbeat.workspace.terminals.environment import polisher, prompt
+from rosbeat.workspace.terminals.output import Display, Line, Show, log_records, new_only, say
 from rosbeat.workspace.terminals.reaper import end_marked
-from rosbeat.workspace.terminals.shell import BUSY, ENDED, Shell
-from rosbeat.workspace.terminals.steadiness import polisher
-from rosbeat.workspace.terminals.watching import FOUND, Goal, Watch
+from rosbeat.workspace.terminals.shell import BUSY, ENDED, READY, UNFINISHED, Shell
 
-Show = Callable[[str], None]
+# How following a command ends: it has ended; the text has come; the time that was asked for is
+# over; patience is; the program waits for an answer.
+_FINISHED, _FOUND, _TIME_UP, _TOO_LONG, _QUIET = [
+    "finished",
+    "found",
+    "time_up",
+    "too_long",
+    "quiet",
+]
+# Seconds for which a cell follows a command by itself. Builds take long on a small computer.
+_PATIENCE, _BUILD_PATIENCE = 60.0, 300.0
+# After so many seconds of silence the beginning of a line is taken for a question.
+_SILENCE = 0.5
+# A command whose last line was waited for may need a moment to end.
+_ENDS_SOON, _STOPS_WITHIN, _BEGINS_WITHIN = 2.0, 10.0, 5.0
+# Seconds after which Ctrl+C is pressed again if it has reached nobody.
+_AGAIN_AFTER = 0.2
+_LAST_LINES = 5
+# What is looked at to explain a failure: so many lines, and characters of each.
+_LINES_TO_EXPLAIN, _LONGEST_TO_EXPLAIN = 2000, 1000
+_TOUCHES_PROMPT = re.compile(r"PS[12]|PROMPT_COMMAND|\b(exec|source|eval|unset)\b|(^|[;&|\s])\.\s")
+_LONGEST_LINE = 4095
+
+
+@dataclass(frozen=True)
+class Goal:
+    """Hold what is waited for.
+
+    Attributes:
+        until: A text; None to wait for the end of the command.
+        lines: In how many lines it has to come.
+        seconds: How long to watch; None for as long as it takes.
+        timeout: Seconds after which to give up; None for 60, or 300 for colcon.
+        until_quiet: Whether a program that has fallen silent is enough.
+    """
+
+    until: str | None = None
+    lines: int = 1
+    seconds: float | None = None
+    timeout: float | None = None
+    until_quiet: bool = False
 
 
 class Terminal:
-    """A bash that lives as long as the kernel does, or until it is closed.
+    """Run a bash that lives as long as the kernel does, or until it is closed.
 
     What it prints is read all the time, whether anybody watches or not.
 
     Args:
-        name: What it is called on the page.
+        name: The name of the terminal on the page.
         token: Its mark, in the environment of all its processes.
         parent: The folder that it starts in, from which its prompt names folders.
+
+    Attributes:
+        name: The name of the terminal on the page.
+        command: The last command that was typed, whether it runs or has ended.
 
     Raises:
         TerminalError: If it cannot start.
     """
 
     def __init__(self, name: str, token: str, parent: Path) -> None:
-        self._name, self._token = name, token
+        self.name, self.command = name, ""
+        self._token, self._parent = token, parent
         self._shell = Shell(parent, token, polisher())
-        self._commands = Commands(name, self._shell, parent)
+        self._cell = ""
+        self._begin = self._place = self._shell.end  # of the command; of what was not shown yet
+        self._folder = self._shell.folder
+        self._is_open = False  # whether the end of the command is still to be told
 
     def __repr__(self) -> str:
-        return f"<terminal {self._name}: {self.state}>"
-
-    @property
-    def name(self) -> str:
-        """What the terminal is called on the page."""
-        return self._name
+        return f"<terminal {self.name}: {self.state}>"
 
     @property
     def text(self) -> str:
-        """Everything it has shown, typed lines included; of very much, the newest."""
+        """Return everything it has shown, typed lines included; of very much, the newest."""
         return self._shell.text()
 
     @property
     def state(self) -> str:
-        """What it does, in a few words."""
-        return self._commands.state_words()
+        """Return in a few words whether it waits, runs a command or has ended."""
+        if self.ended:
+            return "ended"
+        if self._shell.state == READY:
+            return f"waits at {self._prompt().rstrip()}"
+        return f"runs `{refusals.short(self.command)}`"
 
     @property
     def busy(self) -> bool:
-        """Whether a command runs in it."""
+        """Return whether a command runs in it."""
         return self._shell.state == BUSY
 
     @property
     def ended(self) -> bool:
-        """Whether its shell is gone."""
+        """Return whether its shell is gone."""
         return self._shell.state == ENDED
 
     @property
     def exit_code(self) -> int | None:
-        """The exit code of the last command that has ended; None before there was one."""
+        """Return the exit code of the last command that has ended; None before there was one."""
         return self._shell.code
 
     @property
     def folder(self) -> Path:
-        """The folder in which its next command runs."""
+        """Return the folder in which its next command runs."""
         return self._shell.folder
-
-    @property
-    def command(self) -> str:
-        """The last command that was typed, whether it runs or has ended."""
-        return self._commands.command
 
     def type(
         self,
@@ -100,11 +146,20 @@ class Terminal:
             show: Takes each line that is shown.
 
         Raises:
-            TerminalError: If another command runs, a command is not finished, or `until` does not
-                appear in time.
+            TerminalError: If the terminal has ended, is busy, is given an unfinished command, or
+                `until` does not appear in time.
             KeyboardInterrupt: If the cell is interrupted; the command goes on running.
         """
-        self._commands.run(text, Goal(until, lines, seconds, timeout), show)
+        if self.ended:
+            raise refusals.ended(self.name)
+        typed = refusals.lines_of(text)
+        if blank := refusals.blank_in(typed):
+            say(show, f"nothing was typed: {blank}")
+            return
+        self._make_way(text, show)
+        self._cell = text
+        with self._told():
+            self._type_lines(typed, Goal(until, lines, seconds, timeout), show)
 
     def answer(
         self,
@@ -124,8 +179,15 @@ class Terminal:
             TerminalError: If no program runs, a line is too long for a terminal, or `until` does
                 not appear in time.
         """
+        if not self.busy:
+            raise refusals.nothing_to_answer(self.name)
+        typed = refusals.lines_of(text)
+        self._shell.wait(lambda: self._shell.begun, _BEGINS_WITHIN)
+        if self._shell.reads_lines() and any(len(one.encode()) > _LONGEST_LINE for one in typed):
+            raise refusals.too_long()
         quiet = until is None and seconds is None
-        self._commands.answer(text, Goal(until, lines, seconds, timeout, quiet), show)
+        with self._told():
+            self._answer_lines(typed, Goal(until, lines, seconds, timeout, quiet), show)
 
     def look(
         self,
@@ -143,7 +205,11 @@ class Terminal:
         Raises:
             TerminalError: If `until` does not appear in time.
         """
-        self._commands.look(Goal(until, lines, seconds, timeout), show)
+        if until is None and seconds is None:
+            seconds = 0.0
+        goal = Goal(until, lines, seconds, timeout)
+        with self._told():
+            self._conclude(self._follow(goal, Display(show), self._place), goal, show, looking=True)
 
     def ctrl_c(self, *, timeout: float = 10.0, show: Show = print) -> int | None:
         """Press Ctrl+C, show how the program ends, and return its exit code.
@@ -157,7 +223,13 @@ class Terminal:
         Raises:
             TerminalError: If the program still runs then.
         """
-        return self._commands.ctrl_c(timeout, show)
+
+        def press() -> None:
+            self._shell.wait(lambda: self._shell.begun, _BEGINS_WITHIN)
+            self._shell.note("^C")
+            self._shell.interrupt()
+
+        return self._end(press, "^C", timeout, show)
 
     def ctrl_d(self, *, timeout: float = 10.0, show: Show = print) -> int | None:
         """Press Ctrl+D, which tells the program that its input is over; as `ctrl_c`.
@@ -169,7 +241,7 @@ class Terminal:
         Raises:
             TerminalError: If the program still runs then.
         """
-        return self._commands.ctrl_d(timeout, show)
+        return self._end(self._shell.end_of_input, "^D", timeout, show)
 
     def kill(self, *, timeout: float = 10.0, show: Show = print) -> int | None:
         """Kill the program that runs, show that it ended, and return its exit code.
@@ -181,13 +253,13 @@ class Terminal:
         Raises:
             TerminalError: If the program still runs then.
         """
-        return self._commands.kill(timeout, show)
+        return self._end(self._shell.kill, "", timeout, show)
 
     def wait_for(self, text: str, lines: int = 1, timeout: float = 10.0) -> tuple[str, ...]:
         """Wait until a text has appeared since the last command was typed; show nothing.
 
         Args:
-            text: What to look for.
+            text: The text.
             lines: In how many lines it has to appear.
             timeout: Seconds to wait.
 
@@ -198,10 +270,11 @@ class Terminal:
             TerminalError: If it does not appear in time.
         """
         found: list[Line] = []
-        goal = Goal(text, lines)
-        watch = Watch(self._shell, goal, found.append, self._commands.begin, timeout)
-        if watch.run() != FOUND:
-            raise self._commands.not_seen(goal, timeout)
+        goal, shown = Goal(text, lines, timeout=timeout), self._place
+        ending = self._watch(goal, found.append, self._begin)
+        self._place = shown
+        if ending != _FOUND:
+            raise self._not_seen(goal, timeout)
         return tuple(line.text for line in found if text in line.text and not line.typed)
 
     def logs(self) -> tuple[LogRecord, ...]:
@@ -217,3 +290,222 @@ class Terminal:
         if not self.ended:
             end_marked(self._token)
             self._shell.hang_up()
+
+    # Typing.
+
+    def _make_way(self, cell: str, show: Show) -> None:
+        """Wait for the end of what is about to end; stop the command of the same cell."""
+        again = cell == self._cell
+        if self._shell.wait(lambda: not self.busy, 0.0 if again else _ENDS_SOON):
+            return
+        # The last command may have taken the prompt away after nobody watched any more.
+        lost = self._touches_prompt() and self._shell.bring_prompt_back()
+        if lost and self._shell.wait(lambda: not self.busy, _BEGINS_WITHIN):
+            return
+        if not again:
+            raise refusals.busy(self.name, self.command)
+        say(show, f"`{refusals.short(self.command)}` of this cell still runs, and is stopped first")
+        self.ctrl_c(timeout=_STOPS_WITHIN, show=lambda _: None)
+
+    def _type_lines(self, lines: list[str], goal: Goal, show: Show) -> None:
+        display = Display(show)
+        for number, line in enumerate(lines, 1):
+            begins = self._shell.state == READY
+            if begins and not line.strip():
+                continue
+            if begins and (reason := self._refusal(line)):
+                say(show, f"nothing was typed: {reason}")
+                self._say_rest(lines[number:], show)
+                return
+            display = Display(show) if begins else display
+            is_last = number == len(lines)
+            wanted = goal if is_last else replace(goal, until=None, seconds=None)
+            ending = self._type_line(line, wanted, display)
+            self._conclude(ending, wanted, show)
+            if ending != _FINISHED or self.ended:
+                self._say_rest(lines[number:], show)
+                return
+        if self._shell.state == UNFINISHED:
+            display.end()
+            self._shell.leave_unfinished()
+            raise refusals.unfinished(self.command)
+
+    def _refusal(self, line: str) -> str:
+        here = self._prompt().removesuffix("$ ")
+        outside = refusals.build_outside(line, self._shell.folder, workspace(), here)
+        return outside or refusals.full_screen(line)
+
+    def _type_line(self, line: str, goal: Goal, display: Display) -> str:
+        place = self._shell.end
+        if self._shell.state == READY:
+            self.command, self._begin, self._folder = line, place, self._shell.folder
+            before = self._prompt()
+        else:
+            self.command, before = f"{self.command}\n{line}", "> "
+        self._is_open = True
+        self._shell.enter(line, before + line)
+        return self._follow(goal, display, place)
+
+    def _answer_lines(self, lines: list[str], goal: Goal, show: Show) -> None:
+        display = Display(show)
+        for number, line in enumerate(lines, 1):
+            is_last = number == len(lines)
+            place = self._shell.end
+            self._shell.answer(line)
+            ending = self._follow(goal if is_last else Goal(until_quiet=True), display, place)
+            if ending == _FINISHED or is_last:
+                self._conclude(ending, goal, show, looking=ending == _QUIET)
+                self._say_rest(lines[number:], show)
+                return
+
+    # Following.
+
+    def _follow(self, goal: Goal, display: Display, place: int) -> str:
+        """Show what comes until the goal is reached; return how that ended."""
+        ending = self._watch(goal, display.add, place)
+        if self._shell.state != UNFINISHED or ending != _FINISHED:
+            display.end()
+        return ending
+
+    def _watch(self, goal: Goal, see: Callable[[Line], None], place: int) -> str:
+        allowed = self._patience(goal) if goal.seconds is None else goal.seconds
+        deadline = time.monotonic() + allowed
+        found, may_repair = 0, self._touches_prompt()
+        self._place = place
+        while True:
+            glance = self._shell.glance(self._place)
+            for line in glance.lines:
+                self._place = line.number + 1
+                see(line)
+                found += goal.until is not None and not line.typed and goal.until in line.text
+                if found and found >= goal.lines:
+                    return _FOUND
+            if glance.state != BUSY:
+                return _FINISHED
+            left = deadline - time.monotonic()
+            if left <= 0:
+                return _TOO_LONG if goal.seconds is None else _TIME_UP
+            if self._shell.wait_after(glance.moment, min(_SILENCE, max(0.001, left))):
+                continue
+            # A `.bashrc` may take its time: until bash waits there is nothing to repair.
+            may_repair = may_repair and not self._shell.bring_prompt_back()
+            if time.monotonic() >= deadline:
+                continue
+            if goal.until is not None and goal.until in glance.partial:
+                self._shell.break_line()
+            elif goal.until_quiet:
+                return _QUIET
+
+    def _conclude(self, ending: str, goal: Goal, show: Show, looking: bool = False) -> None:
+        """Say how the command ended, or that it did not."""
+        if ending == _FINISHED:
+            self._finish(show)
+            # A command that failed has said so; who waits for more of it is told as well.
+            said_so = bool(self._shell.code) and not looking
+            if goal.until is not None and self._shell.state != UNFINISHED and not said_so:
+                raise self._not_seen(goal, None)
+            return
+        partial = self._shell.glance(self._shell.end).partial
+        if partial and ending != _FOUND:
+            show(partial)
+        command = refusals.short(self.command)
+        if ending == _TOO_LONG:
+            if goal.until is not None:
+                raise self._not_seen(goal, self._patience(goal))
+            say(
+                show,
+                f"`{command}` still runs after {self._patience(goal):g} s, and goes on; "
+                f"`%terminal {self.name}` shows what comes, `--ctrl-c` stops it",
+            )
+        if looking:
+            return
+        if ending == _TIME_UP:
+            say(show, f"`{command}` goes on running in the terminal `{self.name}`")
+        self._explain(0, show)
+
+    def _finish(self, show: Show, always: bool = False) -> None:
+        """Say how the command ended, once."""
+        if not self._is_open or self._shell.state == UNFINISHED:
+            return
+        self._is_open = False
+        code = self._shell.code
+        if (code and not self.command.lstrip().startswith("#")) or always:
+            say(show, f"exit code {code}")
+        self._explain(code or 0, show)
+        if self.ended:
+            say(show, f"the terminal `{self.name}` has ended; its next use opens a new one")
+
+    def _explain(self, code: int, show: Show) -> None:
+        # Loaded when the first command has ended: the first prompt does not wait for it.
+        from rosbeat.workspace.meanings import explain
+
+        lines = (line[:_LONGEST_TO_EXPLAIN] for line in self._printed()[-_LINES_TO_EXPLAIN:])
+        said = explain(self.command, "\n".join(lines), code, self._folder, workspace())
+        if said:
+            say(show, "\n".join(map(polisher(), said.splitlines())))
+
+    def _end(self, act: Callable[[], None], key: str, timeout: float, show: Show) -> int | None:
+        """End the program; press Ctrl+C again for one that it has not reached."""
+        if not self.busy:
+            say(show, f"nothing runs in the terminal `{self.name}`")
+            return self._shell.code
+        display = Display(new_only(self._shell.glance(self._begin).lines, show))
+        before, self._place = self._shell.foreground(), self._shell.end
+        deadline = time.monotonic() + timeout
+        with self._told():
+            act()
+            while self._follow(self._next_look(deadline), display, self._place) != _FINISHED:
+                if time.monotonic() >= deadline:
+                    raise refusals.does_not_stop(self.name, self.command, key, timeout)
+                # A loop of the shell may have gone on to its next program meanwhile. One that was
+                # reached is left to end in its own way: pressed again, Ctrl+C would break that off.
+                now = self._shell.foreground()
+                if key == "^C" and now not in (0, before):
+                    before = now
+                    self._shell.interrupt(now)
+        self._finish(show, always=True)
+        return self._shell.code
+
+    def _next_look(self, deadline: float) -> Goal:
+        return Goal(timeout=min(_AGAIN_AFTER, deadline - time.monotonic()))
+
+    # Words.
+
+    def _printed(self) -> list[str]:
+        return [line.text for line in self._shell.glance(self._begin).lines if not line.typed]
+
+    def _not_seen(self, goal: Goal, seconds: float | None) -> TerminalError:
+        last = self._printed()[-_LAST_LINES:]
+        return refusals.not_seen(goal.until or "", goal.lines, seconds, last)
+
+    def _say_rest(self, rest: list[str], show: Show) -> None:
+        if rest:
+            lines = "1 more line" if len(rest) == 1 else f"{len(rest)} more lines"
+            say(show, f"{lines} in the cell, not typed")
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Let an interrupt of the page pass, with one line instead of a stack."""
+        try:
+            yield
+        except KeyboardInterrupt as interrupt:
+            if self._shell.state == UNFINISHED:
+                self._shell.leave_unfinished()
+            said = f"the terminal `{self.name}` waits for the next command."
+            if self.busy:
+                command = refusals.short(self.command)
+                said = f"`{command}` goes on running in the terminal `{self.name}`."
+            lines = [f"KeyboardInterrupt: {said}"]
+            interrupt._render_traceback_ = lambda: lines  # type: ignore[attr-defined] # IPython's
+            raise
+
+    def _prompt(self) -> str:
+        return prompt(self._shell.folder, self._parent)
+
+    def _touches_prompt(self) -> bool:
+        return bool(_TOUCHES_PROMPT.search(self.command))
+
+    def _patience(self, goal: Goal) -> float:
+        if goal.timeout is not None:
+            return goal.timeout
+        return _BUILD_PATIENCE if self.command.split()[:1] == ["colcon"] else _PATIENCE

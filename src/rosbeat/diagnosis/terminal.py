@@ -1,0 +1,1396 @@
+"""Say what a command that failed means, and one that went wrong without saying so.
+
+`_RULES` is one table: the first rule that recognises a situation decides, and a situation that no
+rule recognises gets no meaning. Most rules are rows; what a row cannot express is a function.
+Numbers of rows in brackets are those of the table in docs/mistakes.md.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cached_property
+from glob import escape
+from itertools import takewhile
+from pathlib import Path, PurePosixPath
+
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.packages import BROKEN, NO_CALL, Package, diagnose_flaw, nearest
+from rosbeat.diagnosis.programs import meaning_of_output
+
+#: Holds the path of the workspace in every terminal, so that `cd "$ROS2_WORKSPACE"` works anywhere.
+VARIABLE = "ROS2_WORKSPACE"
+
+# A command that has ended, and what can be seen of it.
+
+#: A program in Python: a script, or what `ros2 run` starts.
+PYTHON = r"(?:\S*/)?python[\d.]*|\S*\.py|ros2 run"
+_SEPARATORS = {";", "&&", "||", "|", "&"}
+_SETTING = re.compile(r"[A-Za-z_]\w*=")
+_TIME = re.compile(r"\d+(\.\d*)?[smhd]?")
+_TRACEBACK = "Traceback (most recent call last)"
+_ERROR = re.compile(r"^[A-Za-z_][\w.]*(?:Error|Exception|Interrupt|Exit)\b.*$", re.M)
+_COLOUR = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
+
+
+@dataclass(frozen=True)
+class Call:
+    """Hold one command of a line.
+
+    Attributes:
+        words: The program and its arguments.
+        place: The folder it ran in.
+    """
+
+    words: tuple[str, ...]
+    place: Path
+
+    def after(self, option: str) -> list[str]:
+        """Return the words behind an option, or an empty list if it was not given."""
+        found = option in self.words
+        return list(self.words[self.words.index(option) + 1 :]) if found else []
+
+
+@dataclass(frozen=True)
+class Situation:
+    """Hold a command that has ended, and what can be seen of it.
+
+    Attributes:
+        command: What was typed; several lines, or several commands in a line, are fine.
+        output: What the terminal showed.
+        code: The exit code of the last command.
+        folder: The folder that the terminal was in.
+        workspace: The learner's workspace.
+        home: The folder that the terminal calls `~`.
+        look: Returns every package of the workspace; called when a rule first asks for them.
+    """
+
+    command: str
+    output: str
+    code: int
+    folder: Path
+    workspace: Path
+    home: Path
+    look: Callable[[], tuple[Package, ...]]
+
+    @cached_property
+    def text(self) -> str:
+        """Return the output without colours, with one kind of line end and one kind of quote."""
+        plain = _COLOUR.sub("", self.output).replace("\r\n", "\n").replace("\r", "\n")
+        return plain.replace("‘", "'").replace("’", "'")
+
+    @cached_property
+    def calls(self) -> tuple[Call, ...]:
+        """Return the commands one by one, each with the folder that `cd` had led to."""
+        place = self.folder
+        found = []
+        for words in split_commands(self.command):
+            found.append(Call(words, place))
+            if words[0] == "cd":
+                place = self._after_cd(place, words)
+        return tuple(found)
+
+    def call(self, pattern: str) -> Call | None:
+        r"""Return the last command whose first words match a regular expression, or None.
+
+        Args:
+            pattern: The expression, as in `ros2 run` or `python[\d.]*`; it ends with a word.
+        """
+        start = re.compile(rf"(?:{pattern})(?= |$)")
+        return next((one for one in self.calls[::-1] if start.match(" ".join(one.words))), None)
+
+    @cached_property
+    def traceback(self) -> str:
+        """Return what a program in Python shows of its error, or an empty text.
+
+        The text of a traceback in a file that is only read does not count.
+        """
+        start = self.text.find(_TRACEBACK) if self.call(PYTHON) else -1
+        return self.text[start:] if start >= 0 else ""
+
+    @cached_property
+    def error(self) -> str:
+        """Return the last line of the traceback: the error's name and text."""
+        lines = _ERROR.findall(self.traceback)
+        return lines[-1] if lines else ""
+
+    @property
+    def about_ros(self) -> bool:
+        """Return whether the traceback is that of a node."""
+        return bool(self.traceback) and (
+            "rclpy" in self.traceback or self.call("ros2 run") is not None
+        )
+
+    @cached_property
+    def packages(self) -> tuple[Package, ...]:
+        """Return every package of the workspace."""
+        return self.look()
+
+    def package(self, name: str) -> Package | None:
+        """Return the package of a name, or None."""
+        return next((one for one in self.packages if one.name == name), None)
+
+    def _after_cd(self, place: Path, words: tuple[str, ...]) -> Path:
+        """Return where `cd` leads; without such a folder it fails, and stays in the same place."""
+        typed = words[1] if len(words) > 1 else "~"
+        first, _, rest = typed.partition("/")
+        workspace = dict.fromkeys((f"${VARIABLE}", f"${{{VARIABLE}}}"), self.workspace)
+        known = {"~": self.home, **workspace}
+        path = known[first] / rest.lstrip("/") if first in known else place / typed
+        path = Path(os.path.normpath(path))  # `..` leads out of a folder that has gone, too
+        return path.resolve() if path.is_dir() else place
+
+
+def split_commands(text: str) -> list[tuple[str, ...]]:
+    """Return the words of each command in a text, without settings and `timeout` in front.
+
+    Args:
+        text: What was typed; several lines, or several commands in a line, are fine.
+    """
+    found: list[tuple[str, ...]] = []
+    for line in text.replace("\\\n", " ").splitlines():
+        try:
+            lexer = shlex.shlex(line, posix=True, punctuation_chars=True)
+            lexer.whitespace_split = True
+            words = list(lexer)
+        except ValueError:  # a quote is not closed
+            words = line.split()
+        found += _split(words)
+    return found
+
+
+def _split(words: list[str]) -> list[tuple[str, ...]]:
+    found: list[list[str]] = [[]]
+    for word in words:
+        if word in _SEPARATORS:
+            found.append([])
+        else:
+            found[-1].append(word)
+    return [tuple(_from_the_program(one)) for one in found if one]
+
+
+def _from_the_program(words: list[str]) -> list[str]:
+    """Return the words without `NAME=value` or `timeout 5` in front: neither is the program."""
+    start = next((at for at, word in enumerate(words) if not _SETTING.match(word)), 0)
+    rest = words[start:]
+    if rest[0] == "timeout":
+        rest = rest[next((at for at, word in enumerate(rest) if _TIME.fullmatch(word)), -1) + 1 :]
+    return rest or words
+
+
+# The shapes of a rule.
+
+Found = re.Match[str]
+Rules = tuple[Callable[[Situation], Diagnosis | None], ...]
+#: A condition holds if it returns anything true.
+When = Callable[[Situation, Call, Found], object]
+
+
+def _always(*_: object) -> bool:
+    return True
+
+
+def _failed(seen: Situation, *_: object) -> bool:
+    return seen.code != 0
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Recognise what a command printed, and let a function say what it means.
+
+    Attributes:
+        ran: A regular expression for the command's first words; `{1}` is the first group of the
+            pattern. Output that another command merely shows, as `cat` does, does not count.
+        pattern: A regular expression that is looked for in the output.
+        says: What it means; None if it is not this mistake after all.
+    """
+
+    ran: str
+    pattern: str
+    says: Callable[[Situation, Call, Found], Diagnosis | None]
+
+    def __call__(self, seen: Situation) -> Diagnosis | None:
+        """Return what the function says if command and output fit; else None."""
+        # Outputs may be long, so another command's is not searched.
+        if "{" not in self.ran and not seen.call(self.ran):
+            return None
+        found = re.search(self.pattern, seen.text, re.MULTILINE)
+        if not found:
+            return None
+        call = seen.call(self.ran.format(*map(re.escape, (found[0], *found.groups("")))))
+        return self.says(seen, call, found) if call else None
+
+
+@dataclass(frozen=True)
+class Row:
+    """Recognise a mistake by a command and what it printed.
+
+    Attributes:
+        mistake: The mistake's id.
+        ran: The command, as in `Rule`.
+        pattern: A regular expression that is looked for in the output.
+        evidence: What happened; `{1}` is the first group of the pattern, and `{here}` the name of
+            the folder that the command ran in.
+        hint: Where to look, with groups as well.
+        when: What else has to be true.
+    """
+
+    mistake: str
+    ran: str
+    pattern: str
+    evidence: str
+    hint: str
+    when: When = _always
+
+    def __call__(self, seen: Situation) -> Diagnosis | None:
+        """Return the mistake if it is this one; else None."""
+        return Rule(self.ran, self.pattern, self._says)(seen)
+
+    def _says(self, seen: Situation, call: Call, found: Found) -> Diagnosis | None:
+        if not self.when(seen, call, found):
+            return None
+        words, here = (found[0], *found.groups("")), call.place.name or "/"
+        said = (one.format(*words, here=here) for one in (self.evidence, self.hint))
+        return Diagnosis(self.mistake, *said)
+
+
+@dataclass(frozen=True)
+class PackageRow:
+    """Recognise a mistake in the files of a package.
+
+    Attributes:
+        mistake: The mistake's id.
+        when: What is true of the package, and of the executable that was asked for.
+        evidence: What is wrong, with attributes of the package, as in `{name}`, and `{executable}`
+            or `{stem}`, the executable without `.py`.
+        hint: Where to look, with the same.
+    """
+
+    mistake: str
+    when: Callable[[Package, str], object]
+    evidence: str
+    hint: str
+
+    def __call__(self, package: Package, executable: str) -> Diagnosis | None:
+        """Return the mistake if the package has it; else None."""
+        if not self.when(package, executable):
+            return None
+        stem = executable.removesuffix(".py")
+        values = vars(package) | {"executable": executable, "stem": stem}
+        said = (one.format_map(values) for one in (self.evidence, self.hint))
+        return Diagnosis(self.mistake, *said)
+
+
+@dataclass(frozen=True)
+class PackageRule:
+    """Ask about the packages that a command was for, one after the other.
+
+    Attributes:
+        ran: The command: `_BUILD` or `_RUN`.
+        says: Rows and functions that look at a package; the first that finds a mistake speaks.
+        pattern: A regular expression that is looked for in the output.
+        when: What else has to be true.
+    """
+
+    ran: str
+    says: tuple[Callable[[Package, str], Diagnosis | None], ...]
+    pattern: str = ""
+    when: Callable[[Situation, Package], object] = _always
+
+    def __call__(self, seen: Situation) -> Diagnosis | None:
+        """Return the first mistake in a package that the command was for; else None."""
+        call = seen.call(self.ran)
+        if not call or not re.search(self.pattern, seen.text):
+            return None
+        asked = [one for one in _asked_for(seen, call) if self.when(seen, one[0])]
+        return _first(say(*one) for one in asked for say in self.says)
+
+
+_BUILD, _RUN, _CREATE = "colcon build", "ros2 run", "ros2 pkg create"
+
+
+def _first(found: Iterable[Diagnosis | None]) -> Diagnosis | None:
+    return next((one for one in found if one), None)
+
+
+def _asked_for(seen: Situation, call: Call) -> list[tuple[Package, str]]:
+    """Return the packages of a `colcon build`, or that of a `ros2 run` with its executable."""
+    if call.words[0] == "colcon":
+        names = [word for word in call.after("--packages-select") if not word.startswith("-")]
+        every = "--packages-select" not in call.words
+        return [(one, "") for one in seen.packages if every or one.name in names]
+    given = _names_to_run(call)
+    package = seen.package(given[0]) if len(given) > 1 else None
+    return [(package, given[1])] if package else []
+
+
+def _names_to_run(call: Call) -> list[str]:
+    """Return the names behind `ros2 run`: the package and the executable, if both were given."""
+    own = takewhile(lambda word: word != "--ros-args", call.words[2:])
+    return [word for word in own if not word.startswith("-")]
+
+
+def recognise(seen: Situation) -> Diagnosis | None:
+    """Return the mistake behind a command's outcome, what shows it and what to try.
+
+    Args:
+        seen: The command; files of the workspace are read, and nothing is run.
+
+    Returns:
+        None if nothing is known for sure.
+    """
+    for rule in _RULES:
+        with suppress(OSError):  # the workspace changes while it is looked at
+            found = rule(seen)
+            if found:
+                return found
+    return None
+
+
+def explain(seen: Situation) -> str | None:
+    """Return two or three sentences about a command's outcome: what it means and what to try.
+
+    Args:
+        seen: The command.
+
+    Returns:
+        None if nothing is known for sure, or if the output says the same itself.
+    """
+    found = recognise(seen)
+    if found is None or _says_it_itself(seen, found):
+        return None
+    return " ".join(text for text in (found.evidence, found.hint) if text)
+
+
+#: Mistakes with a word of the command itself: the course's `ros2` often proposes the right one.
+_ABOUT_A_WORD = (
+    "executable-misspelled",
+    "package-misspelled",
+    "word-misspelled",
+    "option-misspelled",
+    "build-type",
+)
+_ASKED = re.compile(r"Did you mean:? '([^']+)'")
+_PROPOSAL = re.compile(r"Did you mean `?([\w.-]+)`?\?")
+#: What the course's `ros2` prints about a package that was to be made in another one.
+_INSIDE = "is a package itself (it holds a package.xml)"
+
+
+def _says_it_itself(seen: Situation, found: Diagnosis) -> bool:
+    """Return whether the program itself has said already what we would say."""
+    if _INSIDE in seen.text:
+        return found.mistake == "wrong-folder"
+    if found.mistake not in _ABOUT_A_WORD:
+        return False
+    if not (match := _PROPOSAL.match(found.hint)):
+        return "' has: " in seen.text and found.hint.startswith("It has: ")
+    return match[1] in _ASKED.findall(seen.text)
+
+
+# Folders: `cd` and `mkdir`, and a terminal whose folder has gone.
+
+_BASH = r"^bash: (?:line \d+: )?"
+_NO_FILE = "No such file or directory"
+_MKDIR = r"^mkdir: cannot create directory '"
+_TOP = "starts with `/`, and that is the top of the whole disk"
+
+
+def _way_to(relative: str = "") -> str:
+    """Return the `cd` that leads to a folder of the workspace from everywhere."""
+    rest = f"/{shlex.quote(relative)}" if relative not in ("", ".") else ""
+    return f'cd "${VARIABLE}"{rest}'
+
+
+def _near(base: Path, typed: str, folders: bool = False) -> str | None:
+    """Return the path that was probably meant, written like the one that was typed, or None."""
+    path = Path(typed)
+    above = base / path.parent
+    there = [one.name for one in above.iterdir()
+             if one.is_dir() or not folders] if above.is_dir() else []  # fmt: skip
+    meant = nearest(path.name, there)
+    return str(path.parent / meant) if meant else None
+
+
+def _folder_gone(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
+    """Recognise that the terminal's folder was removed, perhaps by another terminal."""
+    failed = seen.code or ": error: " in seen.text
+    # A new folder may have the name of the old one; then only the programs notice.
+    noticed = "os.getcwd()" in seen.text and "FileNotFoundError: [Errno 2]" in seen.text
+    if not failed or (seen.calls[-1].place.exists() and not noticed):
+        return None
+    way = _way_to() if seen.workspace.is_dir() else "cd"
+    return Diagnosis(
+        "folder-gone",
+        "The folder that this terminal is in does not exist any more.",
+        f"Go to another: `{way}`",
+    )
+
+
+def _nothing_at_the_top(path: str) -> bool:
+    """Return whether a path begins at `/` with a name that is not there, as in `/Documents`."""
+    parts = PurePosixPath(path).parts
+    return (
+        len(parts) > 1 and parts[0] == "/" and parts[1] != "home" and not Path(*parts[:2]).exists()
+    )
+
+
+def _mkdir_at_the_top(_: Situation, __: Call, found: Found) -> Diagnosis | None:
+    path = found[1]
+    if not _nothing_at_the_top(path):
+        return None
+    return Diagnosis(
+        "tilde-missing",
+        f"{path} {_TOP}, which is not yours.",
+        f"Your own folder is called `~`: write  mkdir -p ~/{shlex.quote(path.lstrip('/'))}",
+    )
+
+
+def _typed_a_backslash(seen: Situation, *_: object) -> bool:
+    lines = re.findall(r"^\s*cd\s+(\S*\\[^\s\\].*)$", seen.command, re.MULTILINE)
+    return bool(lines) and r"\ " not in lines[-1]
+
+
+def _cd_with_a_blank_too_many(_: Situation, call: Call, __: Found) -> Diagnosis:
+    return Diagnosis(
+        "space-too-many",
+        f"`cd` goes to one folder, and {len(call.words) - 1} words follow it.",
+        "A path has no blank in it: `/` joins its parts. "
+        "If a name has one, put quotes around the whole path.",
+    )
+
+
+def _cd_failed(seen: Situation, call: Call, found: Found) -> Diagnosis:
+    path = found[1].strip()
+    return _in_the_workspace(seen, path) or _at_the_top(seen, path) or _not_here(call.place, path)
+
+
+def _in_the_workspace(seen: Situation, path: str) -> Diagnosis | None:
+    """Recognise a folder of the workspace, which lies elsewhere than it was looked for."""
+    parts = PurePosixPath(path).parts
+    if seen.workspace.name not in parts or not seen.workspace.is_dir():
+        return None
+    rest = str(PurePosixPath(*parts[parts.index(seen.workspace.name) + 1 :]))
+    here = rest if (seen.workspace / rest).is_dir() else ""
+    meant = None if here else _near(seen.workspace, rest, folders=True)
+    if not meant:
+        return _absent(f"{path}.", f"Your workspace is here:  {_way_to(here)}")
+    return _absent(f"{rest} in your workspace.", f"Did you mean  {_way_to(meant)}")
+
+
+def _at_the_top(seen: Situation, path: str) -> Diagnosis | None:
+    if not _nothing_at_the_top(path):
+        return None
+    rest = path.strip("/")
+    there = (seen.home / rest).is_dir()
+    hint = f": write  cd ~/{shlex.quote(rest)}" if there else ", and `ls ~` shows what is there."
+    return Diagnosis("tilde-missing", f"{path} {_TOP}.", f"Your own folder is called `~`{hint}")
+
+
+def _not_here(place: Path, path: str) -> Diagnosis:
+    meant = _near(place, path, folders=True)
+    where = "" if path.startswith("/") else " where this terminal is"
+    if meant:
+        return _absent(f"{path}{where}.", f"Did you mean {shlex.quote(meant)}?")
+    return _absent(f"{path}{where}.", "`pwd` shows where you are, `ls` what is there.")
+
+
+def _absent(what: str, hint: str) -> Diagnosis:
+    return Diagnosis("folder-not-found", f"There is no folder {what}", hint)
+
+
+_CD_RULES = (
+    Row(
+        "path-separator",
+        "cd",
+        rf"{_BASH}cd: .+: {_NO_FILE}",
+        r"There is a `\` in the path, and bash takes it away.",
+        "On Linux `/` stands between the parts of a path.",
+        _typed_a_backslash,
+    ),
+    Rule("cd", rf"{_BASH}cd: (.+): {_NO_FILE}", _cd_failed),
+    Rule("cd", rf"{_BASH}cd: too many arguments", _cd_with_a_blank_too_many),
+    Row(
+        "not-a-folder",
+        "cd",
+        rf"{_BASH}cd: *(\S.*?) *: Not a directory",
+        "{1} is a file, and `cd` goes into folders.",
+        "`cat` shows what is in a file.",
+    ),
+)
+_MKDIR_RULES = (
+    Row(
+        "folder-exists",
+        "mkdir",
+        rf"{_MKDIR}([^']+)': File exists",
+        "{1} is there already, so there is nothing to do.",
+        "With -p, `mkdir` says nothing about that.",
+    ),
+    Rule("mkdir", rf"{_MKDIR}([^']+)': (?:No such|Permission den)", _mkdir_at_the_top),
+    Row(
+        "parents-missing",
+        "mkdir",
+        rf"{_MKDIR}(?:[^']*/)?([^'/]+)/*': No such file",
+        "The folder in which {1} should be made does not exist.",
+        "With -p, `mkdir` makes it too.",
+    ),
+    Row(
+        "option-misspelled",
+        "mkdir",
+        r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'P'",
+        "`mkdir` has no option -P, so it made nothing.",
+        "The option is a small letter: -p",
+    ),
+    Row(
+        "option-misspelled",
+        "mkdir",
+        r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'([^']+)'",
+        "`mkdir` has no option -{1}, so it made nothing.",
+        "`mkdir --help` lists what it takes.",
+    ),
+    Row(
+        "word-missing",
+        "mkdir",
+        r"mkdir: missing operand",
+        "`mkdir` was not told which folder to make.",
+        "Its name, or a path to it, comes behind a blank.",
+    ),
+)
+
+
+# Programs and files on the command line.
+
+_KNOWN = (
+    *("ros2", "colcon", "source", "mkdir", "cd", "chmod", "ls", "pwd", "cat", "cp", "mv"),
+    *("echo", "python3", "python", "pip", "touch", "clear", "exit"),
+)
+_NOT_HERE = (
+    "tree|screen|tmux|git|sudo|apt|apt-get|gnome-terminal|terminator|rviz2|rqt|rqt_graph|rosdep|"
+    "htop|wget|curl|pip|python|conda"
+)
+#: Short words are easily alike: `screen` is not `tree`.
+_ALIKE = 0.75
+_SOURCE = r"source|\."
+_SETUP = r"(?:\S*/)?install/(?:local_)?setup\.\w+"
+
+
+def _not_found(words: str = r"[^\s:]+") -> str:
+    """Return the pattern of what bash says about a command that it does not find."""
+    return rf"{_BASH}({words}): command not found"
+
+
+def _misspelt(_: Situation, __: Call, found: Found) -> Diagnosis | None:
+    word = found[1]
+    meant = nearest(word, [one for one in _KNOWN if one != word], _ALIKE)
+    if not meant:
+        return None
+    return Diagnosis(
+        "command-misspelled", f"There is no command `{word}`.", f"Did you mean `{meant}`?"
+    )
+
+
+def _no_such_file(seen: Situation, call: Call, found: Found) -> Diagnosis:
+    """Say where in the workspace a file lies that is not here, or which one was meant."""
+    path = found[1]
+    where = "" if path.startswith("/") else " where this terminal is"
+    same = sorted(seen.workspace.glob(f"src/**/{escape(Path(path).name)}"))
+    file = next((one for one in same if one.is_file()), None)
+    if file:
+        folder = file.parent.relative_to(seen.workspace).as_posix()
+        return Diagnosis(
+            "wrong-folder",
+            f"There is no {path}{where}; it lies in {folder} of your workspace.",
+            f"Go there first, with  {_way_to(folder)}",
+        )
+    meant = _near(call.place, path)
+    hint = f"Did you mean {shlex.quote(meant)}?" if meant else "`ls` shows what is there."
+    return Diagnosis("file-not-found", f"There is no {path}{where}.", hint)
+
+
+def _not_executable(_: Situation, __: Call, found: Found) -> Diagnosis:
+    path = shlex.quote(found[1])
+    return Diagnosis(
+        "not-executable",
+        f"{path} may not be started as a program.",
+        f"`chmod +x {path}` allows it. "
+        "`ros2 run` needs no such right: it uses the entry points in setup.py.",
+    )
+
+
+_COMMAND_RULES = (
+    Row(
+        "dot-slash-missing",
+        "{1}",
+        _not_found(),
+        "{1} is here, but the shell does not look here by itself:",
+        "write ./{1}",
+        lambda _, call, found: (call.place / found[1]).is_file(),
+    ),
+    Row(
+        "prompt-typed",
+        "{1}",
+        _not_found("[$#%]"),
+        "`{1}` is the sign with which a terminal waits for you, and no command.",
+        "Type only what stands behind it.",
+    ),
+    Row(
+        "not-installed",
+        "{1}",
+        _not_found("nano|gedit|vim|vi|code|emacs"),
+        "The editor {1} is not installed here.",
+        "Open the file in JupyterLab's file browser with a double click, or write it with a "
+        "`%%save` cell.",
+    ),
+    Row(
+        "environment-inactive",
+        "{1}",
+        _not_found("ros2|colcon"),
+        "This terminal does not know {1}: the environment of the course is not active in it.",
+        "Open the terminal from the course, or start with `./environment/course shell`.",
+    ),
+    Row(
+        "ros-1-command",
+        "{1}",
+        _not_found("roscore|rosrun|rosnode|rostopic|roslaunch|catkin_make"),
+        "`{1}` is not installed here:",
+        "it belongs to ROS 1, and ROS 2 does without it.",
+    ),
+    Row(
+        "not-installed",
+        "{1}",
+        _not_found(_NOT_HERE),
+        "The program `{1}` is not installed here.",
+        "The course does without it.",
+    ),
+    Rule("{1}", _not_found(), _misspelt),
+)
+_FILE_RULES: Rules = (
+    Rule("chmod", r"^chmod: cannot access '([^']+)': No such file", _no_such_file),
+    Row(
+        "word-misspelled",
+        "chmod",
+        r"^chmod: invalid mode: ",
+        "`chmod` cannot read its first word.",
+        "A plus sign adds a permission: `+x` adds the one to execute.",
+    ),
+    Row(
+        "word-missing",
+        "chmod",
+        r"chmod: missing operand",
+        "`chmod` needs two words: what to change, and the file.",
+        "As in  chmod +x temperature_publisher.py",
+    ),
+    Row(
+        "is-a-folder",
+        "rm",
+        r"^rm: cannot remove '([^']+)': Is a directory",
+        "{1} is a folder, and `rm` alone removes files.",
+        "`rm -r` removes a folder with all that is in it, and there is no bin: read the line "
+        "twice.",
+    ),
+    # Python shows the whole path, also of a name that was typed alone.
+    Rule(r"python[\d.]*", r"can't open file '(?:[^']*/)?([^'/]+)': \[Errno 2\]", _no_such_file),
+    Row(
+        "ros-elsewhere",
+        _SOURCE,
+        rf"{_BASH}/opt/ros/\S+: {_NO_FILE}",
+        "That file comes with an installed ROS.",
+        "In this course every terminal has ROS already; leave the line out.",
+    ),
+    Row(
+        "not-built",
+        _SOURCE,
+        rf"{_BASH}({_SETUP}): {_NO_FILE}",
+        "{1} does not exist yet: `colcon build` makes it.",
+        "Build in the workspace first, then source.",
+        lambda seen, *_: not (seen.workspace / "install" / "setup.bash").is_file(),
+    ),
+    *(
+        Row(
+            "wrong-folder",
+            _SOURCE,
+            rf"{_BASH}({start}{_SETUP}): {_NO_FILE}",
+            f"{{1}} {where}.",
+            f"It lies in your workspace: go there first, with  {_way_to()}",
+            lambda seen, _, found: (seen.workspace / "install" / Path(found[1]).name).is_file(),
+        )
+        for start, where in (
+            ("(?=/)", "does not exist"),
+            ("", "is not where this terminal is"),
+        )
+    ),
+    Rule(r"\S*{2}", rf"{_BASH}((?:\S*/)?([^\s/]+\.py)): Permission denied", _not_executable),
+)
+
+
+# Words that `colcon` or `ros2` do not know.
+
+_OPTIONS = (
+    *("--packages-select", "--symlink-install", "--packages-up-to", "--packages-skip"),
+    *("--parallel-workers", "--base-paths", "--cmake-args", "--ros-args", "--help"),
+    *("--destination-directory", "--event-handlers", "--build-type", "--dependencies"),
+    *("--node-name", "--once", "--show-types"),
+)
+_REQUIRED = r"error: the following arguments are required: "
+
+
+def _unknown_word(_: Situation, __: Call, found: Found) -> Diagnosis:
+    """Name the nearest verb that exists."""
+    program, word = found[1], found[2]
+    names = re.findall(r"[\w-]+", found[3])
+    meant = nearest(word, names)
+    return Diagnosis(
+        # A build type is asked for by a word, too, and has a mistake of its own.
+        "build-type" if word.startswith("ament") else "word-misspelled",
+        f"`{program}` does not know the word `{word}`.",
+        f"Did you mean `{meant}`?" if meant else f"It knows: {', '.join(names)}.",
+    )
+
+
+def _unknown_option(_: Situation, __: Call, found: Found) -> Diagnosis:
+    """Name the nearest option that exists."""
+    program, word = found[1], found[2].split()[0]
+    meant = _option_like(word.split("=")[0])
+    hint = f"Did you mean `{meant}`?" if meant else f"`{program} --help` lists what it takes."
+    return Diagnosis("option-misspelled", f"`{program}` cannot do anything with `{word}`.", hint)
+
+
+def _option_like(word: str) -> str | None:
+    """Return the option that was meant: `-symlink-install` has a dash, `symlink_install` none."""
+    plain = word.lstrip("-").replace("_", "-")
+    if f"--{plain}" in _OPTIONS:
+        return f"--{plain}"
+    return nearest(word, list(_OPTIONS), 0.75) if word.startswith("-") else None
+
+
+def _missing_word(_: Situation, __: Call, found: Found) -> Diagnosis:
+    names = found[2].removesuffix(", argv").replace("_", " ")
+    said = f"`{found[1]}` needs something more behind it:"
+    return Diagnosis("word-missing", said, f"{names}.")
+
+
+_WORD_RULES = (
+    Rule(
+        "{1}",
+        r"^(\w+)\b.*: error: .*invalid choice: '?([^'\s]+)'? \(choose from ([^)]*)\)",
+        _unknown_word,
+    ),
+    # An option counted as one of the two names, or there was nothing.
+    Row(
+        "word-missing",
+        _RUN,
+        r"^ros2.*: error: (unrecognized|the following) arguments",
+        "`ros2 run` got fewer than two names.",
+        "After `ros2 run` come two names: the package and the executable.",
+        lambda _, call, __: len(_names_to_run(call)) < 2,
+    ),
+    Rule("{1}", r"^(colcon|ros2).*: error: unrecognized arguments: (.*\S.*)$", _unknown_option),
+    Row(
+        "word-missing",
+        "ros2",
+        rf"^ros2 pkg create: {_REQUIRED}",
+        "The name of the package is missing, or an option before it has taken it: "
+        "`--dependencies` takes every word behind it.",
+        "Put the name first.",
+    ),
+    Rule("ros2", rf"^(ros2 .*): {_REQUIRED}(.+)$", _missing_word),
+)
+
+
+# `ros2 pkg create`.
+
+
+def _options_missing(_: Situation, call: Call, found: Found) -> Diagnosis | None:
+    """Recognise the values of options that were typed without the options themselves."""
+    typed = any(word.startswith("--build-type") for word in call.words)
+    kind = [] if typed or "ament_python" not in call.words else ["--build-type"]
+    more = len(found[1].split()) - len(kind)
+    names = ["--dependencies"] if more > 0 and "--dependencies" not in call.words else []
+    missing = [*kind, *names]
+    if not missing:
+        return None
+    plural = ("s", "are") if len(missing) > 1 else ("", "is")
+    return Diagnosis(
+        "option-missing",
+        f"The option{plural[0]} {' and '.join(missing)} {plural[1]} missing.",
+        "Each option stands before the words that belong to it.",
+    )
+
+
+def _no_build_type(_: Situation, call: Call, __: Found) -> bool:
+    return not any(word.startswith("--build-type") for word in call.words)
+
+
+def _made_for_cpp(seen: Situation, call: Call, found: Found) -> Diagnosis | None:
+    """Recognise that another `ros2` has made a package for C++ (25)."""
+    made = (one for one in seen.packages if one.name in call.words[3:] and _is_for_cpp(one))
+    package = next(made, None)
+    if seen.code or not package or not _no_build_type(seen, call, found):
+        return None
+    name = package.name
+    return Diagnosis(
+        "build-type",
+        f"{name} has become a package for C++: it has a CMakeLists.txt and no setup.py, "
+        "because `--build-type ament_python` was left out.",
+        f"Rename the folder {name} or move it away, then make the package again with that option.",
+    )
+
+
+def _made_elsewhere(seen: Situation, call: Call, _: Found) -> Diagnosis | None:
+    """Recognise a package that was made outside of `src` (26)."""
+    place, source = call.place.resolve(), (seen.workspace / "src").resolve()
+    words = (word for word in call.words[3:] if not word.startswith("-"))
+    name = next((word for word in words if (place / word / "package.xml").is_file()), None)
+    if seen.code or not name or place == source or "--destination-directory" in call.words:
+        return None
+    way = "src/" if place == seen.workspace.resolve() else f'"${VARIABLE}"/src/'
+    return Diagnosis(
+        "wrong-folder",
+        f"The package {name} was made in {call.place.name or '/'}, where this terminal is.",
+        f"Packages belong into the folder src of the workspace. Move it there: mv {name} {way}",
+    )
+
+
+_CREATE_RULES = (
+    Row(
+        "package-exists",
+        _CREATE,
+        r"The directory already exists: (?:\S*/)?([^\s/]*)",
+        "A folder {1} is there already, most likely from the first time you ran this command.",
+        "Nothing was changed. If it is your package, go on with it; if not, rename it first.",
+    ),
+    Row(
+        "build-type",
+        _CREATE,
+        r"is left out here",
+        "Without `--build-type ament_python`, `ros2 pkg create` makes a package for C++, and that "
+        "is not what your node needs.",
+        "Add it; the rest of the command stays as it is.",
+        _no_build_type,
+    ),
+    Rule(_CREATE, "", _made_for_cpp),
+    Row(
+        "build-type",
+        _CREATE,
+        r"is left out here",
+        "The build type that was asked for is one for C++, and your nodes are in Python.",
+        "Write ament_python behind --build-type; the rest of the command stays as it is.",
+    ),
+    Row(
+        "package-name",
+        _CREATE,
+        r"cannot be the name of a package(?! to depend on)",
+        "A package for Python is imported under its name, so the name follows Python's rule:",
+        "small letters, digits and `_`, and a letter first.",
+    ),
+    Row(
+        "wrong-folder",
+        _CREATE,
+        re.escape(_INSIDE),
+        "This terminal is in a package, and no package lies in another one.",
+        "Packages belong into the folder src of the workspace: go there first.",
+    ),
+    Rule(_CREATE, "", _made_elsewhere),
+)
+#: These come before the rules about words, which take the same outputs for misspelt options.
+_OPTION_RULES = (
+    Rule(_CREATE, r"^ros2.*: error: unrecognized arguments: ([^\s-].*)$", _options_missing),
+    Row(
+        "commas-between-names",
+        _CREATE,
+        "",
+        "There are commas behind --dependencies.",
+        "Names are separated by blanks, not by commas.",
+        lambda seen, call, _: seen.code and "," in "".join(call.after("--dependencies")),
+    ),
+)
+
+
+# What is wrong with an entry point, and with a package.
+
+
+def _broken_module(package: Package, _: str) -> Diagnosis | None:
+    """Recognise a file of a package that has a syntax error (28)."""
+    broken = package.module_with_syntax_error()
+    if not broken:
+        return None
+    said = BROKEN.evidence.format(path=f"{package.name}/{broken[0]}.py", line=broken[1])
+    return Diagnosis(BROKEN.mistake, said, BROKEN.hint)
+
+
+def _is_for_cpp(package: Package, _: str = "") -> bool:
+    return package.manifest.build_type.endswith("cmake")
+
+
+_STILL = "Nothing new was installed; if there was a build before, `ros2 run` still starts that."
+_FOR_CPP = PackageRow(
+    "build-type",
+    _is_for_cpp,
+    "{name} is a package for C++: its package.xml says {manifest.build_type}.",
+    "A package for Python is made with `--build-type ament_python`. Rename the folder {name} "
+    "or move it away, then make the package again with that option.",
+)
+_NOT_INSTALLED = PackageRow(
+    "packages-missing",
+    lambda package, _: not package.setup.installs(package.name),
+    "setup.py of {name} does not install the folder {name} with its modules: `packages` leaves it "
+    "out.",
+    "Write packages=find_packages(exclude=['test']), and build again.",
+)
+#: Files that `ros2 pkg create` made and that are gone (27).
+_PARTS = (
+    PackageRow(
+        "marker-missing",
+        lambda package, _: not (package.folder / "setup.py").is_file(),
+        "The package {name} has no setup.py, so colcon cannot build it.",
+        "Write it again as page 05 shows it.",
+    ),
+    PackageRow(
+        "marker-missing",
+        lambda package, _: (package.folder / package.name).is_dir() and not package.has_init,
+        "The file {name}/__init__.py is gone from the package {name}, so Python does not see that "
+        "folder as a package, and its modules are not installed.",
+        "Make an empty one: touch src/{name}/{name}/__init__.py",
+    ),
+    PackageRow(
+        "marker-missing",
+        lambda package, _: not package.scripts_are_found,
+        "setup.cfg of the package {name} is gone or changed. It says that executables go to "
+        "lib/{name}, the only place where `ros2 run` looks.",
+        "It needs the two lines `[install]` and `install_scripts=$base/lib/{name}`.",
+    ),
+)
+_NO_MARKER = PackageRow(
+    "marker-missing",
+    lambda package, _: not package.has_marker,
+    "The file resource/{name} is gone from the package {name}. It is empty, and by it ROS knows "
+    "that the package exists.",
+    "Make it again in the folder of the package: touch resource/{name}",
+)
+_SETUP_UNREADABLE = PackageRow(
+    "syntax-error",
+    lambda package, _: package.setup.line,
+    "Python cannot read setup.py of {name}: {setup.problem}, at line {setup.line} or just before "
+    "it.",
+    f"Look for a quote, a comma or a bracket that is missing there. {_STILL}",
+)
+_SETUP_NOT_CALLED = PackageRow(
+    "no-setup-call",
+    lambda package, _: package.setup.problem == NO_CALL,
+    "setup.py of {name} can be read, and {setup.problem}.",
+    f"The call begins at the left margin: setup( ... ). {_STILL}",
+)
+
+
+# `colcon build`, also what it says nothing about.
+
+_NO_PACKAGES = r"(?s)\A(?!.*failed).*Summary: 0 packages finished"
+_TWICE = r"Duplicate package names|have the same name"
+_DID = {"build": "built", "test": "tested", "list": "listed"}
+
+
+def _built_in_src(seen: Situation, call: Call, _: Found) -> bool:
+    source = (seen.workspace / "src").resolve()
+    inside = call.place.resolve().is_relative_to(source) and (call.place / "log").is_dir()
+    return inside and "usage:" not in seen.text
+
+
+def _unknown_package(seen: Situation, call: Call, found: Found) -> Diagnosis:
+    """Name the package that `--packages-select` may have meant (13)."""
+    did = _DID.get(call.words[1], "did") if len(call.words) > 1 else "did"
+    meant = nearest(found[1], [one.name for one in seen.packages])
+    return Diagnosis(
+        "package-misspelled",
+        f"colcon found no package {found[1]}, so it {did} nothing.",
+        f"Did you mean {meant}?" if meant else "`colcon list` shows the packages that it sees.",
+    )
+
+
+def _twice_the_same(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
+    names = [one.name for one in seen.packages]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if not twice:
+        return None
+    folders = [one.folder for one in seen.packages if one.name == twice]
+    places = " and ".join(str(one.relative_to(seen.workspace)) for one in folders)
+    return Diagnosis(
+        "package-twice",
+        f"Two folders hold a package {twice}: {places}. colcon cannot tell which one you mean.",
+        "Move one of them out of the workspace.",
+    )
+
+
+def _entry_point_built(seen: Situation, call: Call, _: Found) -> Diagnosis | None:
+    """Recognise an entry point that leads nowhere (21, 22), or to a file with an error (28)."""
+    flaws = [flaw for package, _ in _asked_for(seen, call) for flaw in package.flaws]
+    if not flaws:
+        return None
+    found = diagnose_flaw(flaws[0])
+    if found.mistake == "syntax-error":  # its words say already that a build does not notice
+        return found
+    rest = _STILL if seen.code else "The build does not notice; `ros2 run` would."
+    return replace(found, hint=f"{found.hint} {rest}")
+
+
+def _is_python(_: Situation, package: Package) -> bool:
+    return package.manifest.build_type == "ament_python"
+
+
+_BUILD_RULES = (
+    Row(
+        "wrong-folder",
+        _BUILD,
+        "",
+        "You built inside the folder {here}, so build, install and log are there now, where nobody "
+        "looks for them.",
+        f"Go to the workspace with `{_way_to()}` and build there; "
+        "you may remove the three folders from {here}.",
+        _built_in_src,
+    ),
+    Row(
+        "option-misspelled",
+        "colcon",
+        r"ignoring unknown package '(symlink[-_]install|packages[-_]select)'",
+        "`{1}` was taken for a package:",
+        "an option begins with two dashes.",
+    ),
+    Rule("colcon", r"ignoring unknown package '([^']+)'", _unknown_package),
+    Rule("colcon", _TWICE, _twice_the_same),
+    Row(
+        "wrong-folder",
+        _BUILD,
+        _NO_PACKAGES,
+        "colcon looked in {here} and found no package there.",
+        f"Go to the workspace with `{_way_to()}` and build there.",
+        lambda seen, call, _: seen.packages and call.place.resolve() != seen.workspace.resolve(),
+    ),
+    Row(
+        "no-packages",
+        _BUILD,
+        _NO_PACKAGES,
+        "colcon found no package: no folder below here holds a package.xml.",
+        "Make one in src with `ros2 pkg create` first.",
+        lambda seen, *_: not seen.packages,
+    ),
+    PackageRule(
+        _BUILD,
+        (_FOR_CPP,),
+        when=lambda seen, package: seen.code and f"Failed   <<< {package.name}" in seen.text,
+    ),
+    PackageRule(_BUILD, (_SETUP_UNREADABLE,)),
+    PackageRule(_BUILD, (_SETUP_NOT_CALLED,), when=_failed),
+    PackageRule(
+        _BUILD,
+        _PARTS,
+        when=lambda seen, package: _is_python(seen, package) and not package.manifest.problem,
+    ),
+    Rule(_BUILD, "", _entry_point_built),
+    PackageRule(
+        _BUILD,
+        (_NOT_INSTALLED,),
+        when=lambda seen, package: (
+            _is_python(seen, package) and package.modules and not package.setup.problem
+        ),
+    ),
+    # A setup.py may name another file than the usual one, and then the build succeeds.
+    PackageRule(_BUILD, (_NO_MARKER,), when=_failed),
+    PackageRule(_BUILD, (_broken_module,)),
+)
+
+
+# `ros2 run`.
+
+_NO_PACKAGE = r"Package '([^']+)' not found"
+_BEFORE = "A build fails because of that, so what ran here is the build before."
+_AGAIN = "Build again with `colcon build` in the workspace."
+_NO_MODULE = ("ModuleNotFoundError", "ImportError")
+_UNREADABLE = ("SyntaxError", "IndentationError", "TabError")
+
+
+def _no_such_package(seen: Situation, _: Call, found: Found) -> Diagnosis | None:
+    asked = re.search(r"Did you mean '([^']+)'", seen.text)
+    meant = nearest(found[1], [one.name for one in seen.packages]) or (asked and asked[1])
+    if not meant:
+        return None
+    said = f"There is no package {found[1]} in your workspace."
+    return Diagnosis("package-misspelled", said, f"Did you mean {meant}?")
+
+
+def _executables(package: Package) -> list[str]:
+    return [one.executable for one in package.setup.entry_points]
+
+
+def _refused_flaw(package: Package, _: str) -> Diagnosis | None:
+    """Recognise an entry point with which a build fails (22)."""
+    flaws = (one for one in package.flaws if one.kind in ("missing-comma", "slash"))
+    return _first(map(diagnose_flaw, flaws))
+
+
+def _flaw_of_the_executable(package: Package, name: str) -> Diagnosis | None:
+    flaws = (one for one in package.flaws if one.entry.executable == name)
+    return _first(map(diagnose_flaw, flaws))
+
+
+def _names_a_node(package: Package, name: str) -> bool:
+    """Return whether a module of the package calls a node, or the class of one, by this name."""
+    sign = re.compile(rf"__init__\(\s*['\"]{re.escape(name)}['\"]|class {re.escape(name)}\(")
+    files = (package.folder / package.name / f"{module}.py" for module in package.modules)
+    return any(sign.search(path.read_text(errors="replace")) for path in files)
+
+
+def _is_module_only(package: Package, name: str) -> bool:
+    stem = name.removesuffix(".py")
+    return stem in package.modules and stem not in _executables(package)
+
+
+def _no_such_executable(package: Package, name: str) -> Diagnosis:
+    known, stem = _executables(package), name.removesuffix(".py")
+    meant = stem if stem in known else nearest(name, known)
+    hint = f"It has: {', '.join(known)}." if known else "I see no entry point in its setup.py."
+    if meant:
+        hint = f"Did you mean {meant}? The name is the one before the `=` in setup.py."
+    return Diagnosis(
+        "executable-misspelled" if known else "entry-point-missing",
+        f"The package {package.name} has no executable {name}.",
+        hint,
+    )
+
+
+def _linked_since(seen: Situation, call: Call, _: Found) -> bool:
+    """Return whether a link has replaced the copy that this terminal was told of."""
+    return any(
+        package.installed and package.installed.linked and package.name.replace("_", "-") in lost
+        for package, _ in _asked_for(seen, call)
+        for lost in re.findall(r"PackageNotFoundError: No package metadata .+", seen.error)
+    )
+
+
+def _is_about_loading(seen: Situation, _: Package) -> bool:
+    last = seen.error
+    return (
+        last.startswith((*_NO_MODULE, *_UNREADABLE))
+        or ("has no attribute" in last and last.startswith("AttributeError: module"))
+        or "'module' object is not callable" in last
+    )
+
+
+def _runs_a_build(seen: Situation, package: Package) -> bool:
+    """Return whether what ran was built before, and not by the same command."""
+    return package.installed is not None and not seen.call(_BUILD)
+
+
+def _refused_since(package: Package, name: str) -> Diagnosis | None:
+    """Recognise that a build of this source fails, so an older one runs (22)."""
+    setup, flaw = package.setup, _refused_flaw(package, name)
+    if setup.line:
+        said = f"Python cannot read setup.py: {setup.problem}, at line {setup.line}."
+        return Diagnosis("syntax-error", said, _BEFORE)
+    return replace(flaw, hint=f"{flaw.hint} {_BEFORE}") if flaw else None
+
+
+def _edited(package: Package, name: str) -> Diagnosis | None:
+    """Recognise that what runs is older than what is written (24)."""
+    modules = [one.module for one in package.setup.entry_points if one.executable == name]
+    files = [module.replace(".", "/") + ".py" for module in modules]
+    changed = package.installed.changed if package.installed else ()
+    edited = [one for one in files if one in changed]
+    if not edited:
+        return None
+    return Diagnosis(
+        "not-rebuilt",
+        f"{edited[0]} has been edited since the last build, and `ros2 run` starts the copy in "
+        "install: what you see is the old version.",
+        f"{_AGAIN} With `--symlink-install`, edits count without a build.",
+    )
+
+
+_RUN_RULES = (
+    Row(
+        "not-built",
+        "ros2",
+        _NO_PACKAGE,
+        "The package {1} is in src and has not been built yet.",
+        "In the workspace, run `colcon build` and then `source install/setup.bash`.",
+        lambda seen, _, found: (package := seen.package(found[1])) and not package.installed,
+    ),
+    Row(
+        "not-sourced",
+        "ros2",
+        _NO_PACKAGE,
+        "The package {1} is built, and this terminal does not know it yet.",
+        "Every new terminal has to be told: run `source install/setup.bash` in the workspace, then "
+        "try again.",
+        lambda seen, _, found: seen.package(found[1]),
+    ),
+    Rule("ros2", _NO_PACKAGE, _no_such_package),
+    PackageRule(
+        _RUN,
+        (
+            _FOR_CPP,
+            *_PARTS,
+            _refused_flaw,
+            PackageRow(
+                "not-rebuilt",
+                lambda package, name: name in _executables(package),
+                "setup.py has the entry point {executable}, and the build in install is older than "
+                "that.",
+                _AGAIN,
+            ),
+        ),
+        "No executable found",
+    ),
+    PackageRule(
+        _RUN,
+        (
+            PackageRow(
+                "group-misspelled",
+                lambda package, _: package.setup.misspelled_group,
+                "setup.py puts its entries under {setup.misspelled_group}, and nobody looks for "
+                "them there.",
+                f"Compare that word with page 05, letter by letter. {_AGAIN}",
+            ),
+            PackageRow(
+                "entry-point-missing",
+                _is_module_only,
+                "{stem}.py is in the package, and setup.py has no entry point for it, so there is "
+                "nothing that `ros2 run` could start.",
+                "Add one, 'executable = package.module:function', and build again.",
+            ),
+            PackageRow(
+                "executable-misspelled",
+                _names_a_node,
+                "{executable} is the name of a node or its class.",
+                "`ros2 run` wants the executable, the name before the `=` in setup.py.",
+            ),
+            _no_such_executable,
+        ),
+        "No executable found",
+        lambda _, package: not package.setup.incomplete,
+    ),
+)
+
+
+# Errors of Python, and what Ctrl+C leaves on the screen (29).
+
+#: What any program in Python may come upon; the others are mistakes of a node.
+_PLAIN = ("name-error", "wrong-attribute", "no-value-yet", "not-importable", "text-and-number")
+
+
+def _ended_by(kind: str, where: str = "") -> When:
+    """Return a condition: a node failed with this exception, below a certain function."""
+
+    def when(seen: Situation, _: Call, __: Found) -> bool:
+        last = re.match(rf"(?:[\w.]*\.)?(?:{kind})(?::|$)", seen.error)
+        return bool(seen.code and seen.about_ros and last and where in seen.traceback)
+
+    return when
+
+
+def _in_a_node(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
+    """Recognise an error that rclpy raises for a mistake in a node, or Python for a name."""
+    meaning = meaning_of_output(seen.traceback)
+    if meaning is None or meaning.mistake == "ctrl-c-traceback":  # rows above tell of that
+        return None
+    if not seen.about_ros and meaning.mistake not in _PLAIN:
+        return None
+    return Diagnosis(meaning.mistake, meaning.beside_error, meaning.to_try)
+
+
+_LOADING_RULES = (
+    Row(
+        "other-python",
+        PYTHON,
+        "",
+        "The Python that ran is not the one of the course, and it has no ROS.",
+        "`which python3` shows which one a terminal uses; open a terminal from the course, or "
+        "run `./environment/course shell` first.",
+        lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error,
+    ),
+    Row(
+        "not-sourced",
+        _RUN,
+        "",
+        "The package is installed as a link now, and this terminal was loaded before that.",
+        "Run `source install/setup.bash` again.",
+        _linked_since,
+    ),
+    PackageRule(
+        _RUN,
+        (*_PARTS, _NOT_INSTALLED),
+        when=lambda seen, package: seen.error.startswith(_NO_MODULE) and package.name in seen.error,
+    ),
+    PackageRule(_RUN, (_flaw_of_the_executable,), when=_is_about_loading),
+    PackageRule(_RUN, (_broken_module,), when=lambda seen, _: seen.error.startswith(_UNREADABLE)),
+)
+_ENDING_RULES = (
+    Row(
+        "ctrl-c-traceback",
+        PYTHON,
+        "",
+        "Ctrl+C has shut ROS down already when `main` calls `rclpy.shutdown()`, and a second time "
+        "is an error.",
+        "The node did its work; only its end is untidy. "
+        "Write `rclpy.try_shutdown()` in `main` instead.",
+        lambda seen, *_: seen.code and "rcl_shutdown already called" in seen.error,
+    ),
+    Row(
+        "ctrl-c-traceback",
+        PYTHON,
+        "",
+        "Ctrl+C came while the node was still starting, before `main` could catch it.",
+        "Nothing is broken: start it again, and wait for its first line.",
+        _ended_by("ExternalShutdownException|KeyboardInterrupt", "in __init__"),
+    ),
+    *(
+        Row(
+            "ctrl-c-traceback",
+            PYTHON,
+            "",
+            f"{cause}, and `main` does not expect that, so Python shows a traceback.",
+            "Nothing is broken. Put `rclpy.spin(node)` into `try:`, and below it  "
+            "except (KeyboardInterrupt, ExternalShutdownException): pass",
+            _ended_by(kind),
+        )
+        for kind, cause in (
+            ("ExternalShutdownException", "ROS was shut down while the node was spinning"),
+            ("KeyboardInterrupt", "Ctrl+C ended the node in the middle of its work"),
+        )
+    ),
+)
+
+_RULES: Rules = (
+    Rule(".*", "", _folder_gone),
+    Row(
+        "space-missing",
+        "cd{1}",
+        rf"{_BASH}cd([.~/][^:]*): ",
+        "A blank is missing after `cd`:",
+        "write  cd {1}",
+    ),
+    Row(
+        "not-sourced",
+        "{1}",
+        rf"{_BASH}({_SETUP}): Permission denied",
+        "{1} is not to be started: it tells something to this terminal, and a program of its own "
+        "could not.",
+        "Put `source` and a blank before it: source {1}",
+    ),
+    *_COMMAND_RULES,
+    *_MKDIR_RULES,
+    *_CD_RULES,
+    *_FILE_RULES,
+    *_OPTION_RULES,
+    *_WORD_RULES,
+    *_CREATE_RULES,
+    *_BUILD_RULES,
+    *_RUN_RULES,
+    *_LOADING_RULES,
+    *_ENDING_RULES,
+    # What runs is older than what is written.
+    PackageRule(_RUN, (_refused_since,), when=_runs_a_build),
+    PackageRule(_RUN, (_edited,), when=_runs_a_build),
+    Rule(PYTHON, "", _in_a_node),
+)

@@ -1,0 +1,260 @@
+"""Turn what a terminal is sent into lines, remember them, and show them on a page.
+
+A library such as pyte emulates a screen of a fixed width, cell by cell, at 0.2 MB/s. A page needs
+lines of any length and none of the screen, so only what repaints one line is obeyed here.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections import deque
+from collections.abc import Callable, Iterable
+from itertools import islice
+from typing import NamedTuple
+
+from rosbeat.records import LogRecord
+
+#: Characters after which a line is cut; the rest of it is counted.
+LONGEST_LINE = 20_000
+#: The history keeps so many lines, and so many characters in them.
+KEPT_LINES, KEPT_CHARACTERS = 20_000, 4_000_000
+#: So many lines of a command are shown at once; of more, the last ones.
+FIRST, LAST = 500, 20
+#: Columns of a remark; the lines of programs are never wrapped.
+WIDTH = 100
+
+Show = Callable[[str], None]
+
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
+_SEQUENCE = re.compile(
+    r"\x1b\[(?P<args>[0-?]*)[ -/]*(?P<final>[@-~])"  # cursor, colour, erasing
+    r"|\x1b[\]PX^_][^\x07\x1b]*(?:\x07|\x1b\\)?"  # titles and other strings
+    r"|\x1b[ -/]*[0-~]?"
+)
+_NUMBERS = re.compile(r"[-+]?\d[\d.]*")
+_QUOTED = re.compile(r"`[^`\n]*`")
+# `textwrap` breaks lines at blanks only: what is to be typed stays in one piece.
+_HELD = "\u00a0"
+_LOG = re.compile(
+    r"\[(?P<level>DEBUG|INFO|WARN|ERROR|FATAL)\] "
+    r"(?:\[(?P<seconds>\d+)\.(?P<fraction>\d{1,9})\] )?"
+    r"\[(?P<name>[^\]]+)\]: (?P<text>.*)"
+)
+
+
+class Line(NamedTuple):
+    """Hold one line of a terminal.
+
+    Attributes:
+        number: Its number, counted from the terminal's beginning.
+        time_ns: When it was read, in nanoseconds since the epoch.
+        text: The line, without its end.
+        typed: Whether it was typed; otherwise it was printed.
+    """
+
+    number: int
+    time_ns: int
+    text: str
+    typed: bool = False
+
+
+class History:
+    """Keep the newest lines; the owner's lock protects it."""
+
+    def __init__(self) -> None:
+        self._lines: deque[Line] = deque()
+        self._size = 0
+        self.end = 0
+
+    def add(self, text: str, time_ns: int, typed: bool = False) -> None:
+        """Append a line; forget the oldest ones if there are too many."""
+        self._lines.append(Line(self.end, time_ns, text, typed))
+        self._size += len(text)
+        self.end += 1
+        while len(self._lines) > KEPT_LINES or self._size > KEPT_CHARACTERS:
+            self._size -= len(self._lines.popleft().text)
+
+    def since(self, number: int) -> list[Line]:
+        """Return the lines from that number on, as far as they are kept."""
+        missing = self.end - max(number, self.end - len(self._lines))
+        return list(islice(reversed(self._lines), missing))[::-1]
+
+    def text(self) -> str:
+        """Return everything that is kept, and how much is not."""
+        gone = self.end - len(self._lines)
+        note = [f"... {gone:,} earlier lines are not kept ..."] if gone else []
+        return "\n".join([*note, *(line.text for line in self._lines)])
+
+
+# From characters to lines.
+
+
+class LineBuilder:
+    """Collect text until a line is complete."""
+
+    def __init__(self) -> None:
+        self._partial = ""
+        self._cut = 0
+
+    @property
+    def partial(self) -> str:
+        """Return the last state of the line that is not complete yet."""
+        return _whole(self._partial, self._cut)
+
+    def feed(self, text: str) -> list[str]:
+        """Take text, and return the lines that it completes, each by its last state."""
+        head, newline, text = text.partition("\n")
+        self._extend(head)
+        if not newline:
+            return []
+        done = [self.finish()]
+        *complete, rest = text.replace("\r\n", "\n").split("\n")
+        done += map(_whole, complete)
+        self._extend(rest)
+        return done
+
+    def finish(self) -> str:
+        """End the current line here and return it."""
+        line = self.partial
+        self._partial, self._cut = "", 0
+        return line
+
+    def _extend(self, text: str) -> None:
+        self._partial += text
+        if len(self._partial) > 2 * LONGEST_LINE:
+            # A progress bar repaints one line for hours: only its last state is kept.
+            line = _settled(self._partial)
+            self._cut += max(0, len(line) - LONGEST_LINE)
+            self._partial = line[:LONGEST_LINE]
+
+
+def _whole(line: str, cut: int = 0) -> str:
+    """Return a line as it is shown, of which so many characters were cut off before."""
+    line = _settled(line)
+    cut += max(0, len(line) - LONGEST_LINE)
+    return f"{line[:LONGEST_LINE]} ... {cut:,} more characters" if cut else line
+
+
+def _settled(text: str) -> str:
+    """Return the last state of a line that may have been repainted, without control characters."""
+    text = text.rstrip("\r")  # the terminal's own way to end a line
+    if not _CONTROL.search(text):
+        return text
+    cells: list[str] = []
+    column = place = 0
+    while place < len(text):
+        sequence = _SEQUENCE.match(text, place)
+        if sequence:
+            column = _obey(sequence, cells, column)
+            place = sequence.end()
+        else:
+            column = _put(text[place], cells, column)
+            place += 1
+    return "".join(cells).rstrip(" ")
+
+
+def _put(character: str, cells: list[str], column: int) -> int:
+    if character == "\r":
+        return 0
+    if character == "\b":
+        return max(0, column - 1)
+    if _CONTROL.match(character):
+        return column
+    cells[column : column + 1] = character
+    return column + 1
+
+
+def _obey(sequence: re.Match[str], cells: list[str], column: int) -> int:
+    """Do what a control sequence asks, as far as it concerns one line."""
+    if sequence["final"] == "K" and sequence["args"] in ("", "0"):
+        del cells[column:]
+    elif sequence["final"] == "K" and sequence["args"] == "2":
+        cells[:] = [" "] * column
+    elif sequence["final"] == "G":
+        column = min(len(cells), max(0, int(sequence["args"] or 1) - 1))
+    return column
+
+
+def log_records(lines: Iterable[Line]) -> tuple[LogRecord, ...]:
+    """Return a record for every line that ROS's logging wrote, in order.
+
+    Args:
+        lines: Lines of a terminal. One without a stamp gets the time at which it was read.
+    """
+    matches = ((line, _LOG.match(line.text)) for line in lines if not line.typed)
+    return tuple(_record(line, match) for line, match in matches if match)
+
+
+def _record(line: Line, match: re.Match[str]) -> LogRecord:
+    when = line.time_ns
+    if match["seconds"]:
+        when = int(match["seconds"]) * 10**9 + int(match["fraction"].ljust(9, "0"))
+    return LogRecord(when, match["level"], match["name"], match["text"], "", 0)
+
+
+# From lines to the page.
+
+
+class Display:
+    """Show the lines of one command as they come; of very many, the first and the last.
+
+    Args:
+        show: Takes one line.
+    """
+
+    def __init__(self, show: Show) -> None:
+        self._show = show
+        self._room = FIRST
+        self._late: deque[Line] = deque(maxlen=LAST)
+        self._next = 0
+
+    def add(self, line: Line) -> None:
+        """Show a line now, or keep it for the end."""
+        if self._room > 0:
+            self._room -= 1
+            self._next = line.number + 1
+            self._show(line.text)
+        else:
+            self._late.append(line)
+
+    def end(self) -> None:
+        """Show the last lines, after the number of those that are left out."""
+        if self._late and self._late[0].number > self._next:
+            say(self._show, f"{self._late[0].number - self._next:,} lines left out")
+        for line in self._late:
+            self._show(line.text)
+        self._late.clear()
+
+
+def new_only(lines: Iterable[Line], show: Show) -> Show:
+    """Return a function that shows a line unless it is like one before, whatever its numbers.
+
+    A node that publishes every second may or may not print one more line before Ctrl+C reaches it.
+    What it said all the time says nothing about how it ends.
+
+    Args:
+        lines: The lines before.
+        show: Takes each line that is new.
+    """
+    known = {_NUMBERS.sub("#", line.text) for line in lines if not line.typed}
+
+    def show_new(text: str) -> None:
+        if text and _NUMBERS.sub("#", text) not in known:
+            show(text)
+
+    return show_new
+
+
+def say(show: Show, text: str) -> None:
+    """Show a remark of the course, each of its lines behind a `#` as a comment in a shell.
+
+    Args:
+        show: Takes one line.
+        text: One line or more; what stands between backquotes is never broken.
+    """
+    for line in text.splitlines():
+        held = _QUOTED.sub(lambda quoted: quoted[0].replace(" ", _HELD), line)
+        parts = textwrap.wrap(held, WIDTH - 2, break_long_words=False, break_on_hyphens=False)
+        for part in parts or [""]:
+            show(f"# {part.replace(_HELD, ' ')}".rstrip())
