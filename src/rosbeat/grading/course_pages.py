@@ -7,8 +7,22 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.mending import Wanted
 from rosbeat.grading.notebook import Cell, Notebook, read_notebook
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A cell of the course's own page that waits for an answer.
+
+    Attributes:
+        exercise: The exercise's id.
+        id: The cell's id.
+        blank: Its text, with blanks.
+    """
+
+    exercise: str
+    id: str
+    blank: str
 
 
 @dataclass(frozen=True)
