@@ -587,7 +587,9 @@ class _Init:
         """End it, and with it everything in there."""
         if self.pid:
             os.kill(self.pid, signal.SIGKILL)
-            os.waitpid(self.pid, 0)
+            # It is not gone before all others are, and some wait to be heard of here.
+            while os.waitpid(-1, _ALL)[0] != self.pid:
+                pass
             os.close(self._asks)
             os.close(self._answers)
 

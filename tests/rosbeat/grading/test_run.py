@@ -8,8 +8,10 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
+import psutil
 import pytest
 
 from bank.graded_workspaces import job_of, usable
@@ -765,6 +767,58 @@ def test_nothing_of_ros_is_imported_before_the_right_to_make_sandboxes_is_had():
     program = "import rosbeat.grading.worker, sys\nprint({'rclpy', 'numpy'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stdout.strip() == "set()", done.stderr
+
+
+@pytest.fixture
+def sleeping():
+    """A worker that observes an answer that sleeps, and all of its processes."""
+    text = "import subprocess, time\nsubprocess.Popen(['sleep', '600'])\ntime.sleep(600)"
+    with Pool(1) as pool:
+        found = pool.observe([[("a", answer("x = 1")), ("b", answer(text))]])
+        next(found)
+        (pid,) = pool.pids
+        yield pool, found, psutil.Process(pid)
+        found.close()
+
+
+@pytest.mark.ros
+def test_what_runs_in_a_sandbox_ends_with_the_worker(sleeping, eventually):
+    _, _, worker = sleeping
+    eventually(lambda: "sleep" in {one.name() for one in worker.children(recursive=True)}, 30)
+    all_of_them = worker.children(recursive=True)
+    assert len(all_of_them) == 4  # the keeper, init, the answer and what that has started
+    worker.kill()
+    eventually(lambda: not any(is_alive(one.pid) for one in all_of_them), 20)
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("which", ["keeper", "init"])
+def test_who_loses_its_watchers_is_tried_once_more_and_given_up(sleeping, eventually, which):
+    pool, found, worker = sleeping
+    killed = set()
+    for _ in range(2):
+        eventually(lambda: "sleep" in _names(pool), 60)
+        (worker,) = [psutil.Process(pid) for pid in pool.pids]
+        (keeper,) = worker.children()
+        init = keeper.children()[0]  # the other one, which came later, is the answer
+        (keeper if which == "keeper" else init).kill()
+        killed.add(worker.pid)
+        eventually(partial(is_gone, worker.pid), 30)
+    assert dict(found)["b"].how == LOST
+    assert len(killed) == 2
+
+
+def is_gone(pid):
+    return not is_alive(pid)
+
+
+def _names(pool):
+    """The names of all processes that run below the workers that are there now."""
+    try:
+        workers = [psutil.Process(pid) for pid in pool.pids]
+        return {one.name() for worker in workers for one in worker.children(recursive=True)}
+    except psutil.NoSuchProcess:
+        return set()
 
 
 @pytest.mark.ros
