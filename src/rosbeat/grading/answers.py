@@ -33,7 +33,7 @@ OF_A_NOTEBOOK = ("display", "get_ipython")
 
 @dataclass(frozen=True)
 class Answer:
-    """One answer of one learner.
+    """Describe one answer of one learner.
 
     Attributes:
         exercise: The exercise's id.
@@ -159,7 +159,7 @@ def _replay(page: CoursePage, wanted: Wanted, answer: str) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Found:
-    """The answer to one exercise as it was handed in.
+    """Hold the cell of one exercise as it was handed in.
 
     Attributes:
         exercise: The exercise's id.

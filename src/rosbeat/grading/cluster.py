@@ -45,7 +45,7 @@ _AHEAD = 2
 
 
 class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]
-    """Prepared processes on one worker of Dask, one for each of its threads.
+    """Keep prepared processes on one worker of Dask, one for each of its threads.
 
     Dask sets it up on every worker, on those too that join or are restarted later.
 
@@ -107,7 +107,7 @@ def observe_lines(lines: Sequence[str], name: str, version: str) -> list[str] | 
 
 
 class Cluster:
-    """A connection to a cluster, with the shape of a `Pool`; usable in a `with` block.
+    """Have submissions observed by a cluster, as a `Pool` does; usable in a `with` block.
 
     Args:
         address: Where its scheduler listens, such as `tcp://10.0.0.5:8786`.
@@ -173,7 +173,7 @@ class Cluster:
     def _connected(self, address: str, patience: float) -> Any:  # noqa: ANN401 - Dask's client
         try:
             return distributed.Client(address, timeout=patience, set_as_default=False)
-        except (OSError, distributed.TimeoutError, ValueError) as error:
+        except (OSError, distributed.TimeoutError, ValueError, TypeError) as error:
             raise GradingError(
                 f"No scheduler of Dask answers at {self._address}.",
                 f"Nothing was graded. {printable(str(error), 200)}",

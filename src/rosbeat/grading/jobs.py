@@ -19,7 +19,7 @@ LOST, FORGED = "lost", "forged"
 
 @dataclass(frozen=True)
 class Job:
-    """One answer to observe.
+    """Describe one answer to observe.
 
     Attributes:
         exercise: The exercise's id.
@@ -53,7 +53,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Evidence:
-    """What came out of a sandbox for one job; hostile until a judge has read it.
+    """Hold what came out of a sandbox for one job; it is hostile until a judge has read it.
 
     Attributes:
         how: How the run ended: see `sandbox.Ending`, and `LOST` and `FORGED`.

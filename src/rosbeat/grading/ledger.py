@@ -97,7 +97,7 @@ def _trouble(path: Path, error: Exception) -> GradingError:
 
 
 class Ledger:
-    """Outcomes by key, in a file; usable in a `with` block.
+    """Keep outcomes by key, in a file; usable in a `with` block.
 
     Args:
         path: The file; it is made if it is not there.

@@ -178,7 +178,7 @@ _REAL = {
 
 
 class StandIn:
-    """Something that may be called, read and entered, and does nothing.
+    """Do nothing, when called, read or entered.
 
     A page's cell of imports brings `check`, `hint`, pictures and more. They judge, draw or keep
     progress, none of which belongs where a stranger's code runs.

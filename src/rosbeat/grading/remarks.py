@@ -14,7 +14,7 @@ _MOST = 120
 
 @dataclass(frozen=True)
 class Remark:
-    """Something about one file.
+    """Tell something about one file.
 
     Attributes:
         about: What it is: `late`, `duplicate`, `renamed`, `empty`, `half-uploaded`, `mended`,

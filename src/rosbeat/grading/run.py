@@ -51,7 +51,7 @@ Tell = Callable[[int, int], None]
 
 @dataclass(frozen=True)
 class Plan:
-    """How a class is graded.
+    """Say how a class is graded.
 
     Attributes:
         pages: The pages that count, in the order of the course.
@@ -364,7 +364,7 @@ class Rehearsal(Node):
 
 
 class Worker:
-    """One prepared process.
+    """Start a prepared process, and have it observe submissions.
 
     Args:
         unsafe: Whether it runs answers with limits only.
@@ -386,7 +386,7 @@ class Worker:
 
     @property
     def pid(self) -> int:
-        """The number of its process."""
+        """Return the number of its process."""
         return self._process.pid
 
     def observe(self, jobs: Sequence[Job]) -> Iterator[Evidence]:
@@ -491,8 +491,8 @@ def _failed(evidence: Evidence) -> str:
 
 
 @dataclass
-class _Line(Generic[Key]):
-    """Submissions that wait for workers, and what has come of them.
+class _Queue(Generic[Key]):
+    """Hold submissions that wait for workers, and what has come of them.
 
     Attributes:
         waiting: The submissions.
@@ -511,7 +511,7 @@ class _Line(Generic[Key]):
 
 
 class Pool:
-    """Several workers; usable in a `with` block.
+    """Have submissions observed by several workers; usable in a `with` block.
 
     Args:
         size: How many; by default one for each processor.
@@ -539,7 +539,7 @@ class Pool:
 
     @property
     def pids(self) -> frozenset[int]:
-        """The numbers of the workers' processes."""
+        """Return the numbers of the workers' processes."""
         with self._lock:
             return frozenset(worker.pid for worker in self._all)
 
@@ -554,8 +554,8 @@ class Pool:
         Raises:
             GradingError: If no sandbox can be made.
         """
-        line: _Line[Key] = _Line(iter(submissions), SimpleQueue())
-        threads = [threading.Thread(target=self._serve, args=(line,)) for _ in range(self.size)]
+        queue: _Queue[Key] = _Queue(iter(submissions), SimpleQueue())
+        threads = [threading.Thread(target=self._serve, args=(queue,)) for _ in range(self.size)]
         with self._lock:
             self._threads = [one for one in self._threads if one.is_alive()] + threads
             for thread in threads:
@@ -563,7 +563,7 @@ class Pool:
         left = len(threads)
         try:
             while left:
-                found = line.results.get()
+                found = queue.results.get()
                 if isinstance(found, BaseException):
                     raise found
                 if found is None:
@@ -571,27 +571,27 @@ class Pool:
                 else:
                     yield found
         finally:
-            line.waiting = iter(())
+            queue.waiting = iter(())
 
-    def _serve(self, line: _Line[Key]) -> None:
+    def _serve(self, queue: _Queue[Key]) -> None:
         """Observe submissions with one worker, or those that come after it, until there is none."""
         worker, tries = self._idle.get(), 0
         try:
-            while (left := line.next()) and not self._is_closed:
+            while (left := queue.next()) and not self._is_closed:
                 while left and not self._is_closed:
                     for evidence in worker.observe([job for _, job in left]):
-                        line.results.put((left.pop(0)[0], evidence))
+                        queue.results.put((left.pop(0)[0], evidence))
                         tries = 0
                     if left:
                         worker, tries = self._replaced(worker), tries + 1
                     if left and tries == _TRIES:
-                        line.results.put((left.pop(0)[0], Evidence(LOST)))
+                        queue.results.put((left.pop(0)[0], Evidence(LOST)))
                         tries = 0
         except BaseException as error:
-            line.results.put(error)
+            queue.results.put(error)
         finally:
             self._idle.put(worker)
-            line.results.put(None)
+            queue.results.put(None)
 
     def _new_worker(self) -> Worker:
         worker = Worker(self._unsafe, self._patience)

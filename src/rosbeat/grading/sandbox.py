@@ -46,7 +46,7 @@ MB = 1_000_000
 
 @dataclass(frozen=True)
 class Limits:
-    """How much one run may use.
+    """Say how much one run may use.
 
     Attributes:
         wall: Seconds by the clock on the wall.
@@ -86,7 +86,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class View:
-    """What a work sees.
+    """Say what a work sees.
 
     Attributes:
         readable: Files and folders that it may read, at their own paths.
@@ -101,7 +101,7 @@ class View:
 
 @dataclass(frozen=True)
 class Ending:
-    """How a run ended.
+    """Say how a run ended.
 
     Attributes:
         how: `ended`, `exit`, `signal`, `deadline`, `memory`, `output` or `result`: it came to its
@@ -189,7 +189,7 @@ _SWEEP = b"s"
 
 
 class Sandbox:
-    """A sandbox for several works, one after the other; usable in a `with` block.
+    """Run several works in one sandbox, one after the other; usable in a `with` block.
 
     The process that makes it becomes its keeper: it is in there itself, with all rights in there,
     and cannot leave. So it is to be a fork that has nothing else to do.
@@ -423,7 +423,7 @@ _MOST_CONTROL = 10_000
 
 @dataclass
 class _Pipe:
-    """What comes out of one pipe.
+    """Keep what comes out of one pipe.
 
     Attributes:
         most: Bytes of it that are kept.
@@ -441,7 +441,7 @@ class _Pipe:
 
 
 class _Watch:
-    """What is known of a run while it goes on.
+    """Watch a run while it goes on.
 
     Args:
         limits: What it may use.
@@ -456,7 +456,7 @@ class _Watch:
 
     @property
     def ends(self) -> tuple[int, int, int]:
-        """The child's ends: for its result, for what it prints, for how it has settled."""
+        """Return the child's ends: for its result, for what it prints, for how it has settled."""
         return self._result.writing, self._output.writing, self._control.writing
 
     def forked(self) -> None:
@@ -547,7 +547,7 @@ _ROOT = "/sys"
 
 
 class _Init:
-    """Process 1 of a sandbox: it ends the others when it is told to, and when it dies."""
+    """Start and end process 1 of a sandbox, which ends the others when it is told to or dies."""
 
     def __init__(self) -> None:
         self.pid = 0
@@ -797,7 +797,7 @@ _CGROUPS, _OWN_GROUP = "/sys/fs/cgroup", "/proc/self/cgroup"
 
 
 class MemoryGroup:
-    """A cgroup of version 2 for the works of one sandbox; the kernel counts everything in there.
+    """Let the kernel count all memory of a sandbox, in a control group (cgroup) of version 2.
 
     It can be had where memory is counted by groups beside the group of this process, and this user
     may make one there: as root on most machines, and under `systemd-run --user --scope`. Elsewhere

@@ -142,7 +142,9 @@ def test_a_scheduler_without_workers_is_said(says):
     says(caught.value, "no worker", "dask worker tcp://")
 
 
-@pytest.mark.parametrize("address", [NOBODY, "nonsense://x", "127.0.0.1", "\x1b[31m:1"])
+@pytest.mark.parametrize(
+    "address", [NOBODY, "tls://127.0.0.1:1", "nonsense://x", "127.0.0.1", "\x1b[31m:1"]
+)
 def test_where_no_scheduler_is(address, says):
     with pytest.raises(GradingError) as caught:
         Cluster(address, patience=0.5)
