@@ -8,7 +8,6 @@ import json
 import mmap
 import os
 import platform
-import re
 import shutil
 import signal
 import socket
@@ -19,11 +18,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.sandbox.cage import Cage, python_folders
-from rosbeat.grading.sandbox.limits import Limits
-from rosbeat.grading.sandbox.namespaces import become_able
-from rosbeat.grading.sandbox.running import run_caged
-from rosbeat.grading.sandbox.sandboxes import Sandboxes
+from rosbeat.grading.linux import REFUSED, number_of
+from rosbeat.grading.sandbox import Limits, Sandbox, View, become_able, python_folders
 
 LIMITS = Limits(wall=2.0, memory=300_000_000)
 #: A folder that is shown, and one of which only one file is.
@@ -210,39 +206,68 @@ def reads_what_lies_below_tmp(result):
 
 
 def calls_what_is_not_there(result):
-    """Keys of the kernel are not kept apart by namespaces; who is traced waits for its parent."""
+    """Keys of the kernel are kept apart by no namespace; some memory belongs to no process."""
     libc = ctypes.CDLL(None, use_errno=True)
-    numbers = {"x86_64": (248, 249, 250, 101), "aarch64": (217, 218, 219, 117)}[platform.machine()]
 
-    def refused(number):
+    def refused(name):
         ctypes.set_errno(0)
-        return libc.syscall(number, 0, 0, 0, 0, 0), ctypes.get_errno()
+        return libc.syscall(number_of(name), 0, 0, 0, 0, 0), ctypes.get_errno()
 
-    tells(result, {"refused": [refused(number) for number in numbers], "others": os.getpid()})
+    tells(result, {name: refused(name) for name in REFUSED} | {"others": os.getpid()})
+
+
+def opens_sockets(result):
+    families = {"unix": 1, "inet": 2, "inet6": 10, "netlink": 16, "packet": 17, "alg": 38,
+                "vsock": 40, "xdp": 44, "bluetooth": 31}  # fmt: skip
+    kinds = {"netlink of another kind": (16, 3, 12), "tipc": (30, 1, 0)}
+    tells(result, {
+        **{name: attempt(lambda one=one: socket.socket(one, socket.SOCK_DGRAM).close())
+           for name, one in families.items() if name not in ("netlink",)},
+        "netlink": attempt(lambda: socket.socket(16, 3, 0).close()),
+        **{name: attempt(lambda one=one: socket.socket(*one).close())
+           for name, one in kinds.items()},
+        "pair": attempt(lambda: [one.close() for one in socket.socketpair()]),
+    })  # fmt: skip
+
+
+def keeps_memory_in_sockets(result):
+    for _ in range(20):
+        if os.fork() == 0:
+            kept = []
+            with suppress(OSError):
+                while True:
+                    kept.append(socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM))
+                    kept[-1][0].setblocking(False)
+                    with suppress(BlockingIOError):
+                        while True:
+                            kept[-1][0].send(b"x" * 50_000)
+            time.sleep(1000)
+    time.sleep(1000)
+
+
+def fills_both_scratch_folders(result):
+    for folder in ("/tmp", "/dev/shm"):
+        with suppress(OSError):
+            for number in range(100):
+                Path(folder, str(number)).write_bytes(b"x" * 10_000_000)
+    eaten = b"x" * 150_000_000
+    time.sleep(1000)
+    print(len(eaten))
+
+
+def leaves_files(result):
+    for folder in ("/tmp", "/dev/shm"):
+        Path(folder, "left").write_text("x")
+
+
+def finds_files(result):
+    tells(result, {"found": [*os.listdir("/tmp"), *os.listdir("/dev/shm")]})
 
 
 def hides_a_pipe(result):
     """Send the pipe through a socket that is sent through itself: who ends so leaves it open."""
     one, other = socket.socketpair(socket.AF_UNIX)
     socket.send_fds(one, [b"x"], [1, result, one.fileno(), other.fileno()])
-
-
-def searches_itself(result):
-    """Look for what was in the environment of whoever was forked, in all of its memory."""
-    found, size = 0, 1 << 20
-    sought = re.compile(b"[c]anary-" + b"7731")
-    with open("/proc/self/maps") as maps, open("/proc/self/mem", "rb", 0) as memory:
-        for line in maps:
-            start, end = (int(one, 16) for one in line.split()[0].split("-"))
-            if "rw" not in line or "[" in line.replace("[heap]", "").replace("[stack]", ""):
-                continue
-            for at in range(start, end, size):
-                with suppress(OSError, OverflowError, ValueError):
-                    memory.seek(at)
-                    data = bytearray(memory.read(min(size, end - at)))
-                    found += len(sought.findall(data))
-                    data[:] = bytes(len(data))  # or it would be found again, in here
-    tells(result, {"found": found})
 
 
 def looks_around(result):
@@ -276,8 +301,10 @@ DEEDS = (
     *(fills_a_file, fills_memory_that_is_shared, kills_itself, kills_all, crashes, leaves),
     *(leaves_with_a_code, leaves_with_a_high_code, raises, stays_behind, closes_everything),
     *(has_a_sibling, has_a_sibling_that_eats),
-    *(calls_what_is_not_there, hides_a_pipe, searches_itself, shares_memory),
+    *(calls_what_is_not_there, hides_a_pipe, shares_memory),
     *(closes_everything_and_sleeps, looks_around, reads_what_lies_below_tmp, ignores_signals),
+    *(opens_sockets, keeps_memory_in_sockets, fills_both_scratch_folders),
+    *(leaves_files, finds_files),
 )
 
 
@@ -287,6 +314,26 @@ def ending(found):
         "how": found.how, "number": found.number, "told": told, "seconds": found.seconds,
         "output": found.output[-200:].decode("utf-8", "replace"), "read": len(found.output),
     }  # fmt: skip
+
+
+def kept(view):
+    """Run every deed in one sandbox, whose keeper is a process of its own."""
+    reading, writing = os.pipe()
+    keeper = os.fork()
+    if keeper:
+        os.close(writing)
+        with os.fdopen(reading) as file:
+            told = json.load(file)
+        os.waitpid(keeper, 0)
+        return told
+    try:
+        with Sandbox(view) as sandbox:
+            told = {deed.__name__: ending(sandbox.run(deed, LIMITS)) for deed in DEEDS}
+    except GradingError as error:
+        told = {"refused": str(error)}
+    with os.fdopen(writing, "w") as file:
+        json.dump(told, file)
+    os._exit(0)
 
 
 def main():
@@ -299,13 +346,10 @@ def main():
         for name in ("one", "two"):
             (folder / name).write_text(name)
     readable = (*python_folders(), str(SHOWN), str(HIDDEN / "two"))
-    cage = Cage(readable, (), {"PATH": "/usr/bin", "HOME": "/tmp"}, LIMITS)
+    view = View(readable, (), {"PATH": "/usr/bin", "HOME": "/tmp"})
     seen = {}
     try:
-        with Sandboxes(cage) as sandboxes:
-            seen = {deed.__name__: ending(run_caged(deed, cage, sandboxes)) for deed in DEEDS}
-    except GradingError as error:
-        seen = {"refused": str(error)}
+        seen = kept(view)
     finally:
         SECRET.unlink()
         for folder in (SHOWN, HIDDEN):

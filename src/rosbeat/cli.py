@@ -143,12 +143,6 @@ def _grade_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _grade(options: argparse.Namespace) -> int:
-    from rosbeat.grading.unchanged import last_summary
-
-    done = last_summary(options)
-    if done is not None:
-        print(f"Nothing has changed since the last run.\n{done}")
-        return 0
     from rosbeat.grading import grade_command
 
     return grade_command.run(options)

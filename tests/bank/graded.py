@@ -10,10 +10,11 @@ from bank.beyond import page_07, page_08, page_09, page_10, page_11, page_12, pa
 from bank.nodes import table
 from bank.pages import ROOT
 from rosbeat.exercises.registry import EXERCISES
+from rosbeat.grading.answers import Answer as HandedIn
+from rosbeat.grading.answers import answers_on
 from rosbeat.grading.course_pages import CoursePage, course_pages
 from rosbeat.grading.judging import judge
-from rosbeat.grading.pool import Pool
-from rosbeat.grading.tasks import Task, tasks_of
+from rosbeat.grading.run import Pool
 from rosbeat.records import Outcome
 
 _BEYOND = (page_07, page_08, page_09, page_10, page_11, page_12, page_13)
@@ -30,8 +31,12 @@ def course() -> dict[str, CoursePage]:
     return {page.number: page for page in course_pages(ROOT / "notebooks")}
 
 
-def task_of(answer: Answer) -> Task:
-    """What has to be done, if a learner hands in the page with this answer on it.
+#: Answers that one learner hands in: as many as a page or two have.
+_AT_ONCE = 6
+
+
+def handed_in(answer: Answer) -> HandedIn:
+    """What grading finds, if a learner hands in the page with this answer on it.
 
     What the check cell hands over is the answer's: a learner who gives a class another name writes
     it there, and the bank has such answers.
@@ -39,18 +44,19 @@ def task_of(answer: Answer) -> Task:
     page = course()[answer.exercise[:2]]
     place = [wanted.id for wanted in page.wanted if wanted.exercise == answer.exercise][-1]
     cells = [replace(one, source=answer.text) if one.id == place else one for one in page.cells]
-    (task,) = (one for one in tasks_of(page, cells) if one.exercise == answer.exercise)
-    return replace(task, job=replace(task.job, subject=answer.subject) if task.job else None)
+    (found,) = (one for one in answers_on(page, cells) if one.exercise == answer.exercise)
+    return replace(found, job=replace(found.job, subject=answer.subject) if found.job else None)
 
 
 def graded(answers: Iterable[Answer], workers: int | None = None) -> Iterator[tuple[str, Outcome]]:
-    """Ids of answers and what grading says of them, as they are ready; none of those it holds."""
+    """Ids of answers and what grading says of them, as they are ready."""
     by_id = {answer.id: answer for answer in answers}
     with Pool(workers) as pool:
-        tasks = ((name, task_of(answer)) for name, answer in by_id.items())
-        jobs = ((name, task.job) for name, task in tasks if task.job is not None)
-        for name, observed in pool.observe(jobs):
-            yield name, judge(EXERCISES[by_id[name].exercise], observed)
+        found = ((name, handed_in(answer)) for name, answer in by_id.items())
+        jobs = [(name, one.job) for name, one in found if one.job is not None]
+        submissions = (jobs[at : at + _AT_ONCE] for at in range(0, len(jobs), _AT_ONCE))
+        for name, evidence in pool.observe(submissions):
+            yield name, judge(EXERCISES[by_id[name].exercise], evidence)
 
 
 def sample(most: int) -> tuple[Answer, ...]:

@@ -8,10 +8,10 @@ from bank.graded import course
 from bank.workspaces.answer import Answer
 from bank.workspaces.table import ANSWERS
 from rosbeat.exercises.registry import EXERCISES
+from rosbeat.grading.answers import answers_on
 from rosbeat.grading.jobs import Job
 from rosbeat.grading.judging import judge, untouched
-from rosbeat.grading.pool import Pool
-from rosbeat.grading.tasks import tasks_of
+from rosbeat.grading.run import Pool
 from rosbeat.records import Outcome
 
 #: What stands above an answer in its cell; the others are not texts of a cell, but what a terminal
@@ -34,9 +34,9 @@ def job_of(answer: Answer) -> Job | None:
     (place,) = (wanted.id for wanted in page.wanted if wanted.exercise == answer.exercise)
     text = HEADS[answer.exercise] + answer.given
     cells = [replace(one, source=text) if one.id == place else one for one in page.cells]
-    (task,) = (one for one in tasks_of(page, cells) if one.exercise == answer.exercise)
-    assert bool(task.job) == task.touched, (answer.id, task.reasons)
-    return task.job
+    (found,) = (one for one in answers_on(page, cells) if one.exercise == answer.exercise)
+    assert bool(found.job) == found.touched, answer.id
+    return found.job
 
 
 def graded(answers: Iterable[Answer]) -> Iterator[tuple[str, Outcome]]:
@@ -46,7 +46,7 @@ def graded(answers: Iterable[Answer]) -> Iterator[tuple[str, Outcome]]:
     for name in (name for name, job in jobs.items() if job is None):
         yield name, untouched(EXERCISES[by_id[name].exercise])
     with Pool() as pool:
-        for name, seen in pool.observe((name, job) for name, job in jobs.items() if job):
+        for name, seen in pool.observe([(name, job)] for name, job in jobs.items() if job):
             yield name, judge(EXERCISES[by_id[name].exercise], seen)
 
 

@@ -8,18 +8,20 @@ import os
 
 import pytest
 
-from bank.graded import ANSWERS, graded, sample, task_of
+from bank.graded import ANSWERS, graded, handed_in, sample
 from bank.running import outcome_of
 
 #: Whether all answers are compared.
 ALL = bool(os.environ.get("ROSBEAT_ALL_ANSWERS"))
 #: Of each exercise and each status, how many are compared otherwise.
 MOST = 1
-#: Answers that only a person can judge, with what is said of them. The clinic's wards know what is
-#: the matter with their patients, so there is none where a stranger's answer runs.
-HELD = {"10a with an instrument in it": "uses the clinic"}
+#: Answers that use what only grading could lack: the clinic's instruments.
+ALWAYS = {"10a with an instrument in it"}
 
-CHOSEN = [one for one in (ANSWERS if ALL else sample(MOST)) if one.id not in HELD]
+CHOSEN = [
+    *(ANSWERS if ALL else sample(MOST)),
+    *(() if ALL else (one for one in ANSWERS if one.id in ALWAYS)),
+]
 
 
 @pytest.fixture(scope="module")
@@ -35,18 +37,10 @@ def test_an_answer_gets_the_same_outcome_everywhere(answer, marks):
     assert marks[answer.id] == outcome_of(answer.exercise, answer.text, answer.subject)
 
 
-@pytest.mark.parametrize("name", HELD)
-def test_what_only_a_person_can_judge_is_held(name):
-    (answer,) = (one for one in ANSWERS if one.id == name)
-    task = task_of(answer)
-    assert task.job is None
-    assert {HELD[name] in reason.text for reason in task.reasons} == {True}
-
-
 @pytest.mark.skipif(not ALL, reason="it reads 1,900 pages")
-def test_no_other_answer_is_held_or_mended():
-    tasks = {one.id: task_of(one) for one in ANSWERS if one.id not in HELD}
-    assert {name for name, task in tasks.items() if task.job is None or task.repairs} == set()
+def test_no_answer_is_held_or_mended():
+    found = {one.id: handed_in(one) for one in ANSWERS}
+    assert {name for name, one in found.items() if one.job is None or one.repairs} == set()
 
 
 def test_the_sample_is_fair():

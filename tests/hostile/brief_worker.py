@@ -3,22 +3,24 @@
 import sys
 from functools import partial
 
-from rosbeat.grading.start_worker import UNSAFE, settle
+from rosbeat.grading import worker
 
 
 def main(options):
     """Answer jobs, with other limits."""
-    settle(options)
-    # Only now, for it starts threads.
-    from rosbeat.grading import worker
-    from rosbeat.grading.sandbox.limits import MB, Limits
-    from rosbeat.ros import scenario
-
-    worker.WALL = 4.0
+    worker.WALL, worker.LOST_AT_MOST = 4.0, 10.0
     # To use up a whole gigabyte takes a busy machine seconds; an answer needs less than 50 MB.
-    worker.Limits = partial(Limits, memory=200 * MB)
-    scenario.observe.__kwdefaults__["deadline"] = 1.5  # what an answer has in virtual time
-    worker.main(unsafe=UNSAFE in options)
+    worker.Limits = partial(worker.Limits, memory=200 * 1_000_000)
+    prepare = worker.prepare
+
+    def prepare_with_less_time():
+        prepare()
+        from rosbeat.ros import scenario
+
+        scenario.observe.__kwdefaults__["deadline"] = 1.5  # what an answer has in virtual time
+
+    worker.prepare = prepare_with_less_time
+    worker.main(options)
 
 
 if __name__ == "__main__":

@@ -18,21 +18,21 @@ class Deed:
     Attributes:
         name: What it tries.
         answer: The text of the cell.
-        status: What the mark has to be, with inspection: `held` or `failed`.
-        words: What its cause has to say.
+        words: What the mark has to say.
         exercise: The exercise that it pretends to answer.
-        alone: What the outcome has to say when nobody inspects, and only the sandbox, the seal and
-            `intact` are left.
-        inspected_only: Whether, honestly, only the inspection stops it: without, it passes.
+        passes: Whether it gets its points, as it is a right answer. What it does besides gains
+            nothing.
+        forges: Whether it gets points by evidence that it has forged, with a right answer's times
+            or values inside. It carries a remark for the instructor. A scenario whose inputs are
+            drawn from the class's seed closes this way.
     """
 
     name: str
     answer: str
-    status: str = "held"
-    words: str = "line"
+    words: str = ""
     exercise: str = "03a"
-    alone: str = ""
-    inspected_only: bool = False
+    passes: bool = False
+    forges: bool = False
 
 
 @dataclass(frozen=True)

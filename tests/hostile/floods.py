@@ -3,38 +3,56 @@
 from hostile.deed import TRACE, Deed, before, within
 
 DEEDS = (
-    Deed("memory", before("kept = []\nwhile True:\n    kept.append(b'x' * 50_000_000)"),
-         "failed", "emory", alone="emory"),
-    Deed("memory in a callback", within("self.kept = [0] * 10**12"), "failed", "MemoryError",
-         alone="MemoryError"),
-    Deed("one number that is too large", before("x = 10 ** 10 ** 10"), "failed", "", alone=""),
-    Deed("output", before("while True:\n    print('x' * 100_000)"), "failed", "", alone=""),
-    Deed("output in a callback", within("while True:\n    print('x' * 100_000)"), "failed", "",
-         alone=""),
-    Deed("an exception of 100 MB", before("raise ValueError('x' * 100_000_000)"), "failed",
-         "ValueError", alone="ValueError"),
-    Deed("an exception that cannot be told", before(
-        "class Odd(Exception):\n    def __str__(self):\n        raise self\n\nraise Odd"),
-        "failed", "Odd", alone="Odd"),
-    Deed("recursion without end", before("def f():\n    return f()\n\nf()"), "failed", "Recursion",
-         alone="Recursion"),
-    Deed("messages without end", within("while True:\n    self.publish_humidity()"), "failed", "",
-         alone=""),
-    Deed("log lines without end", within(
-        "while True:\n    self.get_logger().info('x' * 1000)"), "failed", "", alone=""),
-    Deed("nodes without end", before(
-        "while True:\n    Node('a')").replace("while", "rclpy.init()\nwhile"), "failed", "",
-        alone=""),
-    Deed("the disk", before(
-        f"with open('/tmp/{TRACE}', 'wb') as file:\n"
-        "    while True:\n        file.write(bytes(10_000_000))"), words="uses open", alone=""),
-    Deed("shared memory", before(
-        f"for n in range(1000):\n    with open(f'/dev/shm/{TRACE}-{{n}}', 'wb') as file:\n"
-        "        file.write(bytes(10_000_000))"), words="uses open", alone="OSError"),
-    Deed("files without end", before(
-        f"import os\nfor n in range(10**6):\n    os.mkdir(f'/tmp/{TRACE}-{{n}}')"),
-         alone="OSError"),
-    Deed("deep brackets", "HumiditySensor = " + "(" * 5000 + ")" * 5000, "failed", "",
-         alone=""),
-    Deed("deep lists", "HumiditySensor = " + "-" * 20000 + "1", "failed", "", alone=""),
-)  # fmt: skip
+    Deed(
+        "memory",
+        before("kept = []\nwhile True:\n    kept.append(b'x' * 50_000_000)"),
+        words="emory",
+    ),
+    Deed("memory in a callback", within("self.kept = [0] * 10**12"), words="MemoryError"),
+    Deed("one number that is too large", before("x = 10 ** 10 ** 10"), words=""),
+    Deed("output", before("while True:\n    print('x' * 100_000)"), words=""),
+    Deed("output in a callback", within("while True:\n    print('x' * 100_000)"), words=""),
+    Deed(
+        "an exception of 100 MB", before("raise ValueError('x' * 100_000_000)"), words="ValueError"
+    ),
+    Deed(
+        "an exception that cannot be told",
+        before("class Odd(Exception):\n    def __str__(self):\n        raise self\n\nraise Odd"),
+        words="Odd",
+    ),
+    Deed("recursion without end", before("def f():\n    return f()\n\nf()"), words="Recursion"),
+    Deed("messages without end", within("while True:\n    self.publish_humidity()"), words=""),
+    Deed(
+        "log lines without end",
+        within("while True:\n    self.get_logger().info('x' * 1000)"),
+        words="",
+    ),
+    Deed(
+        "nodes without end",
+        before("while True:\n    Node('a')").replace("while", "rclpy.init()\nwhile"),
+        words="",
+    ),
+    Deed(
+        "the disk",
+        before(
+            f"with open('/tmp/{TRACE}', 'wb') as file:\n"
+            "    while True:\n        file.write(bytes(10_000_000))"
+        ),
+        words="",
+    ),
+    Deed(
+        "shared memory",
+        before(
+            f"for n in range(1000):\n    with open(f'/dev/shm/{TRACE}-{{n}}', 'wb') as file:\n"
+            "        file.write(bytes(10_000_000))"
+        ),
+        words="OSError",
+    ),
+    Deed(
+        "files without end",
+        before(f"import os\nfor n in range(10**6):\n    os.mkdir(f'/tmp/{TRACE}-{{n}}')"),
+        words="OSError",
+    ),
+    Deed("deep brackets", "HumiditySensor = " + "(" * 5000 + ")" * 5000, words=""),
+    Deed("deep lists", "HumiditySensor = " + "-" * 20000 + "1", words=""),
+)

@@ -2,13 +2,13 @@
 
 import os
 
-from hostile import channels, floods, names, pages, patches, peeking, processes, ways_in
+from hostile import channels, floods, forging, names, pages, patches, peeking, processes
 from hostile.deed import CANARY, CLASS, COURSE, FRIDGE, HOME, RIGHT, WRONG, Upload
 
 #: Every attack from within an answer, by its name.
 DEEDS = {
     deed.name: deed
-    for module in (processes, floods, channels, patches, ways_in, peeking)
+    for module in (processes, floods, channels, patches, forging, peeking)
     for deed in module.DEEDS
 }
 UPLOADS = {upload.name: upload for module in (pages, names) for upload in module.UPLOADS}

@@ -94,7 +94,7 @@ def _sources_are_numbers(body):
 
 
 def _hidden_base(body):
-    """The answer builds on a cell above that does what answers may not."""
+    """The answer builds on a cell above that does more than it needs."""
     cell_of(body, "exercise")["source"] = RIGHT.replace("(Node)", "(Base)")
     body["cells"].insert(1, {"cell_type": "code", "id": "base", "metadata": {}, "outputs": [],
                              "source": "Base = __import__('os') and Node"})  # fmt: skip
@@ -133,12 +133,12 @@ UPLOADS = (
     Upload("widgets", {PAGE: page(RIGHT, _widgets)}, "passed"),
     Upload("odd types", {PAGE: page(WRONG, _odd_types)}, "failed"),
     Upload("sources that are numbers", {PAGE: page(RIGHT, _sources_are_numbers)}, ""),
-    Upload("a hidden base", {PAGE: page(RIGHT, _hidden_base)}, "held", "another cell"),
-    Upload("magics", {PAGE: page("%run /etc/passwd\n" + RIGHT)}, "held", "IPython"),
-    Upload("a shell escape", {PAGE: page("!cat /etc/passwd\n" + RIGHT)}, "held", "IPython"),
-    Upload("a cell magic", {PAGE: page("%%bash\ncat /etc/passwd")}, "held", "%%bash"),
-    Upload("a terminal where none is", {PAGE: page("%%terminal x\nid")}, "held", "%%terminal"),
-    Upload("a file where none is", {PAGE: page("%%save ../../x\nid")}, "held", "%%save"),
+    Upload("a hidden base", {PAGE: page(RIGHT, _hidden_base)}, "passed"),
+    Upload("magics", {PAGE: page("%run /etc/passwd\n" + RIGHT)}, "passed", "left out"),
+    Upload("a shell escape", {PAGE: page("!cat /etc/passwd\n" + RIGHT)}, "passed", "left out"),
+    Upload("a cell magic", {PAGE: page("%%bash\ncat /etc/passwd")}, "failed", "%%bash"),
+    Upload("a terminal where none is", {PAGE: page("%%terminal x\nid")}, "failed", "%%terminal"),
+    Upload("a file where none is", {PAGE: page("%%save ../../x\nid")}, "failed", "%%save"),
     Upload("control characters", {PAGE: page("\x1b]0;owned\x07\x00" + RIGHT)}, "failed"),
     Upload("letters that look alike", {PAGE: page(RIGHT.replace("Float32(", "Flоat32("))}, "failed",
            "Fl"),

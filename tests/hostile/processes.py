@@ -10,50 +10,86 @@ subprocess.Popen(
 """
 
 DEEDS = (
-    Deed("endless loop", before("while True:\n    pass"), "failed", "end", alone="end"),
-    Deed("endless loop in a callback", within("while True:\n    pass"), "failed", "still running",
-         alone="still running"),
-    Deed("endless loop that catches all", within(
-        "while True:\n    try:\n        while True:\n            pass\n"
-        "    except BaseException:\n        pass"), "failed", "still running",
-        alone="still running"),
-    Deed("endless loop in C", before("sum(range(10**15))"), "failed", "end", alone="end"),
-    Deed("a sleep without end", before("import time\ntime.sleep(10**6)"), "failed", "end",
-         alone="end"),
-    Deed("a thread that never ends", before(
-        "import threading, time\nthreading.Thread(target=time.sleep, args=(10**6,)).start()"),
-        "passed", "does what is asked", alone="passed"),
-    Deed("input", before("input()"), "failed", "EOFError", alone="EOFError"),
-    Deed("exit", before("raise SystemExit(0)"), "failed", "SystemExit", alone="SystemExit"),
-    Deed("quit", before("quit()"), "failed", "", alone=""),
-    Deed("_exit with 0", before("import os\nos._exit(0)"), words="imports os", alone="ended"),
-    Deed("_exit with 0 in a callback", within("import os\nos._exit(0)"), words="imports os",
-         alone="ended"),
-    Deed("SIGKILL of itself", before("import os\nos.kill(os.getpid(), 9)"), alone="SIGKILL"),
-    Deed("kill of the parent", before("import os\nos.kill(os.getppid(), 9)\nos._exit(3)"),
-         alone="SIGKILL"),
-    Deed("kill of the group", before("import os\nos.killpg(0, 9)"), alone="SIGKILL"),
-    Deed("kill of everybody", before("import os\nos.kill(-1, 9)\nos._exit(4)"),
-         alone="ProcessLookupError"),
-    Deed("segmentation fault", before("import ctypes\nctypes.string_at(0)"),
-         words="imports ctypes", alone="SIGSEGV"),
-    Deed("segmentation fault by sys", before("import sys\nsys.setrecursionlimit(10**9)\n"
-         "def f():\n    f()\nf()"), words="setrecursionlimit", alone=""),
-    Deed("fork bomb", before("import os\nwhile True:\n    try:\n        os.fork()\n"
-         "    except OSError:\n        pass"), words="imports os", alone=""),
-    Deed("a thread bomb", before("import threading, time\nwhile True:\n"
-         "    threading.Thread(target=time.sleep, args=(100,)).start()"), "failed", "thread",
-         alone="thread"),
-    Deed("a detached process", before(_DETACHED), words="imports subprocess", alone="passed",
-         inspected_only=True),
-    Deed("a daemon", before(
-        "import os, time\nif os.fork() == 0:\n    os.setsid()\n    if os.fork() == 0:\n"
-        f"        open('/dev/shm/{TRACE}', 'w').close()\n"
-        f"        open('/tmp/{TRACE}', 'w').close()\n"
-        "        time.sleep(600)\n    os._exit(0)"), alone="passed", inspected_only=True),
-    Deed("an object that is never freed", before(
-        "class Bad:\n    def __del__(self):\n        while True:\n            pass\n\nBad()"),
-        "failed", "end", alone="end"),
-    Deed("an exit when Python ends", before("import atexit, os\natexit.register(os._exit, 0)",
-         WRONG), words="imports atexit", alone="readings"),
-)  # fmt: skip
+    Deed("endless loop", before("while True:\n    pass"), words="end"),
+    Deed("endless loop in a callback", within("while True:\n    pass"), words="still running"),
+    Deed(
+        "endless loop that catches all",
+        within(
+            "while True:\n    try:\n        while True:\n            pass\n"
+            "    except BaseException:\n        pass"
+        ),
+        words="still running",
+    ),
+    Deed("endless loop in C", before("sum(range(10**15))"), words="end"),
+    Deed("a sleep without end", before("import time\ntime.sleep(10**6)"), words="end"),
+    Deed(
+        "a thread that never ends",
+        before(
+            "import threading, time\nthreading.Thread(target=time.sleep, args=(10**6,)).start()"
+        ),
+        words="passed",
+        passes=True,
+    ),
+    Deed("input", before("input()"), words="EOFError"),
+    Deed("exit", before("raise SystemExit(0)"), words="SystemExit"),
+    Deed("quit", before("quit()"), words=""),
+    Deed("_exit with 0", before("import os\nos._exit(0)"), words="ended"),
+    Deed("_exit with 0 in a callback", within("import os\nos._exit(0)"), words="ended"),
+    Deed("SIGKILL of itself", before("import os\nos.kill(os.getpid(), 9)"), words="SIGKILL"),
+    Deed(
+        "kill of the parent",
+        before("import os\nos.kill(os.getppid(), 9)\nos._exit(3)"),
+        words="SIGKILL",
+    ),
+    Deed("kill of the group", before("import os\nos.killpg(0, 9)"), words="SIGKILL"),
+    Deed(
+        "kill of everybody",
+        before("import os\nos.kill(-1, 9)\nos._exit(4)"),
+        words="ProcessLookupError",
+    ),
+    Deed("segmentation fault", before("import ctypes\nctypes.string_at(0)"), words="SIGSEGV"),
+    Deed(
+        "segmentation fault by sys",
+        before("import sys\nsys.setrecursionlimit(10**9)\ndef f():\n    f()\nf()"),
+        words="",
+    ),
+    Deed(
+        "fork bomb",
+        before(
+            "import os\nwhile True:\n    try:\n        os.fork()\n    except OSError:\n        pass"
+        ),
+        words="",
+    ),
+    Deed(
+        "a thread bomb",
+        before(
+            "import threading, time\nwhile True:\n"
+            "    threading.Thread(target=time.sleep, args=(100,)).start()"
+        ),
+        words="thread",
+    ),
+    Deed("a detached process", before(_DETACHED), words="passed", passes=True),
+    Deed(
+        "a daemon",
+        before(
+            "import os, time\nif os.fork() == 0:\n    os.setsid()\n    if os.fork() == 0:\n"
+            f"        open('/dev/shm/{TRACE}', 'w').close()\n"
+            f"        open('/tmp/{TRACE}', 'w').close()\n"
+            "        time.sleep(600)\n    os._exit(0)"
+        ),
+        words="passed",
+        passes=True,
+    ),
+    Deed(
+        "an object that is never freed",
+        before(
+            "class Bad:\n    def __del__(self):\n        while True:\n            pass\n\nBad()"
+        ),
+        words="end",
+    ),
+    Deed(
+        "an exit when Python ends",
+        before("import atexit, os\natexit.register(os._exit, 0)", WRONG),
+        words="readings",
+    ),
+)

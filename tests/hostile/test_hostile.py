@@ -1,30 +1,24 @@
 """All of the bank in one class beside honest learners: what it may not do, and what is said of it.
 
-The attacks from within answers run twice: as `rosbeat grade` does it, which holds what reaches for
-Python's inner parts, and without that inspection, so that sandbox, seal and frozen course are seen
-to hold by themselves. What they cannot hold is marked in the bank (`inspected_only`).
+Nothing is held for what it imports or names: the sandbox protects, and the judge judges what was
+done. Whoever forges evidence needs a solution for that (`Deed.forges`), and is remarked upon.
 """
 
 import csv
-import json
 import os
 from pathlib import Path
 
 import pytest
 
 from hostile.deed import CANARY, TRACE
-from hostile.handing_in import DEEDS, HONEST, UPLOADS, hand_in, large, placed
+from hostile.handing_in import DEEDS, HONEST, UPLOADS, hand_in, large
 from hostile.pages import ROOT
-from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.collecting import collect
 from rosbeat.grading.course_pages import course_pages
-from rosbeat.grading.grade_class import Plan, grade
 from rosbeat.grading.grade_command import write_results
-from rosbeat.grading.jobs import Job
-from rosbeat.grading.judging import judge
 from rosbeat.grading.ledger import Ledger
-from rosbeat.grading.pool import Pool
-from rosbeat.grading.tasks import imports_of, subject_of
+from rosbeat.grading.remarks import REACHES_INSIDE
+from rosbeat.grading.run import Plan, Pool, grade
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(600), pytest.mark.xdist_group("hostile")]
 PAGES = {
@@ -41,7 +35,7 @@ def surroundings(tmp_path_factory):
         patch.setenv("ROSBEAT_TEST_SECRET", CANARY)
         patch.setenv("HOME", str(home))
         patch.setenv("PYTHONPATH", str(Path(__file__).parents[1]), prepend=os.pathsep)
-        patch.setattr("rosbeat.grading.pool._MODULE", "hostile.brief_worker")
+        patch.setattr("rosbeat.grading.run._MODULE", "hostile.brief_worker")
         yield home
 
 
@@ -51,38 +45,25 @@ def graded(surroundings, tmp_path_factory):
     folder, out = tmp_path_factory.mktemp("class"), tmp_path_factory.mktemp("grades")
     who = hand_in(folder, (surroundings, folder, ROOT))
     large(folder)
-    gradebook = _graded(folder, out)
+    evidence = []
+    gradebook = _graded(folder, out, evidence.append)
     results = {one.learner: one for one in gradebook.learners}
-    return results, out, who, gradebook
+    return results, out, who, evidence
 
 
-@pytest.fixture(scope="module")
-def alone(surroundings, graded):
-    """Every attack from within an answer, run although nobody has inspected it."""
-    class_folder = graded[1]
-    jobs = [(deed.name, _job(deed, (surroundings, class_folder, ROOT))) for deed in DEEDS.values()]
-    with Pool(2) as pool:
-        return {
-            name: (observed, judge(EXERCISES[DEEDS[name].exercise], observed))
-            for name, observed in pool.observe(jobs)
-        }
-
-
-def _graded(folder, out):
+def _graded(folder, out, see=lambda _: None):
     plan = Plan(tuple(PAGES.values()), "hostile")
-    with Ledger(out / "judged.jsonl") as ledger, Pool(2) as pool:
-        gradebook = grade(collect(folder, plan.pages), plan, ledger, pool.observe, lambda *_: None)
+
+    def observe(submissions):
+        with Pool(2) as pool:
+            for key, evidence in pool.observe(submissions):
+                see(evidence)
+                yield key, evidence
+
+    with Ledger(out / "judged.jsonl") as ledger:
+        gradebook = grade(collect(folder, plan.pages), plan, ledger, observe, lambda *_: None)
     write_results(out, gradebook)
     return gradebook
-
-
-def _job(deed, places):
-    page = PAGES[deed.exercise[:2]]
-    given = json.dumps(EXERCISES[deed.exercise].given(), sort_keys=True)
-    answer = placed(deed.answer, places)
-    return Job(
-        deed.exercise, subject_of(page, deed.exercise), answer, (), imports_of(page), given=given
-    )
 
 
 def _mark(learner, exercise="03a"):
@@ -108,23 +89,21 @@ def test_every_learner_has_a_line(graded):
 
 
 @pytest.mark.parametrize("name", DEEDS)
-def test_an_attack_from_within_is_held_or_fails_and_the_cause_is_clear(graded, name):
+def test_an_attack_from_within_gains_nothing_and_the_cause_is_clear(graded, name):
     results, _, who, _ = graded
     deed, mark = DEEDS[name], _mark(results[who[name]], DEEDS[name].exercise)
-    assert (mark.status, deed.words in mark.cause) == (deed.status, True), mark.cause
-    assert mark.points == (mark.out_of if deed.status == "passed" else 0)
+    said = f"{mark.status} {mark.evidence} {mark.hint} {mark.mistake}"
+    assert deed.words in said, said
+    gains = deed.passes or deed.forges
+    assert (mark.status, mark.points > 0) == ("passed" if gains else "failed", gains), said
     assert 10 < len(mark.cause) <= 500
     assert mark.cause.isprintable()
 
 
-@pytest.mark.parametrize("name", DEEDS)
-def test_what_nobody_inspects_does_not_pass_either(alone, name):
-    observed, outcome = alone[name]
-    deed = DEEDS[name]
-    said = f"{outcome.status} {outcome.evidence} {outcome.hint} {outcome.mistake}"
-    assert deed.alone in said, (said, observed)
-    passes = deed.inspected_only or deed.status == "passed"
-    assert (outcome.status == "passed") == passes, (said, observed)
+@pytest.mark.parametrize("name", [name for name, deed in DEEDS.items() if deed.forges])
+def test_who_forges_is_remarked_upon(graded, name):
+    results, _, who, _ = graded
+    assert REACHES_INSIDE in {one.about for one in results[who[name]].remarks}
 
 
 @pytest.mark.parametrize("name", UPLOADS)
@@ -167,11 +146,10 @@ def test_honest_marks_are_what_they_are_without_the_others(graded, surroundings,
     assert [_mark(one).status for one in gradebook.learners] == ["passed", "failed", "failed"]
 
 
-def test_no_byte_leaks_into_results_or_evidence(graded, alone):
+def test_no_byte_leaks_into_results_or_evidence(graded):
     assert [path for path, data in _written(graded[1]).items() if CANARY.encode() in data] == []
-    leaks = [name for name, (seen, _) in alone.items() if CANARY in f"{seen.evidence}{seen.text}"
-             f"{seen.output}{seen.code}"]  # fmt: skip
-    assert leaks == []
+    assert len(graded[3]) > len(DEEDS)
+    assert [one for one in graded[3] if CANARY in str(one)] == []
 
 
 def test_results_hold_nothing_for_terminals_or_browsers(graded):
@@ -184,7 +162,7 @@ def test_results_hold_nothing_for_terminals_or_browsers(graded):
             assert "<img src=x" not in text, path
 
 
-def test_nothing_is_left_behind(graded, alone):
+def test_nothing_is_left_behind(graded):
     processes = [
         path for path in Path("/proc").glob("[0-9]*/cmdline") if TRACE.encode() in _read(path)
     ]

@@ -62,7 +62,7 @@ def test_misuse_says_what_to_try_and_ends_with_2(arguments, expected, capsys):
     [
         (["release"], "The following arguments are required: DIR."),
         (["grade", "x", "--out", "y", "--points"], "Argument --points: expected one argument."),
-        (["grade", "x", "--out", "y", "--sample", "x"], "'x' is no whole number from 0 on."),
+        (["grade", "x", "--out", "y", "--workers", "x"], "'x' is no whole number from 1 on."),
     ],
 )
 def test_an_argument_that_is_missing_or_wrong_is_told_in_three_parts(arguments, expected, capsys):

@@ -390,7 +390,6 @@ _OF_PAGES = (
     Mistake("too-much-output", "a program that prints without end"),
     Mistake("crashed", "a process that died"),
     Mistake("left-early", "a program that ends its process"),
-    Mistake("changes-the-course", "a program that changes what observes it"),
     Mistake("evidence-unreadable", "a run that leaves something else than evidence"),
 )
 

@@ -6,12 +6,12 @@ from collections import defaultdict
 from collections.abc import Iterator
 from html import escape
 
+from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.cells import number
 from rosbeat.grading.feedback import FOLDER, feedback_files
 from rosbeat.grading.html_page import folded, listed, name, shown, table, visible
 from rosbeat.grading.learners import own_path
 from rosbeat.grading.marks import Gradebook, Graded, Mark
-from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.tally import all_marks, cut_off, empty_handed, held, nameless
 from rosbeat.viz.words import count
 
@@ -28,6 +28,7 @@ _ABOUT = {
     "too-large": "Files that are too large",
     "refused": "Files that were refused",
     "left-out": "Files that were left out",
+    "reaches-inside": "Answers that reach for what observes them; their marks stand",
     "manual": "Lines of manual.csv that need a look",
 }
 #: Characters of a text of somebody's run, and of an answer that has to be looked at.

@@ -1,49 +1,124 @@
-"""A class that outgrows one machine: its jobs go to a cluster of Dask, and are judged here.
+"""Observe the answers of a class on a cluster of Dask; they are judged here.
 
-Each worker of the cluster keeps prepared processes (`cluster_worker`), which make the same sandbox
-as on one machine. A job whose worker is lost is sent to another by Dask; one that loses several is
-given up. Everything that is written stays on this computer.
+Each worker of the cluster keeps prepared processes, which make the same sandbox as on one machine.
+A submission whose worker is lost is sent to another by Dask; one that loses several is given up.
+Between client and worker go lines of JSON; a submission is never pickled, and everything that is
+written stays on this computer. Only this module knows of Dask, and only who asks for a cluster
+imports it; where there is no Dask, importing it raises a `GradingError`.
 """
 
 from __future__ import annotations
 
+import json
 import secrets
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError
-from importlib import import_module
 from itertools import islice
 from typing import Any, TypeVar
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.jobs import LOST, Job, Observed, write_line
+from rosbeat.grading.jobs import LOST, Evidence, Job, read_evidence, read_job, to_line
 from rosbeat.grading.ledger import course_version
-from rosbeat.grading.pool import understood
 from rosbeat.grading.remarks import printable
+from rosbeat.grading.run import Pool
+
+try:
+    import distributed
+    from distributed import WorkerPlugin, get_worker
+except ImportError as error:
+    raise GradingError(
+        "Dask is not installed here, and --scheduler needs it.",
+        "A cluster is for classes that outgrow one machine; most do not.",
+        "Install it in the folder of the course with `pip install '.[cluster]'`, or leave "
+        "--scheduler out.",
+    ) from error
 
 Key = TypeVar("Key")
+Submission = Sequence[tuple[Key, Job]]
 
 #: Seconds until a scheduler has answered, and until it has a worker.
 PATIENCE = 15.0
 #: Seconds between two looks whether there is a worker still.
 _LOOK = 20.0
-#: Jobs that are under way for each thread of the cluster.
-_AHEAD = 3
+#: Submissions that are under way for each thread of the cluster.
+_AHEAD = 2
+
+
+class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]
+    """Keep prepared processes on one worker of Dask, one for each of its threads.
+
+    Dask sets it up on every worker, on those too that join or are restarted later.
+
+    Args:
+        name: What it is known by.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self._version = ""
+        self._pool: Pool | None = None
+
+    def setup(self, worker: distributed.Worker) -> None:
+        """Start the processes.
+
+        Args:
+            worker: Dask's worker.
+        """
+        self._version = course_version()
+        self._pool = Pool(worker.state.nthreads)
+
+    def teardown(self, worker: distributed.Worker) -> None:
+        """End the processes.
+
+        Args:
+            worker: Dask's worker.
+        """
+        if self._pool is not None:
+            self._pool.close()
+
+    def observe(self, lines: Sequence[str], version: str) -> list[str]:
+        """Have the jobs of a submission done, and return evidence, a line each.
+
+        Args:
+            lines: The jobs, as `jobs.to_line` writes them.
+            version: The version of the course that will judge.
+
+        Raises:
+            GradingError: If the course is another one here, or no sandbox can be made.
+        """
+        if self._version != version:
+            raise another_course(f"{self._version}, not {version}")
+        assert self._pool is not None
+        found = dict(self._pool.observe([list(enumerate(map(read_job, lines)))]))
+        return [to_line(found[number]) for number in range(len(lines))]
+
+
+def observe_lines(lines: Sequence[str], name: str, version: str) -> list[str] | str:
+    """Run on a worker of Dask: `name` is the plugin's, the rest as in `Prepared.observe`.
+
+    Returns:
+        Evidence, or the three parts of why there is none, as a line of JSON.
+    """
+    plugin: Prepared = get_worker().plugins[name]
+    try:
+        return plugin.observe(lines, version)
+    except GradingError as error:
+        return json.dumps([error.what, error.means, error.to_try])
 
 
 class Cluster:
-    """A connection to a cluster, with the shape of a `Pool`; usable in a `with` block.
+    """Have submissions observed by a cluster, as a `Pool` does; usable in a `with` block.
 
     Args:
         address: Where its scheduler listens, such as `tcp://10.0.0.5:8786`.
         patience: Seconds until it has answered, and until it has a worker.
 
     Raises:
-        GradingError: If Dask is not installed, nothing answers there, there is no worker, or
-            workers do not have the course.
+        GradingError: If nothing answers there, there is no worker, or workers do not have the
+            course.
     """
 
     def __init__(self, address: str, patience: float = PATIENCE) -> None:
-        self._dask = _dask()
         self._address = printable(address)
         self._name = f"rosbeat-grade-{secrets.token_hex(4)}"
         self._version = course_version()
@@ -60,27 +135,30 @@ class Cluster:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def observe(self, jobs: Iterable[tuple[Key, Job]]) -> Iterator[tuple[Key, Observed]]:
-        """Have jobs done, several at a time; results come as they are ready.
+    def observe(self, submissions: Iterable[Submission[Key]]) -> Iterator[tuple[Key, Evidence]]:
+        """Have submissions observed, several at a time; evidence comes as it is ready.
 
         Args:
-            jobs: Jobs, each with something to know it by.
+            submissions: The jobs of each, with something to know them by.
 
         Raises:
             GradingError: If a worker cannot make a sandbox or has another course, or the cluster
                 is gone.
         """
-        todo = iter(jobs)
-        running: dict[Any, Key] = {}
+        todo = iter(submissions)
+        running: dict[Any, Submission[Key]] = {}
         try:
             while True:
-                for key, job in islice(todo, max(0, self._room() - len(running))):
-                    running[self._submitted(job)] = key
+                for one in islice(todo, max(0, self._room() - len(running))):
+                    running[self._submitted([job for _, job in one])] = one
                 if not running:
                     return
                 for future in self._done(list(running)):
-                    yield running.pop(future), self._observed(future)
-        except (OSError, CancelledError, self._dask.client.ClosedClientError) as error:
+                    one = running.pop(future)
+                    yield from zip(
+                        [key for key, _ in one], self._found(future, len(one)), strict=True
+                    )
+        except (OSError, CancelledError, distributed.client.ClosedClientError) as error:
             raise self._gone(error) from error
         finally:
             if self._client.status == "running":
@@ -94,8 +172,8 @@ class Cluster:
 
     def _connected(self, address: str, patience: float) -> Any:  # noqa: ANN401 - Dask's client
         try:
-            return self._dask.Client(address, timeout=patience, set_as_default=False)
-        except (OSError, self._dask.TimeoutError, ValueError) as error:
+            return distributed.Client(address, timeout=patience, set_as_default=False)
+        except (OSError, distributed.TimeoutError, ValueError, TypeError) as error:
             raise GradingError(
                 f"No scheduler of Dask answers at {self._address}.",
                 f"Nothing was graded. {printable(str(error), 200)}",
@@ -106,39 +184,41 @@ class Cluster:
     def _prepare(self, patience: float) -> None:
         try:
             self._client.wait_for_workers(1, timeout=patience)
-        except self._dask.TimeoutError as error:  # before Python 3.11 it is not the built-in one
+        except distributed.TimeoutError as error:  # before Python 3.11 it is not the built-in one
             raise self._nobody() from error
-        worker = import_module("rosbeat.grading.cluster_worker")
         try:
-            self._client.register_plugin(worker.Prepared(self._name))
+            self._client.register_plugin(Prepared(self._name))
         except Exception as error:  # whatever importing another course raises there
-            raise worker.another_course(f"{type(error).__name__}: {_first(error)}") from error
+            raise another_course(f"{type(error).__name__}: {_first(error)}") from error
 
     def _room(self) -> int:
         threads: int = sum(self._client.nthreads().values())
         return _AHEAD * max(1, threads)
 
-    def _submitted(self, job: Job) -> Any:  # noqa: ANN401 - Dask's future
-        run = import_module("rosbeat.grading.cluster_worker").observe_line
-        return self._client.submit(run, write_line(job), self._name, self._version, pure=False)
+    def _submitted(self, jobs: Sequence[Job]) -> Any:  # noqa: ANN401 - Dask's future
+        lines = [to_line(job) for job in jobs]
+        return self._client.submit(observe_lines, lines, self._name, self._version, pure=False)
 
     def _done(self, futures: list[Any]) -> set[Any]:
         """Wait until some have ended; workers may be restarted meanwhile, but not all be gone."""
         while True:
             try:
                 with self._client.as_current():
-                    found = self._dask.wait(futures, timeout=_LOOK, return_when="FIRST_COMPLETED")
+                    found = distributed.wait(futures, timeout=_LOOK, return_when="FIRST_COMPLETED")
                 return set(found.done)
-            except self._dask.TimeoutError as error:
+            except distributed.TimeoutError as error:
                 if not self._client.nthreads():
                     raise self._nobody() from error
 
-    def _observed(self, future: Any) -> Observed:  # noqa: ANN401 - Dask's future
+    def _found(self, future: Any, number: int) -> list[Evidence]:  # noqa: ANN401 - Dask's future
         if future.status == "finished":
-            return understood(str(future.result()))
+            found = future.result()
+            if isinstance(found, str):
+                raise GradingError(*json.loads(found))
+            return [read_evidence(line) for line in found]
         error = future.exception() if future.status == "error" else None
-        if isinstance(error, self._dask.KilledWorker):
-            return Observed(LOST)
+        if isinstance(error, distributed.KilledWorker):
+            return [Evidence(LOST)] * number
         raise self._gone(error)
 
     def _nobody(self) -> GradingError:
@@ -157,16 +237,18 @@ class Cluster:
         )
 
 
+def another_course(why: str) -> GradingError:
+    """Return the error for a cluster that has not the course that judges.
+
+    Args:
+        why: What was found.
+    """
+    return GradingError(
+        f"A worker of the cluster has another course than this computer: {why}.",
+        "What it observes could be another thing than what is judged here.",
+        "Install the same version of the course on every worker, and restart the workers.",
+    )
+
+
 def _first(error: BaseException) -> str:
     return printable(str(error).split("\n")[0], 200)
-
-
-def _dask() -> Any:  # noqa: ANN401 - a module that need not be there
-    try:
-        return import_module("distributed")
-    except ImportError as error:
-        raise GradingError(
-            "Dask is not installed here, and --scheduler needs it.",
-            "A cluster is for classes that outgrow one machine; most do not.",
-            'Install it with `pip install "rosbeat[cluster]"`, or leave --scheduler out.',
-        ) from error

@@ -1,4 +1,4 @@
-"""The course's own pages, as far as grading has to know them: which cells wait for an answer."""
+"""Read the course's own pages, as far as grading needs them: which cells wait for an answer."""
 
 from __future__ import annotations
 
@@ -7,13 +7,27 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.mending import Wanted
 from rosbeat.grading.notebook import Cell, Notebook, read_notebook
 
 
 @dataclass(frozen=True)
+class Wanted:
+    """Describe a cell of the course's own page that waits for an answer.
+
+    Attributes:
+        exercise: The exercise's id.
+        id: The cell's id.
+        blank: Its text, with blanks.
+    """
+
+    exercise: str
+    id: str
+    blank: str
+
+
+@dataclass(frozen=True)
 class CoursePage:
-    """One page of the course.
+    """Describe one page of the course.
 
     Attributes:
         lesson: Its name, such as `03_write_a_publisher`.
@@ -31,7 +45,7 @@ class CoursePage:
 
     @property
     def number(self) -> str:
-        """Its two digits."""
+        """Return its two digits."""
         return self.lesson[:2]
 
 
@@ -88,7 +102,7 @@ def which_page(found: Notebook, file: str, pages: Iterable[CoursePage]) -> Cours
 
 
 def _points(found: Notebook, file: str, page: CoursePage) -> tuple[int, ...]:
-    """How much speaks for a page, the strongest first; empty if nothing does."""
+    """Return how much speaks for a page, the strongest first; empty if nothing does."""
     exercises = {one.exercise for one in found.cells} | {one.check for one in found.cells}
     points = (
         len(exercises & {one.exercise for one in page.wanted}),

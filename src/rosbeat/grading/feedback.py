@@ -9,6 +9,7 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.cards import RIGHT, WRONG
 from rosbeat.exercises.exercise import FAILED
 from rosbeat.exercises.registry import PAGES
+from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.bars import Segment, bar, labels
 from rosbeat.grading.html_page import (
     document,
@@ -22,8 +23,8 @@ from rosbeat.grading.html_page import (
 )
 from rosbeat.grading.learners import own_path
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark
-from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.palette import STATUSES, look_of
+from rosbeat.grading.remarks import REACHES_INSIDE
 from rosbeat.grading.writing import file_names
 from rosbeat.records import Part
 
@@ -222,5 +223,9 @@ def _why(part: Part) -> str:
 
 
 def _files(graded: Graded) -> str:
-    rows = [(name(own_path(one.path)), shown(one.text)) for one in graded.remarks]
+    rows = [
+        (name(own_path(one.path)), shown(one.text))
+        for one in graded.remarks
+        if one.about != REACHES_INSIDE
+    ]
     return listed("What was noticed about them", ("File", "What was found"), rows)

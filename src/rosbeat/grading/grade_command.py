@@ -4,31 +4,31 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from rosbeat.errors import CommandError, StoppedError
 from rosbeat.grading.checkout import choose_pages, find_checkout
-from rosbeat.grading.cluster import Cluster
 from rosbeat.grading.collecting import Collection, collect
 from rosbeat.grading.course_pages import CoursePage, course_pages
 from rosbeat.grading.deadlines import read_due
-from rosbeat.grading.grade_class import Observe, Plan, grade
 from rosbeat.grading.grade_options import DEFAULT_ASSIGNMENT
-from rosbeat.grading.jobs import Job, Observed
-from rosbeat.grading.judging import WATCHER_LOST
+from rosbeat.grading.jobs import Evidence, Job
 from rosbeat.grading.last_run import changes, note_options
 from rosbeat.grading.ledger import FILE as LEDGER
-from rosbeat.grading.ledger import Ledger, course_version
+from rosbeat.grading.ledger import Ledger, course_version, seed_of
 from rosbeat.grading.manual import FILE as MANUAL
 from rosbeat.grading.manual import apply_manual, read_manual
 from rosbeat.grading.output import previous_results, require_folder, write_results
-from rosbeat.grading.pool import Pool
 from rosbeat.grading.progress_bar import progress_bar
+from rosbeat.grading.run import Observe, Plan, Pool, grade
 from rosbeat.grading.submissions import require_apart, require_submissions
 from rosbeat.grading.summary import summary
-from rosbeat.grading.unchanged import remember
 from rosbeat.grading.weights import Points, read_points, without_effect
+
+if TYPE_CHECKING:
+    from rosbeat.grading.cluster import Cluster
 
 _WARNING = (
     "Warning: --unsafe-no-sandbox lets strangers' programs do here whatever you may do: read and\n"
@@ -62,7 +62,7 @@ def run(options: argparse.Namespace) -> int:
     if not options.lessons:
         pages = handed_in(collection, pages)
     _tell_first(options, typed, without_effect(points, [page.number for page in pages]))
-    plan = Plan(pages, course_version(), points, options.sample)
+    plan = Plan(pages, course_version(), points, seed_of(options.out))
     with _goes_on() as count, Ledger(options.out / LEDGER) as ledger, progress_bar() as tell:
 
         def told(done: int, total: int) -> None:
@@ -73,10 +73,7 @@ def run(options: argparse.Namespace) -> int:
     gradebook = apply_manual(gradebook, manual, previous_results(options.out))
     write_results(options.out, gradebook, options.assignment)
     note_options(options.out, typed)
-    said = summary(gradebook, options.out)
-    print(said)
-    if not any(mark.evidence == WATCHER_LOST for one in gradebook.learners for mark in one.marks):
-        remember(options, said)
+    print(summary(gradebook, options.out))
     return 0
 
 
@@ -123,6 +120,12 @@ def handed_in(collection: Collection, pages: Iterable[CoursePage]) -> tuple[Cour
     return tuple(page for page in pages if page.lesson in found)
 
 
+def _cluster(address: str) -> Cluster:
+    from rosbeat.grading.cluster import Cluster  # it needs Dask, which few have
+
+    return Cluster(address)
+
+
 def _observer(options: argparse.Namespace) -> Observe:
     """What has jobs done; workers start only if there is something to do."""
     if options.scheduler and options.unsafe_no_sandbox:
@@ -132,12 +135,14 @@ def _observer(options: argparse.Namespace) -> Observe:
             "Leave out one of them.",
         )
 
-    def observe(jobs: Iterable[tuple[str, Job]]) -> Iterator[tuple[str, Observed]]:
+    def observe(
+        submissions: Iterable[Sequence[tuple[str, Job]]],
+    ) -> Iterator[tuple[str, Evidence]]:
         with (
-            Cluster(options.scheduler)
+            _cluster(options.scheduler)
             if options.scheduler
             else Pool(options.workers, options.unsafe_no_sandbox)
         ) as pool:
-            yield from pool.observe(jobs)
+            yield from pool.observe(submissions)
 
     return observe

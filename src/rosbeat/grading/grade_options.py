@@ -23,8 +23,6 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     many = "answers at a time (default: one per processor)"
     add("--workers", type=_from(1), metavar="N", help=many)
     add("--scheduler", metavar="ADDRESS", help="a Dask cluster that observes, instead of --workers")
-    few = "answers tried in a kernel too (2)"
-    add("--sample", type=_from(0), default=2, metavar="N", help=few)
     add("--unsafe-no-sandbox", action="store_true", help="run strangers' code with limits only")
 
 

@@ -1,4 +1,4 @@
-"""What is sent into a sandbox, and what comes out of it: plain data, a line of JSON each.
+"""Define what is sent into a sandbox and what comes out of it, each as a line of JSON.
 
 Nothing of a judge goes in: no expected value, no solution, no other submission.
 """
@@ -6,21 +6,20 @@ Nothing of a judge goes in: no expected value, no solution, no other submission.
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from rosbeat.errors import GradingError
 
-#: How a run may end besides what `sandbox.running.Ending` says: the process that watched it is
-#: gone; what came out of it is nothing that the course has written.
+#: How a run may end besides what `sandbox.Ending` says: the process that watched it is gone; what
+#: came out of it is nothing that the course has written.
 LOST, FORGED = "lost", "forged"
-#: The first line of a worker, when it has imported all that it needs.
-READY = '{"ready": true}'
 
 
 @dataclass(frozen=True)
 class Job:
-    """One answer to observe.
+    """Describe one answer to observe.
 
     Attributes:
         exercise: The exercise's id.
@@ -28,15 +27,15 @@ class Job:
         answer: The text of the learner's cell; the last one, if the exercise has several.
         parts: The texts of those before.
         imports: The cell of imports of the course's page.
-        earlier: Other cells, the learner's above the answer and then the course's, which are read
-            only if the answer uses a name that is defined in one of them.
+        earlier: Statements of other cells that the answer needs, in the order to run them.
         replay: The cells of the page up to the check, in order, to be run as a kernel runs them;
             empty if the answer stands alone.
         page: The number of the page, whose workspace a replay starts from.
-        kernel: The cells of the learner's page up to the answer, to be run in a kernel of Jupyter
-            instead, with an empty workspace; empty if that is not asked for.
         given: What the scenario is handed besides the answer, as an object of JSON; it is plain
             data that the exercise makes from an instructor's files, such as numbers of a rubric.
+        seed: From what the inputs of the scenario are drawn; 0 on a page.
+        files: The workspace that a replay starts from, content in Latin-1 by path. It follows
+            from `page`, and is put in when the job is sent.
     """
 
     exercise: str
@@ -47,41 +46,40 @@ class Job:
     earlier: tuple[str, ...] = ()
     replay: tuple[str, ...] = ()
     page: str = ""
-    kernel: tuple[str, ...] = ()
     given: str = "{}"
+    seed: int = 0
+    files: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
-class Observed:
-    """What came out of a sandbox.
+class Evidence:
+    """Hold what came out of a sandbox for one job; it is hostile until a judge has read it.
 
     Attributes:
-        how: How the run ended: see `sandbox.running.Ending`, and `LOST` and `FORGED`.
+        how: How the run ended: see `sandbox.Ending`, and `LOST` and `FORGED`.
         number: The exit code, or the number of the signal.
-        evidence: What `scenarios.evidence.to_json` wrote there, or empty; hostile until parsed.
+        seen: What `exercises.evidence.to_json` wrote there, or empty.
         raised: If the answer's own cell could not be run: the exception's class name.
         text: Its message.
         line: The line of the cell, or 0.
         code: That line.
-        changed: What of the course or of Python was not as before when the answer had run.
         output: What was printed, cut off.
         seconds: How long it took, by the clock on the wall.
     """
 
     how: str
     number: int = 0
-    evidence: str = ""
+    seen: str = ""
     raised: str = ""
     text: str = ""
     line: int = 0
     code: str = ""
-    changed: tuple[str, ...] = ()
     output: str = ""
     seconds: float = 0.0
 
 
-def write_line(value: Job | Observed) -> str:
-    """A job, or what was observed, as one line of JSON; equal values give equal lines."""
+def to_line(value: Job | Evidence) -> str:
+    """Return a job, or evidence, as one line of JSON; equal values give equal lines."""
     return json.dumps(asdict(value), sort_keys=True)
 
 
@@ -95,13 +93,13 @@ def read_job(line: str) -> Job:
     return found
 
 
-def read_observed(line: str) -> Observed:
-    """Read what was observed.
+def read_evidence(line: str) -> Evidence:
+    """Read evidence.
 
     Raises:
-        GradingError: If the line is not one.
+        GradingError: If the line is none.
     """
-    found: Observed = _made(Observed, line)
+    found: Evidence = _made(Evidence, line)
     return found
 
 

@@ -1,4 +1,4 @@
-"""From what came out of a sandbox to an outcome. Nothing of a submission runs here.
+"""Turn what came out of a sandbox into an outcome. Nothing of a submission runs here.
 
 What came out is read as JSON and checked field by field; the judge of the exercise, a pure
 function, says what it is worth. If nothing usable came out, how the run ended says why.
@@ -17,16 +17,15 @@ from rosbeat.diagnosis.exceptions import first_sentence
 from rosbeat.errors import RecordError
 from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import Exercise, before_judging, failed, not_attempted
-from rosbeat.grading.jobs import FORGED, LOST, Observed
+from rosbeat.grading.jobs import FORGED, LOST, Evidence
 from rosbeat.records import Fault, Observation, Outcome
 
 _WHERE = "the cell"
 #: What is said of an answer that took its watchers along; the next run tries it again.
 WATCHER_LOST = "The process that watched the answer was lost."
-#: Ids of what is said of a run that did not come to its end; see `diagnosis.beyond.grading`.
+#: Ids of what is said of a run that did not come to its end; see `diagnosis.mistakes`.
 TIME, MEMORY, OUTPUT, CRASH = "too-long", "too-much-memory", "too-much-output", "crashed"
-LEFT, TAMPERED, UNREADABLE = "left-early", "changes-the-course", "evidence-unreadable"
-NO_PYTHON = "unreadable-cell"
+LEFT, UNREADABLE, NO_PYTHON = "left-early", "evidence-unreadable", "unreadable-cell"
 #: What Python raises before the first line of a cell runs, and where to look then.
 _UNREAD = {
     "SyntaxError": "Look at this line and at the end of the line above it: is there a colon, a "
@@ -38,32 +37,31 @@ _UNREAD = {
 }
 
 
-def judge(exercise: Exercise[Any], observed: Observed) -> Outcome:
+def judge(exercise: Exercise[Any], evidence: Evidence, seed: int = 0) -> Outcome:
     """Say what an answer is worth.
 
     Args:
         exercise: The exercise.
-        observed: What came out of the sandbox; not trusted.
+        evidence: What came out of the sandbox; not trusted.
+        seed: From what the inputs of the scenario were drawn; 0 on a page.
     """
-    outcome = _before_reading(exercise, observed) or _read(exercise, observed)
+    outcome = _before_reading(exercise, evidence) or _read(exercise, evidence, seed)
     return replace(outcome, out_of=exercise.points)
 
 
-def _before_reading(exercise: Exercise[Any], observed: Observed) -> Outcome | None:
-    """What can be said without evidence; None if there is some."""
-    if observed.changed and observed.how == "ended":
-        return _tampered(exercise.id, observed.changed)
-    if observed.how == "ended" and observed.evidence:
+def _before_reading(exercise: Exercise[Any], evidence: Evidence) -> Outcome | None:
+    """Return what can be said before evidence is read; None if there is some."""
+    if evidence.how == "ended" and evidence.seen:
         return None
-    if observed.how == "ended" and observed.raised:
-        return _raised(exercise, observed)
-    return _ENDINGS.get(observed.how, _left)(exercise.id, observed)
+    if evidence.how == "ended" and evidence.raised:
+        return _raised(exercise, evidence)
+    return _ENDINGS.get(evidence.how, _left)(exercise.id, evidence)
 
 
-def _read(exercise: Exercise[Any], observed: Observed) -> Outcome:
+def _read(exercise: Exercise[Any], evidence: Evidence, seed: int) -> Outcome:
     try:
         with _uncollected():
-            return exercise.judged(from_json(observed.evidence))
+            return exercise.judged(from_json(evidence.seen), seed)
     except RecordError as error:
         return _forged(exercise.id, str(error.what))
     except Exception as error:  # a judge may meet evidence that no scenario would have written
@@ -82,36 +80,27 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def _raised(exercise: Exercise[Any], observed: Observed) -> Outcome:
-    """The cell itself could not be run; what is said is what is said of any exception."""
-    if observed.raised in _UNREAD:
-        return _unread(exercise.id, observed)
+def _raised(exercise: Exercise[Any], evidence: Evidence) -> Outcome:
+    """Say of a cell that could not be run what is said of any exception."""
+    if evidence.raised in _UNREAD:
+        return _unread(exercise.id, evidence)
     fault = Fault(
-        *(0, "", _WHERE, observed.raised, observed.text, observed.line, observed.code),
+        *(0, "", _WHERE, evidence.raised, evidence.text, evidence.line, evidence.code),
     )
     verdict = before_judging(Observation(0, 0, faults=(fault,)))
     assert verdict is not None  # there is an exception
     return exercise.outcome(verdict)
 
 
-def _unread(exercise: str, observed: Observed) -> Outcome:
-    """Python has refused the cell as a whole; on the page, running it shows where."""
-    says = first_sentence(observed.text) or observed.raised
-    where = f" Line {observed.line}: `{observed.code}`." if observed.line and observed.code else ""
+def _unread(exercise: str, evidence: Evidence) -> Outcome:
+    """Say where Python has refused the cell as a whole; on the page, running it shows that."""
+    says = first_sentence(evidence.text) or evidence.raised
+    where = f" Line {evidence.line}: `{evidence.code}`." if evidence.line and evidence.code else ""
     return failed(
         exercise,
         f"Python says: {says}.{where} So nothing of the cell has run.",
-        _UNREAD[observed.raised],
+        _UNREAD[evidence.raised],
         NO_PYTHON,
-    )
-
-
-def _tampered(exercise: str, changed: tuple[str, ...]) -> Outcome:
-    return failed(
-        exercise,
-        f"The answer changes what observes it: {', '.join(changed)}.",
-        "An answer is a program of its own. Leave the course, ROS and Python as they are.",
-        TAMPERED,
     )
 
 
@@ -124,7 +113,7 @@ def _forged(exercise: str, why: str) -> Outcome:
     )
 
 
-def _too_long(exercise: str, _: Observed) -> Outcome:
+def _too_long(exercise: str, _: Evidence) -> Outcome:
     return failed(
         exercise,
         "The answer does not come to an end, and was stopped.",
@@ -133,39 +122,39 @@ def _too_long(exercise: str, _: Observed) -> Outcome:
     )
 
 
-def _too_large(exercise: str, observed: Observed) -> Outcome:
+def _too_large(exercise: str, evidence: Evidence) -> Outcome:
     what, where = ("memory", "a list that only grows, or a loop that makes nodes")
-    if observed.how != "memory":
+    if evidence.how != "memory":
         what, where = ("output", "a loop that prints or publishes without end")
-    name = MEMORY if observed.how == "memory" else OUTPUT
+    name = MEMORY if evidence.how == "memory" else OUTPUT
     return failed(exercise, f"The answer used too much {what}.", f"Look for {where}.", name)
 
 
-def _by_signal(exercise: str, observed: Observed) -> Outcome:
-    if observed.number == signal.SIGXCPU:
-        return _too_long(exercise, observed)
+def _by_signal(exercise: str, evidence: Evidence) -> Outcome:
+    if evidence.number == signal.SIGXCPU:
+        return _too_long(exercise, evidence)
     try:
-        name = signal.Signals(observed.number).name
+        name = signal.Signals(evidence.number).name
     except ValueError:
-        name = f"signal {observed.number}"
+        name = f"signal {evidence.number}"
     hint = "Something ended the process from below Python, or the answer ended it itself."
     return failed(exercise, f"The process of the answer died ({name}).", hint, CRASH)
 
 
-def _left(exercise: str, observed: Observed) -> Outcome:
+def _left(exercise: str, evidence: Evidence) -> Outcome:
     how = (
-        f"with exit code {observed.number}" if observed.number else "before anything could be seen"
+        f"with exit code {evidence.number}" if evidence.number else "before anything could be seen"
     )
     hint = "Take out what ends the program: exit, quit, os._exit. The check runs the node."
     return failed(exercise, f"The answer ended its process {how}.", hint, LEFT)
 
 
-def _lost(exercise: str, _: Observed) -> Outcome:
+def _lost(exercise: str, _: Evidence) -> Outcome:
     hint = "It was tried more than once. Your instructor can look at it."
     return failed(exercise, WATCHER_LOST, hint, CRASH)
 
 
-_ENDINGS: dict[str, Callable[[str, Observed], Outcome]] = {
+_ENDINGS: dict[str, Callable[[str, Evidence], Outcome]] = {
     "deadline": _too_long,
     "memory": _too_large,
     "output": _too_large,
@@ -178,5 +167,5 @@ _ENDINGS: dict[str, Callable[[str, Observed], Outcome]] = {
 
 
 def untouched(exercise: Exercise[Any]) -> Outcome:
-    """The outcome of a cell that nobody has filled in."""
+    """Return the outcome of a cell that nobody has filled in."""
     return exercise.outcome(not_attempted())

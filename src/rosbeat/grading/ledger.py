@@ -1,4 +1,4 @@
-"""What has been judged already, so that nothing is observed twice.
+"""Keep what has been judged already, so that nothing is observed twice.
 
 A line of JSON for each answer, added and brought to the disk as soon as it is judged: whoever pulls
 the plug loses the answers that were being observed, and no others. An answer is known by all that
@@ -9,24 +9,28 @@ from __future__ import annotations
 
 import json
 import os
+import secrets
 from hashlib import sha256
 from pathlib import Path
 from types import TracebackType
 from typing import Any, BinaryIO
 
 from rosbeat.errors import GradingError, RecordError
-from rosbeat.grading.jobs import Job, write_line
+from rosbeat.grading.jobs import Job, to_line
 from rosbeat.grading.remarks import printable
 from rosbeat.record_json import record, write
 from rosbeat.records import Outcome
 
 FILE = "judged.jsonl"
+#: Where the seed of a class is kept, in the folder of results.
+SEED_FILE = "seed"
+_BITS = 63
 _PACKAGE = Path(__file__).resolve().parents[1]
 _SOURCES = ("*.py", "*.json", "*.txt", "*.bash")
 
 
 def course_version() -> str:
-    """A digest of all that observes and judges: another one gives other marks, perhaps."""
+    """Return a digest of all that observes and judges: with another, marks may be others."""
     digest = sha256()
     for pattern in _SOURCES:
         for path in sorted(_PACKAGE.rglob(pattern)):
@@ -36,17 +40,64 @@ def course_version() -> str:
 
 
 def key_of(job: Job, version: str) -> str:
-    """What an answer is known by.
+    """Return what an answer is known by.
 
     Args:
         job: All that decides what is observed.
         version: The version of the course that judges.
     """
-    return sha256(f"{version}\n{write_line(job)}".encode("utf-8", "backslashreplace")).hexdigest()
+    return sha256(f"{version}\n{to_line(job)}".encode("utf-8", "backslashreplace")).hexdigest()
+
+
+def seed_of(folder: Path) -> int:
+    """Return the seed of a class, from which the inputs of its scenarios are drawn.
+
+    It is made at the first run and kept: with another one, all answers would have to be observed
+    again. It is nobody's business but the instructor's: whoever knows it could prepare evidence.
+
+    Args:
+        folder: The folder of results; it is made if it is not there.
+
+    Raises:
+        GradingError: If the seed cannot be read or written.
+    """
+    path = folder / SEED_FILE
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if not path.exists():
+            _make_seed(path)
+        return int(path.read_text(encoding="ascii"))
+    except (OSError, ValueError) as error:
+        raise _trouble(path, error) from error
+
+
+def _make_seed(path: Path) -> None:
+    """Make the file whole; of two runs that begin at once, one makes it."""
+    made = path.with_name(f".{path.name}-{os.getpid()}")
+    handle = os.open(made, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    with os.fdopen(handle, "w", encoding="ascii") as file:
+        file.write(f"{secrets.randbits(_BITS)}\n")
+    try:
+        os.link(made, path)
+    except FileExistsError:
+        pass
+    except OSError:  # a file system without hard links
+        made.replace(path)
+    finally:
+        made.unlink(missing_ok=True)
+
+
+def _trouble(path: Path, error: Exception) -> GradingError:
+    why = getattr(error, "strerror", "") or error
+    return GradingError(
+        f"{printable(str(path))} cannot be used: {why}.",
+        "It belongs to the class, so that nothing is done twice and nothing comes out differently.",
+        "Make room, or give another folder with --out.",
+    )
 
 
 class Ledger:
-    """Outcomes by key, in a file; usable in a `with` block.
+    """Keep outcomes by key, in a file; usable in a `with` block.
 
     Args:
         path: The file; it is made if it is not there.
@@ -63,7 +114,7 @@ class Ledger:
             self._file: BinaryIO = path.open("ab+")
             self._read()
         except OSError as error:
-            raise self._trouble(error) from error
+            raise _trouble(self._path, error) from error
 
     def __enter__(self) -> Ledger:
         return self
@@ -80,7 +131,7 @@ class Ledger:
         return len(self._known)
 
     def get(self, key: str) -> Outcome | None:
-        """The outcome of an answer, if it has been judged."""
+        """Return the outcome of an answer, if it has been judged."""
         return self._known.get(key)
 
     def add(self, key: str, outcome: Outcome, stays: bool = True) -> None:
@@ -103,7 +154,7 @@ class Ledger:
             self._file.flush()
             os.fdatasync(self._file.fileno())
         except OSError as error:
-            raise self._trouble(error) from error
+            raise _trouble(self._path, error) from error
 
     def _read(self) -> None:
         self._file.seek(0)
@@ -120,10 +171,3 @@ class Ledger:
             self._known[str(key)] = record(Outcome, body, "outcome")
         except (ValueError, KeyError, AttributeError, TypeError, RecursionError, RecordError):
             return  # half a line, or one of an older version: it is judged again
-
-    def _trouble(self, error: OSError) -> GradingError:
-        return GradingError(
-            f"{printable(str(self._path))} cannot be used: {error.strerror or error}.",
-            "It keeps what is judged already, so that nothing is done twice.",
-            "Make room, or give another folder with --out.",
-        )

@@ -1,22 +1,25 @@
-"""What is worth telling an instructor about a file that was handed in."""
+"""Define a remark: what is worth telling an instructor about a file that was handed in."""
 
 from __future__ import annotations
 
 import unicodedata
 from dataclasses import dataclass
 
+#: What a remark is about that is for the instructor only: an answer that reaches for what runs and
+#: observes it.
+REACHES_INSIDE = "reaches-inside"
 #: Characters of a name that a report shows.
 _MOST = 120
 
 
 @dataclass(frozen=True)
 class Remark:
-    """Something about one file.
+    """Tell something about one file.
 
     Attributes:
         about: What it is: `late`, `duplicate`, `renamed`, `empty`, `half-uploaded`, `mended`,
             `wrong-course`, `unreadable`, `too-large`, `refused` or `left-out`; or `manual`, a line
-            of `manual.csv`; or `sample`, an answer of which a kernel shows something else.
+            of `manual.csv`; or `reaches-inside`, an answer that reaches for what observes it.
         path: The file, as it was named, made safe to print.
         text: One sentence about what was found and what was done.
     """
@@ -27,7 +30,7 @@ class Remark:
 
 
 def printable(name: str, most: int = _MOST) -> str:
-    r"""A name without characters that would change a terminal, a table or the direction of text.
+    r"""Return a name without characters that would change a terminal or the direction of text.
 
     Control, format and unassigned characters (Unicode categories C*) are written as `\u....`.
 

@@ -1,8 +1,15 @@
-"""A process that is prepared once and forks into a sandbox for each job; see `start_worker`.
+"""Prepare a process once, and fork it for each submission: `python -m rosbeat.grading.worker`.
 
-It reads jobs, a line of JSON each, and answers each with a line. Interpreter, ROS and message types
-are imported once, before the first fork; ROS itself is started in the child only, for a fork after
-`rclpy.init` hangs. Nothing of a judge is ever imported here: what a process knows, its forks know.
+::
+
+    worker           has imported all that answers need; reads nothing of anybody's
+      └─ keeper      a fork for one submission: reads its jobs, makes its sandbox (see `sandbox`)
+           └─ work   a fork for one answer
+
+A line on standard input is a submission: a list of lines of JSON, a job each. For each job comes a
+line on standard output. ROS itself is started in the work only, for a fork after `rclpy.init`
+hangs. As nothing of a submission is ever read by the worker, the next learner's program finds none
+of it in its own memory, nor is anything in the worker's environment but what ROS needs.
 """
 
 from __future__ import annotations
@@ -14,39 +21,37 @@ import inspect
 import json
 import os
 import secrets
+import select
+import signal
 import sys
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
 from rosbeat.errors import GradingError
-from rosbeat.exercises.evidence import from_json
-from rosbeat.grading.inside.frozen import freeze
-from rosbeat.grading.inside.intact import Census, census
-from rosbeat.grading.inside.kernel import kernel_files, kernel_job
-from rosbeat.grading.inside.observing import observe_job
-from rosbeat.grading.inside.replaying import replay_job
-from rosbeat.grading.jobs import FORGED, READY, Job, Observed, read_job, write_line
-from rosbeat.grading.sandbox.cage import Cage, python_folders
-from rosbeat.grading.sandbox.limits import Limits
-from rosbeat.grading.sandbox.place import Place
-from rosbeat.grading.sandbox.running import Ending, run_caged
-from rosbeat.grading.sandbox.sandboxes import Sandboxes
-from rosbeat.grading.sandbox.unsafe import Bare
-from rosbeat.grading.workspaces import read_workspace
-from rosbeat.records import Observation
-from rosbeat.ros.recording import load_type_support, repair_message_classes
+from rosbeat.grading import linux
+from rosbeat.grading.jobs import FORGED, Evidence, Job, read_job, to_line
+from rosbeat.grading.sandbox import (
+    Ending,
+    Limits,
+    MemoryGroup,
+    Sandbox,
+    View,
+    become_able,
+    python_folders,
+)
 
-#: What the pages before each page leave: content by path.
-Workspaces = dict[str, Mapping[str, bytes]]
+#: What makes a worker run answers without a sandbox.
+UNSAFE = "--unsafe-no-sandbox"
 #: What answers use, and what takes time to import.
 _PREPARED = (
     *("rclpy", "rclpy.node", "rclpy.qos", "rclpy.executors", "rclpy.action"),
     *("numpy", "numpy.random"),
     *("std_msgs.msg", "std_srvs.srv", "sensor_msgs.msg", "rcl_interfaces.msg", "test_msgs.action"),
     *("rosbeat.page_session", "rosbeat.ros.scenario", "rosbeat.ros.test_nodes"),
+    "rosbeat.exercises.registry",
 )
 #: Types of messages that answers use, and of the services and topics that every node has.
 _TYPES = (
@@ -63,194 +68,166 @@ _KEPT = (
     *("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_PYTHON_CHECK_FIELDS", "LANG", "LC_ALL", "TZ"),
     *(*_FILES, "RMW_FASTRTPS_USE_QOS_FROM_XML"),
 )
-#: Rooms of this package that know answers or judge them, or are nobody's business in there.
-_HIDDEN = ("exercises/solved", "clinic", "grading", "authoring", "workspace/finished")
-#: Of what an answer may have written itself, no more than the course writes is believed.
-_MOST, _MOST_CHANGED, _MOST_LINES = 2_000, 5, 1_000_000
+#: Folders of this package that hold solutions, or are nobody's business in there.
+_HIDDEN = ("exercises/solved", "grading", "authoring", "workspace/finished")
 #: Seconds that one answer may take by the clock on the wall, and a page of terminals.
 WALL, WALL_OF_A_PAGE = 60.0, 240.0
-#: All that most answers need: a node, a message type, both ends of a topic, a timer, a log.
-_REHEARSAL = """
-class Rehearsal(Node):
-    def __init__(self):
-        super().__init__("rehearsal")
-        self.publisher = self.create_publisher(Float32, "rehearsal", 10)
-        self.create_subscription(Float32, "rehearsal", self.hear, 10)
-        self.create_timer(1.0, self.say)
-
-    def say(self):
-        self.publisher.publish(Float32(data=21.0))
-
-    def hear(self, message):
-        self.get_logger().info(str(message.data))
-"""
-_IMPORTS = "from rclpy.node import Node\nfrom std_msgs.msg import Float32"
+#: Seconds that a submission may lose to answers that do not end. When they are used up, each of its
+#: further answers has this part of the usual time: most need less than a second.
+LOST_AT_MOST, HURRIED = 180.0, 1 / 6
+#: Of what an answer may have written itself, no more than the course writes is believed.
+_MOST, _MOST_LINES = 2_000, 1_000_000
+#: How a keeper ends that was told that there are no more submissions.
+_NO_MORE = 7
 
 
-def main(lines: TextIO = sys.stdin, answers: TextIO = sys.stdout, unsafe: bool = False) -> None:
-    """Answer jobs until there are no more.
+def environment() -> dict[str, str]:
+    """Return the environment of a worker: what Python and ROS need, and nothing else.
+
+    The middleware's thousands of functions are looked up once, as it is loaded (ld.so(8)); else
+    each answer would do so anew, for itself. Answers see nothing of this: see `View.environment`.
+    """
+    names = (*_KEPT, "PYTHONPATH", "PYTHONHOME")
+    kept = {name: os.environ[name] for name in names if name in os.environ}
+    return {**kept, "PATH": "/usr/bin:/bin", "LD_BIND_NOW": "1"}
+
+
+def main(options: Sequence[str]) -> None:
+    """Observe submissions until there are no more.
 
     Args:
-        lines: Where jobs come from.
-        answers: Where what was observed goes to.
-        unsafe: Whether answers run with limits only.
+        options: `UNSAFE`, or nothing.
     """
-    before = prepare()
-    workspaces: Workspaces = {}
-    answer = _answers(furnished(), before, unsafe, workspaces)
-    print(READY, file=answers, flush=True)
-    for line in lines:
-        shown = read_workspace(line)
-        if shown:
-            workspaces.update([shown])
-            continue
-        try:
-            said = write_line(answer(read_job(line)))
-        except GradingError as error:
-            parts = [error.what, error.means, error.to_try]
-            said = json.dumps({"refused": parts})
-        print(said, file=answers, flush=True)
+    isolated = UNSAFE not in options
+    if isolated:
+        # It works only while there is one thread, and importing ROS starts more. If it is refused,
+        # making a sandbox says so to whoever wants one.
+        with suppress(OSError):
+            become_able()
+    # Whoever grades may be killed in the middle; nothing of a submission runs on after that.
+    linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+    prepare()
+    view = view_of_answers()
+    while True:
+        select.select([0], [], [])
+        keeper = os.fork()
+        if keeper == 0:
+            linux.prctl(linux.PR_SET_PDEATHSIG, signal.SIGKILL)
+            os._exit(_keep(view, isolated))
+        _, status = os.waitpid(keeper, 0)
+        MemoryGroup.remove(keeper)
+        if status:
+            sys.exit(0 if os.waitstatus_to_exitcode(status) == _NO_MORE else 1)
 
 
-def _answers(
-    cage: Cage, before: Census, unsafe: bool, workspaces: Workspaces
-) -> Callable[[Job], Observed]:
-    """What answers a job: if nothing can be observed on this machine, by saying why."""
-    try:
-        place: Place = Bare() if unsafe else Sandboxes(cage)
-        rehearse(cage, before, place)
-    except GradingError as error:
-        return partial(_refuse, error)
-    return lambda job: observed(job, cage, before, place, workspaces.get(job.page))
-
-
-def _refuse(trouble: GradingError, _: Job) -> Observed:
-    raise trouble
-
-
-def prepare() -> Census:
-    """Import what answers will need, and load the C part of their message types.
-
-    Returns:
-        What is there then.
-    """
-    for name in (*_PREPARED, "rosbeat.exercises.registry"):
+def prepare() -> None:
+    """Import what answers will need, and load the C part of their message types."""
+    for name in _PREPARED:
         importlib.import_module(name)
-    load_type_support(_TYPES)
-    repair_message_classes()  # it looks for them once
+    recording = importlib.import_module("rosbeat.ros.recording")
+    recording.load_type_support(_TYPES)
+    recording.repair_message_classes()  # it looks for them once
+    importlib.import_module("rosbeat.grading.observing")
     # The first log line of a process looks for the file of each module; it finds them here.
     inspect.getmodule(sys._getframe())
-    found = census()
-    freeze(found)
     # What is here stays. A fork that looked through it for garbage would copy all of its pages; and
     # it ends before much garbage has come together.
     gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 20, 20)
-    return found
 
 
-def furnished() -> Cage:
-    """The sandbox of an answer: Python, ROS and a part of this package; an empty environment."""
+def view_of_answers() -> View:
+    """Return what answers see: Python, ROS and a part of this package; an empty environment."""
     kept = {name: os.environ[name] for name in _KEPT if name in os.environ}
     package = Path(__file__).resolve().parents[1]
     hidden = [str(package / name) for name in _HIDDEN]
     readable = [*python_folders(), *_commands(), *(kept[name] for name in _FILES if name in kept)]
-    return Cage(readable, hidden, {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp"})
+    return View(readable, hidden, {**kept, "PATH": "/usr/bin:/bin", "HOME": "/tmp"})
 
 
 def _commands() -> list[str]:
-    """The folder of the `ros2` command, where it is the course's own."""
+    """Return the folder of the `ros2` command, where it is the course's own."""
     found = importlib.util.find_spec("ros2_command")
     folders = found.submodule_search_locations if found else None
     return [str(Path(one).resolve().parent) for one in folders or ()]
 
 
-def rehearse(cage: Cage, before: Census, place: Place) -> None:
-    """Run a program of the course's own, so that no learner pays for a sandbox that cannot work.
-
-    Args:
-        cage: The sandbox.
-        before: What this process has prepared.
-        place: Where it is run.
-
-    Raises:
-        GradingError: If the sandbox cannot be made, or nothing can be observed in it.
-    """
-    said = _failed(
-        observed(Job("03a", "Rehearsal", _REHEARSAL, imports=_IMPORTS), cage, before, place)
-    )
-    if said:
-        raise GradingError(
-            f"Nothing can be observed in the sandbox of this machine: {said}",
-            "A program that certainly works did not work in there, so every mark would be wrong.",
-            "`./environment/course doctor` says what is missing, or which other ROS is in the way; "
-            "`--unsafe-no-sandbox` tells whether it is the sandbox.",
-        )
-
-
-def _failed(seen: Observed) -> str:
-    """Why the rehearsal is no proof that answers can be observed; empty if it is one."""
-    if seen.how != "ended" or not seen.evidence:
-        return seen.text or seen.output[-300:] or f"it ended with {seen.how} {seen.number}"
-    found: Observation = from_json(seen.evidence)
-    if found.faults:
-        return found.faults[0].text
-    return "" if found.logs else "a node does not hear what it publishes"
+def _keep(view: View, isolated: bool) -> int:
+    """Observe one submission, in the keeper; return its exit code."""
+    line = _line()
+    if not line:
+        return _NO_MORE
+    lost = 0.0
+    try:
+        with Sandbox(view, isolated) as sandbox:
+            for one in json.loads(line):
+                job = read_job(one)
+                evidence = _observed(job, sandbox, limits_of(job, lost))
+                lost += evidence.seconds if evidence.how == "deadline" else 0.0
+                _say(to_line(evidence))
+    except GradingError as error:
+        _say(json.dumps({"refused": [error.what, error.means, error.to_try]}))
+    except BaseException as error:
+        with suppress(OSError):
+            os.write(2, f"A worker ends: {error!r}. Another one does what it did.\n".encode())
+        return 1
+    return 0
 
 
-def observed(
-    job: Job, cage: Cage, before: Census, place: Place, workspace: Mapping[str, bytes] | None = None
-) -> Observed:
-    """Run one job.
+def _line() -> bytes:
+    """Return the next line; nobody writes another one before this one is answered."""
+    found = bytearray()
+    while not found.endswith(b"\n"):
+        data = os.read(0, 1 << 20)
+        if not data:
+            return b""
+        found += data
+    return bytes(found)
+
+
+def _say(line: str) -> None:
+    data = memoryview(f"{line}\n".encode())
+    while data:
+        data = data[os.write(1, data) :]
+
+
+def limits_of(job: Job, lost: float = 0.0) -> Limits:
+    """Return what a job may use; a page with builds and programs in terminals needs more.
 
     Args:
         job: The job.
-        cage: The sandbox.
-        before: What this process has prepared.
-        place: Where it is run.
-        workspace: What the pages before leave, for one that is replayed.
-
-    Raises:
-        GradingError: If the sandbox cannot be made.
+        lost: Seconds that its submission has lost to answers that did not end.
     """
+    wall, processes = (WALL_OF_A_PAGE, 512) if job.replay else (WALL, 128)
+    wall = max(wall * HURRIED, min(wall, LOST_AT_MOST - lost))
+    return Limits(wall=wall, cpu=int(wall) + 1, processes=processes)
+
+
+def _observed(job: Job, sandbox: Sandbox, limits: Limits) -> Evidence:
+    from rosbeat.grading.observing import observe
+
     seal = secrets.token_hex(16)
-    cage = replace(cage, limits=limits_of(job))
-    if job.kernel:
-        work = partial(kernel_job, job, kernel_files(), seal)
-    elif job.replay:
-        work = partial(replay_job, job, workspace or {}, seal)
-    else:
-        work = partial(observe_job, job, before, seal)
-    return _read(run_caged(work, cage, place), seal)
+    return _read(sandbox.run(partial(observe, job, seal), limits), seal)
 
 
-def limits_of(job: Job) -> Limits:
-    """What one job may use; a page with builds and programs in terminals needs more."""
-    if job.replay or job.kernel:
-        return Limits(wall=WALL_OF_A_PAGE, cpu=int(WALL_OF_A_PAGE), processes=512)
-    return Limits(wall=WALL, cpu=int(WALL))
-
-
-def _read(ending: Ending, seal: str) -> Observed:
+def _read(ending: Ending, seal: str) -> Evidence:
     said, forged = _said(ending.result, seal)
-    changed = said["changed"] if isinstance(said.get("changed"), list) else []
-    return Observed(
+    return Evidence(
         FORGED if forged else ending.how,
         ending.number,
-        _word(said, "evidence", None),
+        _word(said, "seen", None),
         _word(said, "raised"),
         _word(said, "text"),
-        _line(said),
+        _line_number(said),
         _word(said, "code"),
-        tuple(str(one)[:_MOST] for one in changed[:_MOST_CHANGED]),
         ending.output[:2_000].decode("utf-8", "replace"),
         round(ending.seconds, 3),
     )
 
 
-def _said(result: bytes, seal: str) -> tuple[dict[str, Any], bool]:
-    """What was written, and whether somebody else has written it."""
+def _said(result: bytes, seal: str) -> tuple[Mapping[str, Any], bool]:
+    """Return what was written, and whether somebody else has written it."""
     text = result.decode("utf-8", "replace")
     if not text:
         return {}, False
@@ -261,11 +238,15 @@ def _said(result: bytes, seal: str) -> tuple[dict[str, Any], bool]:
     return (found, False) if isinstance(found, dict) else ({}, True)
 
 
-def _word(said: dict[str, Any], name: str, most: int | None = _MOST) -> str:
+def _word(said: Mapping[str, Any], name: str, most: int | None = _MOST) -> str:
     found = said.get(name, "")
     return found[:most] if isinstance(found, str) else ""
 
 
-def _line(said: dict[str, Any]) -> int:
+def _line_number(said: Mapping[str, Any]) -> int:
     found = said.get("line")
     return found if type(found) is int and 0 <= found < _MOST_LINES else 0
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -4,6 +4,7 @@ import logging
 import os
 import signal
 import sys
+from importlib import import_module
 
 import psutil
 import pytest
@@ -13,11 +14,10 @@ from grading_class import hand_in, pages_of
 from rosbeat.errors import GradingError
 from rosbeat.grading import cluster as module
 from rosbeat.grading.cluster import Cluster
-from rosbeat.grading.grade_class import Plan, grade
 from rosbeat.grading.jobs import LOST, Job
 from rosbeat.grading.ledger import FILE, Ledger
-from rosbeat.grading.pool import Pool
 from rosbeat.grading.results import to_results
+from rosbeat.grading.run import Plan, Pool, grade
 from rosbeat.grading.weights import Points
 
 dask = pytest.importorskip("distributed")
@@ -100,7 +100,7 @@ def test_same_results_as_on_one_machine_with_a_worker_killed(cluster, course_and
 
 def prepared_processes(worker):
     children = psutil.Process(worker).children(recursive=True)
-    return [one.pid for one in children if "rosbeat.grading.start_worker" in one.cmdline()]
+    return [one.pid for one in children if "rosbeat.grading.worker" in one.cmdline()]
 
 
 def test_nothing_is_left_on_the_workers(cluster, eventually):
@@ -113,7 +113,7 @@ def test_nothing_is_left_on_the_workers(cluster, eventually):
 def test_a_cluster_with_another_course_is_refused(cluster, monkeypatch, says):
     monkeypatch.setattr(module, "course_version", lambda: "another")
     with Cluster(cluster.scheduler_address) as found, pytest.raises(GradingError) as caught:
-        list(found.observe([("a", Job("03a", "Beat", "class Beat: ..."))]))
+        list(found.observe([[("a", Job("03a", "Beat", "class Beat: ..."))]]))
     says(caught.value, "another course", "another", "Install the same version")
 
 
@@ -121,15 +121,15 @@ def test_a_job_that_costs_workers_is_given_up(cluster, monkeypatch):
     monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)
     with Cluster(cluster.scheduler_address) as found:
         monkeypatch.setattr(found, "_submitted", lambda _: found._client.submit(os._exit, 1))
-        ((key, observed),) = found.observe([("a", Job("03a", "Beat", ""))])
-    assert (key, observed.how) == ("a", LOST)
+        jobs = [(key, Job("03a", "Beat", "")) for key in "ab"]
+        assert [(key, one.how) for key, one in found.observe([jobs])] == [("a", LOST), ("b", LOST)]
 
 
 def test_a_scheduler_that_goes_away_is_said(says):
     quick = {"distributed.comm.timeouts.connect": "1s"}
     with config.set(quick), local(1) as own:
         found = Cluster(own.scheduler_address, patience=2)
-        observing = found.observe([(n, Job("03a", "Beat", f"x = {n}")) for n in range(50)])
+        observing = found.observe([(n, Job("03a", "Beat", f"x = {n}"))] for n in range(50))
         next(observing)
     with found, pytest.raises(GradingError) as caught:
         list(observing)
@@ -142,7 +142,9 @@ def test_a_scheduler_without_workers_is_said(says):
     says(caught.value, "no worker", "dask worker tcp://")
 
 
-@pytest.mark.parametrize("address", [NOBODY, "nonsense://x", "127.0.0.1", "\x1b[31m:1"])
+@pytest.mark.parametrize(
+    "address", [NOBODY, "tls://127.0.0.1:1", "nonsense://x", "127.0.0.1", "\x1b[31m:1"]
+)
 def test_where_no_scheduler_is(address, says):
     with pytest.raises(GradingError) as caught:
         Cluster(address, patience=0.5)
@@ -152,6 +154,7 @@ def test_where_no_scheduler_is(address, says):
 
 def test_without_dask(monkeypatch, says):
     monkeypatch.setitem(sys.modules, "distributed", None)
+    monkeypatch.delitem(sys.modules, module.__name__)
     with pytest.raises(GradingError) as caught:
-        Cluster(NOBODY)
-    says(caught.value, 'pip install "rosbeat[cluster]"')
+        import_module(module.__name__)
+    says(caught.value, "Dask is not installed", "pip install '.[cluster]'")

@@ -7,9 +7,9 @@ import pytest
 
 from graded_classes import HOSTILE, hostile_learner, mark, one_of_each
 from parsed_html import ELEMENTS, Parsed
+from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.feedback import feedback, page_title, points_of
 from rosbeat.grading.marks import Graded
-from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.palette import STATUSES
 
 

@@ -15,8 +15,8 @@ from bank.class_of_learners import hand_in
 from rosbeat.errors import CommandError, GradingError, StoppedError
 from rosbeat.grading import checkout, grade_command
 from rosbeat.grading.grade_options import arguments
-from rosbeat.grading.jobs import Observed
-from rosbeat.grading.ledger import FILE
+from rosbeat.grading.jobs import Evidence
+from rosbeat.grading.ledger import FILE, SEED_FILE
 from small_course import small_course
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -34,10 +34,10 @@ class Workers:
     def __exit__(self, *_):
         pass
 
-    def observe(self, jobs):
-        for key, job in jobs:
+    def observe(self, submissions):
+        for key, job in (one for some in submissions for one in some):
             self.jobs.append(job)
-            yield key, Observed("ended", raised="ZeroDivisionError", text="division by zero")
+            yield key, Evidence("ended", raised="ZeroDivisionError", text="division by zero")
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def typed(tmp_path, capsys):
     def run(*words):
         parser = argparse.ArgumentParser()
         arguments(parser)
-        words = (tmp_path / "class", "--out", tmp_path / "out", "--sample", "0", *words)
+        words = (tmp_path / "class", "--out", tmp_path / "out", *words)
         assert grade_command.run(parser.parse_args([str(word) for word in words])) == 0
         return capsys.readouterr()
 
@@ -228,8 +228,8 @@ def test_points_of_a_page_that_is_not_graded_are_told(course, workers, typed, tm
 
 def test_whoever_stops_it_hears_what_is_kept(course, workers, typed, tmp_path, monkeypatch, says):
     class Stopped(workers):
-        def observe(self, jobs):
-            yield next(super().observe(jobs))
+        def observe(self, submissions):
+            yield next(super().observe(submissions))
             raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
@@ -261,7 +261,7 @@ def test_a_class_of_120_is_not_observed_twice(course, workers, typed, tmp_path):
 def start(folder, out):
     return subprocess.Popen(
         [sys.executable, "-m", "rosbeat", "grade", str(folder), "--out", str(out),
-         "--lessons", "04", "--sample", "0", "--workers", "2"],
+         "--lessons", "04", "--workers", "2"],
         cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
 
@@ -288,6 +288,8 @@ def test_a_class_goes_on_where_it_was_killed(tmp_path, eventually):
     assert not (killed / "results.json").exists()
     eventually(lambda: not any(is_alive(one) for one in workers))
     assert start(tmp_path / "class", killed).wait(100) == 0
+    plain.mkdir()
+    (plain / SEED_FILE).write_bytes((killed / SEED_FILE).read_bytes())
     assert start(tmp_path / "class", plain).wait(100) == 0
     after = keys(killed)
     assert after[: len(before)] == before

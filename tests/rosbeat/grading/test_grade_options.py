@@ -32,7 +32,7 @@ def test_everything_can_be_said():
 
 
 @pytest.mark.parametrize(
-    "words", [("--workers", "0"), ("--workers", "x"), ("--sample", "-1"), ("--sample", "1.5")]
+    "words", [("--workers", "0"), ("--workers", "x"), ("--workers", "-1"), ("--workers", "1.5")]
 )
 def test_a_number_that_makes_no_sense_is_refused(words, capsys):
     with pytest.raises(SystemExit):

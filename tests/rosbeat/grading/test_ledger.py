@@ -8,7 +8,7 @@ import pytest
 from rosbeat.errors import GradingError
 from rosbeat.grading import ledger as module
 from rosbeat.grading.jobs import Job
-from rosbeat.grading.ledger import FILE, Ledger, course_version, key_of
+from rosbeat.grading.ledger import FILE, SEED_FILE, Ledger, course_version, key_of, seed_of
 from rosbeat.records import Outcome, Part
 
 JOB = Job("03a", "Beat", "class Beat: ...")
@@ -122,9 +122,14 @@ def test_a_folder_without_the_right_to_write_is_said(tmp_path, says):
 
 def test_a_key_is_all_that_decides():
     assert key_of(JOB, "1") == key_of(replace(JOB), "1")
-    others = [replace(JOB, answer="x"), replace(JOB, given='{"a": 1}'), replace(JOB, parts=("",))]
+    others = [
+        replace(JOB, answer="x"),
+        replace(JOB, given='{"a": 1}'),
+        replace(JOB, parts=("",)),
+        replace(JOB, seed=1),
+    ]
     keys = {key_of(JOB, "1"), key_of(JOB, "2"), *(key_of(one, "1") for one in others)}
-    assert len(keys) == 5
+    assert len(keys) == 6
     assert key_of(replace(JOB, answer="\ud800"), "1")
 
 
@@ -139,3 +144,28 @@ def test_the_version_is_another_one_with_another_judge(tmp_path, monkeypatch):
     second = course_version()
     (tmp_path / "judge.py").rename(tmp_path / "other.py")
     assert len({first, second, course_version()}) == 3
+
+
+def test_a_class_has_a_seed_of_its_own_that_stays(tmp_path):
+    one, other = (seed_of(tmp_path / name) for name in "ab")
+    assert one != other
+    assert seed_of(tmp_path / "a") == one > 0
+    path = tmp_path / "a" / SEED_FILE
+    assert path.stat().st_mode & 0o777 == 0o600
+    assert [one.name for one in path.parent.iterdir()] == [SEED_FILE]
+
+
+def test_a_seed_that_cannot_be_read_is_said_and_stays(tmp_path, says):
+    (tmp_path / SEED_FILE).write_text("no number")
+    with pytest.raises(GradingError) as caught:
+        seed_of(tmp_path)
+    says(caught.value, SEED_FILE, "--out")
+    assert (tmp_path / SEED_FILE).read_text() == "no number"
+
+
+def test_a_disk_without_links_has_a_seed_too(tmp_path, monkeypatch):
+    def refuses(*_):
+        raise PermissionError
+
+    monkeypatch.setattr(module.os, "link", refuses)
+    assert seed_of(tmp_path) == seed_of(tmp_path)

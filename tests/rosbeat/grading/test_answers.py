@@ -1,0 +1,494 @@
+"""From a page that was handed in to its answers, whatever has happened to the page."""
+
+import builtins
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from grading_files import BLANK, DONE, cell, notebook, page
+from rosbeat.exercises.registry import EXERCISES
+from rosbeat.grading.answers import (
+    answers_on,
+    find_cells,
+    imports_of,
+    is_replayed,
+    remarks_on,
+    statements_needed,
+    subject_of,
+    without_magics,
+)
+from rosbeat.grading.course_pages import Wanted, course_pages
+from rosbeat.grading.notebook import Cell, read_notebook
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@pytest.fixture(scope="module")
+def course():
+    return {one.number: one for one in course_pages(ROOT / "notebooks")}
+
+
+@pytest.fixture
+def answers(pages):
+    """The answers on the small course's page 03, from cells or the text of a page."""
+
+    def find(*cells, text=""):
+        made = text or notebook(*cells, lesson="03_write")
+        return answers_on(pages[0], read_notebook(made.encode()).cells)
+
+    return find
+
+
+def test_an_answer_becomes_a_job(answers):
+    (one,) = answers(text=page(source=DONE))
+    assert (one.exercise, one.touched, one.remarks, one.repairs) == ("03a", True, (), ())
+    assert (one.job.answer, one.job.subject, one.job.replay) == (DONE, "Beat", ())
+    assert json.loads(one.job.given) == EXERCISES["03a"].given()
+
+
+@pytest.mark.parametrize("source", [BLANK, f"\n{BLANK}\n", "", "  \n"])
+def test_what_nobody_has_touched_is_not_observed(answers, source):
+    (one,) = answers(text=page(source=source))
+    assert (one.job, one.touched, one.remarks) == (None, False, ())
+
+
+def test_a_page_without_the_cell_says_so(answers):
+    (one,) = answers(cell("a = 1"))
+    assert (one.job, one.touched) == (None, False)
+    assert "not on the page" in " ".join(one.repairs)
+
+
+def test_an_exercise_behind_the_end_of_its_file_is_lost(pages):
+    (course,) = pages[:1]
+    before = course.cells[:2]
+    (one,) = answers_on(course, before, cut=True)
+    assert (one.cut, one.job, one.remarks, one.repairs) == (True, None, (), ())
+    (one,) = answers_on(course, before)
+    assert not one.cut
+
+
+def test_an_exercise_before_the_end_of_its_file_is_there_or_not(pages):
+    (course,) = pages[:1]
+    (one,) = answers_on(course, read_notebook(page(source=DONE).encode()).cells[:3], cut=True)
+    assert (one.cut, one.job is None) == (False, False)
+    taken_out = (*course.cells[:2], *course.cells[3:])
+    (one,) = answers_on(course, taken_out, cut=True)
+    assert not one.cut
+    assert "not on the page" in one.repairs[0]
+
+
+def test_a_cell_that_is_merely_alike_is_no_answer_where_the_file_breaks_off(pages):
+    (course,) = pages[:1]
+    scratch = cell("class Beat(Node):\n    pass")
+    made = read_notebook(notebook(scratch).encode()).cells
+    given = tuple(replace(one, place=one.place + 1) for one in course.cells[:2])
+    (one,) = answers_on(course, (*made, *given), cut=True)
+    assert one.cut
+    (one,) = answers_on(course, made, cut=True)  # of a page without any ids nothing is known
+    assert not one.cut
+
+
+@pytest.mark.parametrize(
+    "above",
+    [
+        "import os",
+        "import signal",
+        "import pandas",
+        "%%time",
+        "!ls",
+        "%matplotlib inline",
+        "import gc",
+        "import ctypes",
+        "eval('1')",
+        "open",
+        "get_ipython",
+        "Node.create_timer = None",
+        "%%timeit -n1",
+    ],
+)
+def test_no_answer_is_held_for_what_it_names(answers, above):
+    (one,) = answers(text=page(source=f"{above}\n{DONE}"))
+    assert one.job is not None
+    assert "class Beat" in one.job.answer
+    assert one.source == f"{above}\n{DONE}"
+
+
+def test_a_text_that_is_no_python_is_observed_all_the_same(answers):
+    (one,) = answers(text=page(source="class Beat(Node:\n    pass"))
+    assert one.job is not None
+
+
+def test_what_the_check_cell_was_changed_to_does_not_count(answers):
+    made = (cell(DONE, id="03a-cell", exercise="03a"), cell('check("03a", Cheat)', check="03a"))
+    (one,) = answers(*made)
+    assert one.job.subject == "Beat"
+
+
+def test_what_an_answer_needs_of_earlier_cells_is_the_learners_first_then_the_courses(answers):
+    made = DONE.replace("1.0", "FIRST + rclpy.x")
+    (one,) = answers(
+        cell("FIRST = 1"),
+        cell("FIRST = 7\nunused = 3\nprint(FIRST)"),
+        cell("words", "markdown"),
+        cell("%%terminal a\nls"),
+        cell(made, id="03a-cell", exercise="03a"),
+        cell("FIRST = 3"),
+    )
+    assert set(one.job.earlier) == {"FIRST = 7", "import rclpy"}
+
+
+def test_magics_of_an_earlier_cell_cost_nothing(answers):
+    made = cell(DONE.replace("1.0", "PERIOD"), id="03a-cell", exercise="03a")
+    (one,) = answers(cell("%matplotlib inline\n!ls\nPERIOD = 2.0"), made)
+    (other,) = answers(cell("%%time\nPERIOD = 2.0"), made)
+    assert one.job.earlier == other.job.earlier == ("PERIOD = 2.0",)
+
+
+def test_what_an_answer_needs_of_another_cell_is_remarked_too(answers):
+    made = cell(DONE.replace("1.0", "PERIOD"), id="03a-cell", exercise="03a")
+    (plain,) = answers(cell("PERIOD = 1.0"), made)
+    (sly,) = answers(cell("PERIOD = f.__globals__"), made)
+    (beside,) = answers(cell("x = f.__globals__"), cell("PERIOD = 1.0"), made)
+    assert (plain.remarks, beside.remarks) == ((), ())
+    assert sly.remarks == ("of another cell that it needs, line 1 uses __globals__",)
+
+
+def test_the_seed_is_part_of_the_job(pages):
+    cells = read_notebook(page(source=DONE).encode()).cells
+    (one,), (other,) = (answers_on(pages[0], cells, seed=seed) for seed in (0, 5))
+    assert (one.job.seed, other.job.seed) == (0, 5)
+    assert one.job == replace(other.job, seed=0)
+
+
+def test_equal_answers_are_equal_jobs_wherever_they_stand(answers):
+    (one,) = answers(text=page(source=DONE))
+    (other,) = answers(cell("unused = 1"), cell(DONE, id="03a-cell", exercise="03a"))
+    assert one.job == other.job
+
+
+def test_the_whole_course_has_a_job_for_each_exercise(course):
+    for number, page_of_course in course.items():
+        done = read_notebook((ROOT / f"solutions/{page_of_course.lesson}.ipynb").read_bytes())
+        found = answers_on(page_of_course, done.cells)
+        wanted = [name for name in EXERCISES if name[:2] == number]
+        assert [one.exercise for one in found] == wanted
+        for one in found:
+            assert one.job is not None, one
+            assert one.job.subject != "None"
+            is_typed = number in ("01", "02", "05", "06") and one.exercise != "05b"
+            assert bool(one.job.replay) == is_typed
+
+
+def test_a_blank_page_of_the_course_has_no_job(course):
+    for page_of_course in course.values():
+        found = answers_on(page_of_course, page_of_course.cells)
+        assert {(one.job, one.touched, one.repairs) for one in found} <= {(None, False, ())}
+
+
+def test_an_exercise_of_several_cells_is_one_answer(course):
+    page_13 = course["13"]
+    ids = [one.id for one in page_13.wanted if one.exercise == "13b"]
+    cells = [
+        replace(one, source=f"x = '{one.id}'") if one.id in ids else one for one in page_13.cells
+    ]
+    (one,) = (one for one in answers_on(page_13, cells) if one.exercise == "13b")
+    assert len(ids) > 1
+    assert (*one.job.parts, one.job.answer) == tuple(f"x = '{one}'" for one in ids)
+
+
+def test_a_replay_has_this_answer_and_blanks_for_the_others(course):
+    page_01 = course["01"]
+    first, second = page_01.wanted[:2]
+    typed = "%%terminal two\nmkdir -p x"
+    cells = [
+        replace(one, source=typed) if one.id in (first.id, second.id) else one
+        for one in page_01.cells
+    ]
+    one = answers_on(page_01, cells)[1]
+    assert one.job.replay.count(typed) == 1
+    assert one.job.page == "01"
+    assert not any("import check" in one for one in one.job.replay)
+
+
+def test_what_is_read_of_the_course(course):
+    assert subject_of(course["03"], "03a") == "HumiditySensor"
+    assert subject_of(course["03"], "99z") == "None"
+    assert "from rosbeat import" in imports_of(course["03"])
+    assert "Session(" not in imports_of(course["03"])
+    found = {one.exercise: is_replayed(course["05"], one) for one in course["05"].wanted}
+    assert found == {"05a": True, "05b": False}
+
+
+# Which cells hold answers.
+
+OTHER = DONE.replace("Beat", "Ear")
+WANTED = (
+    Wanted("03a", "one", BLANK),
+    Wanted("03b", "two", BLANK.replace("Beat", "Ear")),
+    Wanted("03c", "three", "# a\nx = 1\ny = 2\nz = ____\n"),
+)
+
+
+def cells(*made):
+    return [
+        Cell(n, one.get("sort", "code"), one.get("source", DONE), one.get("id", ""),
+             one.get("exercise", ""), one.get("check", ""))
+        for n, one in enumerate(made)
+    ]  # fmt: skip
+
+
+def found(*made, wanted=WANTED[:1]):
+    return find_cells(wanted, cells(*made))[0]
+
+
+def test_a_cell_in_its_place_needs_no_word():
+    one = found({"id": "one", "exercise": "03a"})
+    assert (one.source, one.place, one.repairs) == (DONE, 0, ())
+
+
+@pytest.mark.parametrize(
+    ("made", "words"),
+    [
+        ({"exercise": "03a", "id": "new"}, "another id"),
+        ({"source": DONE}, "by what it defines"),
+        ({"source": "import rclpy\n" + DONE}, "by what it defines"),
+        ({"id": "one", "sort": "markdown"}, "markdown cell"),
+        ({"id": "one", "sort": "raw"}, "raw cell"),
+    ],
+)
+def test_a_cell_that_lost_something_is_found(made, words):
+    one = found({"source": "a = 1"}, made)
+    assert one.place == 1
+    assert words in " ".join(one.repairs)
+
+
+def test_a_deleted_cell_is_missing():
+    one = found({"source": "a = 1"}, {"source": "check('03a', Beat)", "check": "03a"})
+    assert (one.source, one.place) == ("", -1)
+    assert "not on the page" in one.repairs[0]
+
+
+def test_a_check_cell_is_never_an_answer():
+    assert found({"source": DONE, "id": "one", "check": "03a"}).place == -1
+
+
+def test_of_several_the_last_that_is_filled_counts():
+    one = found({"id": "one", "source": DONE + "# 1"}, {"id": "one", "source": DONE + "# 2"},
+                {"exercise": "03a", "source": BLANK})  # fmt: skip
+    assert one.place == 1
+    assert "3 times" in one.repairs[0]
+
+
+def test_an_untouched_copy_counts_if_there_is_no_other():
+    assert found({"id": "one", "source": BLANK}, {"id": "one", "source": BLANK}).place == 1
+
+
+def test_a_cell_that_was_split_is_put_together():
+    lines = DONE.splitlines(keepends=True)
+    one = found({"id": "one", "source": "".join(lines[:2])}, {"source": "".join(lines[2:])})
+    assert "\n".join(one.source.split("\n\n")).split() == DONE.split()
+    assert "put together" in one.repairs[-1]
+
+
+def test_a_cell_with_a_mistake_is_not_joined_with_what_follows():
+    one = found({"id": "one", "source": "class Beat(Node:\n    pass"}, {"source": "a = 1"})
+    assert one.source == "class Beat(Node:\n    pass"
+
+
+def test_no_cell_answers_two_exercises():
+    answers = find_cells(WANTED[:2], cells({"id": "one"}, {"source": OTHER}))
+    assert [one.place for one in answers] == [0, 1]
+    answers = find_cells(WANTED[:2], cells({"id": "two", "source": OTHER}))
+    assert [one.place for one in answers] == [-1, 0]
+
+
+def test_a_copied_id_of_another_exercise_is_not_taken():
+    answers = find_cells(WANTED[:2], cells({"id": "two", "source": DONE}))
+    assert answers[0].place == -1
+
+
+def test_a_cell_without_a_definition_is_found_by_likeness():
+    one = found({"source": "# a\nx = 1\ny = 2\nz = 3\n"}, wanted=WANTED[2:])
+    assert one.place == 0
+    assert found({"source": "a = 1"}, wanted=WANTED[2:]).place == -1
+
+
+@pytest.mark.parametrize("source", ["\0", "(" * 10_000, "x = '\ud800'", "%%terminal a\nls ("])
+def test_no_text_stops_it(source):
+    assert found({"id": "one", "source": source}).source == source
+
+
+PARTS = (
+    Wanted("13b", "one", "class Beat(Node):\n    ____\n"),
+    Wanted("13b", "two", "class Ear(Node):\n    ____\n"),
+    Wanted("13b", "three", "def greenhouse():\n    ____\n"),
+)
+FILLED = [one.blank.replace("____", f"x = {n}") for n, one in enumerate(PARTS)]
+
+
+def parts(*made):
+    return find_cells(PARTS, cells(*made))
+
+
+def test_each_of_several_cells_is_found_by_its_id():
+    made = [
+        {"source": text, "id": one.id, "exercise": "13b"}
+        for text, one in zip(FILLED, PARTS, strict=True)
+    ]
+    for order in (made, made[::-1]):
+        found = parts(*order)
+        assert [one.source for one in found] == FILLED
+        assert [one.repairs for one in found] == [(), (), ()]
+
+
+def test_several_cells_without_ids_are_told_apart_by_what_they_define():
+    found = parts(*({"source": text, "exercise": "13b"} for text in reversed(FILLED)))
+    assert [one.source for one in found] == FILLED
+    assert all("another id" in " ".join(one.repairs) for one in found)
+
+
+def test_one_of_several_cells_may_be_missing():
+    found = parts(
+        {"source": FILLED[0], "id": "one", "exercise": "13b"},
+        {"source": FILLED[2], "id": "three", "exercise": "13b"},
+    )
+    assert [one.source for one in found] == [FILLED[0], "", FILLED[2]]
+    assert "not on the page" in " ".join(found[1].repairs)
+
+
+# Commands of IPython.
+
+IN_A_TEXT = "text = '''\n%time\n!ls\n'''"
+
+
+@pytest.mark.parametrize(
+    ("source", "plain", "said"),
+    [
+        ("%%time\nx = 1", "\nx = 1", 0),
+        ("\n%%timeit -n 3\nx = 1", "\n\nx = 1", 0),
+        ("%%capture out\n%%time\nx = 1", "\n\nx = 1", 0),
+        ("x = 1\n%time y = f()\n%timeit -n 2 -r1 f()", "x = 1\ny = f()\nf()", 0),
+        ("x = %time f()", "x = f()", 0),
+        ("!pip install x\ny = 1", "pass\ny = 1", 1),
+        ("if a:\n    !ls\n    %cd x\nb = 1", "if a:\n    pass\n    pass\nb = 1", 2),
+        ("files = !ls\nx?\n?x.y\nstr.join??", "files = None\npass\npass\npass", 4),
+        ("%%bash\nls", "", 1),
+        ("%%writefile a.py\nx = 1", "", 1),
+        (IN_A_TEXT, IN_A_TEXT, 0),
+        ("a = 7\nb = a\\\n% 2", "a = 7\nb = a\\\n% 2", 0),
+        ("no python (", "no python (", 0),
+        ("", "", 0),
+    ],
+)
+def test_commands_of_ipython_run_their_body_or_are_left_out(source, plain, said):
+    found, sentences = without_magics(source)
+    assert found == plain
+    assert len(sentences) == said
+    assert all(2 < len(one) < 120 for one in sentences)
+
+
+def test_what_was_left_out_is_said_on_the_mark(answers):
+    (one,) = answers(text=page(source=f"!pip install x\n{DONE}"))
+    assert one.repairs == ("Line 1 was left out, a command of IPython: !pip install x",)
+
+
+# Statements of other cells.
+
+
+def needed(text, *cells, names=()):
+    return list(statements_needed([text], cells, {*names, *dir(builtins)}))
+
+
+def test_only_what_is_needed_is_there():
+    assert needed("print(A + 1)", "A = 1\nB = 2\nboom()", "C = 3") == ["A = 1"]
+
+
+def test_what_is_needed_may_need_more():
+    cells = ("def twice(x):\n    return x * FACTOR", "import math\nFACTOR = math.floor(2.5)")
+    assert [one.split()[0] for one in needed("y = twice(3)", *cells)] == ["import", "FACTOR", "def"]
+
+
+def test_cells_that_come_first_count_more_and_the_last_line_of_a_cell():
+    assert needed("A", "A = 1\nA = 2", "A = 3") == ["A = 2"]
+
+
+@pytest.mark.parametrize("text", ["A = 5\nprint(A)", "def A(): pass\nA()", "import x as A\nA.b"])
+def test_what_a_cell_defines_itself_is_its_own(text):
+    assert needed(text, "A = 1") == []
+
+
+def test_what_is_there_already_stays():
+    assert needed("print(A)", "A = 1", names=["A"]) == []
+    assert needed("print(len([]))", "len = 1") == []
+
+
+@pytest.mark.parametrize("text", ["no python (", "\0", ""])
+def test_texts_that_are_no_programs_need_nothing(text):
+    assert needed(text, "A = 1") == []
+    assert needed("A", text, "A = 1") == ["A = 1"]
+
+
+def test_two_that_need_each_other_are_both_there():
+    cells = ("def even(n):\n    return n == 0 or odd(n - 1)\ndef odd(n):\n    return even(n - 1)",)
+    assert len(needed("even(2)", *cells)) == 2
+
+
+def test_only_definitions_are_offered():
+    cell = "import a\nfrom b import c as d\nx: int = 1\ny, z = 1, 2\nprint(x)\nclass E: pass"
+    found = [needed(name, cell) for name in ("a", "d", "x", "y", "z", "E", "f")]
+    assert [len(one) for one in found] == [1, 1, 1, 1, 1, 1, 0]
+
+
+# Remarks for an instructor.
+
+IMPORTS = """from rosbeat import Session, check, clinic
+import sys
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Float32
+"""
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "",
+        "import os, math, signal, subprocess\nimport numpy as np\nx = np.clip(1, 0, 2)",
+        "from std_msgs.msg import String as Word\nmsg = Float32\nmsg.data = 1.0",
+        "class A:\n    def f(self): return getattr(self, 'on_' + self.kind)",
+        "eval('1')\nopen('x')\nvars(self)\nself.signal = 1",
+        "from rosbeat import Session, clinic\nclinic.Ward(7)",
+        "x = {}\nx['a'] = 1\nx.y = 2\ndel x['a']\nself.publisher.count = 3",
+        "this is no python (",
+        "x = '\0'",
+        "(" * 5_000,
+    ],
+    ids=range(10),
+)
+def test_ordinary_programs_are_not_remarked(answer):
+    assert remarks_on(answer, IMPORTS) == ()
+
+
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        ("def f():\n    import ctypes", "line 2 imports ctypes"),
+        ("import gc", "line 1 imports gc"),
+        ("from rosbeat.exercises import page_03", "imports rosbeat.exercises"),
+        ("from rosbeat.clinic.ward import Ward", "imports rosbeat.clinic.ward"),
+        ("import sys\nsys._getframe()", "line 2 uses _getframe"),
+        ("f.__globals__", "uses __globals__"),
+        ("getattr(x, '__globals__')", "uses __globals__"),
+        ("self.context.watcher", "uses watcher"),
+        ("rclpy.spin = print", "changes rclpy"),
+        ("Node.publish = print", "changes Node"),
+        ("del rclpy.spin", "changes rclpy"),
+        ("rclpy.x += 1", "changes rclpy"),
+        ("import json\njson.dumps = 3", "line 2 changes json"),
+        ("import sys\nsys.modules['json'] = 1", "changes sys"),
+    ],
+)
+def test_what_reaches_for_the_observer_is_remarked_with_its_line(answer, words):
+    assert words in " ".join(remarks_on(answer, IMPORTS))

@@ -1,0 +1,933 @@
+"""A class from what was handed in to its gradebook, and the workers that observe its answers."""
+
+import gc
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import psutil
+import pytest
+
+from bank.graded_workspaces import job_of, usable
+from fake_worker import NOTES
+from grading_files import BLANK, DONE, PAGE_03, PAGE_04, cell, notebook, page
+from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.errors import GradingError
+from rosbeat.exercises.evidence import to_json
+from rosbeat.exercises.registry import EXERCISES
+from rosbeat.grading import run as module
+from rosbeat.grading import worker as worker_module
+from rosbeat.grading.collecting import collect
+from rosbeat.grading.jobs import FORGED, LOST, Evidence, Job, read_evidence, read_job, to_line
+from rosbeat.grading.judging import judge, untouched
+from rosbeat.grading.ledger import Ledger
+from rosbeat.grading.run import Plan, Pool, Worker, all_answers, cause_of, files_before, grade
+from rosbeat.grading.sandbox import Ending
+from rosbeat.grading.weights import Points
+from rosbeat.grading.worker import LOST_AT_MOST, environment, limits_of, view_of_answers
+from rosbeat.records import Fault, LogRecord, Observation, Outcome, Part
+from rosbeat.workspace.catching_up import Report
+
+TESTS = Path(__file__).parents[2]
+
+# From a class to its gradebook; answers are observed by somebody made up.
+
+OTHER_03 = page(source=DONE.replace("1.0", "2.0"))
+RAISES = Evidence("ended", raised="ZeroDivisionError", text="division by zero", line=3)
+
+
+class Observer:
+    """Says the same of every answer, and keeps what it was asked."""
+
+    def __init__(self, seen=RAISES, after=None):
+        self.seen, self.after, self.jobs = seen, after, []
+
+    def __call__(self, submissions):
+        for key, job in (one for some in submissions for one in some):
+            if len(self.jobs) == self.after:
+                raise KeyboardInterrupt
+            self.jobs.append(job)
+            yield key, self.seen
+
+
+@pytest.fixture
+def graded(pages, handed_in, tmp_path):
+    """Grade files, with a ledger that stays for the next time."""
+
+    def run(files, observer, points=None, version="1", tell=lambda done, total: None, seed=0):
+        plan = Plan(pages, version, points or Points(), seed)
+        with Ledger(tmp_path / "ledger") as ledger:
+            return grade(collect(handed_in(files), pages), plan, ledger, observer, tell)
+
+    return run
+
+
+def rows(book):
+    return [
+        (one.learner, mark.exercise, mark.status) for one in book.learners for mark in one.marks
+    ]
+
+
+def test_every_exercise_of_every_learner_has_a_mark(graded):
+    files = {"ana/03.ipynb": PAGE_03, "ana/04.ipynb": PAGE_04, "ben/03.ipynb": page()}
+    book = graded(files, Observer())
+    assert rows(book) == [
+        ("ana", "03a", "failed"), ("ana", "04a", "failed"),
+        ("ben", "03a", "not attempted"), ("ben", "04a", "missing"),
+    ]  # fmt: skip
+    first = book.learners[0].marks[0]
+    assert (first.mistake, first.page, first.points) == ("division-by-zero", "03_write", 0.0)
+    assert first.out_of == EXERCISES["03a"].points
+    assert all(mark.cause for one in book.learners for mark in one.marks)
+
+
+def test_equal_answers_are_observed_once(graded):
+    observer = Observer()
+    book = graded({f"{name}/03.ipynb": PAGE_03 for name in "abcdef"}, observer)
+    assert len(observer.jobs) == 1
+    assert len({one.marks for one in book.learners}) == 1
+
+
+def test_what_is_unchanged_is_not_observed_again_and_gives_the_same_book(graded):
+    files = {"ana/03.ipynb": PAGE_03, "ben/03.ipynb": OTHER_03, "ben/04.ipynb": PAGE_04}
+    first, second = Observer(), Observer()
+    assert graded(files, first) == graded(files, second)
+    assert (len(first.jobs), len(second.jobs)) == (3, 0)
+
+
+def test_one_changed_answer_is_observed_alone(graded):
+    files = {"ana/03.ipynb": PAGE_03, "ben/03.ipynb": PAGE_03, "ben/04.ipynb": PAGE_04}
+    graded(files, Observer())
+    observer = Observer()
+    graded(files | {"ben/03.ipynb": OTHER_03}, observer)
+    assert [job.exercise for job in observer.jobs] == ["03a"]
+    assert "2.0" in observer.jobs[0].answer
+
+
+def test_another_version_of_the_course_judges_anew(graded):
+    graded({"ana/03.ipynb": PAGE_03}, Observer())
+    observer = Observer()
+    assert graded({"ana/03.ipynb": PAGE_03}, observer, version="2").course == "2"
+    assert len(observer.jobs) == 1
+
+
+def test_who_is_stopped_in_the_middle_goes_on_there(graded):
+    files = {f"{n}/03.ipynb": page(source=DONE.replace("1.0", f"{n}.0")) for n in range(9)}
+    with pytest.raises(KeyboardInterrupt):
+        graded(files, Observer(after=5))
+    rest = Observer()
+    book = graded(files, rest)
+    assert len(rest.jobs) == 4
+    assert {status for _, _, status in rows(book)} >= {"failed"}
+    assert "not attempted" not in {status for _, name, status in rows(book) if name == "03a"}
+
+
+def test_an_answer_whose_worker_was_lost_is_tried_again_next_time(graded):
+    book = graded({"ana/03.ipynb": PAGE_03}, Observer(Evidence(LOST)))
+    mark = book.learners[0].marks[0]
+    assert "was lost" in mark.evidence
+    assert (mark.status, mark.points, mark.mistake) == (
+        "held",
+        0.0,
+        "",
+    )  # nobody knows what it does
+    assert mark.answer == DONE
+    again = Observer()
+    assert graded({"ana/03.ipynb": PAGE_03}, again).learners[0].marks[0].mistake != "crashed"
+    assert len(again.jobs) == 1
+
+
+def test_no_sandbox_is_not_somebodys_mark(graded):
+    def refuses(submissions):
+        raise GradingError("No sandbox.", "m", "t")
+        yield
+
+    with pytest.raises(GradingError):
+        graded({"ana/03.ipynb": PAGE_03}, refuses)
+
+
+def test_another_seed_judges_anew(graded):
+    graded({"ana/03.ipynb": PAGE_03}, Observer(), seed=1)
+    same, other = Observer(), Observer()
+    graded({"ana/03.ipynb": PAGE_03}, same, seed=1)
+    graded({"ana/03.ipynb": PAGE_03}, other, seed=2)
+    assert (len(same.jobs), [job.seed for job in other.jobs]) == (0, [2])
+
+
+def test_what_reaches_inside_is_remarked_and_its_mark_stands(graded):
+    observer = Observer()
+    source = "import gc, os\n" + DONE
+    book = graded({"ana/03.ipynb": page(source=source), "ben/03.ipynb": PAGE_03}, observer)
+    assert [one.marks[0].status for one in book.learners] == ["failed", "failed"]
+    (remark,) = (one for one in book.learners[0].remarks if one.about == "reaches-inside")
+    assert remark.path == "ana/03.ipynb"
+    assert remark.text == ("Exercise 03a: line 1 imports gc. The mark stands; look at the answer.")
+    assert len(observer.jobs) == 2
+
+
+def test_what_lies_behind_the_end_of_a_file_has_no_points_yet(graded):
+    whole, observer = PAGE_03, Observer()
+    files = {
+        "ana/03.ipynb": whole[: whole.index("class Beat")],
+        "ben/03_write.ipynb": '{"cells": [{',
+    }
+    book = graded(files, observer)
+    assert [row for row in rows(book) if row[1] == "03a"] == [
+        ("ana", "03a", "held"), ("ben", "03a", "held"),
+    ]  # fmt: skip
+    for one in book.learners:
+        mark = one.marks[0]
+        assert (
+            mark.cause == mark.evidence == "The file stops before this exercise: hand it in again."
+        )
+        assert mark.waits_for_its_file
+        assert not one.is_settled
+    assert observer.jobs == []
+
+
+def test_a_cell_that_was_taken_out_is_said_to_be_missing(graded):
+    book = graded(
+        {"ana/03.ipynb": notebook(cell("# Write", "markdown"), lesson="03_write")}, Observer()
+    )
+    mark = book.learners[0].marks[0]
+    assert (mark.status, mark.evidence) == ("not attempted", "Its cell is not on the page.")
+    assert mark.cause == "Its cell is not on the page."
+
+
+def test_points_are_those_of_the_file_and_none_means_not_graded(graded):
+    observer = Observer(Evidence("ended"))
+    files = {"ana/03.ipynb": PAGE_03, "ana/04.ipynb": PAGE_04}
+    book = graded(files, observer, Points({"03a": 10.0, "04a": 0.0}))
+    (mark,) = book.learners[0].marks
+    assert (mark.exercise, mark.out_of) == ("03a", 10.0)
+    assert [job.exercise for job in observer.jobs] == ["03a"]
+
+
+def test_it_is_told_how_far_it_is(graded):
+    told_so_far = []
+    files = {"ana/03.ipynb": PAGE_03, "ben/03.ipynb": OTHER_03}
+    graded(files, Observer(), tell=lambda *said: told_so_far.append(said))
+    assert told_so_far == [(0, 2), (1, 2), (2, 2)]
+    graded(files, Observer(), tell=lambda *said: told_so_far.append(said))
+    assert told_so_far[3:] == [(2, 2)]
+
+
+def test_what_was_done_to_find_an_answer_is_in_its_mark(graded):
+    lost = notebook(cell(DONE, id="other", exercise="03a"), lesson="03_write")
+    book = graded({"ana/03.ipynb": lost}, Observer())
+    assert "another id" in " ".join(book.learners[0].marks[0].repairs)
+
+
+def test_files_of_nobody_are_in_the_book(graded):
+    book = graded({"ana/03.ipynb": PAGE_03, "ana/notes.docx": "x"}, Observer())
+    assert [one.about for one in book.learners[0].remarks if one.about == "left-out"]
+
+
+def test_a_class_of_nobody_has_an_empty_book(graded, handed_in):
+    handed_in({"readme.txt": "x"})
+    assert graded({}, Observer()).learners == ()
+
+
+def test_answers_are_there_for_pages_that_count_only(pages, handed_in):
+    found = collect(handed_in({"ana/03.ipynb": PAGE_03, "ana/04.ipynb": PAGE_04}), pages)
+    answers = all_answers(found, Plan(pages[:1], "1"))
+    assert list(answers) == [("ana", "03_write")]
+
+
+PARTS = (Part("R1", "t", True), Part("R2", "t", False))
+
+
+@pytest.mark.parametrize(
+    ("outcome", "words"),
+    [
+        (Outcome("03a", "passed"), "It does what is asked."),
+        (Outcome("03a", "not attempted"), "Nothing was tried yet."),
+        (Outcome("03a", "failed", "One.\nTwo.", mistake="new-to-me"), "One."),
+        (Outcome("03a", "failed", "One.", mistake="crashed"), "A process that died: One."),
+        (Outcome("13b", "failed", "One.", parts=PARTS), "1 of 2 requirements are met."),
+        (Outcome("03a", "failed", "a\x1b[31m\u202eb"), "a\\u001b[31m\\u202eb"),
+    ],
+)
+def test_a_cause_is_one_sentence(outcome, words):
+    assert words in cause_of(outcome)
+    assert len(cause_of(outcome)) <= 400
+
+
+def test_nothing_was_tried_on_a_page_without_the_cell(graded):
+    files = {"ana/03.ipynb": notebook(cell("# Write", "markdown"), lesson="03_write")}
+    mark = graded(files, Observer()).learners[0].marks[0]
+    assert (mark.status, mark.repairs) == ("not attempted", ("Its cell is not on the page.",))
+    assert BLANK not in mark.evidence
+
+
+# From evidence to an outcome.
+
+EXERCISE = EXERCISES["03a"]
+FAULT = Fault(0, "/humidity_sensor", "tick", "ZeroDivisionError", "division by zero", 3, "1 / 0")
+RAISED = to_json(Observation(10**9, 1, faults=(FAULT,), subject="/humidity_sensor"))
+
+
+def judged(how="ended", number=0, **more):
+    return judge(EXERCISE, Evidence(how, number, **more))
+
+
+def test_evidence_is_judged_as_on_the_page():
+    outcome = judged(seen=RAISED)
+    assert outcome == EXERCISE.judged(
+        Observation(10**9, 1, faults=(FAULT,), subject="/humidity_sensor")
+    )
+    assert outcome.mistake == "division-by-zero"
+
+
+@pytest.mark.parametrize("seen", [RAISED, "{"])
+def test_garbage_is_collected_afterwards_as_before(seen):
+    judged(seen=seen)
+    assert gc.isenabled()
+    gc.disable()
+    try:
+        judged(seen=seen)
+        assert not gc.isenabled()
+    finally:
+        gc.enable()
+
+
+@pytest.mark.parametrize(
+    ("how", "number", "mistake", "words"),
+    [
+        ("deadline", 0, "too-long", "does not come to an end"),
+        ("memory", 0, "too-much-memory", "too much memory"),
+        ("output", 0, "too-much-output", "too much output"),
+        ("result", 0, "too-much-output", "too much output"),
+        ("signal", signal.SIGSEGV, "crashed", "SIGSEGV"),
+        ("signal", signal.SIGKILL, "crashed", "SIGKILL"),
+        ("signal", signal.SIGXCPU, "too-long", "does not come to an end"),
+        ("signal", 127, "crashed", "signal 127"),
+        ("exit", 7, "left-early", "exit code 7"),
+        ("ended", 0, "left-early", "before anything could be seen"),
+        (FORGED, 0, "evidence-unreadable", "no seal"),
+        (LOST, 0, "crashed", "was lost"),
+        ("some other word", 0, "left-early", "before anything could be seen"),
+    ],
+)
+def test_each_ending_has_its_words(how, number, mistake, words):
+    outcome = judged(how, number)
+    assert (outcome.status, outcome.mistake) == ("failed", mistake)
+    assert words in outcome.evidence
+    assert outcome.hint
+    assert (outcome.points, outcome.out_of) == (0, EXERCISE.points)
+    assert mistake in MISTAKES
+
+
+@pytest.mark.parametrize("how", ["deadline", "memory", "result", "signal", "exit", FORGED, LOST])
+def test_evidence_counts_only_if_the_run_came_to_its_end(how):
+    assert judged(how, 1, seen=RAISED).mistake != "division-by-zero"
+
+
+@pytest.mark.parametrize(
+    "seen",
+    ["x", "{}", "[" * 100_000, '{"format": "rosbeat evidence", "version": 1, "kind": "Outcome"}',
+     RAISED[:-1], RAISED.replace('"seed":1', '"seed":"1"'), RAISED.replace("Observation", "Report"),
+     RAISED.replace('"line":3', '"line":3,"status":"passed"')],
+    ids=range(8),
+)  # fmt: skip
+def test_what_the_course_has_not_written_is_refused(seen):
+    outcome = judged(seen=seen)
+    assert (outcome.status, outcome.mistake) == ("failed", "evidence-unreadable")
+
+
+def test_evidence_of_another_exercise_stops_nothing():
+    for exercise in EXERCISES.values():
+        outcome = judge(exercise, Evidence("ended", seen=to_json(Observation(0, 0))))
+        assert outcome.status != "passed", exercise.id
+        assert outcome.exercise == exercise.id
+
+
+@pytest.mark.parametrize(
+    ("raised", "text", "status", "mistake"),
+    [
+        ("NameError", "name '____' is not defined", "not attempted", ""),
+        ("ZeroDivisionError", "division by zero", "failed", "division-by-zero"),
+        ("<b>", "\x1b[31m\ud800", "failed", "raised"),
+    ],
+)
+def test_a_cell_that_cannot_be_run_is_told_why(raised, text, status, mistake):
+    outcome = judged(raised=raised, text=text, line=2, code="1 / 0")
+    assert outcome.status == status
+    assert not mistake or outcome.mistake in (mistake, "new-to-me"), outcome
+    assert status != "failed" or raised in outcome.evidence
+
+
+@pytest.mark.parametrize(
+    ("raised", "text", "hint"),
+    [
+        ("SyntaxError", "expected ':'", "a colon"),
+        ("IndentationError", "unexpected indent", "same column"),
+        ("TabError", "inconsistent use of tabs and spaces in indentation", "tab"),
+        ("SyntaxError", "", "a colon"),
+    ],
+)
+def test_a_cell_that_python_cannot_read_has_a_name(raised, text, hint):
+    outcome = judged(raised=raised, text=text, line=2, code="class A(Node)")
+    assert (outcome.status, outcome.mistake, outcome.points) == ("failed", "unreadable-cell", 0)
+    assert f"Python says: {text or raised}. Line 2: `class A(Node)`." in outcome.evidence
+    assert hint in outcome.hint
+    assert "Print the values" not in outcome.hint
+
+
+def test_a_cell_that_nobody_has_filled_in_is_no_mistake():
+    outcome = untouched(EXERCISE)
+    assert (outcome.status, outcome.mistake, outcome.points) == ("not attempted", "", 0)
+    assert outcome.out_of == EXERCISE.points
+
+
+# Two sorts of lines.
+
+JOB = Job("03a", "Beat", "class Beat: ...\n", ("a = 1",), "import rclpy", ("x = 2",), given="{}")
+SEEN = Evidence(FORGED, 9, "{}", "ValueError", "é\ud800\x1b", 3, "x", "o\n", 0.5)
+
+
+def test_what_is_written_is_read_on_one_line():
+    for value, read in ((JOB, read_job), (SEEN, read_evidence)):
+        line = to_line(value)
+        assert read(line) == value
+        assert line.isascii()
+        assert "\n" not in line
+
+
+def test_equal_jobs_give_equal_lines_and_others_give_others():
+    assert to_line(replace(JOB)) == to_line(JOB)
+    for change in (
+        {"answer": "b"},
+        {"given": '{"a": 1}'},
+        {"earlier": ()},
+        {"subject": "Ear"},
+        {"seed": 1},
+    ):
+        assert to_line(replace(JOB, **change)) != to_line(JOB)
+
+
+@pytest.mark.parametrize("read", [read_job, read_evidence])
+@pytest.mark.parametrize(
+    "line",
+    ["", "half a {", "[]", "null", "5", "{}", '{"exercise": "03a"}', "[" * 100_000,
+     json.dumps({"how": "ended", "more": 1}), to_line(JOB)[:-5], to_line(SEEN)[:-5]],
+    ids=range(11),
+)  # fmt: skip
+def test_anything_else_is_refused(read, line, says):
+    with pytest.raises(GradingError) as caught:
+        read(line)
+    says(caught.value, "already stays graded")
+
+
+def test_one_is_not_read_as_the_other():
+    with pytest.raises(GradingError):
+        read_job(to_line(SEEN))
+    with pytest.raises(GradingError):
+        read_evidence(to_line(JOB))
+
+
+# Workers, whatever happens to any of them.
+
+
+def job(word):
+    return Job("03a", "Beat", word)
+
+
+def is_alive(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+@pytest.fixture
+def notes(tmp_path, monkeypatch):
+    """What the fake workers were given, with their process ids."""
+    monkeypatch.setattr(module, "_MODULE", "fake_worker")
+    monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
+    (tmp_path / "notes").touch()
+    went_well = Evidence("ended", seen=to_json(Observation(5, 0, logs=(HEARD,))))
+    (tmp_path / "notes.rehearsal").write_text(to_line(went_well))
+    given = {NOTES: str(tmp_path / "notes")}
+
+    def all_of_it():
+        never = {one: os.environ[one] for one in ("ROSBEAT_NEVER_READY",) if one in os.environ}
+        return {**environment(), **given, **never}
+
+    monkeypatch.setattr(module, "environment", all_of_it)
+
+    def read(word=""):
+        lines = [one.split(" ", 1) for one in (tmp_path / "notes").read_text().splitlines()]
+        return [int(pid) for pid, said in lines if said.startswith(word)]
+
+    return read
+
+
+def done(pool, *words):
+    return dict(pool.observe([(one, job(one))] for one in words))
+
+
+def done_at_once(pool, *words):
+    """Observe all of them as the answers of one learner."""
+    return dict(pool.observe([[(one, job(one)) for one in words]]))
+
+
+def test_each_job_is_done_once_and_known_by_its_key(notes):
+    words = [f"job{number} \u00e9\ud800" for number in range(40)]
+    with Pool(3) as pool:
+        found = done(pool, *words)
+    assert {key: seen.seen for key, seen in found.items()} == {one: one for one in words}
+    assert len(notes("job")) == 40
+    assert len(notes("start")) == 3
+
+
+def test_no_job_is_no_trouble(notes):
+    with Pool(1) as pool:
+        assert done(pool) == {}
+
+
+def test_jobs_are_taken_as_they_are_needed(notes):
+    taken = []
+
+    def endless():
+        while True:
+            taken.append(len(taken))
+            yield [(taken[-1], job("job"))]
+
+    with Pool(2) as pool:
+        found = pool.observe(endless())
+        for _ in range(5):
+            next(found)
+        found.close()
+    assert len(taken) <= 5 + 2 * 2 + 1
+
+
+@pytest.mark.parametrize("word", ["die", "half", "nonsense", "forged"])
+def test_a_job_that_loses_two_workers_is_given_up_and_the_others_go_on(notes, word):
+    words = [word, *(f"job{number}" for number in range(10))]
+    with Pool(2) as pool:
+        found = done(pool, *words)
+        assert len(pool.pids) == 2
+    assert found.pop(word).how == LOST
+    assert {one.how for one in found.values()} == {"ended"}
+    assert len(set(notes(word))) == 2
+
+
+def test_a_job_that_loses_one_worker_is_done_by_the_next(notes, tmp_path):
+    with Pool(1) as pool:
+        (seen,) = done(pool, f"die-once {tmp_path}/died").values()
+    assert seen.how == "ended"
+    assert len(notes("die-once")) == 2
+
+
+@pytest.mark.parametrize("word", ["die", "half"])
+def test_an_answer_that_loses_workers_costs_its_learner_no_other(notes, word):
+    with Pool(1) as pool:
+        found = done_at_once(pool, "job1", "job2", word, "job3", "job4")
+    assert {key: seen.how for key, seen in found.items() if seen.how != "ended"} == {word: LOST}
+    assert list(found) == ["job1", "job2", word, "job3", "job4"]
+    assert len(notes("job")) == 4
+
+
+def test_a_silent_worker_is_replaced(notes):
+    with Pool(1, patience=1.5) as pool:
+        found = done(pool, "silent", "job")
+    assert {key: seen.how for key, seen in found.items()} == {"silent": LOST, "job": "ended"}
+    assert not any(map(is_alive, notes("start")))
+
+
+def test_no_sandbox_stops_everything_and_is_said(notes, says):
+    with Pool(2) as pool, pytest.raises(GradingError) as caught:
+        done(pool, "job", "refuse", "job2")
+    says(caught.value, "No sandbox.", "Nothing was run.", "Try this.")
+
+
+def test_a_worker_that_cannot_start_is_no_fault_of_an_answer(notes, monkeypatch, says):
+    monkeypatch.setenv("ROSBEAT_NEVER_READY", "1")
+    with Pool(2) as pool, pytest.raises(GradingError) as caught:
+        done(pool, "job", "job2")
+    says(caught.value, "does not start", "course doctor")
+    assert notes("job") == []
+
+
+def test_nothing_is_left_when_somebody_stops_in_the_middle(notes, eventually):
+    with Pool(2) as pool:
+        found = pool.observe([(one, job(one))] for one in ("job", "silent", "silent", "job"))
+        next(found)
+        eventually(lambda: notes("silent"))
+        pids, began = pool.pids, time.monotonic()
+    assert time.monotonic() - began < 5  # nobody waits for the silent one
+    assert pool.pids == pids  # and nobody takes its place
+    assert not any(map(is_alive, pids))
+
+
+def test_workers_are_told_that_there_is_no_sandbox(notes):
+    with Pool(1, unsafe=True) as pool:
+        done(pool, "job")
+    assert len(notes("start --unsafe-no-sandbox")) == 1
+
+
+def test_a_worker_that_is_gone_says_nothing(notes):
+    worker = Worker()
+    assert [one.how for one in worker.observe([job("job")])] == ["ended"]
+    worker.kill()
+    assert list(worker.observe([job("job")])) == []
+    worker.close()
+    worker.close()
+    assert not is_alive(worker.pid)
+
+
+# What a worker gives answers, and what it believes of them.
+
+
+def test_a_page_gets_more_than_an_answer():
+    one, whole = limits_of(JOB), limits_of(Job("01a", "x", "y", replay=("y",)))
+    assert whole.wall > one.wall
+    assert whole.processes > one.processes
+
+
+def test_who_loses_time_to_endless_answers_has_less_for_the_others():
+    walls = [limits_of(JOB, lost).wall for lost in (0, 60, LOST_AT_MOST - 30, LOST_AT_MOST, 1e6)]
+    assert walls == [60, 60, 30, 10, 10]
+
+
+def test_the_sandbox_has_no_answers_in_it_and_nothing_of_this_environment(monkeypatch):
+    monkeypatch.setenv("MY_SECRET", "x")
+    monkeypatch.setenv("HOME", "/somewhere")
+    view = view_of_answers()
+    assert {Path(one).name for one in view.hidden} == {"solved", "grading", "authoring", "finished"}
+    assert all(Path(one).is_dir() for one in view.hidden)
+    assert view.environment["HOME"] == "/tmp"
+    for given in (view.environment, environment()):
+        assert "MY_SECRET" not in given
+        assert given["PATH"] == "/usr/bin:/bin"
+
+
+SEAL = "5ea1"
+
+
+def told(result, how="ended", output=b""):
+    return worker_module._read(Ending(how, 0, result, output, 0.12345), SEAL)
+
+
+def sealed(**said):
+    return (SEAL + json.dumps(said)).encode()
+
+
+def test_what_bears_the_seal_is_believed():
+    seen = told(sealed(seen="{}"), output=b"hello\xff")
+    assert (seen.how, seen.seen) == ("ended", "{}")
+    assert seen.output.startswith("hello")
+    assert seen.seconds == pytest.approx(0.123)
+
+
+@pytest.mark.parametrize(
+    "result",
+    [b'{"seen": "{}"}', b"5ea1", b"5ea1[]", b"5ea1{", b"5ea", b"x5ea1{}", b"\xff\0",
+     sealed(seen="{}") + sealed(seen="x"), b"x" + sealed(seen="{}"),
+     b"5ea1" + b"[" * 100_000],
+    ids=range(10),
+)  # fmt: skip
+def test_anything_else_is_forged(result):
+    seen = told(result)
+    assert (seen.how, seen.seen) == (FORGED, "")
+
+
+def test_nothing_is_nothing():
+    assert (told(b"").how, told(b"", "deadline").how) == ("ended", "deadline")
+
+
+def test_fields_of_other_types_are_left_out():
+    seen = told(sealed(seen=5, raised=["x"], text={}, line="7", code=None))
+    assert (seen.seen, seen.raised, seen.text, seen.line, seen.code) == ("", "", "", 0, "")
+    read_evidence(to_line(seen))
+
+
+def test_no_more_is_believed_than_the_course_writes():
+    long = "x" * 100_000
+    seen = told(sealed(seen=long, raised=long, text=long, code=long))
+    assert seen.seen == long  # how long it may be is decided where it is read
+    assert {len(one) for one in (seen.raised, seen.text, seen.code)} == {2_000}
+
+
+@pytest.mark.parametrize(("line", "wanted"), [(7, 7), (True, 0), (10**30, 0), (1.5, 0)])
+def test_a_line_is_the_number_of_a_line(line, wanted):
+    assert told(sealed(raised="x", line=line)).line == wanted
+
+
+def test_output_is_cut():
+    assert len(told(b"", output=b"x" * 64_000).output) == 2_000
+
+
+OF_REHEARSAL = Fault(0, "/rehearsal", "__init__", "RCLError", "no type support", 5, "")
+HEARD = LogRecord(1_000_000_000, "INFO", "rehearsal", "21.0", "hear", 12)
+
+
+@pytest.mark.parametrize(
+    ("seen", "said"),
+    [
+        (Evidence("signal", 9), "it ended with signal 9"),
+        (Evidence("ended", text="no numpy"), "no numpy"),
+        (
+            Evidence("ended", seen=to_json(Observation(5, 0, faults=(OF_REHEARSAL,)))),
+            "no type supp",
+        ),
+        (Evidence("ended", seen=to_json(Observation(5, 0))), "does not hear"),
+    ],
+    ids=["killed", "an import fails", "an exception", "silence"],
+)
+def test_a_rehearsal_that_fails_says_why_and_nobody_is_graded(seen, said):
+    with pytest.raises(GradingError, match=said):
+        module._require_rehearsed(seen)
+
+
+def test_a_rehearsal_in_which_a_message_arrives_is_one():
+    module._require_rehearsed(Evidence("ended", seen=to_json(Observation(5, 0, logs=(HEARD,)))))
+
+
+# For real.
+
+IMPORTS = "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import Float32"
+RIGHT = """
+class HumiditySensor(Node):
+    def __init__(self):
+        super().__init__("humidity_sensor")
+        self.publisher = self.create_publisher(Float32, "humidity", 5)
+        self.create_timer(0.5, self.tick)
+        self.humidity = 45.0
+
+    def tick(self):
+        self.humidity += random.uniform(-0.5, 0.5)
+        self.publisher.publish(Float32(data=self.humidity))
+"""
+
+
+def answer(text):
+    return Job("03a", "HumiditySensor", text, imports=f"import random\n{IMPORTS}")
+
+
+@pytest.mark.ros
+def test_an_answer_is_observed_and_whatever_it_does_costs_no_other():
+    texts = {
+        "right": RIGHT,
+        "leaves": "import os\nos._exit(0)",
+        "leaves with the code of a sandbox that was not made": "import os\nos._exit(113)",
+        "kills itself": "import os\nos.kill(os.getpid(), 9)",
+        "kills all": "import os\nos.kill(-1, 9)",
+        "ends the cell": f"{RIGHT}\nraise SystemExit(3)",
+        "raises": "1 / 0",
+        "writes a result": f"import os\nos.write(3, b'{{}}')\n{RIGHT}",
+        "right again": RIGHT + "\n",
+    }
+    with Pool(1) as pool:
+        seen = dict(pool.observe([[(name, answer(text)) for name, text in texts.items()]]))
+    outcomes = {name: judge(EXERCISES["03a"], one) for name, one in seen.items()}
+    passed = {name for name, one in outcomes.items() if one.status == "passed"}
+    assert passed == {"right", "right again", "ends the cell"}, outcomes
+    mistakes = {name: one.mistake for name, one in outcomes.items() if name not in passed}
+    assert mistakes == {
+        "leaves": "left-early",
+        "leaves with the code of a sandbox that was not made": "left-early",
+        "kills itself": "crashed",
+        "kills all": mistakes["kills all"],
+        "raises": "division-by-zero",
+        "writes a result": "evidence-unreadable",
+    }
+    assert mistakes["kills all"] in ("crashed", "left-early", "new-to-me")
+
+
+@pytest.mark.ros
+def test_what_is_prepared_is_all_that_an_answer_needs():
+    program = (
+        "from rosbeat.grading.worker import prepare\nprepare()\n"
+        "import sys\nfrom rclpy.node import Node\nfrom std_msgs.msg import Float32\n"
+        "from rosbeat.ros.scenario import observe\nknown = set(sys.modules)\n"
+        "class Beat(Node):\n"
+        "    def __init__(self):\n"
+        "        super().__init__('beat')\n"
+        "        self.out = self.create_publisher(Float32, '/beat', 5)\n"
+        "        self.create_timer(0.5, self.tick)\n"
+        "    def tick(self):\n"
+        "        self.out.publish(Float32(data=1.0))\n"
+        "        self.get_logger().info('tick')\n"
+        "seen = observe(Beat, 2)\nprint(len(seen.logs), sorted(set(sys.modules) - known))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1:] == ["4 []"], done.stderr
+
+
+def test_nothing_of_ros_is_imported_before_the_right_to_make_sandboxes_is_had():
+    program = "import rosbeat.grading.worker, sys\nprint({'rclpy', 'numpy'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stdout.strip() == "set()", done.stderr
+
+
+@pytest.fixture
+def sleeping():
+    """A worker that observes an answer that sleeps, and all of its processes."""
+    text = "import subprocess, time\nsubprocess.Popen(['sleep', '600'])\ntime.sleep(600)"
+    with Pool(1) as pool:
+        found = pool.observe([[("a", answer("x = 1")), ("b", answer(text))]])
+        next(found)
+        (pid,) = pool.pids
+        yield pool, found, psutil.Process(pid)
+        found.close()
+
+
+@pytest.mark.ros
+def test_what_runs_in_a_sandbox_ends_with_the_worker(sleeping, eventually):
+    _, _, worker = sleeping
+    eventually(lambda: "sleep" in {one.name() for one in worker.children(recursive=True)}, 30)
+    all_of_them = worker.children(recursive=True)
+    assert len(all_of_them) == 4  # the keeper, init, the answer and what that has started
+    worker.kill()
+    eventually(lambda: not any(is_alive(one.pid) for one in all_of_them), 20)
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize("which", ["keeper", "init"])
+def test_who_loses_its_watchers_is_tried_once_more_and_given_up(sleeping, eventually, which):
+    pool, found, worker = sleeping
+    killed = set()
+    for _ in range(2):
+        eventually(lambda: "sleep" in _names(pool), 60)
+        (worker,) = [psutil.Process(pid) for pid in pool.pids]
+        (keeper,) = worker.children()
+        init = keeper.children()[0]  # the other one, which came later, is the answer
+        (keeper if which == "keeper" else init).kill()
+        killed.add(worker.pid)
+        eventually(partial(is_gone, worker.pid), 30)
+    assert dict(found)["b"].how == LOST
+    assert len(killed) == 2
+
+
+def is_gone(pid):
+    return not is_alive(pid)
+
+
+def _names(pool):
+    """The names of all processes that run below the workers that are there now."""
+    try:
+        workers = [psutil.Process(pid) for pid in pool.pids]
+        return {one.name() for worker in workers for one in worker.children(recursive=True)}
+    except psutil.NoSuchProcess:
+        return set()
+
+
+@pytest.mark.ros
+def test_it_ends_with_whoever_has_started_it(eventually):
+    program = (
+        "import sys, time\nfrom rosbeat.grading.run import Worker\n"
+        "print(Worker().pid, flush=True)\ntime.sleep(600)"
+    )
+    parent = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE)
+    worker = int(parent.stdout.readline())
+    os.kill(parent.pid, signal.SIGKILL)
+    parent.wait()
+    parent.stdout.close()
+    eventually(lambda: not is_alive(worker), 20)
+
+
+# The workspace that a page of terminals starts from.
+
+
+@pytest.fixture
+def _afresh():
+    files_before.cache_clear()
+    yield
+    files_before.cache_clear()
+
+
+@pytest.mark.usefixtures("_afresh")
+def test_pages_before_leave_their_folders_and_files_and_are_run_once(monkeypatch):
+    calls = []
+
+    def made(page, root):
+        calls.append(page)
+        (root / "src" / "deep").mkdir(parents=True)
+        (root / "src" / "a.py").write_bytes(b"\xff\0")
+        return Report(())
+
+    monkeypatch.setattr(module, "catch_up", made)
+    typed = Job("05a", "x", "y", replay=("y",), page="05")
+    assert module.with_files(JOB) is JOB
+    for _ in range(2):
+        sent = module.with_files(typed)
+        assert read_job(to_line(sent)).files == {"src/": "", "src/a.py": "\xff\0", "src/deep/": ""}
+    assert calls == ["05"]
+
+
+@pytest.mark.usefixtures("_afresh")
+def test_a_workspace_that_cannot_be_made_is_said(monkeypatch, says):
+    monkeypatch.setattr(module, "catch_up", lambda *_: Report((), ("colcon is not there.",)))
+    with pytest.raises(GradingError) as caught:
+        files_before("05")
+    says(caught.value, "page 05", "colcon is not there.")
+
+
+def test_page_01_begins_with_nothing_and_page_05_with_a_package():
+    assert not any("setup.py" in name for name in files_before("01"))
+    assert "src/sensor_simulator/setup.py" in files_before("05")
+
+
+@pytest.mark.ros
+@pytest.mark.timeout(300)
+def test_two_pages_of_one_learner_start_from_their_own_workspace():
+    """The first makes the folder that the second is asked for, and is gone before that."""
+    right = next(one for one in usable("01a") if one.status == "passed")
+    wrong = next(one for one in usable("01a") if one.status == "failed")
+    with Pool(1) as pool:
+        seen = dict(pool.observe([[(one.status, job_of(one)) for one in (right, wrong)]]))
+    found = {status: judge(EXERCISES["01a"], one) for status, one in seen.items()}
+    assert {status: one.status for status, one in found.items()} == {
+        "passed": "passed",
+        "failed": "failed",
+    }, (found, seen)
+    assert found["failed"].mistake in wrong.mistakes
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(
+    "above",
+    ["import os\nimport signal", "%%time", "!pip list", "%matplotlib inline", "import gc, ctypes",
+     "display(vars())", "get_ipython().run_line_magic('matplotlib', 'inline')"],
+)  # fmt: skip
+def test_right_answers_in_unusual_styles_pass(graded_for_real, above):
+    assert graded_for_real(f"{above}\n{RIGHT}") == "passed"
+
+
+@pytest.fixture(scope="module")
+def graded_for_real():
+    """Grade one answer to 03a on its page, with the workers that are there already."""
+    from bank.graded import course
+    from rosbeat.grading.answers import answers_on
+
+    with Pool(1) as pool:
+
+        def run(text):
+            page_03 = course()["03"]
+            place = next(one.id for one in page_03.wanted if one.exercise == "03a")
+            cells = [replace(one, source=text) if one.id == place else one for one in page_03.cells]
+            found = answers_on(page_03, cells)[0]
+            ((_, evidence),) = pool.observe([[("a", found.job)]])
+            return judge(EXERCISES["03a"], evidence).status
+
+        yield run
+
+
+@pytest.mark.ros
+def test_the_clock_of_a_learner_runs_on(monkeypatch):
+    """Three endless answers, and the fourth has little time; see `hostile.brief_worker`."""
+    monkeypatch.setattr(module, "_MODULE", "hostile.brief_worker")
+    texts = [*(f"while True:\n    {n}" for n in range(4)), RIGHT]
+    with Pool(1) as pool:
+        found = dict(pool.observe([[(n, answer(text)) for n, text in enumerate(texts)]]))
+    assert [found[n].how for n in range(5)] == [*(["deadline"] * 4), "ended"]
+    assert found[3].seconds < found[0].seconds

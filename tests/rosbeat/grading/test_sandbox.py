@@ -1,0 +1,331 @@
+"""A sandbox holds whatever strangers' code tries, and each try ends by itself or is ended."""
+
+import errno
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rosbeat.grading import linux
+from rosbeat.grading import sandbox as module
+from rosbeat.grading.sandbox import Limits, MemoryGroup, cannot_be_made
+
+PROGRAM = Path(__file__).parents[2] / "sandbox_deeds.py"
+
+
+@pytest.fixture(scope="module")
+def deeds():
+    done = subprocess.run(
+        [sys.executable, str(PROGRAM)], capture_output=True, text=True, timeout=110, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    if "refused" in told["seen"]:
+        pytest.skip(told["seen"]["refused"])
+    return told
+
+
+@pytest.fixture(scope="module")
+def seen(deeds):
+    return deeds["seen"]
+
+
+def test_it_sees_nothing_that_it_need_not_see(seen):
+    told = seen["looks"]["told"]
+    assert told["user"] == 1000
+    assert told["environment"] == {"PATH": "/usr/bin", "HOME": "/tmp"}
+    assert {"home", "var", "mnt", "srv", "old"} & set(told["folders"]) == set()
+    assert told["host"] == "sandbox"
+    assert told["capabilities"]
+    assert told["shm"] == []
+    assert told["secret"] == "FileNotFoundError"
+    assert len(told["processes"]) <= 2
+    assert told["here"] == "/tmp"
+
+
+def test_it_can_write_only_where_everything_is_thrown_away(seen):
+    told = seen["writes"]["told"]
+    assert told.pop("/tmp/x") == "done"
+    assert set(told.values()) <= {"OSError", "PermissionError", "FileNotFoundError"}
+
+
+def test_it_gains_no_rights(seen):
+    told = seen["gains_rights"]["told"]
+    assert told["user namespace"] == told["mount"] == told["trace the first process"] == -1
+    assert "done" not in (told["user"], told["nice"])
+
+
+def test_it_reaches_itself_and_nobody_else(seen):
+    told = seen["calls_out"]["told"]
+    assert told["itself"] == "done"
+    assert told["interfaces"] == ["lo"]
+    assert told["others"] != "done"
+    assert told["names"] == "gaierror"
+
+
+@pytest.mark.parametrize(
+    ("deed", "endings"),
+    [
+        ("loops", {"deadline"}),
+        ("sleeps", {"deadline"}),
+        ("ignores_signals", {"deadline"}),
+        ("forks", {"deadline", "memory"}),
+        ("eats", {"memory"}),
+        ("prints", {"deadline"}),
+        ("answers_too_much", {"result"}),
+        ("fills_a_file", {"exit"}),
+        ("fills_memory_that_is_shared", {"exit"}),
+        ("kills_itself", {"signal"}),
+        ("crashes", {"signal"}),
+        ("kills_all", {"ended", "signal"}),
+        ("leaves", {"ended"}),
+        ("leaves_with_a_code", {"exit"}),
+        ("raises", {"exit"}),
+        ("stays_behind", {"ended"}),
+        ("shares_memory", {"memory"}),
+        ("hides_a_pipe", {"ended"}),
+        ("has_a_sibling", {"ended"}),
+        ("has_a_sibling_that_eats", {"memory"}),
+        ("closes_everything", {"ended", "exit"}),
+        ("closes_everything_and_sleeps", {"deadline"}),
+        ("leaves_with_a_high_code", {"exit"}),
+        ("keeps_memory_in_sockets", {"memory"}),
+        ("fills_both_scratch_folders", {"memory"}),
+    ],
+)
+def test_each_deed_ends_in_its_own_way(deed, endings, seen):
+    assert seen[deed]["how"] in endings, seen[deed]
+    assert seen[deed]["seconds"] < 20
+
+
+def test_the_ending_says_more(seen):
+    assert seen["kills_itself"]["number"] == 9
+    assert seen["crashes"]["number"] == 11
+    assert seen["leaves_with_a_code"]["number"] == 7
+    assert "ValueError: no" in seen["raises"]["output"]
+
+
+def test_the_first_process_cannot_be_looked_into_or_ended(seen):
+    told = seen["looks_around"]["told"]
+    assert told["root"] == told["environment"] == told["memory"] == "PermissionError"
+    assert told["alive"] == told["signal"] == "done"  # it hears no signal from in there
+    assert told["session"]
+
+
+def test_what_may_be_read_may_lie_where_everything_else_is_thrown_away(seen):
+    told = seen["reads_what_lies_below_tmp"]["told"]
+    assert (told["folder"], told["file"]) == ("one", "two")
+    assert told["there"] == [["one", "two"], ["two"]]
+    assert told["write"] == told["replace"] == "OSError"
+
+
+def test_what_no_namespace_keeps_apart_is_refused(seen):
+    told = dict(seen["calls_what_is_not_there"]["told"])
+    assert told.pop("others") > 1
+    assert set(told) >= {"memfd_create", "shmget", "userfaultfd", "keyctl", "ptrace", "bpf"}
+    assert all(one == [-1, errno.EPERM] for one in told.values()), told
+
+
+def test_sockets_reach_this_machine_only(seen):
+    told = seen["opens_sockets"]["told"]
+    allowed = {name for name, said in told.items() if said == "done"}
+    assert allowed == {"unix", "inet", "inet6", "netlink", "pair"}
+    assert {"vsock", "packet", "alg", "netlink of another kind"} <= set(told)
+
+
+def test_what_an_answer_has_written_is_gone_for_the_next(seen):
+    assert seen["leaves_files"]["how"] == "ended"
+    assert "left" not in seen["finds_files"]["told"]["found"]
+
+
+def test_python_itself_stays_as_it_is(seen):
+    assert seen["looks_around"]["told"]["python"] in ("OSError", "PermissionError")
+
+
+def test_nothing_of_whoever_started_it_is_open(seen):
+    assert set(seen["looks_around"]["told"]["descriptors"]) <= {0, 1, 2, 3, 4}  # one is the listing
+
+
+def test_nothing_of_the_machine_is_mounted_where_it_could_be_seen(seen):
+    mounts = set(seen["looks_around"]["told"]["mounts"])
+    assert mounts.isdisjoint({"/old", "/fresh", "/home", "/root", "/sys", "/dev", "/boot", "/var"})
+    assert {"/", "/tmp", "/dev/shm", "/usr"} <= mounts
+
+
+def test_no_more_is_read_than_was_allowed(seen):
+    assert seen["prints"]["read"] == 64_000
+    assert seen["answers_too_much"]["told"] == Limits().result
+
+
+def test_nothing_is_left_behind(deeds):
+    assert deeds["left"] == []
+
+
+def test_why_none_can_be_made_is_said_in_three_parts(says):
+    says(cannot_be_made("unshare: Operation not permitted"), "Operation not permitted", "user name")
+
+
+# Without namespaces.
+
+#: A process of its own, because the work is forked, and a test process has threads.
+BARE = """
+import json, os, sys, time
+from pathlib import Path
+from rosbeat.grading.sandbox import Limits, Sandbox, View
+
+def looks(result):
+    os.write(result, json.dumps([os.getcwd(), dict(os.environ)]).encode())
+
+def loops(_):
+    while True: pass
+
+def leaves(_):
+    os._exit(113)
+
+def stays_behind(result):
+    told, tells = os.pipe()
+    if os.fork() == 0:
+        os.setsid()
+        os.write(result, str(os.getpid()).encode())
+        os.write(tells, b".")
+        time.sleep(600)
+    os.read(told, 1)
+
+def eats(_):
+    many = []
+    while True: many.append(bytearray(10_000_000))
+
+told = {}
+for work in (looks, loops, leaves, stays_behind, eats):
+    with Sandbox(View(environment={"A": "b"}), isolated=False) as sandbox:
+        seen = sandbox.run(work, Limits(wall=2.0, memory=200_000_000))
+    told[work.__name__] = [seen.how, seen.number, seen.result.decode()]
+told["left"] = Path("/proc", told["stays_behind"][2]).exists()
+told["here"] = os.getcwd()
+told["folder"] = Path(json.loads(told["looks"][2])[0]).exists()
+print(json.dumps(told))
+"""
+
+
+@pytest.fixture(scope="module")
+def bare():
+    done = subprocess.run([sys.executable, "-c", BARE], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_it_has_a_folder_and_an_environment_of_its_own(bare):
+    folder, environment = json.loads(bare["looks"][2])
+    assert environment == {"A": "b", "HOME": folder, "TMPDIR": folder}
+    assert folder != bare["here"]
+    assert not bare["folder"]  # it is gone afterwards
+
+
+def test_limits_hold(bare):
+    assert bare["loops"][0] == "deadline"
+    assert bare["eats"][0] in ("memory", "exit")
+
+
+def test_an_exit_code_is_no_refusal(bare):
+    assert bare["leaves"][:2] == ["exit", 113]
+
+
+def test_what_is_left_behind_is_ended(bare):
+    assert bare["stays_behind"][0] == "ended"
+    assert bare["left"] is False
+
+
+# System calls and limits.
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: linux.mount("nothing", "/no/such/place", "tmpfs"),
+        lambda: linux.unmount("/no/such/place"),
+        lambda: linux.pivot_root("/no/such/place", "/no/such/place"),
+        lambda: linux.prctl(9_999, 0),
+        lambda: linux.unshare(1),
+    ],
+    ids=["mount", "umount", "pivot_root", "prctl", "unshare"],
+)
+def test_a_call_that_fails_is_an_error_with_its_number(call):
+    with pytest.raises(OSError, match=r"\w+.*: \w") as caught:
+        call()
+    assert caught.value.errno in (errno.ENOENT, errno.EINVAL, errno.EPERM, errno.ENOSYS)
+    assert caught.value.strerror
+
+
+def test_a_machine_without_a_known_number_is_refused(monkeypatch):
+    monkeypatch.setattr(linux.platform, "machine", lambda: "vax")
+    with pytest.raises(OSError, match="vax"):
+        linux.pivot_root("/", "/")
+
+
+LIMITED = """
+import resource
+from rosbeat.grading.sandbox import Limits
+resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+Limits(cpu=7, processes=55).apply()
+print(resource.getrlimit(resource.RLIMIT_CPU), resource.getrlimit(resource.RLIMIT_NPROC))
+print(resource.getrlimit(resource.RLIMIT_FSIZE), resource.getrlimit(resource.RLIMIT_CORE))
+"""
+
+
+def test_limits_are_set_and_never_wider_than_before():
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED], capture_output=True, text=True, check=True, timeout=60
+    )
+    assert done.stdout.split("\n")[:2] == ["(7, 7) (55, 55)", "(1000, 1000) (0, 0)"]
+
+
+def test_the_defaults_leave_room_for_ros():
+    assert Limits().address_space > 2_000_000_000
+    assert Limits().processes >= 64
+
+
+# Groups of the kernel, on a folder that stands for them: what is read and written.
+
+
+@pytest.fixture
+def groups(tmp_path, monkeypatch):
+    """Let memory be counted by groups in a folder."""
+    (tmp_path / "user.slice").mkdir()
+    (tmp_path / "user.slice/cgroup.subtree_control").write_text("cpu memory pids\n")
+    (tmp_path / "cgroup").write_text("4:memory:/x\n0::/user.slice/session.scope\n")
+    monkeypatch.setattr(module, "_OWN_GROUP", str(tmp_path / "cgroup"))
+    real = module.os.mkdir
+
+    def mkdir(path):
+        real(path)
+        for name in ("memory.max", "memory.swap.max", "cgroup.procs"):
+            Path(path, name).write_text("")
+        Path(path, "memory.events").write_text("oom 0\noom_kill 0\n")
+
+    monkeypatch.setattr(module.os, "mkdir", mkdir)
+    return tmp_path
+
+
+def test_a_group_beside_ones_own_counts_everything(groups):
+    group = MemoryGroup.of(77, str(groups))
+    folder = groups / "user.slice/rosbeat-77"
+    group.limit(5_000)
+    group.join()
+    found = {path.name: path.read_text() for path in folder.iterdir()}
+    assert found["memory.max"] == "5000"
+    assert found["memory.swap.max"] == found["cgroup.procs"] == "0"
+    assert not group.was_used_up()
+    (folder / "memory.events").write_text("oom 3\noom_kill 2\n")
+    assert group.was_used_up()
+    assert not group.was_used_up()  # until it happens again
+
+
+@pytest.mark.parametrize("counted", ["cpu pids", None])
+def test_where_memory_is_not_counted_there_is_no_group(groups, counted):
+    path = groups / "user.slice/cgroup.subtree_control"
+    path.write_text(counted) if counted else path.unlink()
+    assert MemoryGroup.of(77, str(groups)) is None
+    MemoryGroup.remove(77, str(groups))
+    assert not (groups / "user.slice/rosbeat-77").exists()
