@@ -20,10 +20,10 @@ from rosbeat.grading.html_page import (
     shown,
     table,
 )
-from rosbeat.grading.learners import own_path
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark
 from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.palette import STATUSES, look_of
+from rosbeat.grading.submissions import own_path
 from rosbeat.grading.writing import file_names
 from rosbeat.records import Part
 

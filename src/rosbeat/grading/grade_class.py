@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.collecting import Collection, HandedIn, Submission
 from rosbeat.grading.course_pages import CoursePage
 from rosbeat.grading.inspecting import Reason
 from rosbeat.grading.jobs import LOST, Job, Observed
@@ -18,6 +17,7 @@ from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
 from rosbeat.grading.mending import NOT_THERE
 from rosbeat.grading.remarks import printable
 from rosbeat.grading.sampling import Candidate, Sampled, choose, disagreements
+from rosbeat.grading.submissions import Collection, HandedIn, Submission
 from rosbeat.grading.tasks import Task, tasks_of
 from rosbeat.grading.weights import Points, scaled
 from rosbeat.records import Outcome

@@ -15,8 +15,9 @@ class Remark:
 
     Attributes:
         about: What it is: `late`, `duplicate`, `renamed`, `empty`, `half-uploaded`, `mended`,
-            `wrong-course`, `unreadable`, `too-large`, `refused` or `left-out`; or `manual`, a line
-            of `manual.csv`; or `sample`, an answer of which a kernel shows something else.
+            `wrong-course`, `unreadable` or `left-out`; or `manual`, a line of `manual.csv`; or
+            `roster`, a line of the roster or somebody who is not on it; or `sample`, an answer of
+            which a kernel shows something else.
         path: The file, as it was named, made safe to print.
         text: One sentence about what was found and what was done.
     """

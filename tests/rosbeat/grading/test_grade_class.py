@@ -5,11 +5,11 @@ import pytest
 from grading_files import BLANK, DONE, PAGE_03, PAGE_04, cell, notebook, page
 from rosbeat.errors import GradingError
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.collecting import collect
 from rosbeat.grading.grade_class import Plan, all_tasks, cause_of, grade, told
 from rosbeat.grading.inspecting import Reason
 from rosbeat.grading.jobs import LOST, Observed
 from rosbeat.grading.ledger import Ledger
+from rosbeat.grading.submissions import collect
 from rosbeat.grading.weights import Points
 from rosbeat.records import Outcome, Part
 
