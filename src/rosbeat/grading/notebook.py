@@ -18,9 +18,8 @@ MOST_OF_A_CELL, MOST_BYTES = 1_000_000, 10_000_000
 #: Bytes from which on outputs are cut out of the text; what is smaller is parsed with them.
 _LARGE = 2_000_000
 #: What is cut out: outputs, pasted pictures, and the state of widgets, which may show outputs.
-_DROPPED = (b'"outputs"', b'"attachments"', b'"widgets"')
+_DROPPED = re.compile(rb'"(?:outputs|attachments|widgets)"\s*:\s*[\[{]')
 _TOKEN = re.compile(rb'"[^"]*"|[\[\]{}]')
-_VALUE = re.compile(rb"\s*:\s*([\[{])")
 
 
 @dataclass(frozen=True)
@@ -102,27 +101,28 @@ def without_outputs(data: bytes) -> bytes:
         data: JSON in an encoding that contains ASCII. Anything else comes back as it is, or cut
             in a place where it cannot be read anyway.
     """
-    # Escaped quotation marks and backslashes are blanked, so that every other one is a delimiter.
+    # Escaped backslashes and quotation marks are blanked: every other one is a delimiter then, and
+    # what looks like a key inside a string does not any more.
     plain = data.replace(rb"\\", b"  ").replace(rb"\"", b"  ")
     kept: list[bytes] = []
-    start = depth = 0
-    skipping = False
-    opening = -1
-    for token in _TOKEN.finditer(plain):
-        what = token[0]
-        if not skipping and what in _DROPPED:
-            value = _VALUE.match(plain, token.end())
-            opening = value.start(1) if value else -1
-        elif what in b"[{":
-            if token.start() == opening:
-                kept.append(data[start : opening + 1])
-                skipping, depth = True, 0
+    start = 0
+    while found := _DROPPED.search(plain, start):
+        kept.append(data[start : found.end()])
+        start = _closing(plain, found.end())
+    return b"".join((*kept, data[start:]))
+
+
+def _closing(text: bytes, place: int) -> int:
+    """Return where the bracket that is open at a place is closed; the end if it is not."""
+    depth = 1
+    for token in _TOKEN.finditer(text, place):
+        if token[0] in (b"[", b"{"):
             depth += 1
-        elif what in b"]}":
+        elif token[0] in (b"]", b"}"):
             depth -= 1
-            if skipping and depth == 0:
-                start, skipping = token.start(), False
-    return b"".join(kept) if skipping else b"".join((*kept, data[start:]))
+            if depth == 0:
+                return token.start()
+    return len(text)
 
 
 def _lesson(whole: dict[str, Any]) -> str:
