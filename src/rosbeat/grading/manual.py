@@ -207,7 +207,9 @@ def _with(graded: Graded, given: dict[tuple[str, str], _Given]) -> Graded:
         _marked(mark, given.get((graded.learner, mark.exercise), _Given())) for mark in graded.marks
     ]
     whole = given.get((graded.learner, ""), _Given())
-    return replace(graded, marks=tuple(marks), comment=whole.comment or graded.comment)
+    comment = whole.comment or graded.comment
+    excused = graded.excused and not any(mark.manual for mark in marks)
+    return replace(graded, marks=tuple(marks), comment=comment, excused=excused)
 
 
 def _marked(mark: Mark, given: _Given) -> Mark:

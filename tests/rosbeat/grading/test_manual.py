@@ -81,6 +81,15 @@ def test_what_was_held_has_been_looked_at_and_says_nothing_else(given, points):
     assert (after.evidence, after.hint, after.mistake) == ("", "", "")
 
 
+def test_points_by_hand_are_a_grade_for_somebody_who_handed_in_nothing(book, tmp_path):
+    path = tmp_path / "manual.csv"
+    path.write_text(HEAD + "ana,03a,3,An exam instead.\n")
+    marks = tuple(replace(one, status="missing") for one in book.learners[0].marks)
+    absent = tuple(replace(one, marks=marks, excused=True) for one in book.learners)
+    ana, ben = apply_manual(replace(book, learners=absent), read_manual(path)).learners
+    assert (ana.grade, ben.grade) == (3.0, None)
+
+
 def test_what_was_held_stays_held_with_a_comment_alone(given):
     made, _ = given(HEAD + "ana,03b,,I will ask you.\n")
     assert only(made, "ana", "03b").status == "held"
