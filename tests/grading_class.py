@@ -3,8 +3,8 @@
 import json
 
 from bank.pages import ROOT
-from rosbeat.grading.collecting import collect
 from rosbeat.grading.course_pages import course_pages
+from rosbeat.grading.submissions import collect
 
 
 def pages_of(*numbers):

@@ -40,6 +40,7 @@ MAY_IMPORT = {
     "panel": {"records", "errors", "viz", "ros"},
     "page_session": {"ros", "diagnosis", "panel"},
     "explain_command": {"errors", "ros", "diagnosis"},
+    "check_command": {"errors", "authoring", "exercises"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
     # The import line of page 07.
     "scenarios": {"ros"},

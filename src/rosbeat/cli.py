@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import signal
 import sys
 import textwrap
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
 from rosbeat import __version__
 from rosbeat.errors import CommandError, LessonError, RosbeatError, StoppedError
+from rosbeat.grading import options as grading
 
 __all__ = ["COMMANDS", "Command", "main"]
 
@@ -112,22 +116,10 @@ def _explain(options: argparse.Namespace) -> int:
     return 0 if found.is_well else FAILED
 
 
-def _release_arguments(parser: argparse.ArgumentParser) -> None:
-    from rosbeat.grading import commands
-
-    commands.release_arguments(parser)
-
-
 def _release(options: argparse.Namespace) -> int:
     from rosbeat.grading import commands
 
     return commands.run_release(options)
-
-
-def _collect_arguments(parser: argparse.ArgumentParser) -> None:
-    from rosbeat.grading import commands
-
-    commands.collect_arguments(parser)
 
 
 def _collect(options: argparse.Namespace) -> int:
@@ -136,25 +128,29 @@ def _collect(options: argparse.Namespace) -> int:
     return commands.run_collect(options)
 
 
-def _grade_arguments(parser: argparse.ArgumentParser) -> None:
-    from rosbeat.grading import grade_options
-
-    grade_options.arguments(parser)
-
-
 def _grade(options: argparse.Namespace) -> int:
-    from rosbeat.grading import grade_command
+    from rosbeat.grading import commands
 
-    return grade_command.run(options)
+    return commands.run_grade(options)
+
+
+def _check(options: argparse.Namespace) -> int:
+    from rosbeat import check_command
+
+    return check_command.run(options.pages, options.json)
 
 
 COMMANDS: tuple[Command, ...] = (
     Command("build", "make the pages from their sources", _build_arguments, _build),
     Command("lint", "check the lesson sources against the rules", _page_arguments, _lint),
     Command("explain", "say why nothing arrives on a topic", _explain_arguments, _explain),
-    Command("release", "make what learners get: pages, no answers", _release_arguments, _release),
-    Command("collect", "say who has handed in what", _collect_arguments, _collect),
-    Command("grade", "judge what a class has handed in", _grade_arguments, _grade),
+    Command("check", "run all checks of a page", grading.check_arguments, _check),
+    Command(
+        *("release", "make what learners get: pages, no answers"),
+        *(grading.release_arguments, _release),
+    ),
+    Command("collect", "say who has handed in what", grading.collect_arguments, _collect),
+    Command("grade", "judge what a class has handed in", grading.grade_arguments, _grade),
     Command("progress", "show how far you are with the course", _progress_arguments, _progress),
 )
 
@@ -180,12 +176,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: What was typed after ``rosbeat``, by default `sys.argv`.
 
     Returns:
-        0 if all is well, 1 if the work failed, 2 if the command line was misused.
+        0 if all is well, 1 if the work failed, 2 if the command line was misused, 130 if somebody
+        stopped it (Ctrl-C or SIGTERM); `rosbeat grade` adds 3, see there.
     """
     typed = list(sys.argv[1:] if arguments is None else arguments)
     trace = "--traceback" in typed
     try:
-        return _run([word for word in typed if word != "--traceback"])
+        with _terminable():
+            return _run([word for word in typed if word != "--traceback"])
     except CommandError as error:
         return _complain(error, MISUSED)
     except StoppedError as error:
@@ -204,6 +202,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if trace:
             raise
         return _complain(_own_mistake(error), FAILED)
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Treat SIGTERM as Ctrl-C, so that who stops a command by it reads what was kept."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _run(typed: list[str]) -> int:

@@ -110,17 +110,17 @@ def _zip(files):
 
 _WHOLE = page()
 UPLOADS = (
-    Upload("no JSON", {PAGE: b"this is no notebook"}, words="no notebook"),
-    Upload("JSON that is no notebook", {PAGE: b"[1, 2, 3]"}),
-    Upload("empty", {PAGE: b""}, words="empty"),
+    Upload("no JSON", {PAGE: b"this is no notebook"}, "held", "not a notebook"),
+    Upload("JSON that is no notebook", {PAGE: b"[1, 2, 3]"}, "held", "not a notebook"),
+    Upload("empty", {PAGE: b""}, "held", "empty"),
     Upload("broken off", {PAGE: _WHOLE[: len(_WHOLE) * 3 // 4]}, "passed", "not whole"),
-    Upload("NUL bytes", {PAGE: bytes(5_000)}),
-    Upload("random bytes", {PAGE: bytes(range(256)) * 40}),
+    Upload("NUL bytes", {PAGE: bytes(5_000)}, "held", "empty"),
+    Upload("random bytes", {PAGE: bytes(range(256)) * 40}, "held", "not a notebook"),
     Upload("UTF-16", {PAGE: _WHOLE.decode().encode("utf-16")}, ""),
     Upload("a byte order mark", {PAGE: b"\xef\xbb\xbf" + _WHOLE}, "passed"),
-    Upload("brackets, 100,000 deep", {PAGE: b"[" * 100_000}),
+    Upload("brackets, 100,000 deep", {PAGE: b"[" * 100_000}, "held", "not a notebook"),
     Upload("a number with a million digits", {PAGE: b'{"cells": [], "nbformat": ' + b"9" * 10**6},
-           "held", "file stops before"),
+           "held", "breaks off"),
     Upload("forged outputs", {PAGE: page(WRONG, _claims)}, "failed", "readings"),
     Upload("an edited check", {PAGE: page(WRONG, _edited_check)}, "failed", "readings"),
     Upload("a check of another class", {PAGE: page(WRONG, _other_subject)}, "failed", "readings"),
@@ -147,12 +147,12 @@ UPLOADS = (
     Upload("markup as evidence", {PAGE: page(
         "raise ValueError('<script>alert(1)</script><img src=x onerror=alert(1)>')")}, "failed",
         "script"),
-    Upload("a zip bomb", {"all.zip": _zip({PAGE: b" " * 300_000_000})}, words="beyond all measure"),
-    Upload("a zip that leads out", {"all.zip": _zip({f"../../{PAGE}": _WHOLE})}, words="leads out"),
-    Upload("a zip that is none", {"all.zip": b"PK\x03\x04" + bytes(100)}, words="opened"),
+    Upload("a zip bomb", {"all.zip": _zip({PAGE: b" " * 300_000_000})}, "held", "300 MB"),
+    Upload("a zip that leads out", {"all.zip": _zip({f"../../{PAGE}": page(RIGHT)})}, "passed"),
+    Upload("a zip that is none", {"all.zip": b"PK\x03\x04" + bytes(100)}, "held", "opened"),
     Upload("a zip in a zip in a zip", {"all.zip": _zip({"a.zip": _zip(
-        {"b.zip": _zip({PAGE: _WHOLE})})})}),
+        {"b.zip": _zip({PAGE: _WHOLE})})})}, "held", "in a zip file"),
     Upload("no page of this course", {"x.ipynb": b'{"cells": [], "nbformat": 4, "metadata": {}}'},
-           words="no page"),
-    Upload("a program", {"homework.py": RIGHT.encode()}, words="no notebook"),
+           words="not a page"),
+    Upload("a program", {"homework.py": RIGHT.encode()}, words="not a notebook"),
 )  # fmt: skip

@@ -62,7 +62,8 @@ def test_misuse_says_what_to_try_and_ends_with_2(arguments, expected, capsys):
     [
         (["release"], "The following arguments are required: DIR."),
         (["grade", "x", "--out", "y", "--points"], "Argument --points: expected one argument."),
-        (["grade", "x", "--out", "y", "--workers", "x"], "'x' is no whole number from 1 on."),
+        (["grade", "x", "--out", "y", "--workers", "x"], "'x' is not a whole number from 1 on."),
+        (["grade", "x", "--out", "y", "--missing", "x"], "Argument --missing: invalid choice"),
     ],
 )
 def test_an_argument_that_is_missing_or_wrong_is_told_in_three_parts(arguments, expected, capsys):
@@ -133,3 +134,18 @@ def test_python_m_rosbeat_is_rosbeat_and_needs_neither_ros_nor_jupyter():
         [sys.executable, "-m", "rosbeat", "biuld"], capture_output=True, text=True, check=False
     )
     assert done.returncode == cli.MISUSED
+
+
+def test_sigterm_ends_a_command_with_a_sentence_and_130():
+    code = (
+        "import os, signal, sys, time\n"
+        "from rosbeat import cli\n"
+        "def work(options):\n"
+        "    os.kill(os.getpid(), signal.SIGTERM)\n"
+        "    time.sleep(60)\n"
+        "cli.COMMANDS = (cli.Command('work', 'x', lambda parser: None, work),)\n"
+        "sys.exit(cli.main(['work']))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == cli.INTERRUPTED
+    assert "You stopped the command before it was done" in done.stderr

@@ -1,4 +1,4 @@
-"""Tables as CSV text that is safe to open in a spreadsheet, whatever a stranger has put into it.
+"""Write tables as CSV that is safe to open in a spreadsheet, whatever a learner has put into it.
 
 A spreadsheet runs a cell that begins with `=`, `+`, `-` or `@` as a formula. The rules are those of
 OWASP, "CSV Injection", and of RFC 4180 for the form.
@@ -26,7 +26,7 @@ _DIGITS = 5
 
 
 def cell(text: str) -> str:
-    r"""A text that stays one cell, and a text, in every spreadsheet.
+    r"""Return a text that stays one cell, and a text, in every spreadsheet.
 
     Line ends and tabs become blanks, other control and direction characters are written as
     `\u....`, and an apostrophe stands before what would be a formula; a sign alone is none.
@@ -39,7 +39,7 @@ def cell(text: str) -> str:
 
 
 def number(value: float) -> str:
-    """A number of points: at most five digits behind the point, and no zeros at its end.
+    """Return points with at most five digits behind the point, and no zeros at the end.
 
     Args:
         value: Points.
@@ -49,7 +49,7 @@ def number(value: float) -> str:
 
 
 def csv_text(rows: Iterable[Sequence[str | float]]) -> str:
-    """A table as CSV: comma, quotation marks, CR LF; texts as `cell`, numbers as `number`.
+    """Return a table as CSV: commas, CR LF, texts as `cell`, numbers as `number`.
 
     Args:
         rows: The rows, the header first.

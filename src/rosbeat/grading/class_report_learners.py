@@ -10,8 +10,8 @@ from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.cells import number
 from rosbeat.grading.feedback import FOLDER, feedback_files
 from rosbeat.grading.html_page import folded, listed, name, shown, table, visible
-from rosbeat.grading.learners import own_path
 from rosbeat.grading.marks import Gradebook, Graded, Mark
+from rosbeat.grading.submissions import own_path
 from rosbeat.grading.tally import all_marks, cut_off, empty_handed, held, nameless
 from rosbeat.viz.words import count
 

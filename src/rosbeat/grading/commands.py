@@ -1,36 +1,121 @@
-"""`rosbeat release` and `rosbeat collect`; what they need is imported when they run."""
+"""Run `rosbeat release`, `rosbeat collect` and `rosbeat grade`.
+
+The exit codes of `rosbeat grade` are part of the interface: 0 all answers are marked, 1 nothing was
+done, 2 misuse, 3 all is written and something waits for a person, 130 stopped.
+"""
 
 from __future__ import annotations
 
 import argparse
+import json
+import shlex
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict
+from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from rosbeat.grading.grade_options import DUE
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from rosbeat.errors import CommandError, GradingError, StoppedError
+from rosbeat.grading.course_pages import CoursePage, course_pages
+from rosbeat.grading.deadlines import mark_late, read_due, read_late_rule
+from rosbeat.grading.jobs import Evidence, Job
+from rosbeat.grading.ledger import FILE as LEDGER
+from rosbeat.grading.ledger import Ledger, course_version, seed_of
+from rosbeat.grading.manual import FILE as MANUAL
+from rosbeat.grading.manual import apply_manual, read_manual
+from rosbeat.grading.marks import HELD, Gradebook, settle
+from rosbeat.grading.options import DEFAULT_ASSIGNMENT
+from rosbeat.grading.output import previous_results, require_folder, write_results
+from rosbeat.grading.progress_bar import progress_bar
+from rosbeat.grading.release import Released, catches_up, release
+from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.roster import read_roster, with_roster
+from rosbeat.grading.run import Observe, Plan, Pool, grade
+from rosbeat.grading.submissions import (
+    Collection,
+    HandedIn,
+    Submission,
+    collect,
+    require_apart,
+    require_submissions,
+)
+from rosbeat.grading.summary import summary
+from rosbeat.grading.weights import Points, read_points, without_effect
+from rosbeat.grading.writing import write_whole
 
 if TYPE_CHECKING:
-    from rosbeat.grading.release import Released
+    from rosbeat.grading.cluster import Cluster
+from rosbeat.workspace.place import course_root
 
+#: Exit code: all is written, and something waits for a person.
+WAITS = 3
 #: Names that are printed of a list.
 _MOST_NAMED = 20
+
+
+def find_checkout() -> Path:
+    """Return the checkout that this package was installed from.
+
+    Raises:
+        GradingError: If it was installed without one.
+    """
+    root = course_root()
+    if root is None:
+        raise GradingError(
+            "The course's own pages are not there.",
+            "This rosbeat was installed without them, and everything here begins with them.",
+            "Run the command in a checkout of the course:  ./environment/course shell",
+        )
+    return root
+
+
+def choose_pages(pages: Sequence[CoursePage], names: Iterable[str]) -> tuple[CoursePage, ...]:
+    """Return the pages that somebody names, in the order of the course.
+
+    Args:
+        pages: The pages of the course.
+        names: Such as `03`, `3`, `03_write_a_publisher` or the name of the page's file; none means
+            all pages.
+
+    Raises:
+        GradingError: If a name fits no page.
+    """
+    wanted = {_named(pages, name).lesson for name in names}
+    return tuple(page for page in pages if not wanted or page.lesson in wanted)
+
+
+def _named(pages: Sequence[CoursePage], name: str) -> CoursePage:
+    stem = Path(name.strip()).name.removesuffix(".ipynb")
+    numbers = {stem, stem.zfill(2)} if stem.isdecimal() else set()
+    for page in pages:
+        if stem == page.lesson or page.number in numbers:
+            return page
+    raise GradingError(
+        f"There is no page {printable(name)!r}.",
+        f"The pages are {', '.join(page.number for page in pages)}.",
+        "Name them by their numbers:  --lessons 03 04",
+    )
+
+
+# `rosbeat release`.
+
 _TO_BEGIN_WITH = """\
 Pages from 05 on begin with the package of page 02 and the nodes of pages 03 and 04. So these are
 part of it, in src/rosbeat/workspace/finished; they show one answer to exercise 02a."""
-
-
-def release_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what is typed after `rosbeat release`."""
-    add = parser.add_argument
-    add("folder", type=Path, metavar="DIR", help="a new folder, or an earlier release")
-    add("--lessons", nargs="+", default=(), metavar="PAGE", help="03, a name (default: all pages)")
-    add("--points", type=Path, metavar="FILE", help="a CSV file with exercise,points")
 
 
 def run_release(options: argparse.Namespace) -> int:
     """Make what learners get, and say what was done.
 
     Args:
-        options: What `release_arguments` has declared.
+        options: What `options.release_arguments` declares.
 
     Returns:
         The exit code.
@@ -38,52 +123,44 @@ def run_release(options: argparse.Namespace) -> int:
     Raises:
         GradingError: If the release cannot be made.
     """
-    from rosbeat.grading.checkout import choose_pages, find_checkout
-    from rosbeat.grading.course_pages import course_pages
-    from rosbeat.grading.release import release
-
     root = find_checkout()
     pages = choose_pages(course_pages(root / "notebooks"), options.lessons)
     chosen = pages if options.lessons else ()
-    print(_told(release(root, options.folder, chosen, options.points), options.folder))
+    done = release(root, options.folder, chosen, options.points, options.github)
+    print("\n".join(_told(done, options.folder)))
     return 0
 
 
-def _told(done: Released, folder: Path) -> str:
-    """What a release has done, in words."""
-    from rosbeat.grading.release_files import catches_up
-    from rosbeat.grading.remarks import printable
-
+def _told(done: Released, folder: Path) -> Iterator[str]:
+    """Yield what a release has done, in words."""
     numbers = ", ".join(page.number for page in done.pages)
-    lines = [f"{printable(str(folder), 1000)} has the pages {numbers}, without answers."]
-    counts = (("written", done.written), ("taken away", done.removed))
+    yield f"{printable(str(folder), 1000)} has the pages {numbers}, without answers."
+    counts = (("written", done.written), ("removed", done.removed))
     said = [f"{len(names)} files {word}" for word, names in counts if names]
-    lines.append(f"{', '.join([*said, f'{done.same} were up to date'])}.")
+    yield f"{', '.join([*said, f'{done.same} were up to date'])}."
     if done.kept:
-        lines.append("Somebody has changed these files, so they stay as they are:")
-        lines += [f"    {printable(name)}" for name in done.kept[:_MOST_NAMED]]
+        yield "Somebody has changed these files, so they stay as they are:"
+        yield from (f"    {printable(name)}" for name in done.kept[:_MOST_NAMED])
         more = len(done.kept) - _MOST_NAMED
-        lines += [f"    and {more} more"] if more > 0 else []
+        yield from [f"    and {more} more"] if more > 0 else []
     if catches_up(done.pages):
-        lines.append(_TO_BEGIN_WITH)
-    lines.append(f"Try it:  {printable(str(folder / 'environment' / 'course'), 1000)} lab")
-    return "\n".join(lines)
+        yield _TO_BEGIN_WITH
+    yield f"Try it:  {printable(str(folder / 'environment' / 'course'), 1000)} lab"
 
 
-def collect_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what is typed after `rosbeat collect`."""
-    add = parser.add_argument
-    add("submissions", type=Path, metavar="SUBMISSIONS", help="a folder or a zip file")
-    add("--due", metavar="WHEN", help=DUE)
-    add("--lessons", nargs="+", default=(), metavar="PAGE", help="03, a name (default: all pages)")
-    add("--json", action="store_true", help="the same as JSON, for programs")
+# `rosbeat collect`.
+
+#: The version of the JSON.
+_VERSION = 2
+#: Characters of a name in the table; the JSON has all of them.
+_NAME = 30
 
 
 def run_collect(options: argparse.Namespace) -> int:
     """Say who handed in what, and everything that is worth knowing about the files.
 
     Args:
-        options: What `collect_arguments` has declared.
+        options: What `options.collect_arguments` declares.
 
     Returns:
         The exit code: 0, whatever was handed in.
@@ -91,20 +168,332 @@ def run_collect(options: argparse.Namespace) -> int:
     Raises:
         GradingError: If there is nothing that could be submissions.
     """
-    from rosbeat.grading.checkout import choose_pages, find_checkout
-    from rosbeat.grading.collected import as_json, as_text
-    from rosbeat.grading.collecting import collect
-    from rosbeat.grading.course_pages import course_pages
-    from rosbeat.grading.deadlines import read_due
-    from rosbeat.grading.submissions import require_submissions
-
-    due = read_due(options.due) if options.due else None
     pages = course_pages(find_checkout() / "notebooks")
     asked = choose_pages(pages, options.lessons)
-    found = collect(options.submissions, pages, due)
-    require_submissions(options.submissions, found, pages_named=True)
+    found = collect(options.submissions, pages)
+    require_submissions(options.submissions, found, is_known=True)
+    found = _with_dates(found, options.roster, options.due)
     if not options.lessons:
-        handed = {page.page for one in found.submissions for page in one.pages}
-        asked = tuple(page for page in pages if page.lesson in handed)
-    print(as_json(found) if options.json else as_text(found, asked))
+        asked = handed_in(found, pages)
+    print(_as_json(found) if options.json else "\n".join(_as_text(found, asked)))
     return 0
+
+
+def _with_dates(
+    found: Collection, roster: Path | None, due: str | None, late: str | None = None
+) -> Collection:
+    """Add the learners of a roster, and note what is late."""
+    deadline = read_due(due) if due else None
+    rule = read_late_rule(late) if late else None
+    if roster is None:
+        return mark_late(found, lambda _: deadline, rule)
+    everybody, due_of = with_roster(found, read_roster(roster, deadline), deadline)
+    return mark_late(everybody, due_of, rule)
+
+
+def handed_in(found: Collection, pages: Iterable[CoursePage]) -> tuple[CoursePage, ...]:
+    """Return the pages that anybody handed in: those count if none were named.
+
+    Args:
+        found: What was handed in.
+        pages: The pages of the course.
+    """
+    there = {page.page for one in found.submissions for page in one.pages}
+    return tuple(page for page in pages if page.lesson in there)
+
+
+def _as_text(found: Collection, pages: Sequence[CoursePage]) -> Iterator[str]:
+    """Yield a table of who handed in what, and a list of all remarks."""
+    remarks = [*found.remarks, *(one for each in found.submissions for one in each.remarks)]
+    if found.submissions:
+        yield from (*_table(found, pages), "")
+    yield _total(found, pages, len(remarks))
+    yield from [""] if remarks else []
+    for one in remarks:
+        yield f"{one.about}: {one.path}"
+        yield f"    {printable(one.text, 1000)}"
+
+
+def _table(found: Collection, pages: Sequence[CoursePage]) -> Iterator[str]:
+    table = Table(box=None, pad_edge=False, header_style="")
+    for head in ("learner", "name"):
+        table.add_column(head, no_wrap=True)
+    for page in pages:
+        table.add_column(page.number)
+    table.add_column("remarks", justify="right")
+    for one in found.submissions:
+        table.add_row(*(Text(cell) for cell in _row(one, pages)))
+    target = StringIO()
+    # As wide as it needs to be, so that it can be searched and piped; without colours.
+    Console(file=target, width=2_000, color_system=None, highlight=False).print(table)
+    yield from (line.rstrip() for line in target.getvalue().splitlines())
+
+
+def _row(one: Submission, pages: Sequence[CoursePage]) -> list[str]:
+    handed = {page.page: page for page in one.pages}
+    name = printable(one.name, _NAME) if one.name != one.learner else ""
+    cells = [_cell(handed.get(page.lesson)) for page in pages]
+    return [printable(one.learner, _NAME), name, *cells, str(len(one.remarks) or "")]
+
+
+def _cell(page: HandedIn | None) -> str:
+    if page is None:
+        return "-"
+    told = {"late": page.late, "unreadable": bool(page.notebook.problem), "half": page.notebook.cut}
+    if told["unreadable"]:
+        del told["half"]
+    return ", ".join(word for word, is_so in told.items() if is_so) or "yes"
+
+
+def _total(found: Collection, pages: Sequence[CoursePage], remarks: int) -> str:
+    asked = {page.lesson for page in pages}
+    counts = Counter(page.page for one in found.submissions for page in one.pages)
+    there = sum(counts[page] for page in asked)
+    nobody = sum(not one.pages for one in found.submissions)
+    parts = [f"{_many(len(found.submissions), 'learner')}, {_many(there, 'page')}"]
+    parts += [f"{_many(nobody, 'learner')} without any page"] if nobody else []
+    others = sum(counts.values()) - there
+    parts += [f"{_many(others, 'page')} that you did not ask for"] if others else []
+    return f"{', '.join(parts)}, {_many(remarks, 'remark')}."
+
+
+def _many(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _as_json(found: Collection) -> str:
+    learners = [
+        {
+            **{"learner": one.learner, "name": one.name, "system": one.system},
+            **{"pages": [_page(page) for page in one.pages]},
+            **{"remarks": [asdict(remark) for remark in one.remarks]},
+        }
+        for one in found.submissions
+    ]
+    remarks = [asdict(remark) for remark in found.remarks]
+    return json.dumps({"version": _VERSION, "learners": learners, "remarks": remarks}, indent=1)
+
+
+def _page(page: HandedIn) -> dict[str, Any]:
+    return {
+        **{"page": page.page, "path": page.path, "late": page.late, "modified": page.modified},
+        **{"cells": len(page.notebook.cells), "problem": page.notebook.problem},
+        "repairs": list(page.notebook.repairs),
+    }
+
+
+# `rosbeat grade`.
+
+_UNSAFE = (
+    "Warning: --unsafe-no-sandbox lets strangers' programs do here whatever you may do: read and\n"
+    "change your files, use the network. Only limits on time and memory are left."
+)
+#: Remarks about a line that somebody wrote, or about an answer that a kernel sees otherwise.
+_FOR_A_PERSON = ("manual", "roster")
+
+
+def run_grade(options: argparse.Namespace) -> int:
+    """Grade what was handed in, and write all results.
+
+    Args:
+        options: What `options.grade_arguments` declares.
+
+    Returns:
+        The exit code: 0, or `WAITS`.
+
+    Raises:
+        CommandError: If options do not go together.
+        GradingError: If the submissions cannot be read, no sandbox can be made, or the results
+            cannot be written.
+        StoppedError: If a person stops it.
+    """
+    _require_consistent(options)
+    require_folder(options.out)
+    require_apart(options.submissions, options.out)
+    every = course_pages(find_checkout() / "notebooks")
+    pages = choose_pages(every, options.lessons)
+    typed = _deciding(options, pages)
+    points = read_points(options.points) if options.points else Points()
+    manual = read_manual(options.out / MANUAL)
+    # With all pages: what is another page must not be taken for one of those that count.
+    found = collect(options.submissions, every)
+    require_submissions(options.submissions, found, bool(options.lessons))
+    found = _with_dates(found, options.roster, options.due, options.late)
+    pages = pages if options.lessons else handed_in(found, pages)
+    pages = tuple(page for page in pages if page.wanted)
+    useless = without_effect(points, [page.number for page in pages])
+    for line in (changes(options.out, typed), useless, _UNSAFE * options.unsafe_no_sandbox):
+        if line:
+            print(line, file=sys.stderr)
+    plan = Plan(pages, course_version(), points, seed_of(options.out))
+    gradebook = settle(_judged(found, plan, options), found, options.missing == "empty")
+    gradebook = apply_manual(gradebook, manual, previous_results(options.out))
+    write_results(options.out, gradebook, options.assignment)
+    note_options(options.out, typed)
+    code = WAITS if _waiting(gradebook) else 0
+    print(_summary_json(gradebook, options.out, code) if options.json
+          else summary(gradebook, options.out))  # fmt: skip
+    return code
+
+
+def _require_consistent(options: argparse.Namespace) -> None:
+    if options.scheduler and options.unsafe_no_sandbox:
+        raise CommandError(
+            "--unsafe-no-sandbox does not go with --scheduler.",
+            "Without a sandbox, strangers' programs could reach every machine of the cluster.",
+            "Leave out one of them.",
+        )
+    if options.late and not options.due:
+        raise CommandError(
+            "--late needs --due.",
+            "Without a deadline, nothing is late.",
+            'Give both:  --due "2026-11-30 18:00" --late "10%/day"',
+        )
+
+
+def _judged(found: Collection, plan: Plan, options: argparse.Namespace) -> Gradebook:
+    with _goes_on() as count, Ledger(options.out / LEDGER) as ledger, progress_bar() as tell:
+
+        def told(done: int, total: int) -> None:
+            count(done, total)
+            tell(done, total)
+
+        return grade(found, plan, ledger, _observer(options), told)
+
+
+@contextmanager
+def _goes_on() -> Iterator[Callable[[int, int], None]]:
+    """Say what is kept if somebody stops the judging; yields what is told how far it is."""
+    far = [0, 0]
+
+    def count(done: int, total: int) -> None:
+        far[:] = done, total
+
+    try:
+        yield count
+    except KeyboardInterrupt:
+        kept = f"{far[0] or 'None'} of {far[1]} answers are judged and kept"
+        raise StoppedError(
+            "stopped.",
+            f"{kept}; the results are as they were before." if far[1] else "Nothing was judged.",
+            "Type the same command again, with the same options: it goes on from there.",
+        ) from None
+
+
+def _cluster(address: str) -> Cluster:
+    from rosbeat.grading.cluster import Cluster  # it needs Dask, which few have
+
+    return Cluster(address)
+
+
+def _observer(options: argparse.Namespace) -> Observe:
+    """Return what has jobs done; workers start only if there is something to do."""
+
+    def observe(
+        submissions: Iterable[Sequence[tuple[str, Job]]],
+    ) -> Iterator[tuple[str, Evidence]]:
+        with (
+            _cluster(options.scheduler)
+            if options.scheduler
+            else Pool(options.workers, options.unsafe_no_sandbox)
+        ) as pool:
+            yield from pool.observe(submissions)
+
+    return observe
+
+
+def _waiting(gradebook: Gradebook) -> bool:
+    held = any(mark.status == HELD for one in gradebook.learners for mark in one.marks)
+    return held or any(one.about in _FOR_A_PERSON for one in gradebook.remarks)
+
+
+def _summary_json(gradebook: Gradebook, out: Path, code: int) -> str:
+    """Return what has come out, for programs; in ASCII, so that it can be printed anywhere."""
+    marks = [(one, mark) for one in gradebook.learners for mark in one.marks]
+    remarks: list[Remark] = [one for each in gradebook.learners for one in each.remarks]
+    held = [
+        {"learner": one.learner, "exercise": mark.exercise, "why": mark.cause, "file": mark.file}
+        for one, mark in marks
+        if mark.status == HELD
+    ]
+    graded = [one.grade for one in gradebook.learners if one.grade is not None]
+    said = {
+        **{"version": _VERSION, "exit": code, "out": str(out), "course": gradebook.course},
+        **{"learners": len(gradebook.learners), "graded": len(graded)},
+        "out_of": max((one.out_of for one in gradebook.learners), default=0.0),
+        "average": round(sum(graded) / len(graded), 2) if graded else None,
+        "marks": dict(sorted(Counter(mark.status for _, mark in marks).items())),
+        "held": held,
+        "lines": [asdict(one) for one in gradebook.remarks if one.about in _FOR_A_PERSON],
+        "files": dict(sorted(Counter(one.about for one in remarks).items())),
+    }
+    return json.dumps(said, indent=1)
+
+
+# How a class was graded the last time, so that an option that was left out is noticed.
+
+LAST_RUN = "last_run.json"
+#: Options by their names without hyphens; what was left out is not among them.
+Typed = Mapping[str, str]
+
+
+def _deciding(options: argparse.Namespace, pages: Iterable[CoursePage]) -> dict[str, str]:
+    """Return the options that decide about results; without one of them, marks differ."""
+    lessons = " ".join(page.number for page in pages) if options.lessons else ""
+    found = {
+        **{"lessons": lessons, "points": options.points, "due": options.due, "late": options.late},
+        **{"roster": options.roster, "missing": options.missing.replace("zero", "")},
+        "assignment": options.assignment if options.assignment != DEFAULT_ASSIGNMENT else "",
+    }
+    return {name: str(value) for name, value in found.items() if value}
+
+
+def note_options(out: Path, typed: Typed) -> None:
+    """Write down how this run was started, once its results are written.
+
+    Args:
+        out: The folder with the results.
+        typed: The options that decide about results, as they were typed.
+
+    Raises:
+        GradingError: If it cannot be written.
+    """
+    said = json.dumps({"options": dict(typed)}, indent=1, sort_keys=True)
+    write_whole(out / LAST_RUN, f"{said}\n")
+
+
+def changes(out: Path, typed: Typed) -> str:
+    """Say in one line which options differ from those of the last time.
+
+    Args:
+        out: The folder with the results.
+        typed: The options that decide about results, as they were typed.
+
+    Returns:
+        The line; empty if all is the same or there was no last time.
+    """
+    try:
+        said = json.loads((out / LAST_RUN).read_text(encoding="utf-8"))
+        before = {str(name): str(value) for name, value in said["options"].items()}
+    except FileNotFoundError:
+        return ""
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        place = printable(str(out / LAST_RUN), 1000)
+        return f"{place} cannot be read, so it is not known how you graded the last time."
+    differ = [name for name in sorted({*before, *typed}) if before.get(name) != typed.get(name)]
+    if not differ:
+        return ""
+    return (
+        f"Other options than last time! Last time: {_shown(before, differ) or 'without them'}; "
+        f"now {_shown(typed, differ) or 'without'}. Marks may change."
+    )
+
+
+def _shown(typed: Typed, names: list[str]) -> str:
+    """Return the options of these names as one would type them; safe to print."""
+    found = [f"--{name} {_word(typed[name])}" for name in names if name in typed]
+    return printable(", ".join(found), 1000)
+
+
+def _word(value: str) -> str:
+    return value if value.replace(" ", "").isdigit() else shlex.quote(value)

@@ -1,25 +1,29 @@
-"""A deadline, as a person types it."""
+"""Decide what is late, and how much is taken off for it."""
 
 from __future__ import annotations
 
-from datetime import datetime, time
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from datetime import datetime, time, timedelta
+from math import ceil, inf
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.remarks import printable
+from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.submissions import Collection, HandedIn, Submission
+
+_DAY, _HOUR = 86_400.0, 3_600.0
 
 
 def read_due(text: str) -> float:
-    """Read a deadline.
+    """Return a deadline in seconds since 1970; what is newer is late.
 
     Args:
-        text: A day, which ends at midnight, or a day and a time, such as `2026-11-30 18:00`; in the
-            time zone of this computer unless it names another, as in `2026-11-30 18:00+01:00`.
-
-    Returns:
-        Seconds since 1970; what is newer is late.
+        text: A day, which lasts until midnight, or a day and a time, such as `2026-11-30 18:00`; in
+            the time zone of this computer unless it names another, as `2026-11-30 18:00+01:00`.
 
     Raises:
-        GradingError: If it is no such thing.
+        GradingError: If it is neither.
     """
     text = text.strip()
     try:
@@ -29,7 +33,149 @@ def read_due(text: str) -> float:
         return found.timestamp()
     except (ValueError, OverflowError, OSError):
         raise GradingError(
-            f"{printable(text)!r} is no day and no time.",
-            "Files that were changed after the deadline are marked as late, so it has to be exact.",
+            f"{printable(text)!r} is neither a day nor a time.",
+            "Files that were changed after the deadline are late, so it has to be exact.",
             'Write a day, or a day and a time:  --due "2026-11-30 18:00"',
         ) from None
+
+
+_EXTENSION = re.compile(r"\+?(\d{1,4}(?:[.,]\d+)?)\s*(d|days?|h|hours?|w|weeks?)?")
+
+
+def read_extension(text: str, due: float | None) -> float:
+    """Return one learner's deadline, in seconds since 1970.
+
+    Args:
+        text: How much later than that of the class, such as `3`, `3 days`, `12 h` or `1 week`; or
+            the deadline itself.
+        due: The deadline of the class, if there is one.
+
+    Raises:
+        GradingError: If it is neither, or if it is later than a deadline that is not known.
+    """
+    found = _EXTENSION.fullmatch(text.strip().casefold())
+    if found is None:
+        return read_due(text)
+    if due is None:
+        raise GradingError(
+            f"{printable(text)!r} is later than a deadline that is not known.",
+            "An extension is counted from the deadline of the class.",
+            "Give it with --due, or write a day and a time instead of the extension.",
+        )
+    unit = {"h": timedelta(hours=1), "w": timedelta(weeks=1)}.get((found[2] or "d")[0])
+    return due + float(found[1].replace(",", ".")) * (unit or timedelta(days=1)).total_seconds()
+
+
+@dataclass(frozen=True)
+class LateRule:
+    """Hold what is taken off the points of a page that is late.
+
+    Attributes:
+        share: The share of the points that is taken off, for each `every` that has begun.
+        every: Seconds; infinite if the share is taken off once.
+        most: The largest share that is taken off.
+    """
+
+    share: float = 0.0
+    every: float = inf
+    most: float = 1.0
+
+    @property
+    def needs_a_date(self) -> bool:
+        """Return whether it matters how late a page is."""
+        return self.every != inf
+
+    def off(self, late_by: float) -> float:
+        """Return the share of the points that is taken off.
+
+        Args:
+            late_by: Seconds after the deadline.
+        """
+        begun = max(1, ceil(late_by / self.every)) if self.needs_a_date else 1
+        return min(self.most, self.share * begun)
+
+
+_NUMBER = r"(\d{1,3}(?:\.\d+)?)\s*%"
+_RULE = re.compile(rf"{_NUMBER}(?:\s*/\s*(day|hour))?(?:\s*,?\s*at most\s+{_NUMBER})?")
+
+
+def read_late_rule(text: str) -> LateRule:
+    """Return what is taken off a late page.
+
+    Args:
+        text: Such as `10%/day`, `1%/hour`, `20%`, or `10%/day, at most 50%`.
+
+    Raises:
+        GradingError: If it is nothing of the kind.
+    """
+    found = _RULE.fullmatch(text.strip().casefold())
+    shares = [float(one) / 100 for one in (found[1], found[3] or "100")] if found else [inf]
+    if found is None or max(shares) > 1:
+        raise GradingError(
+            f"{printable(text)!r} does not say what a late page loses.",
+            "Points would be taken off, or not, against what you want; so nothing is graded.",
+            'Write a share of the points:  --late "10%/day"  or  --late "10%/day, at most 50%"',
+        )
+    every = {"day": _DAY, "hour": _HOUR}.get(found[2] or "", inf)
+    return LateRule(shares[0], every, shares[1])
+
+
+def mark_late(
+    found: Collection, due_of: Callable[[Submission], float | None], rule: LateRule | None = None
+) -> Collection:
+    """Note for each page whether it is late, and what share of its points is taken off.
+
+    Canvas dates every file of a download at the moment of the download (`get_output_stream` in
+    `content_zipper.rb`), and writes LATE into the names of those that are. So there the name
+    decides, and how late a page is nobody knows.
+
+    Args:
+        found: What a class handed in.
+        due_of: Returns the deadline of a learner in seconds since 1970; None if there is none.
+        rule: What is taken off.
+
+    Returns:
+        The same with `late` and `off` of each page, and a remark for each page that is late.
+    """
+    submissions = tuple(_with_lateness(one, due_of(one), rule) for one in found.submissions)
+    return replace(found, submissions=submissions)
+
+
+def _with_lateness(one: Submission, due: float | None, rule: LateRule | None) -> Submission:
+    told: list[Remark] = []
+    pages = tuple(_page(one, page, due, rule, told) for page in one.pages)
+    return replace(one, pages=pages, remarks=(*one.remarks, *told))
+
+
+def _page(
+    one: Submission, page: HandedIn, due: float | None, rule: LateRule | None, told: list[Remark]
+) -> HandedIn:
+    has_date = due is not None and one.system != "canvas"
+    late_by = page.modified - due if due is not None and has_date else 0.0
+    if not (page.late or late_by > 0):
+        return page
+    said = _lateness(page.modified, late_by) if late_by > 0 else "It is marked as late."
+    off = 0.0
+    if rule is not None and rule.needs_a_date and not late_by > 0:
+        said += " How late is not known, so nothing is taken off: decide by hand."
+    elif rule is not None:
+        off = rule.off(late_by)
+        said += f" {100 * off:g}% of the points of this page are taken off."
+    told.append(Remark("late", printable(page.path), said))
+    return replace(page, late=True, off=off)
+
+
+def _lateness(modified: float, late_by: float) -> str:
+    try:
+        date = f"{datetime.fromtimestamp(modified):%Y-%m-%d %H:%M}"
+    except (ValueError, OverflowError, OSError):
+        return "The date of the file, far in the future, is after the deadline."
+    return f"The date of the file, {date}, is {_duration(late_by)} after the deadline."
+
+
+def _duration(seconds: float) -> str:
+    days, hours = int(seconds // _DAY), int(seconds % _DAY // _HOUR)
+    if not days and not hours:
+        return f"{ceil(seconds / 60)} min"
+    told = [f"{days} day{'s' if days > 1 else ''}"] if days else []
+    return " ".join([*told, f"{hours} h"] if hours else told)

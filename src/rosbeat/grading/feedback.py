@@ -21,10 +21,10 @@ from rosbeat.grading.html_page import (
     shown,
     table,
 )
-from rosbeat.grading.learners import own_path
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark
 from rosbeat.grading.palette import STATUSES, look_of
 from rosbeat.grading.remarks import REACHES_INSIDE
+from rosbeat.grading.submissions import own_path
 from rosbeat.grading.writing import file_names
 from rosbeat.records import Part
 

@@ -1,9 +1,9 @@
-"""What a person gives by hand: points and comments that stay, however often a class is graded.
+"""Apply points and comments that a person gives by hand; they stay, however often one grades.
 
 `manual.csv` has the columns `learner,exercise,points,comment`, in any order and with others between
-them. Points may be empty: then those of the judge stay. The exercise may be empty: then the comment
-is about the whole. Nothing here writes into a file that a person has written in, and a line that
-cannot be used is told and costs no other line.
+them. Without points, those of the judge stay; without an exercise, the comment is about the whole.
+A file that a person has written in is never written to, and a line that cannot be used is told and
+costs no other line.
 """
 
 from __future__ import annotations
@@ -11,18 +11,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from rosbeat.errors import GradingError
 from rosbeat.grading.cells import csv_text, number
+from rosbeat.grading.csv_table import Row, read_table
 from rosbeat.grading.marks import HELD, LOOKED_AT, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark, printable
-from rosbeat.grading.roll import Roll, UnusableError
-from rosbeat.grading.sheets import Row, read_sheet
+from rosbeat.grading.roster import Lookup, UnusableError
 from rosbeat.grading.weights import DIGITS
 from rosbeat.grading.writing import write_whole
 
 FILE = "manual.csv"
 COLUMNS = ("learner", "exercise", "points", "comment")
-#: The template has the name as well: who knows learner 4711?
+#: The template has the name as well, for the person who fills it in.
 _TEMPLATE = ("learner", "name", "exercise", "points", "comment")
 #: What is said of an answer that was held, when it has points.
 _LOOKED_AT = "Looked at by the instructor."
@@ -30,7 +29,7 @@ _LOOKED_AT = "Looked at by the instructor."
 
 @dataclass(frozen=True)
 class Line:
-    """One line of the file, as it stands there.
+    """Hold one line of the file, as it is there.
 
     Attributes:
         number: Which line of the file it is, from 1.
@@ -49,7 +48,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Manual:
-    """All that stands in the file.
+    """Hold all that is in the file.
 
     Attributes:
         lines: Its lines, those without points and comment left out.
@@ -67,27 +66,16 @@ def read_manual(path: Path) -> Manual:
         path: The file `manual.csv`.
 
     Raises:
-        GradingError: If there is such a file and it cannot be opened.
+        GradingError: If there is such a file and it cannot be read.
     """
     if not path.exists():
         return Manual()
-    sheet = read_sheet(_bytes(path), COLUMNS)
-    remarks = [_remark(line, text) for line, text in sheet.problems]
-    if not {"points", "comment"} & set(sheet.header):
-        remarks.append(_remark(1, "There is no column points and none comment."))
-    lines = [_line(row) for row in sheet.rows]
-    return Manual(tuple(one for one in lines if one.points or one.comment), tuple(remarks))
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise GradingError(
-            f"{printable(str(path))} cannot be read: {error.strerror or error}.",
-            "Points and comments that you gave by hand would be missing in every result.",
-            "Close the file where it is open, look at its rights, and run the command again.",
-        ) from error
+    table = read_table(path, COLUMNS)
+    lines = [_line(row) for row in table.rows]
+    told = tuple(one for one in lines if one.points or one.comment)
+    if {"points", "comment"} & set(table.header):
+        return Manual(told)
+    return Manual(told, (_remark(1, "There is no column points and none comment."),))
 
 
 def _line(row: Row) -> Line:
@@ -103,7 +91,7 @@ def _remark(line: int, text: str) -> Remark:
 
 @dataclass(frozen=True)
 class _Given:
-    """What was given for one exercise, or for the whole."""
+    """Hold what was given for one exercise, or for the whole."""
 
     points: float | None = None
     comment: str = ""
@@ -126,13 +114,13 @@ def apply_manual(
     Returns:
         The gradebook with both; lines that could not be used are among its remarks.
     """
-    roll = Roll(gradebook.learners)
+    lookup = Lookup(gradebook.learners)
     given: dict[tuple[str, str], _Given] = {}
     remarks = list(manual.remarks)
     worth = _worth(before) if before else {}
     for line in manual.lines:
         try:
-            graded, mark = roll.learner(line.learner), None
+            graded, mark = lookup.find(line.learner), None
             mark = _mark(graded, line.exercise) if line.exercise else None
         except UnusableError as error:
             said = f"{error} Nothing is taken from this line. {error.to_try}"
@@ -148,7 +136,7 @@ def apply_manual(
 
 
 def _worth(before: Gradebook) -> dict[tuple[str, str], float]:
-    """What exercises were worth when points were given by hand, by learner and exercise."""
+    """Return what exercises were worth when points were given by hand."""
     return {
         (graded.learner, mark.exercise): mark.out_of
         for graded in before.learners
@@ -160,8 +148,8 @@ def _worth(before: Gradebook) -> dict[tuple[str, str], float]:
 def _of_another_worth(mark: Mark, before: float, points: float) -> str:
     return (
         f"{mark.exercise} was worth {number(before)} the last time and is worth "
-        f"{number(mark.out_of)} now. The points of this line stay {number(points)}: look whether "
-        "that is still what you mean."
+        f"{number(mark.out_of)} now. The points of this line stay {number(points)}: check "
+        "whether that is still what you mean."
     )
 
 
@@ -199,7 +187,7 @@ def _points(text: str, mark: Mark | None) -> float:
     try:
         points = float(text.replace(",", "."))
     except ValueError:
-        raise UnusableError(f"{shown!r} is no number of points.", to_try) from None
+        raise UnusableError(f"{shown!r} is not a number of points.", to_try) from None
     if not 0 <= points <= mark.out_of:  # which no NaN is
         top = number(mark.out_of)
         raise UnusableError(f"{mark.exercise} has points from 0 to {top}, not {shown}.", to_try)
@@ -219,7 +207,9 @@ def _with(graded: Graded, given: dict[tuple[str, str], _Given]) -> Graded:
         _marked(mark, given.get((graded.learner, mark.exercise), _Given())) for mark in graded.marks
     ]
     whole = given.get((graded.learner, ""), _Given())
-    return replace(graded, marks=tuple(marks), comment=whole.comment or graded.comment)
+    comment = whole.comment or graded.comment
+    excused = graded.excused and not any(mark.manual for mark in marks)
+    return replace(graded, marks=tuple(marks), comment=comment, excused=excused)
 
 
 def _marked(mark: Mark, given: _Given) -> Mark:
@@ -238,7 +228,7 @@ def _marked(mark: Mark, given: _Given) -> Mark:
 
 
 def template(gradebook: Gradebook) -> str:
-    """A file to fill in, with a line for each exercise that is held for a person to look at.
+    """Return a file to fill in, with a line for each exercise that is held.
 
     Args:
         gradebook: What was judged.
@@ -263,13 +253,13 @@ def write_template(path: Path, gradebook: Gradebook) -> bool:
     Raises:
         GradingError: If it cannot be read or written.
     """
-    if path.exists() and not _is_untouched(_bytes(path)):
+    if path.exists() and not _is_untouched(path):
         return False
     write_whole(path, template(gradebook))
     return True
 
 
-def _is_untouched(data: bytes) -> bool:
-    sheet = read_sheet(data, COLUMNS)
-    written = [row for row in sheet.rows if row.cells.get("points") or row.cells.get("comment")]
-    return sheet.header == _TEMPLATE and not written and not sheet.problems
+def _is_untouched(path: Path) -> bool:
+    table = read_table(path, COLUMNS)
+    written = [row for row in table.rows if row.cells.get("points") or row.cells.get("comment")]
+    return table.header == _TEMPLATE and not written

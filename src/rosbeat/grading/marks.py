@@ -1,24 +1,25 @@
-"""What grading gives: the mark of each exercise, and all of a learner's and of a class together.
+"""Hold what grading gives: the marks of each exercise, of a learner and of a class.
 
 Plain data, made from outcomes. Every file that `rosbeat grade` writes is made from these records.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rosbeat.grading.remarks import Remark
+from rosbeat.grading.submissions import Collection, HandedIn, Submission
 from rosbeat.records import Part
 
-#: What may be said of an exercise besides the three statuses of an outcome: its page was not handed
-#: in; it has no points yet, because a person has to look at it or the file breaks off before it; a
-#: person has looked at it and given points.
+#: The status of an exercise besides those of an outcome: its page was not handed in; it has no
+#: points yet, because a person has to look at it or its file cannot be read; a person has looked at
+#: it and given points.
 MISSING, HELD, LOOKED_AT = "missing", "held", "looked at"
 
 
 @dataclass(frozen=True)
 class Mark:
-    """One exercise of one learner.
+    """Hold one exercise of one learner.
 
     Attributes:
         exercise: The exercise's id, such as `03a`.
@@ -34,10 +35,11 @@ class Mark:
         remarks: What is worth knowing although the answer is right.
         parts: The requirements, if there are points for each.
         repairs: What was done to find the answer on the page, a sentence each.
-        judged: Points before a manual mark.
+        judged: Points before anything was taken off for being late, and before a manual mark.
         manual: Whether a person has set the points.
         comment: What a person has written to the learner.
-        late: Whether the page was handed in late.
+        late: Whether the page was handed in late. A remark about the file says how late, and what
+            was taken off.
         seconds: How long it was observed, by the clock on the wall.
         answer: The text of an answer that a person has to look at, or has looked at.
         file: The file that an exercise which is or was held was handed in with.
@@ -66,13 +68,13 @@ class Mark:
 
     @property
     def waits_for_its_file(self) -> bool:
-        """Whether it has no points yet because its file breaks off before it."""
+        """Return whether it has no points yet because its file cannot be read that far."""
         return self.status == HELD and bool(self.file) and not self.answer
 
 
 @dataclass(frozen=True)
 class Graded:
-    """One learner.
+    """Hold one learner.
 
     Attributes:
         learner: What tells this learner from others.
@@ -81,6 +83,7 @@ class Graded:
         marks: One for each exercise that was graded for, in the order of the course.
         remarks: What is worth telling about the files.
         comment: What a person has written to the learner about the whole.
+        excused: Whether there is no grade because nothing was handed in.
     """
 
     learner: str
@@ -89,31 +92,37 @@ class Graded:
     marks: tuple[Mark, ...]
     remarks: tuple[Remark, ...] = ()
     comment: str = ""
+    excused: bool = False
 
     @property
     def called(self) -> str:
-        """The name, with what tells the learner from others of that name."""
+        """Return the name, with the id that tells the learner from others of that name."""
         return self.name if self.name == self.learner else f"{self.name} ({self.learner})"
 
     @property
     def points(self) -> float:
-        """The sum of the points that count."""
+        """Return the sum of the points that count."""
         return round(sum(mark.points for mark in self.marks), 6)
 
     @property
     def out_of(self) -> float:
-        """The sum of the points that there are."""
+        """Return the sum of the points that there are."""
         return round(sum(mark.out_of for mark in self.marks), 6)
 
     @property
     def is_settled(self) -> bool:
-        """Whether all points are known: no exercise is held."""
+        """Return whether all points are known: no exercise is held."""
         return all(mark.status != HELD for mark in self.marks)
+
+    @property
+    def grade(self) -> float | None:
+        """Return the points to upload; None if an exercise is held, or if there is no grade."""
+        return self.points if self.is_settled and not self.excused else None
 
 
 @dataclass(frozen=True)
 class Gradebook:
-    """A class.
+    """Hold a class.
 
     Attributes:
         course: The version of the course that has judged.
@@ -124,3 +133,54 @@ class Gradebook:
     course: str
     learners: tuple[Graded, ...]
     remarks: tuple[Remark, ...] = ()
+
+
+# What the files say about the marks of their answers.
+
+
+def settle(gradebook: Gradebook, found: Collection, empty: bool = False) -> Gradebook:
+    """Hold what cannot be read, and take off points for what is late.
+
+    Args:
+        gradebook: What was judged.
+        found: What was handed in.
+        empty: Whether a learner who handed in nothing gets no grade instead of 0 points.
+
+    Returns:
+        The gradebook. Nobody has 0 points for a page that was there and cannot be read.
+    """
+    submissions = {one.learner: one for one in found.submissions}
+    learners = (_settled(one, submissions.get(one.learner), empty) for one in gradebook.learners)
+    return replace(gradebook, learners=tuple(learners))
+
+
+def _settled(graded: Graded, one: Submission | None, empty: bool) -> Graded:
+    if one is None:
+        return graded
+    pages = {page.page: page for page in one.pages}
+    marks = tuple(_settled_mark(mark, pages.get(mark.page), one) for mark in graded.marks)
+    missing = all(mark.status == MISSING for mark in marks)
+    return replace(graded, marks=marks, excused=empty and missing)
+
+
+def _settled_mark(mark: Mark, page: HandedIn | None, one: Submission) -> Mark:
+    if page is not None and page.notebook.problem:
+        return _unread(mark, page.path, page.notebook.problem, page.late)
+    if page is None and one.unread:
+        first = one.unread[0]
+        return _unread(mark, first.path, f"It may be in {first.path}. {first.text}", late=False)
+    if page is None or not page.off:
+        return mark
+    return replace(mark, points=round(mark.points * (1 - page.off), 2))
+
+
+def _unread(mark: Mark, file: str, why: str, late: bool) -> Mark:
+    """Return the mark of an exercise whose page was there and cannot be read."""
+    said = f"The page cannot be read. {why}"
+    return Mark(
+        *(mark.exercise, mark.title, mark.page, HELD, 0.0, mark.out_of, said),
+        evidence=said,
+        hint="Hand the page in again.",
+        late=late,
+        file=file,
+    )

@@ -1,25 +1,30 @@
-"""A notebook that a stranger has written: read without trust, and mended where that is fair.
+"""Read a notebook that somebody handed in: without trust, and repaired where that is fair.
 
-Nothing is run and nothing is believed: outputs are never looked at, and of the metadata only what
-says which exercise a cell was.
+Nothing is run. Outputs are dropped before anything else, however large they are, and of the
+metadata only what names the page and the exercise of a cell is read.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 #: Cells of a notebook that are looked at; a page has fewer than fifty.
 MOST_CELLS = 2_000
-#: Characters of one cell.
-MOST_OF_A_CELL = 100_000
+#: Characters of one cell, and bytes of a notebook without its outputs.
+MOST_OF_A_CELL, MOST_BYTES = 1_000_000, 10_000_000
+#: Bytes from which on outputs are cut out of the text; what is smaller is parsed with them.
+_LARGE = 2_000_000
+#: What is cut out: outputs, pasted pictures, and the state of widgets, which may show outputs.
+_DROPPED = re.compile(rb'"(?:outputs|attachments|widgets)"\s*:\s*[\[{]')
+_TOKEN = re.compile(rb'"[^"]*"|[\[\]{}]')
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell.
+    """Hold one cell.
 
     Attributes:
         place: Its place on the page, from 0.
@@ -40,12 +45,12 @@ class Cell:
 
 @dataclass(frozen=True)
 class Notebook:
-    """What could be read of a notebook.
+    """Hold what could be read of a notebook.
 
     Attributes:
         cells: Its cells, in order.
         lesson: The page that it says it is, such as `03_write_a_publisher`; or empty.
-        repairs: What was mended to read it, a sentence each.
+        repairs: What was repaired to read it, a sentence each.
         problem: Why nothing could be read, a sentence; or empty.
         cut: Whether the file breaks off, so that there may have been more cells.
     """
@@ -62,19 +67,62 @@ def read_notebook(data: bytes) -> Notebook:
 
     Args:
         data: The file.
+
+    Returns:
+        The notebook; one with a `problem` and no cells if nothing can be read.
     """
     if not data.strip(b"\0 \t\r\n"):
         return Notebook(problem="The file is empty.")
+    if len(data) > _LARGE:
+        data = without_outputs(data)
+    if len(data) > MOST_BYTES:
+        size = f"{len(data) / 1e6:.0f} MB"
+        return Notebook(problem=f"The file has {size} without its outputs, more than any page.")
     repairs: list[str] = []
     text = _text(data, repairs)
     try:
         whole = json.loads(text)
     except (ValueError, RecursionError):
         return _salvaged(text, repairs)
-    cells = _cells_of(whole, repairs)
+    cells = _cells_of(whole)
     if cells is None:
-        return Notebook(problem="The file is JSON, and no notebook: it has no cells.")
-    return Notebook(_read_cells(cells, repairs), _lesson(whole), tuple(repairs))
+        return Notebook(problem="The file is JSON, but not a notebook: it has no cells.")
+    if "cells" not in whole:
+        repairs.append("It was saved in notebook format 3, and was read as such.")
+    return _made(cells, _lesson(whole), repairs)
+
+
+def without_outputs(data: bytes) -> bytes:
+    """Return a notebook's text without outputs, attachments and the state of widgets.
+
+    The text is not parsed: that of a print loop can have 20 MB in two million lines.
+
+    Args:
+        data: JSON in an encoding that contains ASCII. Anything else comes back as it is, or cut
+            in a place where it cannot be read anyway.
+    """
+    # Escaped backslashes and quotation marks are blanked: every other one is a delimiter then, and
+    # what looks like a key inside a string does not any more.
+    plain = data.replace(rb"\\", b"  ").replace(rb"\"", b"  ")
+    kept: list[bytes] = []
+    start = 0
+    while found := _DROPPED.search(plain, start):
+        kept.append(data[start : found.end()])
+        start = _closing(plain, found.end())
+    return b"".join((*kept, data[start:]))
+
+
+def _closing(text: bytes, place: int) -> int:
+    """Return where the bracket that is open at a place is closed; the end if it is not."""
+    depth = 1
+    for token in _TOKEN.finditer(text, place):
+        if token[0] in (b"[", b"{"):
+            depth += 1
+        elif token[0] in (b"]", b"}"):
+            depth -= 1
+            if depth == 0:
+                return token.start()
+    return len(text)
 
 
 def _lesson(whole: dict[str, Any]) -> str:
@@ -82,7 +130,7 @@ def _lesson(whole: dict[str, Any]) -> str:
 
 
 def _ours(of: dict[str, Any]) -> dict[str, Any]:
-    """What this course has written into the metadata of a page or of a cell."""
+    """Return what this course wrote into the metadata of a page or of a cell."""
     metadata = of.get("metadata")
     ours = metadata.get("rosbeat") if isinstance(metadata, dict) else None
     return ours if isinstance(ours, dict) else {}
@@ -98,32 +146,30 @@ def _text(data: bytes, repairs: list[str]) -> str:
     return data.decode("utf-8", "replace")
 
 
-def _cells_of(whole: Any, repairs: list[str]) -> list[Any] | None:  # noqa: ANN401 - unchecked
+def _cells_of(whole: Any) -> list[Any] | None:  # noqa: ANN401 - unchecked
     if not isinstance(whole, dict):
         return None
     if isinstance(whole.get("cells"), list):
         found: list[Any] = whole["cells"]
         return found
-    sheets = whole.get("worksheets")
+    sheets = whole.get("worksheets")  # notebook format 3
     if not isinstance(sheets, list):
         return None
-    repairs.append("It was saved in the notebook format 3, and read all the same.")
-    sheets = [one for one in sheets if isinstance(one, dict)]
-    return [cell for sheet in sheets for cell in sheet.get("cells") or ()]
+    lists = [one.get("cells") for one in sheets if isinstance(one, dict)]
+    return [cell for cells in lists if isinstance(cells, list) for cell in cells]
 
 
 def _salvaged(text: str, repairs: list[str]) -> Notebook:
-    """The whole cells of a file that ends too early, or has been cut or joined somewhere."""
+    """Return the whole cells of a file that ends too early or is damaged somewhere."""
     start = text.find('"cells"')
     opening = text.find("[", start) if start >= 0 else -1
     if opening < 0:
-        return Notebook(problem="The file is no notebook: it is not JSON, and has no cells.")
+        return Notebook(problem="The file is not a notebook: it is not JSON, and has no cells.")
     found = _objects(text, opening + 1)
     if not found:
         return Notebook(problem="The file breaks off before its first cell ends.", cut=True)
     lesson = re.search(r'"lesson":\s*"(\w{1,100})"', text)
-    cells = _read_cells(found, repairs)
-    return Notebook(cells, lesson[1] if lesson else "", tuple(repairs), cut=True)
+    return replace(_made(found, lesson[1] if lesson else "", repairs), cut=True)
 
 
 def _objects(text: str, place: int) -> list[Any]:
@@ -143,27 +189,28 @@ def _objects(text: str, place: int) -> list[Any]:
     return found
 
 
-def _read_cells(cells: list[Any], repairs: list[str]) -> tuple[Cell, ...]:
+def _made(cells: list[Any], lesson: str, repairs: list[str]) -> Notebook:
     if len(cells) > MOST_CELLS:
         repairs.append(f"It has {len(cells)} cells; the first {MOST_CELLS} were read.")
     read = [_read_cell(n, one, repairs) for n, one in enumerate(cells[:MOST_CELLS])]
-    return tuple(one for one in read if one is not None)
+    found = tuple(one for one in read if one is not None)
+    for one in found:
+        if len(one.source) > MOST_OF_A_CELL:
+            said = f"Cell {one.place + 1} has {len(one.source)} characters, more than any answer."
+            return Notebook((), lesson, problem=said)
+    return Notebook(found, lesson, tuple(repairs))
 
 
 def _read_cell(place: int, cell: Any, repairs: list[str]) -> Cell | None:  # noqa: ANN401
     if not isinstance(cell, dict):
-        repairs.append(f"Cell {place + 1} is no cell, and was left out.")
-        return None
-    source = _source(cell.get("source", cell.get("input", "")))
-    if len(source) > MOST_OF_A_CELL:
-        repairs.append(f"Cell {place + 1} has {len(source)} characters, and was left out.")
+        repairs.append(f"Cell {place + 1} is not a cell, and was left out.")
         return None
     names = _ours(cell)
     sort = cell.get("cell_type")
     return Cell(
         place,
         sort if sort in ("code", "markdown", "raw") else "raw",
-        source,
+        _source(cell.get("source", cell.get("input", ""))),
         _name(cell.get("id")),
         _name(names.get("exercise")),
         _name(names.get("check")),

@@ -1,4 +1,4 @@
-"""How far grading is, for whoever waits for it."""
+"""Show how far grading is."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ def progress_bar(stream: TextIO | None = None) -> Iterator[Callable[[int, int], 
 
 
 def _announced(known: int, total: int) -> str:
-    """What there is to do; equal answers are one."""
+    """Return what there is to do; equal answers are one."""
     earlier = f", {known} of them judged already" if known else ""
     return f"{total} different answer{'' if total == 1 else 's'}{earlier}"
 
 
 class _Bar:
-    """A bar that runs to and fro until the first answer is judged."""
+    """Show a bar, which runs to and fro until the first answer is judged."""
 
     def __init__(self, shown: Progress) -> None:
         self._shown = shown
@@ -70,7 +70,7 @@ class _Bar:
 
 
 class _Lines:
-    """A line at the beginning, one every few seconds, and one at the end."""
+    """Print a line at the beginning, one every few seconds, and one at the end."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream

@@ -1,24 +1,37 @@
-"""Make what learners get, and bring an earlier release up to date without taking anything away."""
+"""Make what learners get, and bring an earlier release up to date without taking anything away.
+
+A release holds all that learners need and nothing that solves an exercise: no lesson sources, no
+solution pages, no answers that `hint` gives last, no tests and no history. Pages from 05 on begin
+with the package of page 02 and the nodes that pages 03 and 04 show (`workspace.catch_up`), also for
+those who come without them; so these files are part of a release that has such a page. Its
+`package.xml` is one answer to exercise 02a.
+"""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
+from importlib.resources import files
 from pathlib import Path, PurePosixPath
 
 from rosbeat.errors import GradingError
+from rosbeat.exercises.exercise import BLANK
+from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.course_pages import CoursePage, course_pages
-from rosbeat.grading.release_files import POINTS, File, release_files
+from rosbeat.grading.notebook import read_notebook
 from rosbeat.grading.remarks import printable
-from rosbeat.grading.weights import read_points
+from rosbeat.grading.submissions import MARKER
+from rosbeat.grading.weights import Points, read_points
 from rosbeat.grading.writing import write_whole
+from rosbeat.workspace.catching_up import NODES, PACKAGE
 
-#: The file that says that a folder is a release, and what was released.
-MARKER = ".rosbeat-release.json"
 _FORMAT = 1
+POINTS = "points.csv"
+WORKFLOW = ".github/workflows/check.yml"
 
 #: For each file, the digests of all its versions that were released.
 History = dict[str, list[str]]
@@ -26,7 +39,7 @@ History = dict[str, list[str]]
 
 @dataclass(frozen=True)
 class Released:
-    """What a release has done.
+    """Hold what a release did.
 
     Attributes:
         pages: The pages that are in the folder now.
@@ -44,7 +57,11 @@ class Released:
 
 
 def release(
-    root: Path, target: Path, pages: Sequence[CoursePage] = (), points: Path | None = None
+    root: Path,
+    target: Path,
+    pages: Sequence[CoursePage] = (),
+    points: Path | None = None,
+    github: bool = False,
 ) -> Released:
     """Make a release, or bring one up to date.
 
@@ -55,6 +72,8 @@ def release(
         target: The folder to make. One that has something in it has to be an earlier release.
         pages: The pages to release, by default all.
         points: A file that says what exercises are worth.
+        github: Whether to add a workflow that checks the pages on each push. One that was released
+            earlier stays part of it.
 
     Returns:
         What was done.
@@ -71,22 +90,24 @@ def release(
     if points is None and POINTS in history and (target / POINTS).is_file():
         points = target / POINTS
     worth = read_points(points) if points else None
-    files = release_files(root, chosen, worth, points.read_bytes() if points else b"")
-    return _put(target, files, history, chosen)
+    found = release_files(root, chosen, worth, points.read_bytes() if points else b"")
+    if github or WORKFLOW in history:
+        found[WORKFLOW] = File(workflow(chosen).encode("utf-8"))
+    return _put(target, found, history, chosen)
 
 
 def _history(root: Path, target: Path) -> History:
-    """What was released into a folder so far; the folder is looked at before anything is done."""
+    """Return what was released into a folder so far; refuse a folder that cannot be used."""
     place = target.resolve()
     if place == root.resolve() or root.resolve() in place.parents:
-        raise _refusal(target, "is inside of the course itself", "Learners get a folder of its own")
+        raise _refusal(target, "is inside the course itself", "Learners get a folder of their own")
     if target.exists() and not target.is_dir():
         raise _refusal(target, "is a file", "A release is a folder")
     if not target.is_dir() or not any(target.iterdir()):
         return {}
     history = _read_marker(target / MARKER)
     if history is None:
-        means = "It is no release of this course, and what is in it would be mixed with one"
+        means = "It is not a release of this course, and what is in it would be mixed with one"
         raise _refusal(target, "has something in it", means)
     return history
 
@@ -114,7 +135,7 @@ def _read_marker(path: Path) -> History | None:
 
 
 def is_inside(name: str) -> bool:
-    """Whether a path stays within the folder that it starts from.
+    """Return whether a path stays within the folder that it starts from.
 
     Args:
         name: A path with slashes.
@@ -164,7 +185,7 @@ def _digest(content: bytes) -> str:
 
 
 def _is_changed(target: Path, name: str, digests: Sequence[str]) -> bool:
-    """Whether there is something else than any version that was released."""
+    """Return whether there is anything but a version that was released."""
     path = target / name
     inside = path.parent.resolve().is_relative_to(target.resolve())
     if path.is_symlink() or not inside:
@@ -196,3 +217,214 @@ def _remove(target: Path, name: str) -> bool:
 def _write_marker(target: Path, history: History) -> None:
     text = json.dumps({"format": _FORMAT, "files": history}, indent=1, sort_keys=True)
     write_whole(target / MARKER, f"{text}\n")
+
+
+# What is in it.
+
+#: Folders of the course that learners get, and single files.
+_FOLDERS = ("environment", "src/rosbeat", "src/ros2_command", ".devcontainer")
+_FILES = (
+    *("pyproject.toml", "LICENSE", "COLCON_IGNORE", ".gitignore", ".dockerignore"),
+    "docs/troubleshooting.md",
+)
+_CLUTTER = {"__pycache__", ".ipynb_checkpoints", ".mypy_cache", ".ruff_cache", ".DS_Store"}
+_CLUTTER_ENDINGS = (".pyc", ".pyo", ".part", ".swp", "~")
+#: Where answers are, within the folders above.
+_ANSWERS = ("src/rosbeat/exercises/solved/", "src/rosbeat/workspace/finished/")
+#: Of these, what pages need that begin where earlier ones end, and the first of these pages.
+_TO_BEGIN_WITH = tuple(
+    f"src/rosbeat/workspace/finished/{one}"
+    for one in ("package.xml", *(f"{PACKAGE}/{node}.py" for node in NODES))
+)
+FIRST_TO_CATCH_UP = "05"
+_OTHER_POINTS = (
+    "These points count. A check on a page says how many of the course's own points you have, and\n"
+    "these are other ones."
+)
+
+
+@dataclass(frozen=True)
+class File:
+    """Hold a file of a release.
+
+    Attributes:
+        content: What is in it.
+        is_program: Whether it can be executed.
+    """
+
+    content: bytes
+    is_program: bool = False
+
+
+def release_files(
+    root: Path, pages: Sequence[CoursePage], points: Points | None = None, sheet: bytes = b""
+) -> dict[str, File]:
+    """Gather the files of a release.
+
+    Args:
+        root: The checkout of the course.
+        pages: The pages to release.
+        points: What exercises are worth, if it is not what the course says.
+        sheet: The file that says so.
+
+    Returns:
+        The files by their paths, with slashes.
+
+    Raises:
+        GradingError: If somebody has worked in a page.
+    """
+    found = {path: _file(root / path) for path in sorted(_paths(root, catches_up(pages)))}
+    released = {page.lesson for page in pages}
+    notebooks = page_bytes(root / "notebooks", pages, released)
+    found.update({f"notebooks/{name}": File(data) for name, data in notebooks.items()})
+    if sheet:
+        found[POINTS] = File(sheet)
+    found["README.md"] = File(readme(pages, points or Points()).encode("utf-8"))
+    return found
+
+
+def catches_up(pages: Iterable[CoursePage]) -> bool:
+    """Return whether a release has a page that begins with what earlier pages leave.
+
+    Args:
+        pages: The pages to release.
+    """
+    return any(page.number >= FIRST_TO_CATCH_UP for page in pages)
+
+
+def _file(path: Path) -> File:
+    return File(path.read_bytes(), os.access(path, os.X_OK))
+
+
+def _paths(root: Path, to_begin_with: bool) -> Iterator[str]:
+    needed = _TO_BEGIN_WITH if to_begin_with else ()
+    for folder in _FOLDERS:
+        for path in _walk(root / folder):
+            name = path.relative_to(root).as_posix()
+            if name in needed or not name.startswith(_ANSWERS):
+                yield name
+    yield from (name for name in _FILES if (root / name).is_file())
+
+
+def _walk(folder: Path) -> Iterator[Path]:
+    for place, folders, names in os.walk(folder):
+        folders[:] = [
+            one for one in folders if one not in _CLUTTER and not one.endswith(".egg-info")
+        ]
+        for name in names:
+            path = Path(place, name)
+            if name in _CLUTTER or name.endswith(_CLUTTER_ENDINGS):
+                continue
+            if path.is_file() and not path.is_symlink():
+                yield path
+
+
+def readme(pages: Sequence[CoursePage], points: Points) -> str:
+    """Return the first file that a learner reads.
+
+    Args:
+        pages: The pages of the release.
+        points: What their exercises are worth.
+    """
+    text = (files("rosbeat.grading") / "release_readme.md").read_text(encoding="utf-8")
+    rows = [_row(page, points) for page in pages]
+    rows += ["", _OTHER_POINTS] if points.by_exercise else []
+    return text.replace("{pages}", "\n".join(rows))
+
+
+def _row(page: CoursePage, points: Points) -> str:
+    exercises = dict.fromkeys(one.exercise for one in page.wanted)
+    worth = {one: points.of(one, EXERCISES[one].points) for one in exercises}
+    said = (
+        f"{one}: {round(many, 2):g}" if many else f"{one}: not graded"
+        for one, many in worth.items()
+    )
+    return f"| [{page.number} {page.title}](notebooks/{page.lesson}.ipynb) | {', '.join(said)} |"
+
+
+def workflow(pages: Iterable[CoursePage]) -> str:
+    """Return a GitHub workflow that checks each page on each push, a step for each page.
+
+    Args:
+        pages: The pages of the release.
+    """
+    text = (files("rosbeat.grading") / "release_workflow.yml").read_text(encoding="utf-8")
+    return text + "".join(map(_step, pages))
+
+
+def _step(page: CoursePage) -> str:
+    name = json.dumps(f"{page.number} {page.title}", ensure_ascii=False)
+    command = f"rosbeat check notebooks/{page.lesson}.ipynb"
+    return (
+        f"      - name: {name}\n"
+        "        if: ${{ !cancelled() && steps.environment.outcome == 'success' }}\n"
+        f'        run: ./environment/course shell -c "{command}"\n'
+    )
+
+
+# The pages: as learners get them, without an answer in them.
+
+#: A link to another page, as it stands in the file of a page.
+_LINK = re.compile(r"\[([^\[\]]*)\]\((\d\d_\w+)\.ipynb(?:#[^()\s]*)?\)")
+
+
+def page_bytes(
+    folder: Path, pages: Iterable[CoursePage], released: Collection[str]
+) -> dict[str, bytes]:
+    """Read the pages, untouched by anybody, with links only to pages that are there.
+
+    Args:
+        folder: The folder `notebooks` of the course.
+        pages: Those to release.
+        released: Names of all lessons that the release has.
+
+    Returns:
+        The files by their names.
+
+    Raises:
+        GradingError: If somebody has worked in a page.
+    """
+    found = {
+        f"{page.lesson}.ipynb": (folder / f"{page.lesson}.ipynb").read_bytes() for page in pages
+    }
+    worked = [said for name, data in found.items() for said in worked_in(name, data)]
+    if worked:
+        raise GradingError(
+            f"Somebody has worked in the course's own pages: {'; '.join(worked)}.",
+            "Learners would get these pages with answers in them, so nothing is released.",
+            "Keep a copy if you need it, and make the pages anew:  rosbeat build --no-run",
+        )
+    return {name: without_links(data, released) for name, data in found.items()}
+
+
+def worked_in(name: str, data: bytes) -> list[str]:
+    """Say where somebody has worked in a page: what was filled in, or has an output.
+
+    Args:
+        name: The page's file name.
+        data: The file.
+    """
+    said = [
+        f"{name} has no blank in exercise {cell.exercise}"
+        for cell in read_notebook(data).cells
+        if cell.exercise and BLANK not in cell.source
+    ]
+    if any(
+        cell.get("outputs") or cell.get("execution_count") for cell in json.loads(data)["cells"]
+    ):
+        said.append(f"{name} was run")
+    return said
+
+
+def without_links(data: bytes, released: Collection[str]) -> bytes:
+    """Turn links to pages that are not released into plain text.
+
+    Args:
+        data: A page's file.
+        released: Names of the lessons that are.
+    """
+
+    def kept(link: re.Match[str]) -> str:
+        return link[0] if link[2] in released else link[1]
+
+    return _LINK.sub(kept, data.decode("utf-8")).encode("utf-8")

@@ -18,8 +18,9 @@ class Remark:
 
     Attributes:
         about: What it is: `late`, `duplicate`, `renamed`, `empty`, `half-uploaded`, `mended`,
-            `wrong-course`, `unreadable`, `too-large`, `refused` or `left-out`; or `manual`, a line
-            of `manual.csv`; or `reaches-inside`, an answer that reaches for what observes it.
+            `wrong-course`, `unreadable` or `left-out`; or `manual`, a line of `manual.csv`; or
+            `roster`, a line of the roster or somebody who is not on it; or `reaches-inside`, an
+            answer that reaches for what observes it.
         path: The file, as it was named, made safe to print.
         text: One sentence about what was found and what was done.
     """

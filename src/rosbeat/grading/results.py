@@ -16,7 +16,7 @@ from rosbeat.record_json import parse, record, refusal, write
 
 FORMAT = "rosbeat results"
 #: Raised by one whenever a field is added, taken away or given another meaning.
-VERSION = 2
+VERSION = 3
 #: Fields of a mark that differ from run to run.
 UNSTEADY = ("seconds",)
 _POINTS = ("points", "out_of", "judged")

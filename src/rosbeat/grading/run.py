@@ -20,7 +20,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
-from queue import SimpleQueue
+from queue import Full, Queue, SimpleQueue
 from types import MappingProxyType
 from typing import Generic, TypeVar
 
@@ -30,13 +30,13 @@ from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.answers import NOT_THERE, Answer, answers_on
-from rosbeat.grading.collecting import Collection, HandedIn, Submission
 from rosbeat.grading.course_pages import CoursePage
 from rosbeat.grading.jobs import LOST, Evidence, Job, read_evidence, to_line
 from rosbeat.grading.judging import WATCHER_LOST, judge, untouched
 from rosbeat.grading.ledger import Ledger, key_of
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import REACHES_INSIDE, Remark, printable
+from rosbeat.grading.submissions import Collection, HandedIn, Submission
 from rosbeat.grading.weights import Points, scaled
 from rosbeat.grading.worker import UNSAFE, environment
 from rosbeat.records import Observation, Outcome
@@ -496,13 +496,16 @@ class _Queue(Generic[Key]):
 
     Attributes:
         waiting: The submissions.
-        results: Evidence by key; what went wrong; None from each thread that is done.
+        results: Evidence by key; what went wrong; None from each thread that is done. It holds only
+            a few, so that no submission is read long before its turn.
         lock: Held by whoever takes the next submission.
+        is_given_up: Whether nobody takes results any more.
     """
 
     waiting: Iterator[Sequence[tuple[Key, Job]]]
-    results: SimpleQueue[tuple[Key, Evidence] | BaseException | None]
+    results: Queue[tuple[Key, Evidence] | BaseException | None]
     lock: threading.Lock = field(default_factory=threading.Lock)
+    is_given_up: bool = False
 
     def next(self) -> list[tuple[Key, Job]]:
         """Return the next submission; an empty one if there is none."""
@@ -554,7 +557,7 @@ class Pool:
         Raises:
             GradingError: If no sandbox can be made.
         """
-        queue: _Queue[Key] = _Queue(iter(submissions), SimpleQueue())
+        queue: _Queue[Key] = _Queue(iter(submissions), Queue(self.size))
         threads = [threading.Thread(target=self._serve, args=(queue,)) for _ in range(self.size)]
         with self._lock:
             self._threads = [one for one in self._threads if one.is_alive()] + threads
@@ -571,7 +574,7 @@ class Pool:
                 else:
                     yield found
         finally:
-            queue.waiting = iter(())
+            queue.waiting, queue.is_given_up = iter(()), True
 
     def _serve(self, queue: _Queue[Key]) -> None:
         """Observe submissions with one worker, or those that come after it, until there is none."""
@@ -580,18 +583,25 @@ class Pool:
             while (left := queue.next()) and not self._is_closed:
                 while left and not self._is_closed:
                     for evidence in worker.observe([job for _, job in left]):
-                        queue.results.put((left.pop(0)[0], evidence))
+                        self._put(queue, (left.pop(0)[0], evidence))
                         tries = 0
                     if left:
                         worker, tries = self._replaced(worker), tries + 1
                     if left and tries == _TRIES:
-                        queue.results.put((left.pop(0)[0], Evidence(LOST)))
+                        self._put(queue, (left.pop(0)[0], Evidence(LOST)))
                         tries = 0
         except BaseException as error:
-            queue.results.put(error)
+            self._put(queue, error)
         finally:
             self._idle.put(worker)
-            queue.results.put(None)
+            self._put(queue, None)
+
+    def _put(self, queue: _Queue[Key], result: tuple[Key, Evidence] | BaseException | None) -> None:
+        """Add a result, as soon as there is room for it; drop it if nobody takes any more."""
+        while not (queue.is_given_up or self._is_closed):
+            with suppress(Full):
+                queue.results.put(result, timeout=0.1)
+                return
 
     def _new_worker(self) -> Worker:
         worker = Worker(self._unsafe, self._patience)

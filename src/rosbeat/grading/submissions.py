@@ -1,20 +1,378 @@
-"""Whether what somebody points at can be submissions at all; an empty class is a slip, no success.
+"""Find out who handed in what: from a folder or a zip file to the pages of each learner.
 
-Whoever names the wrong folder finds out here, before anything is written.
+The forms of names are those of Moodle's "Download all submissions", with and without folders
+(`mod/assign/locallib.php`, `download_submissions`), of Canvas's "Download Submissions"
+(`app/models/content_zipper.rb`), and a folder or a zip file for each learner.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby
 from pathlib import Path
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.collecting import Collection
+from rosbeat.grading.course_pages import CoursePage, which_page
 from rosbeat.grading.ledger import FILE as LEDGER
-from rosbeat.grading.release import MARKER
+from rosbeat.grading.notebook import Notebook, read_notebook
 from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.uploads import EMPTY_FOLDER, OTHER_ARCHIVES, Allowance, File, open_upload
+from rosbeat.grading.uploads import opened as opened_file
+
+#: The file that marks a folder as a release; see `release`.
+MARKER = ".rosbeat-release.json"
+
+
+@dataclass(frozen=True)
+class HandedIn:
+    """Hold one page as one learner handed it in.
+
+    Attributes:
+        page: The lesson's name, such as `03_write_a_publisher`.
+        path: Where it was found.
+        notebook: What could be read of it. If it has a `problem`, nothing could.
+        late: Whether the system marked it as late, or it is newer than the deadline.
+        modified: When it was last changed, in seconds since 1970; 0 if unknown.
+        off: The share of its points that is taken off because it is late, from 0 to 1.
+    """
+
+    page: str
+    path: str
+    notebook: Notebook
+    late: bool
+    modified: float
+    off: float = 0.0
+
+
+@dataclass(frozen=True)
+class Submission:
+    """Hold what one learner handed in.
+
+    Attributes:
+        learner: What tells this learner from others.
+        name: What the learner is called.
+        system: Where it came from: `moodle`, `canvas` or `folder`.
+        pages: One for each page of the course that was handed in, in the order of the course.
+        remarks: What is worth telling about these files.
+        unread: Files that cannot be read and may be any page, with the reason.
+    """
+
+    learner: str
+    name: str
+    system: str
+    pages: tuple[HandedIn, ...] = ()
+    remarks: tuple[Remark, ...] = ()
+    unread: tuple[Remark, ...] = ()
+
+    @property
+    def called(self) -> str:
+        """Return the name, with the id that tells the learner from others of that name."""
+        return self.name if self.name == self.learner else f"{self.name} ({self.learner})"
+
+
+@dataclass(frozen=True)
+class Collection:
+    """Hold what a class handed in.
+
+    Attributes:
+        submissions: One for each learner, sorted by `learner`.
+        remarks: About files that belong to no learner.
+    """
+
+    submissions: tuple[Submission, ...]
+    remarks: tuple[Remark, ...] = ()
+
+
+def collect(source: Path, pages: Sequence[CoursePage]) -> Collection:
+    """Find out who handed in what.
+
+    Args:
+        source: A folder or a zip file: a folder or a zip file for each learner, or what Moodle or
+            Canvas lets an instructor download.
+        pages: The pages of the course.
+
+    Raises:
+        GradingError: If `source` is neither a folder nor a zip file.
+    """
+    remarks: list[Remark] = []
+    owned: list[tuple[Owner, File]] = []
+    with open_upload(source) as files:
+        level = _wrappers([_as_folder(file) for file in files])
+        for file in files:
+            owner = owner_of(file.parts[level:])
+            if owner is not None:
+                owned.append((owner, file))
+            elif file.problem != EMPTY_FOLDER:
+                text = "It is in no learner's folder, and its name names no learner."
+                remarks.append(Remark("left-out", file.path, file.problem or text))
+        owned.sort(key=lambda one: (one[0].id, one[1].parts))
+        submissions = tuple(
+            _submission(list(group), pages) for _, group in groupby(owned, lambda one: one[0].id)
+        )
+    return Collection(submissions, tuple(remarks))
+
+
+# Whose a file is.
+
+#: `Ana Muster_4711_assignsubmission_file_`, and behind it the file's name if there are no folders.
+_MOODLE = re.compile(r"(?s)(?P<name>.+)_(?P<id>\d+)_assignsubmission_[a-z]+(?:_(?P<file>.*))?")
+#: `musterana_LATE_4711_998877_page-1.ipynb`; the number before the suffix counts attempts.
+_CANVAS = re.compile(
+    r"(?s)(?P<name>[^_]+)_(?P<late>LATE_)?(?P<id>\d+)_(?P<submission>\d+)_(?P<file>.+)"
+)
+_ATTEMPT = re.compile(r"(?s)(?P<stem>.+)-(?P<number>\d{1,3})(?P<suffix>\.\w+)")
+
+
+@dataclass(frozen=True)
+class Owner:
+    """Hold whose a file is.
+
+    Attributes:
+        id: What tells a learner from others: the number that the system gave, or the folder's name.
+        name: What the learner is called.
+        file: The file's own name, path included, without what the system added.
+        system: `moodle`, `canvas` or `folder`.
+        late: Whether the system marked it as late.
+        attempt: Which attempt it is, if the system counts them; else 0.
+    """
+
+    id: str
+    name: str
+    file: str
+    system: str
+    late: bool = False
+    attempt: int = 0
+
+
+def owner_of(parts: tuple[str, ...]) -> Owner | None:
+    """Return whose a file is, or None if its path does not tell.
+
+    Args:
+        parts: Its path, folder by folder.
+    """
+    return _of_moodle(parts) or _of_canvas(parts) or _of_folder(parts)
+
+
+def _of_moodle(parts: tuple[str, ...]) -> Owner | None:
+    for place, part in enumerate(parts):
+        found = _MOODLE.fullmatch(part)
+        if found:
+            rest = [found["file"] or "", *parts[place + 1 :]]
+            file = "/".join(one for one in rest if one)
+            return Owner(found["id"], found["name"].strip(), file, "moodle")
+    return None
+
+
+def _of_canvas(parts: tuple[str, ...]) -> Owner | None:
+    for place, part in enumerate(parts):
+        found = _CANVAS.fullmatch(part)
+        if not found:
+            continue
+        again = _ATTEMPT.fullmatch(found["file"])
+        file = again["stem"] + again["suffix"] if again else found["file"]
+        attempt = int(again["number"]) if again else 0
+        rest = "/".join((file, *parts[place + 1 :]))
+        late = bool(found["late"])
+        return Owner(found["id"], found["name"].strip(), rest, "canvas", late, attempt)
+    return None
+
+
+def _of_folder(parts: tuple[str, ...]) -> Owner | None:
+    if len(parts) == 1 and parts[0].lower().endswith(".zip"):
+        parts = (parts[0][: -len(".zip")], parts[0])
+    return Owner(parts[0], parts[0], "/".join(parts[1:]), "folder") if len(parts) > 1 else None
+
+
+def own_path(path: str) -> str:
+    """Return a file's path as its learner knows it, without what the system added.
+
+    Args:
+        path: Where it was found, with slashes; it stays if it does not tell whose it is.
+    """
+    owner = owner_of(tuple(path.split("/")))
+    return (owner.file if owner else "") or path
+
+
+def _as_folder(file: File) -> tuple[str, ...]:
+    return (*file.parts[:-1], file.parts[-1][: -len(".zip")], "") if file.is_zip else file.parts
+
+
+def _wrappers(paths: Sequence[tuple[str, ...]]) -> int:
+    """Return how many folders around everything do not tell learners apart.
+
+    A download is often one folder with all others in it.
+    """
+    level = 0
+    while paths and all(len(path) > level + 2 for path in paths):
+        names = {path[level] for path in paths}
+        if len(names) != 1 or any(_MOODLE.fullmatch(n) or _CANVAS.fullmatch(n) for n in names):
+            break
+        level += 1
+    return level
+
+
+# What one learner handed in.
+
+#: Why one of several files of a page counts, in the order in which `_rank` compares them.
+_DECIDES = (
+    "of the other one nothing can be read",
+    "it is the last attempt",
+    "it is the newest, by the date of the file",
+    "the dates are the same, and it has more cells",
+)
+_NOTEBOOKS = (".ipynb", ".json", ".txt")
+#: Remarks about files that are left out, one by one; of more, only the number is told.
+_MOST_LEFT_OUT = 20
+_Found = tuple["Owner", HandedIn]
+
+
+def _submission(files: Sequence[tuple[Owner, File]], pages: Sequence[CoursePage]) -> Submission:
+    first, allowed = files[0][0], Allowance()
+    reader = _Reader(pages, allowed)
+    for owner, outer in files:
+        for file in opened_file(outer, allowed):
+            inside = "/".join(file.parts[len(outer.parts) :])
+            reader.read(replace(owner, file=f"{owner.file}/{inside}") if inside else owner, file)
+    lessons = [page.lesson for page in pages]
+    remarks = reader.remarks
+    chosen = [
+        _chosen([one for one in reader.found if one[1].page == lesson], remarks)
+        for lesson in sorted({one[1].page for one in reader.found}, key=lessons.index)
+    ]
+    if reader.left_out > _MOST_LEFT_OUT:
+        text = f"{reader.left_out - _MOST_LEFT_OUT} more files are not notebooks."
+        remarks.append(Remark("left-out", printable(first.name), text))
+    unread = tuple(reader.unread)
+    return Submission(first.id, first.name, first.system, tuple(chosen), tuple(remarks), unread)
+
+
+class _Reader:
+    """Read the files of one learner, and keep what is found and what is worth telling."""
+
+    def __init__(self, pages: Sequence[CoursePage], allowed: Allowance) -> None:
+        self._pages = pages
+        self._allowed = allowed
+        self.found: list[_Found] = []
+        self.remarks: list[Remark] = []
+        self.unread: list[Remark] = []
+        self.left_out = 0
+
+    def read(self, owner: Owner, file: File) -> None:
+        """Read one file."""
+        if file.problem == EMPTY_FOLDER:
+            self.remarks.append(Remark("empty", file.path, file.problem))
+            return
+        named = next((page for page in self._pages if page.lesson in owner.file), None)
+        if not file.problem and not file.parts[-1].lower().endswith(_NOTEBOOKS):
+            self._another_format(owner, file, named)
+            return
+        notebook = self._notebook(file)
+        if notebook.problem:
+            self._unreadable(owner, file, notebook, named)
+            return
+        page = which_page(notebook, owner.file, self._pages)
+        if page is None:
+            text = "It is a notebook, but not a page of this course, so it is left out."
+            self.remarks.append(Remark("wrong-course", file.path, text))
+        else:
+            self._page(owner, file, notebook, page)
+
+    def _notebook(self, file: File) -> Notebook:
+        try:
+            return read_notebook(self._allowed.read(file))
+        except OSError as error:
+            return Notebook(problem=printable(str(error), 400))
+
+    def _another_format(self, owner: Owner, file: File, named: CoursePage | None) -> None:
+        """Note a file that is not a notebook; one that may hold a page waits for a person."""
+        is_archive = file.parts[-1].lower().endswith(OTHER_ARCHIVES)
+        if is_archive or named is not None:
+            what = "an archive of a kind that is not opened" if is_archive else "not a notebook"
+            problem = f"The file is {what}. Ask for the page itself, an .ipynb file."
+            self._unreadable(owner, file, Notebook(problem=problem), named)
+            return
+        is_typed = any("_assignsubmission_onlinetext" in part for part in file.parts)
+        what = "text that was typed into Moodle" if is_typed else "not a notebook"
+        self._leave_out(file, f"It is {what}, so it is left out.")
+
+    def _leave_out(self, file: File, text: str) -> None:
+        self.left_out += 1
+        if self.left_out <= _MOST_LEFT_OUT:
+            self.remarks.append(Remark("left-out", file.path, text))
+
+    def _unreadable(
+        self, owner: Owner, file: File, notebook: Notebook, named: CoursePage | None
+    ) -> None:
+        name = file.parts[-1].lower()
+        is_attempt = ".ipynb" in name or name.endswith((".zip", *OTHER_ARCHIVES)) or not name
+        named = named or (self._numbered(name) if is_attempt else None)
+        if named is None and not is_attempt:
+            self._leave_out(file, f"It is left out. {notebook.problem}")
+            return
+        about = "empty" if "is empty" in notebook.problem else "unreadable"
+        remark = Remark("half-uploaded" if notebook.cut else about, file.path, notebook.problem)
+        self.remarks.append(remark)
+        if named is None:
+            self.unread.append(remark)
+        else:
+            self._keep(owner, file, notebook, named)
+
+    def _numbered(self, name: str) -> CoursePage | None:
+        """Return the page that an unreadable `03.ipynb` or `03 final.zip` is meant to be."""
+        number = re.match(r"(\d\d)(?!\d)", name)
+        known = (page for page in self._pages if number and number[1] == page.number)
+        return next(known, None)
+
+    def _page(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
+        there = {cell.id for cell in notebook.cells} & page.ids
+        if notebook.cut and there >= page.ids - {""} and there:
+            said = "The end of the file is damaged; all cells of the page are there."
+            notebook = replace(notebook, cut=False, repairs=(*notebook.repairs, said))
+        self.remarks += [Remark("mended", file.path, one) for one in notebook.repairs]
+        if notebook.cut:
+            cells = f"{len(there) or len(notebook.cells)} of the page's {len(page.cells)} cells"
+            text = f"The file is not whole: {cells} are there."
+            self.remarks.append(Remark("half-uploaded", file.path, text))
+        if page.lesson not in owner.file:
+            text = f"By its content, this is the page {page.lesson}; it has another name."
+            self.remarks.append(Remark("renamed", file.path, text))
+        self._keep(owner, file, notebook, page)
+
+    def _keep(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
+        handed = HandedIn(page.lesson, file.path, notebook, owner.late, file.modified)
+        self.found.append((owner, handed))
+
+
+def _chosen(found: Sequence[_Found], remarks: list[Remark]) -> HandedIn:
+    """Return the last readable attempt; then the newest; then the one with most cells."""
+    best = max(found, key=_rank)
+    for one in found:
+        if one is not best:
+            text = f"The page is there {len(found)} times; {own_path(best[1].path)} counts: "
+            text += f"{_why(_rank(best), _rank(one))}."
+            remarks.append(Remark("duplicate", one[1].path, text))
+    return best[1]
+
+
+def _rank(one: _Found) -> tuple[bool, int, float, int]:
+    cells = one[1].notebook.cells
+    return bool(cells), one[0].attempt, one[1].modified, len(cells)
+
+
+def _why(best: tuple[float, ...], other: tuple[float, ...]) -> str:
+    """Return what decided between two files; see `_rank`."""
+    for why, mine, its in zip(_DECIDES, best, other, strict=True):
+        if mine != its:
+            return why
+    return "nothing tells them apart, and it is the first by name"
+
+
+# What cannot be submissions.
 
 #: Remarks about files that somebody meant to be a page.
-_ATTEMPTS = {"empty", "half-uploaded", "unreadable", "too-large", "refused"}
+_ATTEMPTS = {"empty", "half-uploaded", "unreadable"}
 _MEANS = """\
 Nothing was written. Submissions are the zip file that Moodle or Canvas lets you download,
                  or a folder (or a zip file) for each learner with pages of the course in it, as
@@ -22,26 +380,30 @@ Nothing was written. Submissions are the zip file that Moodle or Canvas lets you
 _TRY = "Give that zip file or folder; docs/instructors.md shows what it may look like."
 
 
-def require_submissions(source: Path, found: Collection, pages_named: bool) -> None:
-    """Refuse what holds no submission.
+def require_submissions(source: Path, found: Collection, is_known: bool) -> None:
+    """Refuse what holds no submission, so that a wrong folder is noticed.
 
     Args:
-        source: What somebody has pointed at.
+        source: What somebody pointed at.
         found: What was found in it.
-        pages_named: Whether it is known without any page which ones count. Then a class in which
-            nobody has handed in a page that can be read is a class all the same.
+        is_known: Whether the pages that count, or the learners, are known without any page. Then a
+            class in which nobody handed in a page that can be read is a class all the same.
 
     Raises:
-        GradingError: If it is a release, or there is neither a page nor a try of one.
+        GradingError: If it is a release, or there is neither a page nor an attempt at one.
     """
+    name = printable(str(source), 1000)
     if (source / MARKER).is_file():
-        raise GradingError(f"{_name(source)} is what learners get, a release.", _MEANS, _TRY)
+        raise GradingError(f"{name} is what learners get, a release.", _MEANS, _TRY)
     if any(one.pages for one in found.submissions):
         return
-    if pages_named and _somebody_tried(found):
-        return
-    raise GradingError(f"{_name(source)} has no submission in it: {_why(source, found)}", _MEANS,
-                       _TRY)  # fmt: skip
+    tried = any(
+        one.system != "folder" or one.unread or any(each.about in _ATTEMPTS for each in one.remarks)
+        for one in found.submissions
+    )
+    if not (is_known and tried):
+        raise GradingError(f"{name} has no submission in it: {_why_none(source, found)}", _MEANS,
+                           _TRY)  # fmt: skip
 
 
 def require_apart(source: Path, out: Path) -> None:
@@ -56,33 +418,18 @@ def require_apart(source: Path, out: Path) -> None:
     """
     if out.resolve().is_relative_to(source.resolve()):
         raise GradingError(
-            f"The results would lie in the folder of the submissions, {_name(source)}.",
+            f"The results would be inside the folder of submissions, {printable(str(source))}.",
             "The next run would take them for something that was handed in; nothing was written.",
             "Name a folder beside it:  --out ~/class/grades",
         )
 
 
-def _name(source: Path) -> str:
-    return printable(str(source), 1000)
-
-
-def _somebody_tried(found: Collection) -> bool:
-    return any(
-        one.system != "folder" or any(remark.about in _ATTEMPTS for remark in one.remarks)
-        for one in found.submissions
-    )
-
-
-def _why(source: Path, found: Collection) -> str:
+def _why_none(source: Path, found: Collection) -> str:
     remarks = [*found.remarks, *(one for each in found.submissions for one in each.remarks)]
     if not remarks:
         return "it is empty."
     if (source / LEDGER).is_file():
         return "it is a folder of results."
-    one = len(remarks) == 1
-    none = "its one file is no" if one else f"of its {len(remarks)} files none is a"
-    return f"{none} learner's page of this course. {_example(remarks[0])}"
-
-
-def _example(remark: Remark) -> str:
-    return f"For example {remark.path}: {remark.text}"
+    none = "its one file is not" if len(remarks) == 1 else f"of its {len(remarks)} files none is"
+    example = f"For example {remarks[0].path}: {remarks[0].text}"
+    return f"{none} a learner's page of this course. {example}"

@@ -21,9 +21,9 @@ from html import escape
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.cells import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number
-from rosbeat.grading.learners import own_path
 from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.submissions import own_path
 
 #: Excel takes a file for UTF-8 only if it begins with this; others skip it.
 _BYTE_ORDER_MARK = "\ufeff"
@@ -65,7 +65,14 @@ def grades_csv(gradebook: Gradebook) -> str:
 def _row(graded: Graded, mark: Mark) -> tuple[str | float, ...]:
     return (
         *(graded.learner, graded.name, graded.system, mark.page, mark.exercise, mark.title),
-        *(mark.status, mark.points, mark.out_of, mark.cause, mark.mistake, _yes(mark.late)),
+        *(
+            mark.status,
+            "" if graded.excused else mark.points,
+            mark.out_of,
+            mark.cause,
+            mark.mistake,
+            _yes(mark.late),
+        ),
         *(mark.judged, _yes(mark.manual), mark.comment, " ".join(mark.repairs)),
     )
 
@@ -92,7 +99,7 @@ def moodle_csv(gradebook: Gradebook) -> str:
 
 
 def _of_moodle(graded: Graded) -> tuple[str | float, ...]:
-    grade = graded.points if graded.is_settled else ""
+    grade = "" if graded.grade is None else graded.grade
     who = f"Participant {graded.learner}", graded.name, ""
     return *who, "", grade, graded.out_of, "Yes", "-", "-", _feedback(graded)
 
@@ -110,10 +117,13 @@ def _feedback(graded: Graded) -> str:
 
 
 def _feedback_lines(graded: Graded) -> Iterator[str]:
-    if graded.is_settled:
+    if graded.excused:
+        yield "<p>Nothing was handed in, so there is no grade.</p>"
+    elif graded.is_settled:
         yield f"<p>{_html(number(graded.points))} of {_html(number(graded.out_of))} points.</p>"
     elif any(mark.waits_for_its_file for mark in graded.marks):
-        yield "<p>One of your files is not whole, so there are no points yet. Hand it in again.</p>"
+        said = "One of your files is not whole or cannot be read, so there are no points yet."
+        yield f"<p>{said} Hand it in again.</p>"
     else:
         yield "<p>Your instructor will look at one of your answers; then there are points.</p>"
     if graded.comment:
@@ -170,6 +180,6 @@ def canvas_csv(gradebook: Gradebook, assignment: str = "rosbeat") -> str:
 
 
 def _of_canvas(graded: Graded) -> tuple[str | float, ...]:
-    grade = graded.points if graded.is_settled else ""
+    grade = "" if graded.grade is None else graded.grade
     name = re.sub(rf"(?i){_POINTS_POSSIBLE}", "?", graded.name)  # no learner's row is that row
     return name, graded.learner, "", "", "", grade

@@ -1,4 +1,4 @@
-"""What exercises are worth, when an instructor wants other points than those of the course.
+"""Read what exercises are worth, if an instructor wants other points than those of the course.
 
 The file is CSV, because what is edited here is a table of two columns, and every spreadsheet and
 every editor can save one:
@@ -23,8 +23,8 @@ from pathlib import Path
 from rosbeat.errors import GradingError
 from rosbeat.exercises.exercise import PASSED
 from rosbeat.exercises.registry import PAGES, Page
+from rosbeat.grading.csv_table import Row, read_table
 from rosbeat.grading.remarks import printable
-from rosbeat.grading.sheets import Row, read_sheet
 from rosbeat.records import Outcome
 
 COLUMNS = ("exercise", "points")
@@ -38,7 +38,7 @@ _MOST_SHOWN = 5
 
 @dataclass(frozen=True)
 class Points:
-    """What exercises are worth.
+    """Hold what exercises are worth.
 
     Attributes:
         by_exercise: Points by the exercise's id; without an entry, those of the course.
@@ -47,7 +47,7 @@ class Points:
     by_exercise: dict[str, float] = field(default_factory=dict)
 
     def of(self, exercise: str, default: float) -> float:
-        """What an exercise is worth; with 0 points it is not graded.
+        """Return what an exercise is worth; with 0 points it is not graded.
 
         Args:
             exercise: Its id.
@@ -82,7 +82,7 @@ def without_effect(points: Points, graded: Collection[str], pages: Sequence[Page
 
 
 def scaled(outcome: Outcome, out_of: float) -> float:
-    """Points for an outcome, when the exercise is worth more or less than in the course.
+    """Return the points for an outcome if the exercise is worth more or less than in the course.
 
     Args:
         outcome: What the judge says. Part of its points gives the same part here.
@@ -104,20 +104,13 @@ def read_points(path: Path, pages: Sequence[Page] = PAGES) -> Points:
         pages: The pages of the course.
 
     Raises:
-        GradingError: If it cannot be read, or any line cannot be used; all such lines are named.
+        GradingError: If it cannot be read, or if any line cannot be used; all such lines are named.
     """
-    try:
-        sheet = read_sheet(path.read_bytes(), COLUMNS)
-    except OSError as error:
-        raise GradingError(
-            f"The points cannot be read: {printable(str(path))}: {error.strerror or error}.",
-            "Without them, marks would be other ones than you want, so nothing is graded.",
-            "Give the CSV file with the columns exercise and points, or leave --points out.",
-        ) from error
-    complaints = [f"line {line}: {text}" for line, text in sheet.problems]
-    if "points" not in sheet.header:
+    table = read_table(path, COLUMNS)
+    complaints: list[str] = []
+    if "points" not in table.header:
         complaints.append("line 1: there is no column points")
-    given = _given(sheet.rows, pages, complaints)
+    given = _given(table.rows, pages, complaints)
     if not complaints:
         by_exercise = _shared_out(given, pages, complaints)
     if complaints:
@@ -128,7 +121,7 @@ def read_points(path: Path, pages: Sequence[Page] = PAGES) -> Points:
 def _given(
     rows: Iterable[Row], pages: Sequence[Page], complaints: list[str]
 ) -> dict[str, tuple[float, int]]:
-    """Points by exercises and pages, as they stand in the file, each with its line."""
+    """Return points by exercises and pages, as they stand in the file, each with its line."""
     known = _known(pages)
     given: dict[str, tuple[float, int]] = {}
     for row in rows:
@@ -136,7 +129,7 @@ def _given(
             name = _name(row.cells.get("exercise", ""), known)
             points = _points(row.cells.get("points", ""))
             if name in given:
-                raise ValueError(f"{name} stands in line {given[name][1]} already")
+                raise ValueError(f"{name} is in line {given[name][1]} already")
         except ValueError as error:
             complaints.append(f"line {row.line}: {error}")
         else:
@@ -150,7 +143,7 @@ def _known(pages: Sequence[Page]) -> list[str]:
 
 
 def _name(text: str, known: Sequence[str]) -> str:
-    """An exercise's id or a page's number, also when a spreadsheet took its zero away."""
+    """Return an exercise's id or a page's number, also if a spreadsheet took its zero away."""
     wanted = text.strip("' ").casefold()
     for name in (wanted, f"0{wanted}", wanted.split("_")[0]):
         if name in known:
@@ -166,7 +159,7 @@ def _points(text: str) -> float:
     try:
         points = float(text.replace(",", "."))
     except ValueError:
-        raise ValueError(f"{printable(text, 40)!r} is no number of points") from None
+        raise ValueError(f"{printable(text, 40)!r} is not a number of points") from None
     if not 0 <= points <= MOST_POINTS:  # which no NaN is
         raise ValueError(f"points are from 0 to {MOST_POINTS}, and not {printable(text, 40)}")
     if points and not round(points, DIGITS):
@@ -177,7 +170,7 @@ def _points(text: str) -> float:
 def _shared_out(
     given: dict[str, tuple[float, int]], pages: Sequence[Page], complaints: list[str]
 ) -> dict[str, float]:
-    """Points by exercises; those of a page are shared among its exercises."""
+    """Return points by exercises; those of a page are shared among its exercises."""
     shared = {name: points for name, (points, _) in given.items()}
     for page in pages:
         if page.number not in given:
@@ -196,12 +189,12 @@ def _shared_out(
 
 
 def _hundredths(own: Mapping[str, float], whole: float) -> dict[str, float]:
-    """Shares of points in whole hundredths that add up to all of them (largest remainders)."""
-    hundredths, total = round(whole * 100), sum(own.values())
-    exact = {name: points / total * hundredths for name, points in own.items()}
+    """Return shares in whole hundredths that add up to all points (largest remainders)."""
+    total = sum(own.values())
+    exact = {name: points / total * round(whole * 100) for name, points in own.items()}
     shares = {name: int(share) for name, share in exact.items()}
-    left = hundredths - sum(shares.values())
-    for name in sorted(exact, key=lambda name: (shares[name] - exact[name], name))[:left]:
+    by_remainder = sorted(exact, key=lambda name: (shares[name] - exact[name], name))
+    for name in by_remainder[: round(whole * 100) - sum(shares.values())]:
         shares[name] += 1
     return {name: share / 100 for name, share in shares.items()}
 
@@ -213,5 +206,5 @@ def _unusable(path: Path, complaints: Sequence[str]) -> GradingError:
     return GradingError(
         f"The points in {printable(str(path))} cannot be used:\n{shown}",
         "Marks that follow from a slip would be wrong for everybody, so nothing is graded.",
-        "Mend these lines: an exercise such as 03a or a page such as 03, a comma, and points.",
+        "Correct these lines: an exercise such as 03a or a page such as 03, a comma, and points.",
     )

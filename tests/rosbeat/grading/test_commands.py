@@ -1,60 +1,136 @@
-"""`rosbeat release` and `rosbeat collect`, as they are typed."""
+"""`rosbeat release`, `rosbeat collect` and `rosbeat grade`, as they are typed."""
 
 import argparse
+import csv
+import io
 import json
+import os
+import signal
 import subprocess
 import sys
+from pathlib import Path
 
+import psutil
 import pytest
 
-from rosbeat.errors import GradingError
-from rosbeat.grading import checkout, commands
+from bank.class_of_learners import hand_in
+from rosbeat import cli
+from rosbeat.errors import CommandError, GradingError, StoppedError
+from rosbeat.grading import commands, options
+from rosbeat.grading.commands import (
+    LAST_RUN,
+    WAITS,
+    changes,
+    choose_pages,
+    find_checkout,
+    note_options,
+)
+from rosbeat.grading.jobs import Evidence
+from rosbeat.grading.ledger import FILE, SEED_FILE
 from small_course import PAGES, small_course
 
-
-@pytest.fixture(autouse=True)
-def _course(tmp_path, monkeypatch):
-    root = small_course(tmp_path / "course")
-    monkeypatch.setattr(checkout, "course_root", lambda: root)
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture
-def typed(capsys):
-    """Run a command as it is typed, and return what it has printed."""
+def course(tmp_path, monkeypatch):
+    """A very small course, and two learners of it."""
+    root = small_course(tmp_path / "course")
+    monkeypatch.setattr(commands, "course_root", lambda: root)
+    for name in ("ana", "ben"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        text = (root / "notebooks/03_write.ipynb").read_text().replace("____", f"x = '{name}'")
+        (tmp_path / "class" / name / "03_write.ipynb").write_text(text)
+
+
+@pytest.fixture
+def run(capsys):
+    """Type a command: what it has printed, and its exit code."""
 
     def run(name, *words):
         parser = argparse.ArgumentParser()
-        getattr(commands, f"{name}_arguments")(parser)
-        assert getattr(commands, f"run_{name}")(parser.parse_args(list(map(str, words)))) == 0
-        return capsys.readouterr().out
+        getattr(options, f"{name}_arguments")(parser)
+        code = getattr(commands, f"run_{name}")(parser.parse_args(list(map(str, words))))
+        return capsys.readouterr(), code
 
     return run
 
 
-def test_a_release_says_what_it_has_done(typed, tmp_path):
-    said = typed("release", tmp_path / "out", "--lessons", "3", "04")
+# Pages by their names.
+
+
+def test_the_course_is_found():
+    assert (find_checkout() / "environment" / "course").is_file()
+
+
+def test_a_package_without_its_course_says_so(monkeypatch, says):
+    monkeypatch.setattr(commands, "course_root", lambda: None)
+    with pytest.raises(GradingError) as caught:
+        find_checkout()
+    says(caught.value, "./environment/course shell")
+
+
+@pytest.mark.parametrize(
+    ("names", "numbers"),
+    [
+        ([], ["03", "04"]),
+        (["04"], ["04"]),
+        (["4", "3"], ["03", "04"]),
+        (["03_write"], ["03"]),
+        (["notebooks/03_write.ipynb", " 03 "], ["03"]),
+    ],
+)
+def test_pages_go_by_many_names(pages, names, numbers):
+    assert [page.number for page in choose_pages(pages, names)] == numbers
+
+
+@pytest.mark.parametrize("name", ["05", "", "write", "³", "\x1b[31m"])
+def test_a_page_that_is_not_there_is_refused(pages, name, says):
+    with pytest.raises(GradingError) as caught:
+        choose_pages(pages, [name])
+    says(caught.value, "--lessons 03 04")
+    assert "\x1b" not in str(caught.value)
+
+
+@pytest.fixture
+def told(run):
+    """Type a command that goes well, and return what it has printed."""
+
+    def told(name, *words):
+        said, code = run(name, *words)
+        assert code == 0
+        return said.out
+
+    return told
+
+
+# `rosbeat release`.
+
+
+def test_a_release_says_what_it_has_done(course, told, tmp_path):
+    said = told("release", tmp_path / "out", "--lessons", "3", "04")
     assert "has the pages 03, 04, without answers" in said
     assert "exercise 02a" not in said
     assert said.endswith("environment/course lab\n")
     assert (tmp_path / "out/notebooks/03_write.ipynb").is_file()
 
 
-def test_a_release_says_what_it_gives_away(typed, tmp_path):
-    assert "they show one answer to exercise 02a" in typed("release", tmp_path / "out")
+def test_a_release_says_what_it_gives_away(course, told, tmp_path):
+    assert "they show one answer to exercise 02a" in told("release", tmp_path / "out")
 
 
-def test_a_release_names_what_it_has_kept(typed, tmp_path):
-    typed("release", tmp_path / "out")
+def test_a_release_names_what_it_has_kept(course, told, tmp_path):
+    told("release", tmp_path / "out")
     (tmp_path / "out/LICENSE").write_text("mine")
-    said = typed("release", tmp_path / "out")
+    said = told("release", tmp_path / "out")
     assert "stay as they are:\n    LICENSE\n" in said
     assert "0 files" not in said
 
 
-def test_pages_and_points_that_are_not_there_are_refused(typed, tmp_path):
+def test_pages_and_points_that_are_not_there_are_refused(course, told, tmp_path):
     for words in (["--lessons", "99"], ["--points", tmp_path / "no.csv"]):
         with pytest.raises(GradingError):
-            typed("release", tmp_path / "out", *words)
+            told("release", tmp_path / "out", *words)
     assert not (tmp_path / "out").exists()
 
 
@@ -68,31 +144,536 @@ def submissions(tmp_path):
     return tmp_path / "in"
 
 
-def test_a_class_is_collected(typed, submissions):
-    said = typed("collect", submissions)
+def test_a_class_is_collected(course, told, submissions):
+    said = told("collect", submissions)
     assert said.splitlines()[0].split() == ["learner", "name", "03", "04", "remarks"]
-    assert "2 learners, 3 pages, 0 remarks" in said
+    assert "2 learners, 3 pages, 0 remarks." in said
 
 
-def test_only_some_pages_are_collected(typed, submissions):
-    said = typed("collect", submissions, "--lessons", "04", "06")
+def test_only_some_pages_are_collected(course, told, submissions):
+    said = told("collect", submissions, "--lessons", "04", "06")
     assert said.splitlines()[0].split() == ["learner", "name", "04", "06", "remarks"]
     assert "2 pages that you did not ask for" in said
 
 
-def test_a_deadline_counts(typed, submissions):
-    assert " late" in typed("collect", submissions, "--due", "2001-01-01")
-    assert " late" not in typed("collect", submissions, "--due", "2999-01-01")
+def test_a_deadline_counts(course, told, submissions):
+    assert " late" in told("collect", submissions, "--due", "2001-01-01")
+    assert " late" not in told("collect", submissions, "--due", "2999-01-01")
     with pytest.raises(GradingError):
-        typed("collect", submissions, "--due", "soon")
+        told("collect", submissions, "--due", "soon")
 
 
-def test_a_class_is_collected_for_programs(typed, submissions):
-    found = json.loads(typed("collect", submissions, "--json"))
+def test_who_handed_in_nothing_is_told_with_a_roster(course, told, submissions, tmp_path):
+    (tmp_path / "roster.txt").write_text("ben\nana\nzoe\n")
+    said = told("collect", submissions, "--roster", tmp_path / "roster.txt")
+    assert said.splitlines()[3].split() == ["zoe", "-", "-"]
+    assert "3 learners, 3 pages, 1 learner without any page, 0 remarks." in said
+
+
+def test_what_is_half_or_cannot_be_read_is_told(course, told, submissions):
+    page = submissions / "ana/03_write.ipynb"
+    page.write_text(page.read_text()[:400])
+    (submissions / "ben/03_write.ipynb").write_text("")
+    (submissions / "\x1b[31m").mkdir()
+    said = told("collect", submissions)
+    assert "\x1b" not in said
+    rows = [line.split() for line in said.splitlines()]
+    assert ["ana", "half", "yes", "1"] in rows
+    assert ["ben", "unreadable", "-", "1"] in rows
+    assert "empty: ben/03_write.ipynb" in said
+    assert "    The file is empty." in said
+
+
+def test_a_class_is_collected_for_programs(course, told, submissions):
+    found = json.loads(told("collect", submissions, "--json"))
     assert [one["learner"] for one in found["learners"]] == ["ana", "ben"]
 
 
-def test_declaring_the_arguments_loads_nothing_heavy():
-    code = "import sys, rosbeat.grading.commands; print(*sys.modules)"
+# `rosbeat grade`.
+
+
+class Workers:
+    """Takes the place of the pool: every answer raises the same, and each job is counted."""
+
+    def __init__(self, *options):
+        self.options = options
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def observe(self, submissions):
+        for key, job in (one for some in submissions for one in some):
+            self.jobs.append(job)
+            yield key, Evidence("ended", raised="ZeroDivisionError", text="division by zero")
+
+
+@pytest.fixture
+def workers(monkeypatch):
+    made = type("Made", (Workers,), {"jobs": []})
+    monkeypatch.setattr(commands, "Pool", made)
+    return made
+
+
+@pytest.fixture
+def typed(tmp_path, run):
+    """Type `rosbeat grade`, and return what it has printed."""
+
+    def typed(*words, code=0):
+        words = (tmp_path / "class", "--out", tmp_path / "out", *words)
+        said, ended = run("grade", *words)
+        assert ended == code
+        return said
+
+    return typed
+
+
+def results(tmp_path):
+    return json.loads((tmp_path / "out/results.json").read_text())
+
+
+def files_of(folder):
+    return {
+        path.relative_to(folder).as_posix(): path.stat().st_mtime_ns
+        for path in folder.rglob("*")
+        if path.is_file()
+    }
+
+
+def test_all_results_are_written(course, workers, typed, tmp_path):
+    said = typed().out
+    found = {name.split("/")[0] for name in files_of(tmp_path / "out")}
+    assert found >= {"results.json", "grades.csv", "class.html", "feedback", "manual.csv", FILE}
+    assert len(list((tmp_path / "out/feedback").glob("*.html"))) == 2
+    assert "2" in said
+    assert len(workers.jobs) == 2
+
+
+def test_pages_that_nobody_handed_in_do_not_count_unless_they_are_named(
+    course, workers, typed, tmp_path
+):
+    typed()
+    assert "04a" not in (tmp_path / "out/results.json").read_text()
+    typed("--lessons", "03", "04")
+    assert "04a" in (tmp_path / "out/results.json").read_text()
+
+
+def test_another_page_is_not_taken_for_the_one_that_is_named(course, workers, typed, tmp_path):
+    for folder in (tmp_path / "course/notebooks", tmp_path / "class/ana"):
+        path = folder / "04_listen.ipynb"
+        made = json.loads((tmp_path / "course/notebooks/04_listen.ipynb").read_text())
+        made["cells"][0]["id"] = "shared"
+        path.write_text(json.dumps(made))
+    path = tmp_path / "class/ana/03_write.ipynb"
+    path.write_text(path.read_text().replace("03a-title", "shared"))
+    typed("--lessons", "04")
+    (ana, ben) = results(tmp_path)["learners"]
+    assert [one["about"] for one in (*ana["remarks"], *ben["remarks"])] == []
+    assert [one["marks"][0]["status"] for one in (ana, ben)] == ["not attempted", "missing"]
+
+
+def test_unchanged_submissions_are_not_graded_twice_and_no_file_is_touched(
+    course, workers, typed, tmp_path
+):
+    typed()
+    before = files_of(tmp_path / "out")
+    typed()
+    assert len(workers.jobs) == 2
+    assert files_of(tmp_path / "out") == before
+
+
+def test_what_a_person_has_set_survives(course, workers, typed, tmp_path):
+    typed()
+    path = tmp_path / "out/manual.csv"
+    path.write_text("learner,exercise,points,comment\nana,03a,1.5,Well tried\n")
+    typed()
+    assert "Well tried" in (tmp_path / "out/results.json").read_text()
+    assert "Well tried" in path.read_text()
+    assert len(workers.jobs) == 2
+
+
+def test_a_warning_stands_where_there_is_no_sandbox(course, workers, typed):
+    assert "strangers' programs" in typed("--unsafe-no-sandbox").err
+    assert "strangers' programs" not in typed().err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["--lessons", "99"], ["--points", "/no/such.csv"], ["--due", "soon"],
+     ["--scheduler", "tcp://127.0.0.1:1", "--unsafe-no-sandbox"]],
+    ids=range(4),
+)  # fmt: skip
+def test_what_cannot_be_used_is_refused_before_anything_is_judged(course, workers, typed, words):
+    with pytest.raises((GradingError, CommandError)):
+        typed(*words)
+    assert workers.jobs == []
+
+
+def test_a_manual_table_that_cannot_be_read_stops_before_anything_is_lost(
+    course, workers, typed, tmp_path
+):
+    typed()
+    path = tmp_path / "out/manual.csv"
+    path.unlink()
+    path.mkdir()
+    before = files_of(tmp_path / "out")
+    with pytest.raises(GradingError):
+        typed()
+    assert files_of(tmp_path / "out") == before
+
+
+# How it was done the last time.
+
+
+def test_an_option_that_was_left_out_is_noticed(course, workers, typed, tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("exercise,points\n03a,7\n")
+    with_options = ("--due", "2001-01-01", "--points", points)
+    assert "Other options" not in typed(*with_options).err
+    assert "Other options" not in typed(*with_options).err
+    (line,) = [one for one in typed().err.splitlines() if "Other options" in one]
+    assert f"Last time: --due 2001-01-01, --points {points}; now without" in line
+    assert "now --lessons 03." in typed("--lessons", "3").err
+    assert "Other options" not in typed("--lessons", "03").err
+
+
+def test_a_run_that_is_refused_does_not_count_as_the_last_one(course, workers, typed, tmp_path):
+    typed("--due", "2001-01-01")
+    with pytest.raises(GradingError):
+        typed("--points", "/no/such.csv")
+    assert "Other options" not in typed("--due", "2001-01-01").err
+
+
+# What is no class, and no folder.
+
+
+@pytest.mark.parametrize("make", ["empty", "results", "file"])
+def test_what_is_no_class_is_refused_and_nothing_is_written(
+    course, workers, typed, tmp_path, make, says
+):
+    typed()
+    (tmp_path / "class").rename(tmp_path / "real")
+    (tmp_path / "class").mkdir()
+    if make == "results":
+        (tmp_path / "class").rmdir()
+        (tmp_path / "out").rename(tmp_path / "class")
+    if make == "file":
+        (tmp_path / "class/notes.txt").write_text("milk")
+    before = files_of(tmp_path)
+    with pytest.raises(GradingError) as caught:
+        typed()
+    says(caught.value, "has no submission in it", "Moodle", "docs/instructors.md")
+    assert files_of(tmp_path) == before
+    assert (tmp_path / "out").exists() == (make != "results")
+
+
+def test_a_file_is_no_folder_for_results(course, workers, typed, tmp_path, says):
+    (tmp_path / "file").write_text("mine")
+    for place in (tmp_path / "file", tmp_path / "file/more"):
+        with pytest.raises(GradingError) as caught:
+            typed("--out", place)
+        says(caught.value, "is a file, not a folder")
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+def test_points_of_a_page_that_is_not_graded_are_told(course, workers, typed, tmp_path):
+    points = tmp_path / "points.csv"
+    points.write_text("exercise,points\n05a,4\n03a,3\n")
+    assert "The points for page 05 change nothing" in typed("--points", points).err
+
+
+def test_whoever_stops_it_hears_what_is_kept(course, workers, typed, tmp_path, monkeypatch, says):
+    class Stopped(workers):
+        def observe(self, submissions):
+            yield next(super().observe(submissions))
+            raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(commands, "Pool", Stopped)
+        with pytest.raises(StoppedError) as caught:
+            typed()
+    says(caught.value, "1 of 2 answers are judged and kept", "the same options")
+    said = typed().err
+    assert "2 different answers, 1 of them judged already" in said
+    assert len(workers.jobs) == 2
+
+
+def test_a_class_of_120_is_not_observed_twice(course, workers, typed, tmp_path):
+    text = (tmp_path / "class/ana/03_write.ipynb").read_text()
+    for number in range(118):
+        (tmp_path / f"class/{number}").mkdir()
+        (tmp_path / f"class/{number}/03.ipynb").write_text(text.replace("ana", f"{number}"))
+    typed()
+    assert len(workers.jobs) == len(results(tmp_path)["learners"]) == 120
+    before = files_of(tmp_path / "out")
+    typed()
+    assert len(workers.jobs) == 120
+    assert files_of(tmp_path / "out") == before
+
+
+# For real.
+
+
+def start(folder, out):
+    return subprocess.Popen(
+        [sys.executable, "-m", "rosbeat", "grade", str(folder), "--out", str(out),
+         "--lessons", "04", "--workers", "2"],
+        cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+
+
+def keys(out):
+    """Keys of the answers that have been judged, in order."""
+    try:
+        lines = (out / FILE).read_bytes().split(b"\n")[:-1]
+    except FileNotFoundError:
+        return []
+    return [json.loads(line)["key"] for line in lines]
+
+
+@pytest.mark.ros
+def test_a_class_goes_on_where_it_was_killed(tmp_path, eventually):
+    hand_in(tmp_path / "class", 12)
+    killed, plain = tmp_path / "killed", tmp_path / "plain"
+    first = start(tmp_path / "class", killed)
+    eventually(lambda: len(keys(killed)) >= 6, 60)
+    workers = psutil.Process(first.pid).children(recursive=True)
+    os.kill(first.pid, signal.SIGKILL)
+    first.wait()
+    before = keys(killed)
+    assert not (killed / "results.json").exists()
+    eventually(lambda: not any(is_alive(one) for one in workers))
+    assert start(tmp_path / "class", killed).wait(100) == 0
+    plain.mkdir()
+    (plain / SEED_FILE).write_bytes((killed / SEED_FILE).read_bytes())
+    assert start(tmp_path / "class", plain).wait(100) == 0
+    after = keys(killed)
+    assert after[: len(before)] == before
+    assert len(before) < len(after) == len(set(after))
+    assert sorted(after) == sorted(keys(plain))
+    for name in ("results.json", "grades.csv", "class.html"):
+        assert (killed / name).read_bytes() == (plain / name).read_bytes()
+    found = {one["status"] for learner in results_of(plain) for one in learner["marks"]}
+    assert found >= {"passed", "failed"}
+
+
+def is_alive(process):
+    try:
+        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
+
+
+def results_of(out):
+    return json.loads((out / "results.json").read_text())["learners"]
+
+
+# Options of the last time, by themselves.
+
+TYPED = {"due": "2026-11-30 18:00", "points": "my points.csv"}
+
+
+def test_the_first_time_there_is_nothing_to_compare(tmp_path):
+    assert changes(tmp_path, TYPED) == ""
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_is_the_same_needs_no_word(tmp_path):
+    note_options(tmp_path / "new", TYPED)
+    assert changes(tmp_path / "new", dict(reversed(TYPED.items()))) == ""
+
+
+@pytest.mark.parametrize(
+    ("now", "said"),
+    [
+        ({}, "Last time: --due '2026-11-30 18:00', --points 'my points.csv'; now without. "),
+        ({"due": TYPED["due"]}, "Last time: --points 'my points.csv'; now without. "),
+        (TYPED | {"lessons": "03 04"}, "Last time: without them; now --lessons 03 04. "),
+        (
+            TYPED | {"due": "2026-12-01"},
+            "Last time: --due '2026-11-30 18:00'; now --due 2026-12-01.",
+        ),
+    ],
+)
+def test_what_differs_is_said_in_one_line(tmp_path, now, said):
+    note_options(tmp_path, TYPED)
+    line = changes(tmp_path, now)
+    assert said in line
+    assert "\n" not in line
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", "null", "7", "{}", '{"options": []}', "[" * 100_000, "\udcff"]
+)
+def test_a_file_that_is_none_of_ours_stops_nothing(tmp_path, text):
+    (tmp_path / LAST_RUN).write_text(text, errors="surrogateescape")
+    said = changes(tmp_path, TYPED)
+    assert f"{LAST_RUN} cannot be read" in said
+    assert (tmp_path / LAST_RUN).read_text(errors="surrogateescape") == text
+
+
+def test_a_folder_in_its_place_stops_nothing(tmp_path):
+    (tmp_path / LAST_RUN).mkdir()
+    assert "cannot be read" in changes(tmp_path, TYPED)
+
+
+def test_what_somebody_has_put_into_the_file_cannot_reach_the_terminal(tmp_path):
+    note_options(tmp_path, {"due": "\x1b[31m", "\x1b[32m": "x"})
+    assert "\x1b" not in changes(tmp_path, {})
+
+
+def test_an_equal_file_is_not_touched(tmp_path):
+    note_options(tmp_path, TYPED)
+    before = os.stat(tmp_path / LAST_RUN).st_mtime_ns
+    note_options(tmp_path, TYPED)
+    assert os.stat(tmp_path / LAST_RUN).st_mtime_ns == before
+
+
+# Exit codes, and what waits for a person.
+
+
+def rows(tmp_path, name="grades.csv"):
+    text = (tmp_path / "out" / name).read_text("utf-8-sig")
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_0_means_that_all_is_marked(course, workers, typed):
+    typed(code=0)
+
+
+def test_3_means_that_an_answer_waits(course, workers, typed, tmp_path):
+    (tmp_path / "class/ben/03_write.ipynb").write_text("")
+    said = typed(code=WAITS)
+    assert "ben 03a" in said.out
+    (mark,) = results(tmp_path)["learners"][1]["marks"]
+    assert (mark["status"], mark["points"]) == ("held", 0)
+    assert "The file is empty" in mark["cause"]
+    (tmp_path / "out/manual.csv").write_text("learner,exercise,points\nben,03a,1\n")
+    typed(code=0)
+
+
+def test_3_means_that_a_line_was_not_used(course, workers, typed, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/manual.csv").write_text("learner,exercise,points\nnobody,03a,1\n")
+    assert "no learner 'nobody'" in typed(code=WAITS).out
+    (tmp_path / "out/manual.csv").unlink()
+    (tmp_path / "roster.csv").write_text("ana\n")
+    typed("--roster", tmp_path / "roster.csv", code=WAITS)
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        (["--due", "soon"], cli.FAILED),
+        (["--late", "10%/day"], cli.MISUSED),
+        (["--missing", "maybe"], cli.MISUSED),
+        (["--scheduler", "tcp://127.0.0.1:1", "--unsafe-no-sandbox"], cli.MISUSED),
+    ],
+)
+def test_1_means_that_nothing_was_done_and_2_that_nothing_could_be_meant(
+    course, workers, tmp_path, words, code
+):
+    given = ["grade", str(tmp_path / "class"), "--out", str(tmp_path / "out"), *words]
+    assert cli.main(given) == code
+    assert not (tmp_path / "out").exists()
+
+
+def test_130_means_that_somebody_stopped_it(course, workers, tmp_path, monkeypatch, capsys):
+    def observe(self, submissions):
+        os.kill(os.getpid(), signal.SIGTERM)
+        yield from super(workers, self).observe(submissions)
+
+    monkeypatch.setattr(workers, "observe", observe)
+    given = ["grade", str(tmp_path / "class"), "--out", str(tmp_path / "out")]
+    assert cli.main(given) == cli.INTERRUPTED
+    assert "None of 2 answers are judged and kept" in capsys.readouterr().err
+
+
+def test_a_summary_for_programs(course, workers, typed, tmp_path):
+    (tmp_path / "class/cy").mkdir()
+    (tmp_path / "class/cy/03_write.ipynb").write_text("")
+    (tmp_path / "roster.csv").write_text("ana\nben\ncy\ndan\n")
+    said = typed("--json", "--roster", tmp_path / "roster.csv", "--missing", "empty", code=WAITS)
+    assert said.out.isascii()
+    found = json.loads(said.out)
+    assert (found["exit"], found["learners"], found["graded"]) == (3, 4, 2)
+    assert found["marks"] == {"failed": 2, "held": 1, "missing": 1}
+    (held,) = found["held"]
+    assert (held["learner"], held["exercise"], held["file"]) == ("cy", "03a", "cy/03_write.ipynb")
+    assert (found["lines"], found["files"]) == ([], {"empty": 1})
+
+
+# The roster, and lateness.
+
+
+@pytest.mark.parametrize(("missing", "points"), [("zero", "0"), ("empty", "")])
+def test_who_handed_in_nothing_is_in_every_list(course, workers, typed, tmp_path, missing, points):
+    for name in ("ana", "ben"):
+        folder = tmp_path / "class" / name
+        folder.rename(folder.with_name(f"{name} X_{len(name + missing)}{ord(name[0])}_"
+                                       "assignsubmission_file_"))  # fmt: skip
+    (tmp_path / "class/Dan Y_77_assignsubmission_file_").mkdir()
+    (tmp_path / "roster.csv").write_text(
+        'Identifier,"Full name"\n"Participant 4711","Cy Z"\n"Participant 77","Dan Y"\n'
+    )
+    words = ("--roster", tmp_path / "roster.csv", "--missing", missing)
+    typed(*words, code=WAITS)  # ana and ben are not on the roster
+    found = {one["learner"]: one for one in rows(tmp_path)}
+    assert len(found) == 4
+    for learner in ("4711", "77"):
+        assert (found[learner]["status"], found[learner]["points"]) == ("missing", points)
+    worksheet = {one["Identifier"]: one["Grade"] for one in rows(tmp_path, "moodle.csv")}
+    assert worksheet["Participant 4711"] == worksheet["Participant 77"] == points
+    assert len(worksheet) == 4
+    assert len(list((tmp_path / "out/feedback").glob("*.html"))) == 4
+    assert "Cy Z" in (tmp_path / "out/class.html").read_text()
+
+
+def test_a_late_page_loses_points_unless_its_learner_has_an_extension(
+    course, workers, typed, tmp_path
+):
+    due = 1_000_000
+    for name in ("ana", "ben"):
+        os.utime(tmp_path / "class" / name / "03_write.ipynb", (due + 100_000, due + 100_000))
+    (tmp_path / "roster.csv").write_text("id,extension\nana,\nben,2 days\n")
+    (tmp_path / "points.csv").write_text("03a,10\n")
+    words = ("--due", "1970-01-12T13:46:40Z", "--late", "10%/day", "--points",
+             tmp_path / "points.csv", "--roster", tmp_path / "roster.csv")  # fmt: skip
+    typed(*words)
+    (ana, ben) = results(tmp_path)["learners"]
+    assert (ana["marks"][0]["late"], ben["marks"][0]["late"]) == (True, False)
+    assert [one["about"] for one in ana["remarks"]] == ["late"]
+    assert "20% of the points of this page are taken off" in ana["remarks"][0]["text"]
+    assert ben["remarks"] == []
+
+
+# What is typed.
+
+
+@pytest.mark.parametrize("words", [(), ("class",), ("--out", "g"), ("a", "--out", "g", "--wrong")])
+def test_what_is_missing_or_unknown_is_refused(words, capsys):
+    parser = argparse.ArgumentParser()
+    options.grade_arguments(parser)
+    with pytest.raises(SystemExit):
+        parser.parse_args(words)
+    assert "usage" in capsys.readouterr().err
+
+
+def test_every_option_and_exit_code_is_documented():
+    text = (ROOT / "docs/instructors.md").read_text("utf-8")
+    for declare in (options.release_arguments, options.collect_arguments, options.grade_arguments):
+        parser = argparse.ArgumentParser()
+        declare(parser)
+        for action in parser._actions:
+            for option in action.option_strings[-1:]:
+                assert option == "--help" or f"`{option}" in text or f" {option} " in text, option
+    for code in ("0", "1", "2", "3", "130"):
+        assert f"| {code} |" in text
+
+
+def test_declaring_the_options_loads_nothing_heavy():
+    code = "import sys, rosbeat.grading.options; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not {"rich", "rclpy", "rosbeat.exercises.registry"} & set(done.stdout.split())

@@ -1,17 +1,37 @@
-"""What learners get is made whole, and an earlier release loses nothing of theirs."""
+"""What learners get is made whole, gives nothing away, and an earlier release loses nothing."""
 
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
+from grading_files import DONE, cell, notebook
+from grading_files import page as page_text
 from rosbeat.errors import GradingError
+from rosbeat.exercises.hint import answer_to
 from rosbeat.grading import release as module
 from rosbeat.grading.course_pages import course_pages
-from rosbeat.grading.release import MARKER, is_inside, release
+from rosbeat.grading.release import (
+    FIRST_TO_CATCH_UP,
+    WORKFLOW,
+    catches_up,
+    is_inside,
+    page_bytes,
+    readme,
+    release,
+    release_files,
+    without_links,
+    worked_in,
+)
+from rosbeat.grading.submissions import MARKER
+from rosbeat.grading.weights import Points
 from small_course import small_course, tree
 
+ROOT = Path(__file__).resolve().parents[3]
 PAGE = "notebooks/03_write.ipynb"
 
 
@@ -236,3 +256,217 @@ def test_a_release_that_broke_off_goes_on(root, target, monkeypatch):
     assert done.kept == ()
     assert 0 < done.same < len(tree(target))
     assert set(done.written) < set(tree(target))
+
+
+# The workflow.
+
+
+def test_a_workflow_checks_each_page_in_a_step_of_its_own(root, target):
+    assert WORKFLOW in release(root, target, some(root, "03"), github=True).written
+    text = (target / WORKFLOW).read_text()
+    assert text.count("rosbeat check") == 1
+    done = release(root, target, some(root, "04"))
+    assert WORKFLOW in done.written
+    found = yaml.safe_load((target / WORKFLOW).read_text())
+    assert found["permissions"] == {"contents": "read"}
+    *_, first, second = found["jobs"]["check"]["steps"]
+    assert first["name"] == "03 Page 03"
+    assert first["run"] == (
+        './environment/course shell -c "rosbeat check notebooks/03_write.ipynb"'
+    )
+    assert second["run"].endswith('notebooks/04_listen.ipynb"')
+    assert "!cancelled()" in second["if"]
+
+
+def test_no_workflow_comes_unasked(root, target):
+    release(root, target)
+    assert not (target / WORKFLOW).exists()
+
+
+def test_a_workflow_that_somebody_has_changed_stays(root, target):
+    release(root, target, github=True)
+    (target / WORKFLOW).write_text("mine")
+    assert release(root, target, github=True).kept == (WORKFLOW,)
+
+
+# The real course.
+
+#: Lines of an answer that are shorter are everybody's.
+LONG = 20
+
+
+@pytest.fixture(scope="module")
+def real_pages():
+    return course_pages(ROOT / "notebooks")
+
+
+@pytest.fixture(scope="module")
+def files(real_pages):
+    return release_files(ROOT, real_pages)
+
+
+def answer_lines(pages):
+    """Every line of an answer that its page does not give, with its exercise."""
+    for page in pages:
+        for name in {one.exercise for one in page.wanted}:
+            given = "".join(one.blank for one in page.wanted if one.exercise == name)
+            for line in answer_to(name).splitlines():
+                if len(line.strip()) >= LONG and line.strip() not in given:
+                    yield name, line.strip()
+
+
+def test_no_line_of_an_answer_is_in_it(real_pages, files):
+    texts = {
+        name: file.content.decode("utf-8", "replace")
+        for name, file in files.items()
+        if not name.startswith("notebooks/")  # `rosbeat lint` looks at these: leaked-answer
+    }
+    lines = list(answer_lines(real_pages))
+    assert len(lines) > 150
+    found = {(one, name) for one, line in lines for name in texts if line in texts[name]}
+    assert found == {("02a", "src/rosbeat/workspace/finished/package.xml")}
+
+
+def test_a_release_of_the_first_pages_gives_away_nothing_at_all(real_pages):
+    first = [page for page in real_pages if page.number < FIRST_TO_CATCH_UP]
+    assert not catches_up(first)
+    assert not any("/finished/" in name for name in release_files(ROOT, first))
+
+
+def test_pages_that_begin_where_others_end_are_known(real_pages):
+    """Whoever calls catch_up for more than folders needs the finished package."""
+    for page in real_pages:
+        text = (ROOT / "notebooks" / f"{page.lesson}.ipynb").read_text()
+        calls = [one[2:4] for one in text.split("workspace.catch_up(")[1:]]
+        if any(number > "02" for number in calls):
+            assert catches_up([page]), page.lesson
+
+
+@pytest.mark.parametrize(
+    "part",
+    ["solutions/", "src/lessons/", "tests/", ".git/", ".venv/", "/solved/", "__pycache__", "kept/"],
+)
+def test_what_must_not_be_in_it(files, part):
+    assert not [name for name in files if part in f"/{name}" or name.startswith(part)]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "README.md",
+        "LICENSE",
+        "pyproject.toml",
+        "environment/course",
+        "environment/course.lock",
+        "environment/course_tool/__main__.py",
+        "src/rosbeat/cli.py",
+        "src/rosbeat/grading/html_page.css",
+        "src/rosbeat/panel/panel.js",
+        "src/ros2_command/pyproject.toml",
+        "notebooks/13_build_your_own.ipynb",
+    ],
+)
+def test_what_must_be_in_it(files, name):
+    assert files[name].content == (ROOT / name).read_bytes() or name == "README.md"
+    assert files[name].is_program == (name == "environment/course")
+
+
+def test_links_of_the_readme_lead_somewhere(real_pages, files):
+    text = readme(real_pages, Points())
+    links = [part.split(")")[0] for part in text.split("](")[1:]]
+    assert len(links) > len(real_pages)
+    assert set(links) <= set(files)
+
+
+def test_other_points_are_said(real_pages):
+    assert "These points count" not in readme(real_pages, Points())
+    text = readme(real_pages, Points({"03a": 2.5, "03b": 0.0, "13a": 5.21739}))
+    assert "03a: 2.5, 03b: not graded" in text
+    assert "13a: 5.22" in text
+    assert "These points count" in text
+
+
+def test_a_small_course_gives_away_nothing(tmp_path):
+    root = small_course(tmp_path)
+    files = release_files(root, course_pages(root / "notebooks"))
+    assert b"SECRET" not in b"".join(file.content for file in files.values())
+
+
+PROGRAM = """
+import json, rosbeat
+from rosbeat import check, hint, workspace
+from rosbeat.errors import WorkspaceError
+from rclpy.node import Node
+class Blank(Node):
+    def __init__(self):
+        super().__init__("humidity_sensor")
+        ____
+hints = [str(hint("03a")) for _ in range(9)]
+made = workspace.catch_up("05")
+print(json.dumps([rosbeat.__file__, str(check("03a", Blank)), hints[-1], str(made)]))
+"""
+
+
+@pytest.mark.ros
+def test_a_release_works(tmp_path):
+    target = tmp_path / "released"
+    release(ROOT, target)
+    environ = os.environ | {
+        "PYTHONPATH": str(target / "src"),
+        "ROSBEAT_STEADY_HOME": str(tmp_path / "home"),
+    }
+    (tmp_path / "home").mkdir()
+    command = [sys.executable, "-c", PROGRAM]
+    done = subprocess.run(command, env=environ, cwd=tmp_path, capture_output=True, timeout=100)
+    assert done.returncode == 0, done.stderr.decode()
+    place, checked, last, made = json.loads(done.stdout.decode().splitlines()[-1])
+    assert place == str(target / "src/rosbeat/__init__.py")
+    assert "not attempted yet" in checked
+    assert "This was the last one" in last
+    assert "temperature_publisher.py (page 03)" in " ".join(made.split())
+
+
+# Pages.
+
+RUN = cell("1 + 1", id="a") | {"outputs": [{"output_type": "stream"}], "execution_count": 1}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (page_text(), []),
+        (page_text(source=DONE), ["x has no blank in exercise 03a"]),
+        (notebook(RUN), ["x was run"]),
+    ],
+    ids=["untouched", "filled in", "run"],
+)
+def test_work_in_a_page_is_noticed(text, said):
+    assert worked_in("x", text.encode()) == said
+
+
+def test_pages_with_answers_are_not_released(tmp_path, says):
+    (tmp_path / "03_write.ipynb").write_text(page_text(source=DONE))
+    with pytest.raises(GradingError) as caught:
+        page_bytes(tmp_path, course_pages(tmp_path), ["03_write"])
+    says(caught.value, "rosbeat build --no-run")
+
+
+@pytest.mark.parametrize(
+    ("text", "made"),
+    [
+        ("see [page 04](04_listen.ipynb).", "see page 04."),
+        ("see [page 04](04_listen.ipynb#a-b).", "see page 04."),
+        ("see [page 03](03_write.ipynb#a).", "see [page 03](03_write.ipynb#a)."),
+        ("![x](04.png) [y](https://a.b/04_x.ipynb)", "![x](04.png) [y](https://a.b/04_x.ipynb)"),
+    ],
+)
+def test_links_lead_only_to_pages_that_are_there(text, made):
+    data = notebook(cell(f'{text}\n"', "markdown")).encode()
+    found = json.loads(without_links(data, {"03_write"}))
+    assert found["cells"][0]["source"] == f'{made}\n"'
+
+
+def test_the_pages_come_byte_for_byte(pages, tmp_path):
+    folder = tmp_path / "course"
+    found = page_bytes(folder, pages, ["03_write", "04_listen"])
+    assert found == {path.name: path.read_bytes() for path in folder.iterdir()}

@@ -23,12 +23,12 @@ from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import run as module
 from rosbeat.grading import worker as worker_module
-from rosbeat.grading.collecting import collect
 from rosbeat.grading.jobs import FORGED, LOST, Evidence, Job, read_evidence, read_job, to_line
 from rosbeat.grading.judging import judge, untouched
 from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.run import Plan, Pool, Worker, all_answers, cause_of, files_before, grade
 from rosbeat.grading.sandbox import Ending
+from rosbeat.grading.submissions import collect
 from rosbeat.grading.weights import Points
 from rosbeat.grading.worker import LOST_AT_MOST, environment, limits_of, view_of_answers
 from rosbeat.records import Fault, LogRecord, Observation, Outcome, Part
@@ -441,10 +441,9 @@ def job(word):
 
 def is_alive(pid):
     try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):  # it may end while it is looked at
         return False
-    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
 
 
 @pytest.fixture
@@ -926,6 +925,7 @@ def graded_for_real():
 def test_the_clock_of_a_learner_runs_on(monkeypatch):
     """Three endless answers, and the fourth has little time; see `hostile.brief_worker`."""
     monkeypatch.setattr(module, "_MODULE", "hostile.brief_worker")
+    monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
     texts = [*(f"while True:\n    {n}" for n in range(4)), RIGHT]
     with Pool(1) as pool:
         found = dict(pool.observe([[(n, answer(text)) for n, text in enumerate(texts)]]))

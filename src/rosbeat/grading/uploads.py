@@ -1,0 +1,253 @@
+"""Read what was uploaded: the files of a folder, of a zip file, and of zip files inside them.
+
+Files from learners are hostile until they are parsed. Nothing is unpacked to disk and no link is
+followed. A file that cannot be read stays in the list with the reason, and every limit belongs to
+one file or one learner, so a bad entry costs nobody else.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import stat
+import zipfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+
+from rosbeat.errors import GradingError
+from rosbeat.grading.remarks import printable
+
+#: Bytes of one file that is read: a notebook with all its outputs, or a zip file.
+MOST_BYTES = 64_000_000
+#: Bytes that are read for one learner, zip files unpacked, and files that are looked at.
+MOST_OF_A_LEARNER, MOST_FILES = 400_000_000, 5_000
+#: Zip files inside zip files: a learner's own, and one more that somebody put into it.
+MOST_LEVELS = 2
+#: Archives that are not opened. Somebody may have put their pages into one.
+OTHER_ARCHIVES = (".rar", ".7z", ".tar", ".gz", ".tgz", ".bz2", ".xz", ".zst")
+#: Files and folders that computers add by themselves.
+_CLUTTER = {"__MACOSX", ".DS_Store", "Thumbs.db", "desktop.ini", "__pycache__"}
+_DRIVE = re.compile(r"[A-Za-z]:")
+EMPTY_FOLDER = "The folder is empty."
+_LINK = "It is a link or not an ordinary file, so it was not followed."
+
+
+def _no_bytes() -> bytes:
+    return b""
+
+
+@dataclass(frozen=True)
+class File:
+    """Hold one file of an upload.
+
+    Attributes:
+        parts: Its path within the upload, folder by folder; a zip file counts as a folder of its
+            name without `.zip`. A folder that is empty or cannot be opened ends with an empty part.
+        size: Its size in bytes.
+        modified: When it was last changed, in seconds since 1970; 0 if unknown.
+        read: Returns its bytes; raises OSError if they cannot be read.
+        problem: Why it is not read, a sentence; or empty.
+    """
+
+    parts: tuple[str, ...]
+    size: int = 0
+    modified: float = 0.0
+    read: Callable[[], bytes] = _no_bytes
+    problem: str = ""
+
+    @property
+    def path(self) -> str:
+        """Return the path, safe to print."""
+        return printable("/".join(self.parts))
+
+    @property
+    def is_zip(self) -> bool:
+        """Return whether its name says that it is a zip file."""
+        return self.parts[-1].lower().endswith(".zip")
+
+
+@dataclass
+class Allowance:
+    """Count what may still be read for one learner.
+
+    Attributes:
+        size: Bytes.
+        files: Files.
+    """
+
+    size: int = field(default_factory=lambda: MOST_OF_A_LEARNER)
+    files: int = field(default_factory=lambda: MOST_FILES)
+
+    def read(self, file: File) -> bytes:
+        """Return the bytes of a file.
+
+        Args:
+            file: The file.
+
+        Raises:
+            OSError: If it cannot be read, or if the learner has used up the allowance. The text is
+                a sentence.
+        """
+        if file.problem:
+            raise OSError(file.problem)
+        if file.size > min(MOST_BYTES, self.size):
+            whose = "one file" if file.size > MOST_BYTES else "one learner's files"
+            raise OSError(f"It has {file.size / 1e6:.0f} MB, more than is read of {whose}.")
+        self.size -= file.size
+        try:
+            return file.read()
+        except OSError as error:
+            raise OSError(f"It cannot be read: {error.strerror or error}.") from error
+
+
+@contextmanager
+def open_upload(source: Path) -> Iterator[list[File]]:
+    """Open a folder or a zip file.
+
+    Args:
+        source: The folder or the zip file.
+
+    Yields:
+        Its files, sorted by path. They can be read until the context ends; zip files among them
+        are not opened, see `opened`.
+
+    Raises:
+        GradingError: If `source` is neither.
+    """
+    if source.is_dir():
+        yield sorted(_files_of_folder(source), key=lambda one: one.parts)
+        return
+    try:
+        archive = zipfile.ZipFile(source)
+    except Exception as error:  # zipfile raises a dozen types for damaged archives
+        raise _no_source(source) from error
+    with archive:
+        yield sorted(_files_of_zip(archive, ()), key=lambda one: one.parts)
+
+
+def _no_source(source: Path) -> GradingError:
+    found = "is not a zip file that can be read" if source.is_file() else "does not exist"
+    return GradingError(
+        f"{printable(str(source), 1000)} {found}.",
+        "Submissions are a folder, or one zip file as a learning management system makes it.",
+        "Give the folder or the zip file that you downloaded.",
+    )
+
+
+def opened(file: File, allowed: Allowance, level: int = 0) -> Iterator[File]:
+    """Open a zip file of a learner; any other file is yielded as it is.
+
+    Args:
+        file: The file.
+        allowed: What may still be read for this learner; counted down.
+        level: How many zip files the file is inside of.
+
+    Yields:
+        Files. A zip file that cannot be opened is yielded itself, with its problem.
+    """
+    if not file.is_zip or file.problem:
+        allowed.files -= 1
+        if allowed.files == -1:
+            said = f"More than {MOST_FILES} files were handed in; the others were not looked at."
+            yield File((*file.parts[:1], ""), problem=said)
+        elif allowed.files >= 0:
+            yield file
+        return
+    if level >= MOST_LEVELS:
+        yield replace(file, problem="It is a zip file in a zip file in a zip file.")
+        return
+    try:
+        archive = zipfile.ZipFile(io.BytesIO(allowed.read(file)))
+    except Exception as error:  # zipfile raises a dozen types for damaged archives
+        said = str(error) if isinstance(error, OSError) else f"It cannot be opened: {error}."
+        yield replace(file, problem=printable(said, 400))
+        return
+    inside = (*file.parts[:-1], file.parts[-1][: -len(".zip")])
+    with archive:
+        for one in _files_of_zip(archive, inside):
+            yield from opened(one, allowed, level + 1)
+
+
+# Folders.
+
+
+def _files_of_folder(root: Path) -> Iterator[File]:
+    failed: list[OSError] = []
+    for place, folders, names in os.walk(root, onerror=failed.append):
+        above = Path(place).relative_to(root).parts
+        links = [name for name in folders if Path(place, name).is_symlink()]
+        folders[:] = [name for name in folders if not _is_clutter(name) and name not in links]
+        yield from (File((*above, name, ""), problem=_LINK) for name in links)
+        names = [name for name in names if not _is_clutter(name)]
+        if above and not folders and not names and not links:
+            yield File((*above, ""), problem=EMPTY_FOLDER)
+        yield from (_file(Path(place, name), (*above, name)) for name in names)
+    for error in failed:
+        parts = Path(error.filename).relative_to(root).parts
+        yield File((*parts, ""), problem=f"The folder cannot be read: {error.strerror}.")
+
+
+def _file(path: Path, parts: tuple[str, ...]) -> File:
+    found = path.lstat()
+    if not stat.S_ISREG(found.st_mode):
+        return File(parts, problem=_LINK)
+    return File(parts, found.st_size, found.st_mtime, partial(_read, path))
+
+
+def _read(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.read(MOST_BYTES + 1)
+
+
+# Zip files.
+
+
+def _files_of_zip(archive: zipfile.ZipFile, inside: tuple[str, ...]) -> Iterator[File]:
+    """Yield the members of a zip file, and the folders that it names and that are empty."""
+    found = [(one, (*inside, *_parts(one.filename))) for one in archive.infolist()]
+    found = [one for one in found if one[1] and not any(map(_is_clutter, one[1]))]
+    filled: set[tuple[str, ...]] = set()
+    for member, parts in sorted(found, key=lambda one: -len(one[1])):  # the innermost first
+        if member.is_dir() and parts not in filled:
+            yield File((*parts, ""), problem=EMPTY_FOLDER)
+        elif not member.is_dir():
+            read, problem = partial(_unpack, archive, member), _problem_of(member)
+            yield File(parts, member.file_size, _changed(member), read, problem)
+        filled.update(parts[:n] for n in range(len(parts)))
+
+
+def _parts(name: str) -> tuple[str, ...]:
+    """Return a member's path without what would lead out of the archive: nothing is unpacked."""
+    parts = name.replace("\\", "/").split("/")
+    return tuple(one for one in parts if one not in ("", ".", "..") and not _DRIVE.fullmatch(one))
+
+
+def _problem_of(member: zipfile.ZipInfo) -> str:
+    if stat.S_ISLNK(member.external_attr >> 16):
+        return _LINK
+    return "It is encrypted, so it cannot be read." if member.flag_bits & 1 else ""
+
+
+def _unpack(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> bytes:
+    try:
+        with archive.open(member) as file:
+            return file.read(min(member.file_size, MOST_BYTES) + 1)
+    except Exception as error:  # zipfile raises a dozen types for damaged members
+        raise OSError(f"{type(error).__name__}: {error}") from error
+
+
+def _changed(member: zipfile.ZipInfo) -> float:
+    """Return when a member was changed; a zip file holds local time, as deadlines are typed."""
+    try:
+        return datetime(*member.date_time).timestamp()
+    except (ValueError, OverflowError, OSError):
+        return 0.0
+
+
+def _is_clutter(name: str) -> bool:
+    return name in _CLUTTER or name.startswith(("._", ".ipynb_checkpoints", ".git"))

@@ -1,0 +1,74 @@
+"""`rosbeat check`: all checks of a page in a terminal."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from grading_class import filled, pages_of
+from rosbeat import check_command, cli
+from rosbeat.exercises.hint import answer_to
+from rosbeat.exercises.progress import progress_file
+
+(PAGE,) = pages_of("03")
+
+
+@pytest.fixture
+def saved(tmp_path):
+    """Save page 03 with these answers, and return its path as it is typed."""
+
+    def save(**answers):
+        path = tmp_path / "03_write_a_publisher.ipynb"
+        path.write_text(filled(PAGE, {f"03{name}": text for name, text in answers.items()}))
+        return str(path)
+
+    return save
+
+
+@pytest.mark.ros
+def test_a_page_with_all_answers_ends_with_0_and_stays_as_it_is(saved, capsys):
+    path = saved(a=answer_to("03a"), b=answer_to("03b"), c=answer_to("03c"))
+    before = Path(path).read_bytes(), progress_file().standings()
+    assert cli.main(["check", path]) == 0
+    said = capsys.readouterr().out
+    assert "03_write_a_publisher.ipynb: 3 of 3 exercises passed." in said
+    assert "Exercise 03c: passed, 4 of 4 points." in said
+    assert (Path(path).read_bytes(), progress_file().standings()) == before
+
+
+@pytest.mark.ros
+def test_the_outcomes_are_those_of_the_page_and_the_end_is_1(saved, capsys):
+    wrong = answer_to("03a").replace("/humidity", "humid").replace('"humidity"', '"humid"')
+    path = saved(a=wrong, c="class Broken(Node:\n    pass")
+    assert cli.main(["check", path, "--json"]) == cli.FAILED
+    a, b, c = json.loads(capsys.readouterr().out)
+    assert [one["exercise"] for one in (a, b, c)] == ["03a", "03b", "03c"]
+    assert [one["status"] for one in (a, b, c)] == ["failed", "not attempted", "not checked"]
+    assert a["outcome"]["mistake"]
+    assert "Mistake:" in a["text"]
+    assert c["text"].startswith("NameError: name ")
+
+
+@pytest.mark.ros
+def test_a_cell_that_ends_the_kernel_or_never_ends_is_told(saved, capsys, monkeypatch):
+    path = saved(a="import os\nos._exit(1)", b=answer_to("03b"))
+    assert cli.main(["check", path]) == cli.FAILED
+    said = capsys.readouterr().out
+    assert said.count("not checked. A cell above has ended the kernel") == 3
+    monkeypatch.setattr(check_command, "SECONDS", 15.0)
+    path = saved(a="while True:\n    pass", b=answer_to("03b"))
+    assert cli.main(["check", path]) == cli.FAILED
+    said = capsys.readouterr().out
+    assert "Exercise 03a: not checked. NameError" in said
+    assert "Exercise 03b: passed" in said
+
+
+@pytest.mark.parametrize("text", [None, "", "{", "[]", '{"cells": []}', '{"nbformat": 4}'])
+def test_what_is_not_a_page_is_refused_before_anything_runs(tmp_path, text, capsys):
+    path = tmp_path / "03.ipynb"
+    if text is not None:
+        path.write_text(text)
+    assert cli.main(["check", str(path)]) == cli.FAILED
+    said = capsys.readouterr().err
+    assert "03.ipynb cannot be checked" in said
+    assert "no page was run" in said
