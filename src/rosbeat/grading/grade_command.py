@@ -22,11 +22,10 @@ from rosbeat.grading.ledger import FILE as LEDGER
 from rosbeat.grading.ledger import Ledger, course_version
 from rosbeat.grading.manual import FILE as MANUAL
 from rosbeat.grading.manual import apply_manual, read_manual
-from rosbeat.grading.output import previous_results, require_folder, write_results
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.progress_bar import progress_bar
+from rosbeat.grading.results import previous_results, require_folder, summary, write_results
 from rosbeat.grading.submissions import require_apart, require_submissions
-from rosbeat.grading.summary import summary
 from rosbeat.grading.unchanged import remember
 from rosbeat.grading.weights import Points, read_points, without_effect
 
