@@ -1,19 +1,48 @@
-"""Give a learner feedback: one page with everything that was found, for every exercise."""
+"""Give learners feedback: a page for each with everything that was found, and zips to upload.
+
+A page shows a learner's own code with the lines that were named, and what the answer did beside
+what the published solution did. Where the forms of the zips come from:
+
+- Moodle, "Upload multiple feedback files in a zip" (`mod/assign/feedback/file/importziplib.php`):
+  a file's name has the learner's full name, the number that is in the names of downloaded files,
+  `assignfeedback` and `file`, with underscores between them; the rest is what the learner sees.
+- Canvas, "Upload Submissions" (`infer_comment_context_from_filename` of
+  `app/models/abstract_assignment.rb`): a file's name is that of a downloaded file. Learners see the
+  name of what they handed in, whatever the content is: so it is a notebook, as theirs was.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import json
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from io import BytesIO
 from itertools import groupby
+from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from markupsafe import Markup
 
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.cards import RIGHT, WRONG
-from rosbeat.exercises.exercise import FAILED
-from rosbeat.grading.learners import own_path
-from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.grading.learners import own_path, whose
+from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark, Solution
 from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
-from rosbeat.grading.rendering import html, look_of, name, paragraph, prose, render
+from rosbeat.grading.rendering import (
+    html,
+    look_of,
+    most,
+    name,
+    page_title,
+    paragraph,
+    points_of,
+    prose,
+    render,
+    so_far,
+)
+from rosbeat.grading.traces import Picture, picture
 from rosbeat.grading.writing import file_names
 
 #: The folder of all such pages.
@@ -23,15 +52,17 @@ _WAITS = {False: "waits for your instructor", True: "waits for the whole file"}
 _NAMELESS = "This is new to the course: it has no name for this mistake yet."
 
 
-def feedback(graded: Graded) -> str:
+def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
     """Return the page of one learner.
 
     Args:
         graded: What was found.
+        solutions: The published solutions, which pictures show beside an answer.
 
     Returns:
         A whole HTML document, the same for the same input; it needs no network and no script.
     """
+    expected = {one.exercise: one.trace for one in solutions}
     return render(
         "learner.html",
         graded=graded,
@@ -40,6 +71,9 @@ def feedback(graded: Graded) -> str:
         word_of=_word_of,
         requirements=_requirements,
         details_of=lambda mark: list(_details(mark)),
+        lines_of=_lines_to_show,
+        picture_of=lambda mark: _picture_to_show(mark, expected.get(mark.exercise, "")),
+        FAILED=FAILED,
         HELD=HELD,
         LOOKED_AT=LOOKED_AT,
         MISSING=MISSING,
@@ -96,3 +130,154 @@ def _requirements(mark: Mark) -> list[tuple[str, ...]]:
         )
         for part in mark.parts
     ]
+
+
+# The learner's own code.
+
+#: Lines of an answer that are shown, and letters of a line.
+_LINES, _LETTERS = 400, 300
+#: How a sentence names a line of an answer; see `diagnosis.exceptions.line_of`.
+_NAMED_LINE = re.compile(r"\bLine (\d+): `([^`\n]+)`")
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of an answer.
+
+    Attributes:
+        number: Its number, from 1.
+        text: Its text.
+        is_marked: Whether it was named in what was seen.
+    """
+
+    number: int
+    text: str
+    is_marked: bool = False
+
+
+def lines_of(mark: Mark) -> list[Line]:
+    """Return the first lines of an answer; those that were named in what was seen are marked.
+
+    A line is marked only if its text is the one that was named: an answer may have several cells,
+    and numbers count from the beginning of a cell.
+    """
+    texts = mark.source.splitlines()
+    said = (mark.evidence, mark.hint, *(part.evidence for part in mark.parts if not part.met))
+    marked: set[int] = set()
+    for number, code in (found for text in said for found in _NAMED_LINE.findall(text)):
+        alike = [at for at, text in enumerate(texts, 1) if text.strip() == code.strip()]
+        marked |= {int(number)} & set(alike) or set(alike if len(alike) == 1 else ())
+    return [
+        Line(at, most(text, _LETTERS), at in marked) for at, text in enumerate(texts[:_LINES], 1)
+    ]
+
+
+def _lines_to_show(mark: Mark) -> list[Line]:
+    return [] if mark.status in (MISSING, NOT_ATTEMPTED) else lines_of(mark)
+
+
+def _picture_to_show(mark: Mark, expected: str) -> Picture | None:
+    return None if mark.status == PASSED else picture(mark.trace, expected)
+
+
+# Zips to upload.
+
+#: The date of every entry, so that the same feedback gives the same bytes.
+_DATE = (1980, 1, 1, 0, 0, 0)
+#: What a name in Moodle's file names must not have.
+_NOT_IN_A_NAME = re.compile(r"[_/\\\x00-\x1f\x7f]+")
+
+
+class FeedbackZips:
+    """The zips that Moodle and Canvas take, filled learner by learner."""
+
+    def __init__(self) -> None:
+        self._made: dict[str, tuple[BytesIO, ZipFile]] = {}
+
+    def add(self, graded: Graded, page: str) -> None:
+        """Add the feedback of one learner, if a system takes it.
+
+        Args:
+            graded: What was found.
+            page: The learner's page, as `feedback` made it.
+        """
+        if graded.system == "moodle" and graded.learner.isdecimal():
+            called = _NOT_IN_A_NAME.sub(" ", graded.name).strip(" .~") or "learner"
+            name = f"{called}_{graded.learner}_assignfeedback_file_feedback.html"
+            self._put("moodle_feedback.zip", name, page)
+        if graded.system == "canvas":
+            for lesson, path in graded.files:
+                name = _canvas_name(path)
+                if name:
+                    self._put("canvas_feedback.zip", name, feedback_notebook(graded, lesson))
+
+    def files(self) -> dict[str, bytes]:
+        """Return the content of each zip by its name; empty for a system of which nobody came."""
+        found = {"moodle_feedback.zip": b"", "canvas_feedback.zip": b""}
+        for file, (content, archive) in self._made.items():
+            archive.close()
+            found[file] = content.getvalue()
+        return found
+
+    def _put(self, archive: str, name: str, text: str) -> None:
+        if archive not in self._made:
+            content = BytesIO()
+            self._made[archive] = content, ZipFile(content, "w", ZIP_DEFLATED)
+        entry = ZipInfo(name, _DATE)
+        entry.compress_type = ZIP_DEFLATED
+        entry.external_attr = 0o644 << 16
+        self._made[archive][1].writestr(entry, text.encode("utf-8", "backslashreplace"))
+
+
+def _canvas_name(path: str) -> str:
+    """Return the name that Canvas gave to a downloaded notebook; empty if it was another file."""
+    for part in path.split("/"):
+        owner = whose((part,))
+        if owner is not None and owner.system == "canvas":
+            return part if part.endswith(".ipynb") else ""
+    return ""
+
+
+def feedback_notebook(graded: Graded, page: str) -> str:
+    """Return the feedback on one page as a notebook, with the learner's answers as cells.
+
+    Args:
+        graded: What was found.
+        page: The lesson's name.
+    """
+    marks = [mark for mark in graded.marks if mark.page == page]
+    reached, out_of = sum(mark.points for mark in marks), sum(mark.out_of for mark in marks)
+    title = f"Feedback: {page_title(page)}: {points_of(reached, out_of)}{so_far(marks)}"
+    cells = [_cell("markdown", "\n\n".join([html("<h1>{}</h1>", title), prose(graded.comment)]))]
+    for mark in marks:
+        cells.append(_cell("markdown", "\n\n".join(_in_short(mark))))
+        if _lines_to_show(mark):
+            cells.append({**_cell("code", mark.source), "execution_count": None, "outputs": []})
+    named = [{**cell, "id": f"feedback-{number}"} for number, cell in enumerate(cells)]
+    about = {"language_info": {"name": "python"}}
+    document = {"cells": named, "metadata": about, "nbformat": 4, "nbformat_minor": 5}
+    return json.dumps(document, indent=1) + "\n"
+
+
+def _cell(kind: str, source: str) -> dict[str, Any]:
+    return {"cell_type": kind, "metadata": {}, "source": source}
+
+
+def _in_short(mark: Mark) -> Iterator[Markup]:
+    """Yield what was found as blocks of HTML, which Markdown leaves as they are."""
+    reached = "no points yet" if mark.status == HELD else points_of(mark.points, mark.out_of)
+    sign = look_of(mark.status).sign
+    head = "<h2>{} {} {}: {}, {}</h2>"
+    yield html(head, sign, mark.exercise, mark.title, _word_of(mark), reached)
+    if mark.status != LOOKED_AT:
+        yield _block(mark.evidence or mark.cause)
+    for part in mark.parts:
+        word = f"{RIGHT} met" if part.met else f"{WRONG} not yet"
+        yield _block(f"{part.id} {word}: {part.text} {'' if part.met else part.evidence}")
+    for term, said in _details(mark):
+        yield html("<p><strong>{}</strong></p>", term)
+        yield said if isinstance(said, Markup) else paragraph(said)
+
+
+def _block(text: str) -> Markup:
+    return paragraph(text.strip("\n"))

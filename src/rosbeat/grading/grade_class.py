@@ -12,10 +12,11 @@ from rosbeat.grading.collecting import Collection, HandedIn, Submission
 from rosbeat.grading.course_pages import CoursePage
 from rosbeat.grading.inspecting import Reason
 from rosbeat.grading.jobs import LOST, Job, Observed
-from rosbeat.grading.judging import WATCHER_LOST, judge, untouched
+from rosbeat.grading.judging import WATCHER_LOST, judge_and_trace, untouched
 from rosbeat.grading.ledger import Ledger, key_of
-from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
+from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark, Solution
 from rosbeat.grading.mending import NOT_THERE
+from rosbeat.grading.notebook import Cell
 from rosbeat.grading.remarks import printable
 from rosbeat.grading.sampling import Candidate, Sampled, choose, disagreements
 from rosbeat.grading.tasks import Task, tasks_of
@@ -37,12 +38,14 @@ class Plan:
         version: The version of the course.
         points: What exercises are worth.
         sample: How many answers run in a kernel of Jupyter, too.
+        solved: The same pages with the published solutions, as far as there are any.
     """
 
     pages: tuple[CoursePage, ...]
     version: str
     points: Points = field(default_factory=Points)
     sample: int = 0
+    solved: Mapping[str, tuple[Cell, ...]] = field(default_factory=dict)
 
     def out_of(self, exercise: str) -> float:
         """What an exercise is worth."""
@@ -69,12 +72,33 @@ def grade(
     """
     tasks = all_tasks(collection, plan)
     sampled = choose(_candidates(collection, plan, tasks), plan.sample)
-    jobs = _different_jobs(tasks, sampled, plan)
+    published = [task for page in plan.pages for task in _published(page, plan)]
+    jobs = _different_jobs({**tasks, ("", ""): tuple(published)}, sampled, plan)
     new = {key: job for key, job in jobs.items() if ledger.get(key) is None}
     _judge_new(new, len(jobs) - len(new), ledger, observe, tell)
     learners = tuple(_graded(one, tasks, plan, ledger) for one in collection.submissions)
     remarks = disagreements(sampled, lambda job: ledger.get(key_of(job, plan.version)))
-    return Gradebook(plan.version, learners, (*collection.remarks, *remarks))
+    solutions = tuple(
+        Solution(task.exercise, text_of(task), _trace(task, plan, ledger)) for task in published
+    )
+    return Gradebook(plan.version, learners, (*collection.remarks, *remarks), solutions)
+
+
+def _published(page: CoursePage, plan: Plan) -> tuple[Task, ...]:
+    """Return the published solutions of a page, found as a learner's answers are."""
+    cells = plan.solved.get(page.lesson, ())
+    return tuple(one for one in tasks_of(page, cells) if plan.out_of(one.exercise) > 0 and one.job)
+
+
+def text_of(task: Task) -> str:
+    """Return the text of the cells of an answer; empty if nobody has filled them in."""
+    if task.job is None:
+        return task.source
+    return "\n\n".join((*task.job.parts, task.job.answer))
+
+
+def _trace(task: Task, plan: Plan, ledger: Ledger) -> str:
+    return ledger.trace(key_of(task.job, plan.version)) if task.job else ""
 
 
 def all_tasks(collection: Collection, plan: Plan) -> Tasks:
@@ -125,7 +149,8 @@ def _judge_new(
     for done, (key, observed) in enumerate(observe(jobs.items()), known + 1):
         # Who loses workers may have had bad luck; the next run tries that answer again.
         stays = observed.how != LOST
-        ledger.add(key, judge(EXERCISES[jobs[key].exercise], observed), stays)
+        outcome, trace = judge_and_trace(EXERCISES[jobs[key].exercise], observed)
+        ledger.add(key, outcome, stays, trace)
         tell(done, total)
 
 
@@ -140,7 +165,8 @@ def _graded(one: Submission, tasks: Tasks, plan: Plan, ledger: Ledger) -> Graded
             else _missing(page, plan)
         )
     ]
-    return Graded(one.learner, one.name, one.system, tuple(marks), one.remarks)
+    files = tuple((page.page, page.path) for page in one.pages)
+    return Graded(one.learner, one.name, one.system, tuple(marks), one.remarks, files=files)
 
 
 def _marks(
@@ -157,7 +183,8 @@ def _marks(
             yield _unwatched(page, exercise, task.job, out_of, handed)
             continue
         outcome = known or _untried(exercise, task)
-        yield _mark(page, exercise, task, outcome, out_of, handed.late)
+        mark = _mark(page, exercise, task, outcome, out_of, handed.late)
+        yield replace(mark, source=text_of(task), trace=_trace(task, plan, ledger))
 
 
 def _untried(exercise: Exercise[object], task: Task) -> Outcome:
@@ -215,6 +242,7 @@ def _held(
         late=handed.late,
         answer=task.source,
         file=handed.path,
+        source=task.source,
     )
     if not task.cut:
         return mark
@@ -234,6 +262,7 @@ def _unwatched(
         late=handed.late,
         answer="\n\n".join((*job.parts, job.answer)),
         file=handed.path,
+        source="\n\n".join((*job.parts, job.answer)),
     )
 
 

@@ -22,6 +22,7 @@ from rosbeat.grading.ledger import FILE as LEDGER
 from rosbeat.grading.ledger import Ledger, course_version
 from rosbeat.grading.manual import FILE as MANUAL
 from rosbeat.grading.manual import apply_manual, read_manual
+from rosbeat.grading.notebook import Cell, read_notebook
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.progress_bar import progress_bar
 from rosbeat.grading.results import previous_results, require_folder, summary, write_results
@@ -61,7 +62,7 @@ def run(options: argparse.Namespace) -> int:
     if not options.lessons:
         pages = handed_in(collection, pages)
     _tell_first(options, typed, without_effect(points, [page.number for page in pages]))
-    plan = Plan(pages, course_version(), points, options.sample)
+    plan = Plan(pages, course_version(), points, options.sample, _solved(pages))
     with _goes_on() as count, Ledger(options.out / LEDGER) as ledger, progress_bar() as tell:
 
         def told(done: int, total: int) -> None:
@@ -77,6 +78,17 @@ def run(options: argparse.Namespace) -> int:
     if not any(mark.evidence == WATCHER_LOST for one in gradebook.learners for mark in one.marks):
         remember(options, said)
     return 0
+
+
+def _solved(pages: Iterable[CoursePage]) -> dict[str, tuple[Cell, ...]]:
+    """Read the published solutions of pages; a checkout may have none."""
+    folder = find_checkout() / "solutions"
+    paths = {page.lesson: folder / f"{page.lesson}.ipynb" for page in pages}
+    return {
+        lesson: read_notebook(path.read_bytes()).cells
+        for lesson, path in paths.items()
+        if path.is_file()
+    }
 
 
 def _deciding(options: argparse.Namespace, pages: Iterable[CoursePage]) -> dict[str, str]:

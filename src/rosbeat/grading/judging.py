@@ -18,6 +18,7 @@ from rosbeat.errors import RecordError
 from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import Exercise, before_judging, failed, not_attempted
 from rosbeat.grading.jobs import FORGED, LOST, Observed
+from rosbeat.grading.traces import trace_of
 from rosbeat.records import Fault, Observation, Outcome
 
 _WHERE = "the cell"
@@ -45,8 +46,19 @@ def judge(exercise: Exercise[Any], observed: Observed) -> Outcome:
         exercise: The exercise.
         observed: What came out of the sandbox; not trusted.
     """
-    outcome = _before_reading(exercise.id, observed) or _read(exercise, observed)
-    return replace(outcome, out_of=exercise.points)
+    return judge_and_trace(exercise, observed)[0]
+
+
+def judge_and_trace(exercise: Exercise[Any], observed: Observed) -> tuple[Outcome, str]:
+    """Return what an answer is worth, and its trace for pages that show what it did.
+
+    Args:
+        exercise: The exercise.
+        observed: What came out of the sandbox; not trusted.
+    """
+    early = _before_reading(exercise.id, observed)
+    outcome, trace = (early, "") if early else _read(exercise, observed)
+    return replace(outcome, out_of=exercise.points), trace
 
 
 def _before_reading(exercise: str, observed: Observed) -> Outcome | None:
@@ -60,14 +72,15 @@ def _before_reading(exercise: str, observed: Observed) -> Outcome | None:
     return _ENDINGS.get(observed.how, _left)(exercise, observed)
 
 
-def _read(exercise: Exercise[Any], observed: Observed) -> Outcome:
+def _read(exercise: Exercise[Any], observed: Observed) -> tuple[Outcome, str]:
     try:
         with _uncollected():
-            return exercise.judged(from_json(observed.evidence))
+            seen = from_json(observed.evidence)
+            return exercise.judged(seen), trace_of(seen)
     except RecordError as error:
-        return _forged(exercise.id, str(error.what))
+        return _forged(exercise.id, str(error.what)), ""
     except Exception as error:  # a judge may meet evidence that no scenario would have written
-        return _forged(exercise.id, f"it has led to {type(error).__name__}")
+        return _forged(exercise.id, f"it has led to {type(error).__name__}"), ""
 
 
 @contextmanager

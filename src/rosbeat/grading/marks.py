@@ -5,10 +5,10 @@ Plain data, made from outcomes. Every file that `rosbeat grade` writes is made f
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rosbeat.grading.remarks import Remark
-from rosbeat.records import Part
+from rosbeat.records import OMIT_EMPTY, Part
 
 #: What may be said of an exercise besides the three statuses of an outcome: its page was not handed
 #: in; it has no points yet, because a person has to look at it or the file breaks off before it; a
@@ -41,6 +41,8 @@ class Mark:
         seconds: How long it was observed, by the clock on the wall.
         answer: The text of an answer that a person has to look at, or has looked at.
         file: The file that an exercise which is or was held was handed in with.
+        source: The text of the learner's cells of this exercise, for people; not in results.json.
+        trace: What the answer did over time, as `traces.trace_of` wrote it; not in results.json.
     """
 
     exercise: str
@@ -63,6 +65,8 @@ class Mark:
     seconds: float = 0.0
     answer: str = ""
     file: str = ""
+    source: str = field(default="", metadata=OMIT_EMPTY)
+    trace: str = field(default="", metadata=OMIT_EMPTY)
 
     @property
     def waits_for_its_file(self) -> bool:
@@ -81,6 +85,7 @@ class Graded:
         marks: One for each exercise that was graded for, in the order of the course.
         remarks: What is worth telling about the files.
         comment: What a person has written to the learner about the whole.
+        files: Of each page that was handed in its name and its path; not in results.json.
     """
 
     learner: str
@@ -89,6 +94,7 @@ class Graded:
     marks: tuple[Mark, ...]
     remarks: tuple[Remark, ...] = ()
     comment: str = ""
+    files: tuple[tuple[str, str], ...] = field(default=(), metadata=OMIT_EMPTY)
 
     @property
     def called(self) -> str:
@@ -112,6 +118,21 @@ class Graded:
 
 
 @dataclass(frozen=True)
+class Solution:
+    """The published solution of one exercise, observed as an answer is.
+
+    Attributes:
+        exercise: The exercise's id.
+        source: Its text.
+        trace: What it did over time, on the input that the class's answers had.
+    """
+
+    exercise: str
+    source: str
+    trace: str = ""
+
+
+@dataclass(frozen=True)
 class Gradebook:
     """A class.
 
@@ -119,8 +140,10 @@ class Gradebook:
         course: The version of the course that has judged.
         learners: One for each learner, sorted by `learner`.
         remarks: About files that belong to no learner.
+        solutions: What the published solutions are and do; not in results.json.
     """
 
     course: str
     learners: tuple[Graded, ...]
     remarks: tuple[Remark, ...] = ()
+    solutions: tuple[Solution, ...] = field(default=(), metadata=OMIT_EMPTY)

@@ -11,7 +11,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import fields
+from dataclasses import fields, replace
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,7 @@ from rosbeat.errors import GradingError, RecordError
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.cells import number
 from rosbeat.grading.feedback import FOLDER as FEEDBACK
-from rosbeat.grading.feedback import feedback, feedback_files
+from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_files
 from rosbeat.grading.manual import FILE as MANUAL
 from rosbeat.grading.manual import write_template
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Mark
@@ -87,25 +87,29 @@ def write_results(out: Path, gradebook: Gradebook, assignment: str = "rosbeat") 
         GradingError: If one cannot be written.
     """
     before = feedback_files(previous_results(out))
-    names = feedback_files(gradebook)
+    names, zips = feedback_files(gradebook), FeedbackZips()
     for one in gradebook.learners:
-        write_whole(out / FEEDBACK / names[one.learner], feedback(one))
-    for name, content in (
-        ("class.html", class_report(gradebook)),
-        ("grades.csv", grades_csv(gradebook)),
-        ("moodle.csv", moodle_csv(gradebook)),
-        ("canvas.csv", canvas_csv(gradebook, assignment)),
-    ):
+        page = feedback(one, gradebook.solutions)
+        write_whole(out / FEEDBACK / names[one.learner], page)
+        zips.add(one, page)
+    files: dict[str, str | bytes] = {
+        "class.html": class_report(gradebook),
+        "grades.csv": grades_csv(gradebook),
+        "moodle.csv": moodle_csv(gradebook),
+        "canvas.csv": canvas_csv(gradebook, assignment),
+        **zips.files(),
+    }
+    for name, content in files.items():
         _write(out / name, content)
     for name in set(before.values()) - set(names.values()):
         (out / FEEDBACK / name).unlink(missing_ok=True)
     write_template(out / MANUAL, gradebook)
-    # Last: whoever finds it finds all the others, too.
+    # Last: where it is, all the others are.
     write_whole(out / RESULTS, to_results(gradebook))
 
 
-def _write(path: Path, content: str) -> None:
-    """Write a table; one without learners is none, and an older one would be wrong."""
+def _write(path: Path, content: str | bytes) -> None:
+    """Write a file; one without learners is none, and an older one would be wrong."""
     if content:
         write_whole(path, content)
     else:
@@ -132,7 +136,7 @@ def to_results(gradebook: Gradebook) -> str:
     Args:
         gradebook: A class.
     """
-    document = json.loads(write(gradebook, {"format": FORMAT, "version": VERSION}))
+    document = json.loads(write(_kept(gradebook), {"format": FORMAT, "version": VERSION}))
     document["learners"].sort(key=lambda graded: graded["learner"])
     for mark in _marks(document):
         for name in UNSTEADY:
@@ -140,6 +144,17 @@ def to_results(gradebook: Gradebook) -> str:
         for name in _POINTS:  # 2 and 2.0 are one number, and so are 0 and -0
             mark[name] = round(float(mark[name]), _DIGITS) + 0.0
     return json.dumps(document, indent=1, allow_nan=False) + "\n"
+
+
+def _kept(gradebook: Gradebook) -> Gradebook:
+    """Return what is written: without the texts of answers and what they did."""
+    learners = [
+        replace(
+            one, files=(), marks=tuple(replace(mark, source="", trace="") for mark in one.marks)
+        )
+        for one in gradebook.learners
+    ]
+    return replace(gradebook, learners=tuple(learners), solutions=())
 
 
 def from_results(text: str) -> Gradebook:

@@ -1,16 +1,22 @@
 """The page of one learner: everything that was found, in kind and exact words."""
 
 import re
+from dataclasses import replace
+from io import BytesIO
 from itertools import pairwise
+from zipfile import ZipFile
 
+import nbformat
 import pytest
 
-from graded_classes import HOSTILE, hostile_learner, mark, one_of_each
+from graded_classes import HOSTILE, hostile_learner, mark, observation, one_of_each
 from parsed_html import ELEMENTS, Parsed
-from rosbeat.grading.feedback import feedback
-from rosbeat.grading.marks import Graded
+from rosbeat.exercises.scenarios import TypedIn
+from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_notebook
+from rosbeat.grading.marks import Graded, Solution
 from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.rendering import STATUSES
+from rosbeat.grading.traces import trace_of
 
 
 @pytest.fixture(scope="module")
@@ -128,3 +134,171 @@ def test_an_answer_that_is_nowhere_is_not_said_to_have_been_found():
     assert "How your answer was found" not in text
     text = said_of(status="failed", repairs=(PART_NOT_THERE,))
     assert f"What is missing {PART_NOT_THERE}" in text
+
+
+# The learner's own code, and what it did.
+
+CODE = """\
+class Monitor(Node):
+    def __init__(self):
+        super().__init__('monitor')
+        self.x"""
+
+
+def seen_of(expected="", **values):
+    values = {"status": "failed", "source": CODE} | values
+    graded = Graded("4711", "Ana", "folder", (mark("04a", **values),))
+    return feedback(graded, (Solution("04a", "", expected),))
+
+
+def marked(page):
+    return re.findall(r'class="line here".*?</span>(?:<span.*?</span>)?([^\n]*)\n', page)
+
+
+@pytest.mark.parametrize(
+    ("evidence", "lines"),
+    [
+        ("It raised AttributeError. Line 4: `self.x`.", ["        self.x"]),
+        ("It raised AttributeError. Line 1: `self.x`.", ["        self.x"]),
+        ("It raised AttributeError. Line 4: `self.y`.", []),
+        ("It raised AttributeError.", []),
+        ("Line 99999999999999999999: ``", []),
+    ],
+)
+def test_lines_that_were_named_are_marked(evidence, lines):
+    page = seen_of(evidence=evidence)
+    assert marked(page) == lines
+    assert page.count("▶") == page.count("(look here)") == len(lines)
+
+
+def test_all_lines_of_the_answer_are_there_in_order():
+    text = re.sub("<[^>]+>", "", re.search('(?s)<pre class="code.*?</pre>', seen_of())[0])
+    assert [line.split(None, 1)[1] for line in text.splitlines()] == [
+        "class Monitor(Node):",
+        "def __init__(self):",
+        "super().__init__(&#39;monitor&#39;)",
+        "self.x",
+    ]
+
+
+@pytest.mark.parametrize("status", ["missing", "not attempted"])
+def test_a_cell_that_nobody_filled_in_is_not_shown(status):
+    assert "pre class=" not in seen_of(status=status, comment="x")
+
+
+def test_a_picture_shows_what_was_done_beside_what_the_solution_did():
+    own, right = observation(words=("Fine", "Warm")), observation(words=("Fine", "Fine"))
+    page = seen_of(trace_of(right), trace=trace_of(own))
+    (drawn,) = [attrs for tag, attrs in Parsed(page).elements if attrs.get("class") == "trace"]
+    assert drawn["role"] == "img"
+    assert drawn["aria-label"] == (
+        "Published on /status. published solution: 2 messages from 0 s to 1 s, the first ones: "
+        "Fine; this answer: 2 messages from 0 s to 1 s, the first ones: Fine, Warm. Log lines of "
+        "monitor. published solution: 2 lines from 0 s to 1 s, the first ones: Fine; this answer: "
+        "2 lines from 0 s to 1 s, the first ones: Fine, Warm. Input: what others published on "
+        "/temperature. 2 messages from 0 s to 1 s, values from 5 to 6."
+    )
+    assert page.count('class="mark differs"') == 2
+    assert page.count('<g class="expected">') == page.count('<g class="own">') == 2
+    assert "large ones are words that differ" in page
+
+
+def test_what_an_answer_did_not_do_is_drawn_as_nothing():
+    own = replace(observation(), samples=())
+    page = seen_of(trace_of(observation()), trace=trace_of(own))
+    assert "this answer: nothing" in page
+
+
+def test_a_right_answer_and_one_without_evidence_have_no_picture():
+    assert "<figure>" not in seen_of(status="passed", trace=trace_of(observation()))
+    for trace in ("", "{", "[]", '{"lanes":3}'):
+        assert "<figure>" not in seen_of(trace_of(observation()), trace=trace)
+
+
+def test_many_messages_make_a_small_picture():
+    page = seen_of(trace=trace_of(observation(words=[f"w{n}" for n in range(5_000)])))
+    assert "5000 messages" in page
+    assert len(page) < 60_000
+
+
+def test_a_terminal_is_shown_as_text():
+    typed = TypedIn("ws", (), 1, "ws$ mkdir a/b\nmkdir: cannot create directory")
+    page = seen_of(trace=trace_of(typed))
+    assert "<pre>ws$ mkdir a/b\nmkdir: cannot create directory</pre>" in page
+
+
+# Zips to upload.
+
+
+def zipped(*learners):
+    zips = FeedbackZips()
+    for one in learners:
+        zips.add(one, f"<p>{one.name}</p>")
+    made = {name: ZipFile(BytesIO(data)) for name, data in zips.files().items() if data}
+    return {name: {one: file.read(one) for one in file.namelist()} for name, file in made.items()}
+
+
+def taken_by_moodle(names):
+    """What `importziplib.php` makes of file names: participant, plugin, and the learner's name."""
+    found = {}
+    for name in names:
+        assert not name.startswith((".", "~"))
+        assert "/" not in name
+        _, participant, kind, plugin, rest = name.split("_", 4)
+        found[int(participant)] = kind, plugin, rest
+    return found
+
+
+@pytest.mark.parametrize("called", ["Ana Muster", "A_1_2/..\\b", ".hidden", "~", "", *HOSTILE[:5]])
+def test_moodle_takes_the_feedback_of_its_learners(called):
+    ana = Graded("4711", called, "moodle", (mark(),))
+    (files,) = zipped(ana, Graded("12", "Bo", "folder", (mark(),))).values()
+    assert taken_by_moodle(files) == {4711: ("assignfeedback", "file", "feedback.html")}
+
+
+def of_canvas(*files):
+    marks = (mark("03a", "failed", source=CODE, evidence="Seen.", mistake="boundary"),
+             mark("04a", out_of=3.0))  # fmt: skip
+    return Graded("20001", "Ana", "canvas", marks, comment="Well *done*.", files=files)
+
+
+PATH = "all/petrovana_LATE_20001_778899_03_write-1.ipynb"
+
+
+def test_canvas_takes_a_notebook_for_each_page_under_its_own_name():
+    """`infer_comment_context_from_filename`: the first two numbers are learner and attachment."""
+    page = mark("03a").page
+    found = zipped(of_canvas((page, PATH), (mark("04a").page, "x/20001_zip/04.ipynb")))
+    ((name, content),) = found["canvas_feedback.zip"].items()
+    assert name == PATH.split("/")[1]
+    assert [one for one in name.split("_") if one.isdigit()][:2] == ["20001", "778899"]
+    notebook = nbformat.reads(content.decode(), 4)
+    nbformat.validate(notebook)
+    kinds = [cell.cell_type for cell in notebook.cells]
+    assert kinds == ["markdown", "markdown", "code"]
+    first, second, code = (cell.source for cell in notebook.cells)
+    assert "Feedback: 03 Write a publisher: 0 of 1 point" in first
+    assert "Well *done*." in first
+    assert "Seen." in second
+    assert "04a" not in second
+    assert code == CODE
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
+def test_a_strange_text_makes_no_markdown_in_a_feedback_notebook(text):
+    graded = hostile_learner(text)
+    notebook = nbformat.reads(feedback_notebook(graded, graded.marks[0].page), 4)
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown":
+            assert {tag for tag, _ in Parsed(cell.source).elements} <= ELEMENTS
+            assert all(block.startswith("<") for block in cell.source.split("\n\n") if block)
+
+
+def test_equal_feedback_gives_equal_zips():
+    def made():
+        zips = FeedbackZips()
+        zips.add(of_canvas((mark("03a").page, PATH)), "")
+        return zips.files()
+
+    assert made() == made()
+    assert made()["moodle_feedback.zip"] == b""
