@@ -26,6 +26,7 @@ from rosbeat.grading.notebook import Cell, read_notebook
 from rosbeat.grading.pool import Pool
 from rosbeat.grading.progress_bar import progress_bar
 from rosbeat.grading.results import previous_results, require_folder, summary, write_results
+from rosbeat.grading.review import review
 from rosbeat.grading.submissions import require_apart, require_submissions
 from rosbeat.grading.unchanged import remember
 from rosbeat.grading.weights import Points, read_points, without_effect
@@ -69,14 +70,18 @@ def run(options: argparse.Namespace) -> int:
             count(done, total)
             tell(done, total)
 
-        gradebook = grade(collection, plan, ledger, _observer(options), told)
-    gradebook = apply_manual(gradebook, manual, previous_results(options.out))
+        judged = grade(collection, plan, ledger, _observer(options), told)
+    gradebook = apply_manual(judged, manual, previous_results(options.out))
     write_results(options.out, gradebook, options.assignment)
     note_options(options.out, typed)
     said = summary(gradebook, options.out)
     print(said)
     if not any(mark.evidence == WATCHER_LOST for one in gradebook.learners for mark in one.marks):
         remember(options, said)
+    if options.review:
+        review(
+            options.out, judged, lambda book: write_results(options.out, book, options.assignment)
+        )
     return 0
 
 

@@ -25,6 +25,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     add("--scheduler", metavar="ADDRESS", help="a Dask cluster that observes, instead of --workers")
     few = "answers tried in a kernel too (2)"
     add("--sample", type=_from(0), default=2, metavar="N", help=few)
+    add("--review", action="store_true", help="then mark by eye, in a browser on this computer")
     add("--unsafe-no-sandbox", action="store_true", help="run strangers' code with limits only")
 
 
