@@ -16,7 +16,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from io import BytesIO
 from itertools import groupby
 from typing import Any
@@ -41,6 +40,7 @@ from rosbeat.grading.rendering import (
     prose,
     render,
     so_far,
+    visible,
 )
 from rosbeat.grading.traces import Picture, picture
 from rosbeat.grading.writing import file_names
@@ -71,7 +71,7 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
         word_of=_word_of,
         requirements=_requirements,
         details_of=lambda mark: list(_details(mark)),
-        lines_of=_lines_to_show,
+        code_of=_code_to_show,
         picture_of=lambda mark: _picture_to_show(mark, expected.get(mark.exercise, "")),
         FAILED=FAILED,
         HELD=HELD,
@@ -136,30 +136,24 @@ def _requirements(mark: Mark) -> list[tuple[str, ...]]:
 
 #: Lines of an answer that are shown, and letters of a line.
 _LINES, _LETTERS = 400, 300
+#: A line, and one that was named.
+_LINE = '<span class="line">{}\n</span>'
+_MARKED = '<mark class="line"><span class="hidden">(look here) </span>{}\n</mark>'
 #: How a sentence names a line of an answer; see `diagnosis.exceptions.line_of`.
 _NAMED_LINE = re.compile(r"\bLine (\d+): `([^`\n]+)`")
 
 
-@dataclass(frozen=True)
-class Line:
-    """A line of an answer.
-
-    Attributes:
-        number: Its number, from 1.
-        text: Its text.
-        is_marked: Whether it was named in what was seen.
-    """
-
-    number: int
-    text: str
-    is_marked: bool = False
-
-
-def lines_of(mark: Mark) -> list[Line]:
-    """Return the first lines of an answer; those that were named in what was seen are marked.
+def code_of(mark: Mark) -> Markup:
+    """Return an answer as HTML, its first lines; those that were named in what was seen are marked.
 
     A line is marked only if its text is the one that was named: an answer may have several cells,
     and numbers count from the beginning of a cell.
+
+    Args:
+        mark: The answer, with its source.
+
+    Returns:
+        A `pre` element; nothing if the cell is empty.
     """
     texts = mark.source.splitlines()
     said = (mark.evidence, mark.hint, *(part.evidence for part in mark.parts if not part.met))
@@ -167,13 +161,16 @@ def lines_of(mark: Mark) -> list[Line]:
     for number, code in (found for text in said for found in _NAMED_LINE.findall(text)):
         alike = [at for at, text in enumerate(texts, 1) if text.strip() == code.strip()]
         marked |= {int(number)} & set(alike) or set(alike if len(alike) == 1 else ())
-    return [
-        Line(at, most(text, _LETTERS), at in marked) for at, text in enumerate(texts[:_LINES], 1)
-    ]
+    first = "\n".join(most(text, _LETTERS) for text in texts[:_LINES])
+    lines = str(Markup.escape(visible(first))).split("\n")
+    shown = "".join(
+        (_MARKED if at in marked else _LINE).format(text) for at, text in enumerate(lines, 1)
+    )
+    return html('<pre class="code" tabindex="0">{}</pre>', Markup(shown)) if texts else Markup()
 
 
-def _lines_to_show(mark: Mark) -> list[Line]:
-    return [] if mark.status in (MISSING, NOT_ATTEMPTED) else lines_of(mark)
+def _code_to_show(mark: Mark) -> Markup:
+    return Markup() if mark.status in (MISSING, NOT_ATTEMPTED) else code_of(mark)
 
 
 def _picture_to_show(mark: Mark, expected: str) -> Picture | None:
@@ -251,7 +248,7 @@ def feedback_notebook(graded: Graded, page: str) -> str:
     cells = [_cell("markdown", "\n\n".join([html("<h1>{}</h1>", title), prose(graded.comment)]))]
     for mark in marks:
         cells.append(_cell("markdown", "\n\n".join(_in_short(mark))))
-        if _lines_to_show(mark):
+        if _code_to_show(mark):
             cells.append({**_cell("code", mark.source), "execution_count": None, "outputs": []})
     named = [{**cell, "id": f"feedback-{number}"} for number, cell in enumerate(cells)]
     about = {"language_info": {"name": "python"}}

@@ -31,7 +31,7 @@ from urllib.parse import parse_qs, quote, urlsplit
 from rosbeat.errors import GradingError
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.cells import cell
-from rosbeat.grading.feedback import lines_of
+from rosbeat.grading.feedback import code_of
 from rosbeat.grading.groups import Group, groups_of
 from rosbeat.grading.manual import FILE, Line, apply_manual, read_manual
 from rosbeat.grading.marks import Gradebook, Graded, Mark
@@ -274,7 +274,7 @@ def group_page(
         many_here=len(here),
         last=len(review.groups) - 1,
         members=[(one, mark) for (one, _), mark in zip(group.members, marks, strict=True)],
-        lines=lines_of(group.first),
+        code=code_of(group.first),
         seen=picture(group.first.trace, review.expected.get(group.exercise, "")),
         points=typed.points if typed else points,
         comment=typed.comment if typed else comment,

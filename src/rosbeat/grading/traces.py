@@ -11,8 +11,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import isfinite
 from typing import Any
+
+from markupsafe import Markup
 
 from rosbeat.errors import RecordError
 from rosbeat.exercises.scenarios import Report, TypedIn
@@ -75,6 +78,7 @@ def trace_of(seen: Any) -> str:  # noqa: ANN401 - any kind of evidence
     return write(trace, {}) if trace.lanes or trace.text else ""
 
 
+@lru_cache(maxsize=64)  # of published solutions, which each page shows
 def read_trace(text: str) -> Trace | None:
     """Return what `trace_of` wrote; None if the text is empty or is none."""
     try:
@@ -174,6 +178,16 @@ class Band:
     height: float
     points: tuple[tuple[float, float, bool], ...]
     words: tuple[tuple[float, str], ...] = ()
+
+    @property
+    def paths(self) -> list[tuple[str, Markup]]:
+        """The marks as paths of SVG, by their class: a line without length is a dot."""
+        kinds = (("mark", False), ("mark differs", True))
+        found = [
+            (kind, "".join(f"M{x:.1f} {y:.1f}h0" for x, y, odd in self.points if odd is wanted))
+            for kind, wanted in kinds
+        ]
+        return [(kind, Markup(path)) for kind, path in found if path]
 
 
 @dataclass(frozen=True)
