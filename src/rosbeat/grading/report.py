@@ -16,6 +16,7 @@ from markupsafe import Markup
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.exercises.exercise import FAILED
 from rosbeat.grading.feedback import FOLDER, feedback_files
+from rosbeat.grading.groups import groups_of
 from rosbeat.grading.learners import own_path
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
 from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
@@ -37,6 +38,8 @@ STEP = 10
 _PLACES = 6
 #: Characters of a text of somebody's run.
 _MOST = 300
+#: Names in a list of answers that are alike, and lines of an answer from which on they are listed.
+_NAMES, _LONG = 20, 8
 #: The headings of remarks, by what they are about.
 _ABOUT = {
     "late": "Handed in late",
@@ -90,6 +93,7 @@ def class_report(book: Gradebook) -> str:
             (name(learner.called), mark.exercise, most(mark.evidence or mark.cause, _MOST))
             for learner, mark in nameless(book)
         ],
+        alike=_alike(book),
         learners=_learners(book),
         files=list(_files(book)),
     )
@@ -111,6 +115,21 @@ def _learners(book: Gradebook) -> _Rows:
             str(len(one.remarks) or ""),
         )
         for one in sorted(book.learners, key=lambda one: (one.name.casefold(), one.learner))
+    ]
+
+
+def _alike(book: Gradebook) -> _Rows:
+    """Return who handed in answers that are alike; short answers have few right forms."""
+    return [
+        (
+            group.exercise,
+            str(len(group.members)),
+            Markup(", ").join(name(one.called) for one, _ in group.members[:_NAMES])
+            + (f" and {len(group.members) - _NAMES} more" if len(group.members) > _NAMES else ""),
+            group.solution or "equal to each other but for names and layout",
+        )
+        for group in groups_of(book)
+        if len(group.members) > 1 and len(group.first.source.split("\n")) >= _LONG
     ]
 
 

@@ -1,6 +1,8 @@
 """The page of one learner: everything that was found, in kind and exact words."""
 
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from html import unescape
 from io import BytesIO
@@ -10,6 +12,8 @@ from zipfile import ZipFile
 import nbformat
 import pytest
 
+from bank.class_of_learners import hand_in
+from bank.pages import ROOT
 from graded_classes import HOSTILE, hostile_learner, mark, observation, one_of_each
 from parsed_html import ELEMENTS, Parsed
 from rosbeat.exercises.scenarios import TypedIn
@@ -298,3 +302,22 @@ def test_equal_feedback_gives_equal_zips():
 
     assert made() == made()
     assert made()["moodle_feedback.zip"] == b""
+
+
+# From a learner's page to the picture.
+
+
+@pytest.mark.ros
+def test_what_a_node_did_is_shown_beside_what_the_published_solution_did(tmp_path):
+    hand_in(tmp_path / "class", 2)
+    out = tmp_path / "out"
+    typed = [sys.executable, "-m", "rosbeat", "grade", tmp_path / "class", "--out", out]
+    subprocess.run([*typed, "--lessons", "04"], cwd=ROOT, check=True, capture_output=True)
+    pages = [path.read_text("utf-8") for path in sorted((out / "feedback").iterdir())]
+    assert len(pages) == 2
+    for page in pages:
+        assert "not there yet" in page
+        assert page.count("<figure>") == page.count('<article class="failed">') > 0
+        assert "published solution" in page
+        assert page.count('<pre class="code"') == page.count("<article")
+    assert "FridgeMonitor" not in (out / "results.json").read_text("utf-8")

@@ -3,6 +3,7 @@
 import argparse
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from rosbeat.grading import checkout, grade_command
 from rosbeat.grading.grade_options import arguments
 from rosbeat.grading.jobs import Observed
 from rosbeat.grading.ledger import FILE
+from rosbeat.grading.review import ReviewServer
 from small_course import small_course
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -164,6 +166,23 @@ def test_a_manual_table_that_cannot_be_read_stops_before_anything_is_lost(
     with pytest.raises(GradingError):
         typed()
     assert files_of(tmp_path / "out") == before
+
+
+def test_a_class_can_be_reviewed_when_it_is_graded(course, workers, typed, monkeypatch):
+    served = []
+
+    def serve(server):
+        served.append(server.review.groups)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(ReviewServer, "serve_forever", serve)
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    said = typed("--review").out
+    assert "begin with class.html" in said
+    assert re.search(r"http://127\.0\.0\.1:\d+/[\w-]{43}/\n", said)
+    ((group, *_),) = served
+    assert "x = " in group.first.source
 
 
 # How it was done the last time.

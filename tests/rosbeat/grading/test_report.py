@@ -9,6 +9,7 @@ import pytest
 
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
 from parsed_html import ELEMENTS, Parsed
+from reviewing import a_class_to_review
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.cells import number
 from rosbeat.grading.feedback import feedback_files
@@ -180,6 +181,16 @@ def test_what_was_not_found_is_not_among_what_was(said):
     text = text_of(class_report(Gradebook("1", (one,))))
     assert "searched for" not in text
     assert f"not on the page Learner Exercise What was found Ana Muster 04a {said}" in text
+
+
+def test_answers_that_are_alike_are_listed_as_a_fact():
+    text = text_of(class_report(a_class_to_review(70)))
+    assert "fact and no verdict" in text
+    names = "equal to the published solution but for names and layout"
+    assert re.search(rf"04a 47 Learner 0 \(0000\), .* and 27 more {names}", text)
+    assert re.search(r"04a 23 Learner 2 .* and 3 more equal to each other but for names", text)
+    assert "04b 35" not in text  # one line: whoever is right writes it so
+    assert "alike" not in text_of(class_report(ONE))
 
 
 # Counting.
