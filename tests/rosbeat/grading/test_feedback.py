@@ -22,6 +22,7 @@ from rosbeat.grading.marks import Graded, Solution
 from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
 from rosbeat.grading.rendering import STATUSES
 from rosbeat.grading.traces import trace_of
+from rosbeat.records import Observation, Sample
 
 
 @pytest.fixture(scope="module")
@@ -219,6 +220,16 @@ def test_many_messages_make_a_small_picture():
     page = seen_of(trace=trace_of(observation(words=[f"w{n}" for n in range(5_000)])))
     assert "5000 messages" in page
     assert len(page) < 60_000
+
+
+def test_forged_evidence_makes_a_small_trace_or_none():
+    """Whoever forges evidence may put anything into it, and as much as a sandbox lets out."""
+    many = [Sample(n, f"/t{n}" * 99, "std_msgs/msg/String", "/a", {"data": "W" * 999})
+            for n in range(20_000)]  # fmt: skip
+    assert len(trace_of(Observation(9, 0, tuple(many), subject="/a"))) < 10_000
+    for value in (10**400, float("nan"), {"a": [[]] * 999}, None, b""):
+        sample = Sample(1, "/t", "std_msgs/msg/String", "/a", {"data": value})
+        assert len(trace_of(Observation(9, 0, (sample,), subject="/a"))) < 1_000
 
 
 def test_a_terminal_is_shown_as_text():
