@@ -186,7 +186,7 @@ _NOT_IN_A_NAME = re.compile(r"[_/\\\x00-\x1f\x7f]+")
 
 
 class FeedbackZips:
-    """The zips that Moodle and Canvas take, filled learner by learner."""
+    """Fill the zips that Moodle and Canvas take, learner by learner."""
 
     def __init__(self) -> None:
         self._made: dict[str, tuple[BytesIO, ZipFile]] = {}

@@ -25,7 +25,7 @@ NEARLY = "equal to the published solution but for names and layout"
 
 @dataclass(frozen=True)
 class Shape:
-    """What two answers are compared by.
+    """Hold what two answers are compared by.
 
     Attributes:
         text: A digest of the program, whatever its layout, comments and docstrings.
@@ -38,7 +38,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Group:
-    """Answers to one exercise that are alike, with equal outcomes.
+    """Hold answers to one exercise that are alike, with equal outcomes.
 
     Attributes:
         exercise: The exercise's id.
@@ -52,7 +52,7 @@ class Group:
 
     @property
     def first(self) -> Mark:
-        """The answer that is shown for all of them."""
+        """Return the answer that is shown for all of them."""
         return self.members[0][1]
 
 
@@ -91,7 +91,7 @@ def _is_text(node: ast.AST) -> bool:
 
 
 class _Renaming(ast.NodeTransformer):
-    """Replaces the names that a program gives by numbers, in the order in which they come.
+    """Replace the names that a program gives by numbers, in the order in which they come.
 
     Names that come from elsewhere stay: those of ROS and of Python, and of arguments given by name.
     """

@@ -119,7 +119,7 @@ class Graded:
 
 @dataclass(frozen=True)
 class Solution:
-    """The published solution of one exercise, observed as an answer is.
+    """Hold the published solution of one exercise, observed as an answer is.
 
     Attributes:
         exercise: The exercise's id.

@@ -34,7 +34,7 @@ _TITLES = {one.number: f"{one.number} {one.title}".strip() for one in PAGES}
 
 @dataclass(frozen=True)
 class Look:
-    """How a status looks and what it is called.
+    """Hold how a status looks and what it is called.
 
     Attributes:
         sign: One character.
@@ -67,7 +67,7 @@ def look_of(status: str) -> Look:
 
 @dataclass(frozen=True)
 class Segment:
-    """A part of a bar.
+    """Describe a part of a bar.
 
     Attributes:
         kind: The name of its colour in the style sheet.

@@ -168,7 +168,7 @@ def _is_not_there(mark: Mark) -> bool:
 
 @dataclass(frozen=True)
 class ExerciseTally:
-    """One exercise in a class.
+    """Hold how one exercise went in a class.
 
     Attributes:
         exercise: Its id.
@@ -184,18 +184,18 @@ class ExerciseTally:
 
     @property
     def learners(self) -> int:
-        """Of how many learners it was graded."""
+        """Return of how many learners it was graded."""
         return sum(self.counts.values())
 
     @property
     def segments(self) -> list[Segment]:
-        """The parts of its bar."""
+        """Return the parts of its bar."""
         return segments_of(Counter(self.counts).elements(), of_class=True)
 
 
 @dataclass(frozen=True)
 class MistakeTally:
-    """One mistake in a class.
+    """Hold how often one mistake was made in a class.
 
     Attributes:
         mistake: Its id.
@@ -215,23 +215,23 @@ class MistakeTally:
 
     @property
     def title(self) -> str:
-        """What it is called."""
+        """Return what it is called."""
         known = MISTAKES.get(self.mistake)
         return known.heading if known else "Mistakes without a name"
 
     @property
     def segment(self) -> Segment:
-        """Its bar."""
+        """Return its bar."""
         return Segment("failed", self.count, "answers")
 
     @property
     def all_places(self) -> str:
-        """Where it was found, in words."""
+        """Return where it was found, in words."""
         return ", ".join(f"{exercise} {many}×" for exercise, many in self.places)
 
     @property
     def first_places(self) -> str:
-        """Where it was found most often, in words."""
+        """Return where it was found most often, in words."""
         first = ", ".join(f"{exercise} {many}×" for exercise, many in self.places[:_PLACES])
         more = len(self.places) - _PLACES
         return f"{first} and in {count(more, 'more exercise')}" if more > 0 else first
@@ -239,7 +239,7 @@ class MistakeTally:
 
 @dataclass(frozen=True)
 class PointsTally:
-    """The points of a class, in per cent of what each learner could reach.
+    """Hold the points of a class, in per cent of what each learner could reach.
 
     Attributes:
         steps: For each step its name, such as `50 to 59 %`, and how many learners are in it.
@@ -253,12 +253,12 @@ class PointsTally:
 
     @property
     def highest(self) -> int:
-        """How many learners are in the step that has most."""
+        """Return how many learners are in the largest step."""
         return max(many for _, many in self.steps)
 
     @property
     def range(self) -> tuple[tuple[str, int], ...]:
-        """The steps from the lowest that has a learner to the highest."""
+        """Return the steps from the lowest that has a learner to the highest."""
         taken = [at for at, (_, many) in enumerate(self.steps) if many]
         return self.steps[taken[0] : taken[-1] + 1] if taken else ()
 

@@ -70,12 +70,12 @@ def review(out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> 
 
 
 class UnusableMarkError(ValueError):
-    """Why points or a comment cannot be taken, a sentence for the page."""
+    """Say why points or a comment cannot be taken, in a sentence for the page."""
 
 
 @dataclass(frozen=True)
 class Given:
-    """What a person gives for some answers.
+    """Hold what a person gives for some answers.
 
     Attributes:
         members: The places in the group of the answers that get it.
@@ -89,7 +89,7 @@ class Given:
 
 
 class Review:
-    """A class that is being reviewed.
+    """Hold a class that is being reviewed, and what was given by hand.
 
     Args:
         out: The folder of results.
@@ -108,7 +108,7 @@ class Review:
 
     @cached_property
     def exercises(self) -> dict[str, list[int]]:
-        """The places of the groups of each exercise."""
+        """Return the places of the groups of each exercise."""
         found: dict[str, list[int]] = {}
         for place, group in enumerate(self.groups):
             found.setdefault(group.exercise, []).append(place)
@@ -299,7 +299,7 @@ def _shared(review: Review, root: str, nonce: str) -> dict[str, Any]:
 
 
 class ReviewServer(ThreadingHTTPServer):
-    """Serves a review on the loopback interface, at an address that nobody can guess.
+    """Serve a review on the loopback interface, at an address that nobody can guess.
 
     Args:
         review: The class.
@@ -324,12 +324,12 @@ class ReviewServer(ThreadingHTTPServer):
 
     @property
     def root(self) -> str:
-        """The path of the overview."""
+        """Return the path of the overview."""
         return f"/{self.token}/"
 
     @property
     def url(self) -> str:
-        """The address of the overview."""
+        """Return the address of the overview."""
         return f"http://127.0.0.1:{self.server_port}{self.root}"
 
 

@@ -32,7 +32,7 @@ _LANES, _MOMENTS, _NAME, _WORD, _TEXT = 6, 90, 80, 40, 2_000
 
 @dataclass(frozen=True)
 class Lane:
-    """What happened in one place.
+    """Hold what happened in one place.
 
     Attributes:
         role: `heard`, `published` or `logged`.
@@ -53,7 +53,7 @@ class Lane:
 
 @dataclass(frozen=True)
 class Trace:
-    """What an answer did.
+    """Hold what an answer did.
 
     Attributes:
         seconds: How long it was observed.
@@ -171,7 +171,7 @@ _LABELS = {"own": "this answer", "expected": "published solution", "input": ""}
 
 @dataclass(frozen=True)
 class Band:
-    """A strip of a picture: what one answer did in one place.
+    """Place what one answer did in one place, as a strip of a picture.
 
     Attributes:
         kind: `own`, `expected` or `input`; the name of its colour and of its mark.
@@ -191,7 +191,7 @@ class Band:
 
     @property
     def paths(self) -> list[tuple[str, Markup]]:
-        """The marks as paths of SVG, by their class: a line without length is a dot."""
+        """Return the marks as paths of SVG, by their class: a line without length is a dot."""
         kinds = (("mark", False), ("mark differs", True))
         found = [
             (kind, "".join(f"M{x:.1f} {y:.1f}h0" for x, y, odd in self.points if odd is wanted))
@@ -202,7 +202,7 @@ class Band:
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture, ready for `templates/trace.html`.
+    """Hold a picture, ready for `templates/trace.html`.
 
     Attributes:
         height: Its height; its width is 640.
@@ -224,7 +224,7 @@ class Picture:
 
     @property
     def differs(self) -> bool:
-        """Whether words of the answer are other ones than those of the published solution."""
+        """Return whether words of the answer differ from those of the published solution."""
         return any(odd for band in self.bands for _, _, odd in band.points)
 
 
