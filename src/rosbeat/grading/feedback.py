@@ -29,6 +29,7 @@ from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.learners import own_path, whose
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark, Solution
 from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.rendering import (
     html,
     look_of,
@@ -49,6 +50,8 @@ from rosbeat.grading.writing import file_names
 FOLDER = "feedback"
 #: What an exercise without points waits for, by whether that is its file.
 _WAITS = {False: "waits for your instructor", True: "waits for the whole file"}
+#: What remarks are about that only an instructor reads.
+_FOR_INSTRUCTORS = frozenset({"reaches-inside"})
 _NAMELESS = "This is new to the course: it has no name for this mistake yet."
 
 
@@ -67,7 +70,7 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
         "learner.html",
         graded=graded,
         pages=[(page, list(marks)) for page, marks in groupby(graded.marks, lambda one: one.page)],
-        files=[(name(own_path(one.path)), one.text) for one in graded.remarks],
+        files=[(name(own_path(one.path)), one.text) for one in told_to(graded)],
         word_of=_word_of,
         requirements=_requirements,
         details_of=lambda mark: list(_details(mark)),
@@ -78,6 +81,11 @@ def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
         LOOKED_AT=LOOKED_AT,
         MISSING=MISSING,
     )
+
+
+def told_to(graded: Graded) -> list[Remark]:
+    """Return the remarks about a learner's files that the learner reads, too."""
+    return [one for one in graded.remarks if one.about not in _FOR_INSTRUCTORS]
 
 
 def feedback_files(book: Gradebook) -> dict[str, str]:
@@ -107,8 +115,6 @@ def _details(mark: Mark) -> Iterator[tuple[str, str]]:
         yield "How your answer was found", Markup().join(map(paragraph, found))
     if PART_NOT_THERE in mark.repairs:
         yield "What is missing", paragraph(PART_NOT_THERE)
-    if mark.late:
-        yield "When", "The page was handed in after the deadline."
     if mark.manual:
         yield "Points", "Your instructor has set the points of this exercise."
     if mark.comment.strip():

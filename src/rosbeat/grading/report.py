@@ -53,7 +53,9 @@ _ABOUT = {
     "too-large": "Files that are too large",
     "refused": "Files that were refused",
     "left-out": "Files that were left out",
+    "reaches-inside": "Answers that reach for what observes them; their marks stand",
     "manual": "Lines of manual.csv that need a look",
+    "roster": "Lines of the roster that need a look",
 }
 _Rows = list[tuple[str, ...]]
 

@@ -257,7 +257,7 @@ def _held_lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
     if named:
         yield f"Held for you to look at: {_first(named)}."
         file = printable(str(out / "manual.csv"), 1000)
-        yield f"  class.html shows them. Write their points into {file}"
+        yield f"  class.html shows them. Mark them with --review, or write points into {file}"
         yield "  and run the command again, same options."
     half = [
         f"{printable(one.called, 60)} {', '.join(exercises)}"

@@ -21,6 +21,7 @@ from html import escape
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.cells import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number
+from rosbeat.grading.feedback import told_to
 from rosbeat.grading.learners import own_path
 from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark, printable
@@ -118,7 +119,7 @@ def _feedback_lines(graded: Graded) -> Iterator[str]:
         yield "<p>Your instructor will look at one of your answers; then there are points.</p>"
     if graded.comment:
         yield f"<p>{_html(graded.comment)}</p>"
-    yield from _file_lines(graded.remarks)
+    yield from _file_lines(told_to(graded))
     for mark in graded.marks:
         reached = f"{number(mark.points)} of {number(mark.out_of)}"
         reached = "not settled yet" if mark.status == HELD else reached

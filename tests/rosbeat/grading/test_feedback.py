@@ -18,9 +18,12 @@ from graded_classes import HOSTILE, hostile_learner, mark, observation, one_of_e
 from parsed_html import ELEMENTS, Parsed
 from rosbeat.exercises.scenarios import TypedIn
 from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_notebook
-from rosbeat.grading.marks import Graded, Solution
+from rosbeat.grading.marks import Gradebook, Graded, Solution
 from rosbeat.grading.mending import NOT_THERE, PART_NOT_THERE
+from rosbeat.grading.remarks import Remark
 from rosbeat.grading.rendering import STATUSES
+from rosbeat.grading.report import class_report
+from rosbeat.grading.tables import moodle_csv
 from rosbeat.grading.traces import trace_of
 from rosbeat.records import Observation, Sample
 
@@ -47,7 +50,6 @@ def text(page):
         "it has no name for this mistake yet",
         "There is still a blank, ____.",
         "It used more memory than there is.",
-        "The page was handed in after the deadline.",
         "Its cell has lost its name.",
         "Your instructor has set the points",
         "A nice idea. Next time with a shorter name?",
@@ -313,6 +315,21 @@ def test_equal_feedback_gives_equal_zips():
 
     assert made() == made()
     assert made()["moodle_feedback.zip"] == b""
+
+
+def test_what_only_an_instructor_reads_is_told_to_nobody_else():
+    remark = Remark("reaches-inside", "ana/04.ipynb", "It imports gc.")
+    graded = replace(one_of_each(), remarks=(remark,))
+    assert "imports gc" not in feedback(graded)
+    assert "imports gc" not in moodle_csv(Gradebook("1", (graded,)))
+    assert "imports gc" in class_report(Gradebook("1", (graded,)))
+
+
+def test_a_late_learner_reads_it_once():
+    late = Remark("late", "ana/04.ipynb", "It was handed in after the deadline.")
+    marks = tuple(mark(name, "failed", late=True) for name in ("04a", "04b", "04c"))
+    page = feedback(Graded("4711", "Ana", "folder", marks, (late,)))
+    assert page.count("deadline") == 1
 
 
 # From a learner's page to the picture.
