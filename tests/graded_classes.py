@@ -5,7 +5,8 @@ import random
 from rosbeat.exercises.registry import PAGES
 from rosbeat.grading.marks import Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark
-from rosbeat.records import Part
+from rosbeat.grading.traces import trace_of
+from rosbeat.records import Endpoint, GraphSnapshot, LogRecord, Observation, Part, QoS, Sample
 
 #: Texts that a stranger may put where a name, a file or a log line belongs.
 HOSTILE = (
@@ -73,12 +74,34 @@ def one_of_each():
     )  # fmt: skip
 
 
+def observation(topic="/status", words=("Fine", "Warm"), name="/monitor"):
+    """What a node heard, logged and published, a message a second."""
+    float32 = "std_msgs/msg/Float32"
+    heard = [
+        Sample(n * 10**9, "/temperature", float32, "/feeder", {"data": 5.0 + n})
+        for n in range(len(words))
+    ]
+    said = [
+        Sample(n * 10**9, topic, "std_msgs/msg/String", name, {"data": word})
+        for n, word in enumerate(words)
+    ]
+    logs = [
+        LogRecord(n * 10**9, "INFO", name.strip("/"), word, "f", 3) for n, word in enumerate(words)
+    ]
+    end = Endpoint(name, "/temperature", float32, "subscription", QoS())
+    graph = GraphSnapshot((name,), (end,))
+    return Observation(len(words) * 10**9, 0, (*heard, *said), tuple(logs), graph=graph,
+                       subject=name)  # fmt: skip
+
+
 def hostile_learner(text):
     """A learner of whom every text is the same strange one."""
     part = Part(text, text, False, text)
+    trace = trace_of(observation(f"/{text}", (text, "x"), f"/{text}"))
     marks = [
         mark(status=status, title=text, cause=text, mistake=text, evidence=text, hint=text,
-             remarks=(text,), parts=(part,), repairs=(text,), comment=text, answer=text, file=text)
+             remarks=(text,), parts=(part,), repairs=(text,), comment=text, answer=text, file=text,
+             source=text, trace=trace)
         for status in ("passed", "failed", "held", "looked at", "missing", "not attempted", text)
     ]  # fmt: skip
     return Graded(text, text, text, tuple(marks), (Remark(text, text, text),), text)

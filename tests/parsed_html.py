@@ -7,7 +7,7 @@ ELEMENTS = {
     *("html", "head", "meta", "title", "style", "body", "header", "main", "footer", "section"),
     *("h1", "h2", "h3", "p", "pre", "code", "bdi", "div", "span", "strong", "article", "a"),
     *("svg", "rect", "text", "table", "caption", "thead", "tbody", "tr", "th", "td", "dl", "dt"),
-    *("dd", "details", "summary", "abbr"),
+    *("dd", "details", "summary", "abbr", "figure", "figcaption", "g", "path", "line", "mark"),
 }
 
 

@@ -4,9 +4,9 @@ import pytest
 
 from browser.notebook import browser_path
 from graded_classes import HOSTILE, a_class, hostile_learner, one_of_each
-from rosbeat.grading.class_report import class_report
 from rosbeat.grading.feedback import feedback
 from rosbeat.grading.marks import Gradebook
+from rosbeat.grading.report import class_report
 
 #: How much is wider than the window.
 TOO_WIDE = "document.documentElement.scrollWidth - document.documentElement.clientWidth"

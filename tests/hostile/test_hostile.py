@@ -16,8 +16,8 @@ from hostile.pages import ROOT
 from rosbeat.grading.course_pages import course_pages
 from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.marks import settle
-from rosbeat.grading.output import write_results
 from rosbeat.grading.remarks import REACHES_INSIDE
+from rosbeat.grading.results import write_results
 from rosbeat.grading.run import Plan, Pool, grade
 from rosbeat.grading.submissions import collect
 

@@ -31,11 +31,13 @@ from rosbeat.grading.ledger import Ledger, course_version, seed_of
 from rosbeat.grading.manual import FILE as MANUAL
 from rosbeat.grading.manual import apply_manual, read_manual
 from rosbeat.grading.marks import HELD, Gradebook, settle
+from rosbeat.grading.notebook import Cell, read_notebook
 from rosbeat.grading.options import DEFAULT_ASSIGNMENT
-from rosbeat.grading.output import previous_results, require_folder, write_results
 from rosbeat.grading.progress_bar import progress_bar
 from rosbeat.grading.release import Released, catches_up, release
 from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.results import previous_results, require_folder, summary, write_results
+from rosbeat.grading.review import review
 from rosbeat.grading.roster import read_roster, with_roster
 from rosbeat.grading.run import Observe, Plan, Pool, grade
 from rosbeat.grading.submissions import (
@@ -46,7 +48,6 @@ from rosbeat.grading.submissions import (
     require_apart,
     require_submissions,
 )
-from rosbeat.grading.summary import summary
 from rosbeat.grading.weights import Points, read_points, without_effect
 from rosbeat.grading.writing import write_whole
 
@@ -325,15 +326,30 @@ def run_grade(options: argparse.Namespace) -> int:
     for line in (changes(options.out, typed), useless, _UNSAFE * options.unsafe_no_sandbox):
         if line:
             print(line, file=sys.stderr)
-    plan = Plan(pages, course_version(), points, seed_of(options.out))
-    gradebook = settle(_judged(found, plan, options), found, options.missing == "empty")
-    gradebook = apply_manual(gradebook, manual, previous_results(options.out))
+    plan = Plan(pages, course_version(), points, seed_of(options.out), _solved(pages))
+    judged = settle(_judged(found, plan, options), found, options.missing == "empty")
+    gradebook = apply_manual(judged, manual, previous_results(options.out))
     write_results(options.out, gradebook, options.assignment)
     note_options(options.out, typed)
     code = WAITS if _waiting(gradebook) else 0
     print(_summary_json(gradebook, options.out, code) if options.json
           else summary(gradebook, options.out))  # fmt: skip
+    if options.review:
+        review(
+            options.out, judged, lambda book: write_results(options.out, book, options.assignment)
+        )
     return code
+
+
+def _solved(pages: Iterable[CoursePage]) -> dict[str, tuple[Cell, ...]]:
+    """Read the published solutions of pages; a checkout may have none."""
+    folder = find_checkout() / "solutions"
+    paths = {page.lesson: folder / f"{page.lesson}.ipynb" for page in pages}
+    return {
+        lesson: read_notebook(path.read_bytes()).cells
+        for lesson, path in paths.items()
+        if path.is_file()
+    }
 
 
 def _require_consistent(options: argparse.Namespace) -> None:

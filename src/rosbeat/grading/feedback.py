@@ -1,231 +1,286 @@
-"""What a learner gets back: one page with everything that was found, for every exercise."""
+"""Give learners feedback: a page for each with everything that was found, and zips to upload.
+
+A page shows a learner's own code with the lines that were named, and what the answer did beside
+what the published solution did. Where the forms of the zips come from:
+
+- Moodle, "Upload multiple feedback files in a zip" (`mod/assign/feedback/file/importziplib.php`):
+  a file's name has the learner's full name, the number that is in the names of downloaded files,
+  `assignfeedback` and `file`, with underscores between them; the rest is what the learner sees.
+- Canvas, "Upload Submissions" (`infer_comment_context_from_filename` of
+  `app/models/abstract_assignment.rb`): a file's name is that of a downloaded file. Learners see the
+  name of what they handed in, whatever the content is: so it is a notebook, as theirs was.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import json
+import re
+from collections.abc import Iterable, Iterator
+from io import BytesIO
 from itertools import groupby
+from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from markupsafe import Markup
 
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.cards import RIGHT, WRONG
-from rosbeat.exercises.exercise import FAILED
-from rosbeat.exercises.registry import PAGES
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
-from rosbeat.grading.bars import Segment, bar, labels
-from rosbeat.grading.html_page import (
-    document,
-    listed,
+from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark, Solution
+from rosbeat.grading.remarks import REACHES_INSIDE, Remark
+from rosbeat.grading.rendering import (
+    html,
+    look_of,
+    most,
     name,
+    page_title,
     paragraph,
+    points_of,
     prose,
-    section,
-    shown,
-    table,
+    render,
+    so_far,
+    visible,
 )
-from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded, Mark
-from rosbeat.grading.palette import STATUSES, look_of
-from rosbeat.grading.remarks import REACHES_INSIDE
-from rosbeat.grading.submissions import own_path
+from rosbeat.grading.submissions import own_path, owner_of
+from rosbeat.grading.traces import Picture, picture
 from rosbeat.grading.writing import file_names
-from rosbeat.records import Part
 
-#: For whom an exercise without points waits: whether it is for its file.
-_WAITS = {False: "waits for your instructor", True: "waits for the whole file"}
 #: The folder of all such pages.
 FOLDER = "feedback"
-_END = (
-    "<footer><p>What you read here comes from what your answers did when they ran. It does not "
-    "depend on how you wrote them. If you see something differently, ask your instructor.</p>"
-    "</footer>"
-)
-_TITLES = {one.number: f"{one.number} {one.title}".strip() for one in PAGES}
+#: What an exercise without points waits for, by whether that is its file.
+_WAITS = {False: "waits for your instructor", True: "waits for the whole file"}
+#: What remarks are about that only an instructor reads.
+_FOR_INSTRUCTORS = frozenset({REACHES_INSIDE})
 _NAMELESS = "This is new to the course: it has no name for this mistake yet."
 
 
-def feedback(graded: Graded) -> str:
-    """Make the page of one learner.
+def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
+    """Return the page of one learner.
 
     Args:
         graded: What was found.
+        solutions: The published solutions, which pictures show beside an answer.
 
     Returns:
         A whole HTML document, the same for the same input; it needs no network and no script.
     """
-    pages = [(page, list(marks)) for page, marks in groupby(graded.marks, lambda one: one.page)]
-    return document(
-        f"Feedback for {graded.name}",
-        _head(graded),
-        "<main>",
-        _overview(pages),
-        *(_page(number, page, marks) for number, (page, marks) in enumerate(pages)),
-        section("Your files", _files(graded)),
-        "</main>",
-        _END,
+    expected = {one.exercise: one.trace for one in solutions}
+    return render(
+        "learner.html",
+        graded=graded,
+        pages=[(page, list(marks)) for page, marks in groupby(graded.marks, lambda one: one.page)],
+        files=[(name(own_path(one.path)), one.text) for one in told_to(graded)],
+        word_of=_word_of,
+        requirements=_requirements,
+        details_of=lambda mark: list(_details(mark)),
+        code_of=_code_to_show,
+        picture_of=lambda mark: _picture_to_show(mark, expected.get(mark.exercise, "")),
+        FAILED=FAILED,
+        HELD=HELD,
+        LOOKED_AT=LOOKED_AT,
+        MISSING=MISSING,
     )
+
+
+def told_to(graded: Graded) -> list[Remark]:
+    """Return the remarks about a learner's files that the learner reads, too."""
+    return [one for one in graded.remarks if one.about not in _FOR_INSTRUCTORS]
 
 
 def feedback_files(book: Gradebook) -> dict[str, str]:
-    """The file names of a class's pages, by learner.
-
-    Args:
-        book: The class.
-    """
+    """Return the file names of a class's pages, by learner."""
     names = file_names((one.learner, one.name) for one in book.learners)
-    return {learner: f"{name}.html" for learner, name in names.items()}
+    return {learner: f"{file}.html" for learner, file in names.items()}
 
 
-def points_of(points: float, out_of: float) -> str:
-    """Points in words, such as `1.5 of 2 points`.
-
-    Args:
-        points: What was reached.
-        out_of: What there is.
-    """
-    return f"{points:.10g} of {out_of:.10g} point{'' if out_of == 1 else 's'}"
-
-
-def page_title(page: str) -> str:
-    """The title of a page with its number; without a title of the course, its name.
-
-    Args:
-        page: The lesson's name, such as `03_write_a_publisher`.
-    """
-    return _TITLES.get(page[:2]) or page
-
-
-def _head(graded: Graded) -> str:
-    every = _segments(graded.marks)
-    drawn = bar(every, len(graded.marks), "Your exercises") + labels(every) if every else ""
-    rows = (
-        f"<h1>Feedback for {name(graded.name)}</h1>",
-        f'<p class="points">{points_of(graded.points, graded.out_of)}{_so_far(graded.marks)}</p>',
-        f'<div class="row">{drawn}</div>' if drawn else "<p>No exercise was graded.</p>",
-        _comment(graded.comment),
-    )
-    return f"<header>\n{chr(10).join(row for row in rows if row)}\n</header>"
-
-
-def _so_far(marks: Sequence[Mark]) -> str:
-    return " so far" if any(mark.status == HELD for mark in marks) else ""
-
-
-def _segments(marks: Sequence[Mark]) -> list[Segment]:
-    found = [mark.status for mark in marks]
-    every = (
-        Segment(look.kind, found.count(status), f"{look.sign} {look.word}")
-        for status, look in STATUSES.items()
-    )
-    return [one for one in every if one.count]
-
-
-def _comment(comment: str) -> str:
-    if not comment.strip():
-        return ""
-    return f'<div class="comment"><strong>From your instructor</strong>{prose(comment)}</div>'
-
-
-def _overview(pages: Sequence[tuple[str, list[Mark]]]) -> str:
-    rows = [
-        (
-            f'<a href="#page-{number}">{shown(page_title(page))}</a>',
-            " ".join(_sign(mark) for mark in marks),
-            f"{_sum(marks, 'points')} of {_sum(marks, 'out_of')}{_so_far(marks)}",
-        )
-        for number, (page, marks) in enumerate(pages)
-    ]
-    made = table("Each sign is one exercise.", ("Page", "Exercises", "Points"), rows)
-    return section("Overview", made)
-
-
-def _sign(mark: Mark) -> str:
-    look = look_of(mark.status)
-    said = shown(f"{mark.exercise} {look.word}")
-    return f'<span class="sign" role="img" aria-label="{said}" title="{said}">{look.sign}</span>'
-
-
-def _sum(marks: Sequence[Mark], what: str) -> str:
-    return f"{sum(getattr(mark, what) for mark in marks):.10g}"
-
-
-def _page(number: int, page: str, marks: Sequence[Mark]) -> str:
-    heading = f'<span id="page-{number}">{shown(page_title(page))}</span>'
-    if all(mark.status == MISSING for mark in marks):
-        names = ", ".join(shown(mark.exercise) for mark in marks)
-        said = "This page was not among the files that you handed in. It has "
-        plural = "s" if len(marks) > 1 else ""
-        alone = f"<p>{said}the exercise{plural} {names}.</p>"
-        comments = "".join(_article(mark) for mark in marks if mark.comment or mark.manual)
-        return section(heading, alone, comments)
-    return section(heading, *(_article(mark) for mark in marks))
-
-
-def _article(mark: Mark) -> str:
-    look = look_of(mark.status)
-    reached = points_of(mark.points, mark.out_of)
-    word = look.word if mark.status != HELD else _WAITS[mark.waits_for_its_file]
-    head = (
-        f'<h3><span class="sign" aria-hidden="true">{look.sign}</span> {shown(mark.exercise)} '
-        f"{shown(mark.title)}: {shown(word)}"
-        f'<span class="score">, {"no points yet" if mark.status == HELD else reached}</span></h3>'
-    )
-    rows = "".join(f"<dt>{term}</dt><dd>{said}</dd>" for term, said in _details(mark))
-    seen = "" if mark.status == LOOKED_AT else mark.evidence or mark.cause
-    parts = (head, paragraph(seen), _requirements(mark.parts))
-    body = "\n".join(part for part in (*parts, f"<dl>{rows}</dl>" if rows else "") if part)
-    return f'<article class="{look.kind}">\n{body}\n</article>'
+def _word_of(mark: Mark) -> str:
+    return _WAITS[mark.waits_for_its_file] if mark.status == HELD else look_of(mark.status).word
 
 
 def _details(mark: Mark) -> Iterator[tuple[str, str]]:
-    """Terms and what is said of them, as HTML."""
+    """Yield terms and what is said of them, as HTML."""
     if mark.status == FAILED:
-        yield "What it is called", paragraph(_called(mark.mistake))
+        known = MISTAKES.get(mark.mistake)
+        yield "What it is called", paragraph(f"{known.heading}." if known else _NAMELESS)
     if mark.hint:
         yield "What to think about", paragraph(mark.hint)
     if mark.status == FAILED:
-        call = f'hint("{mark.exercise}")'
-        yield "More help", f"<p>Open the page and run <code>{shown(call)}</code>.</p>"
+        call = '<p>Open the page and run <code>hint("{}")</code>.</p>'
+        yield "More help", html(call, mark.exercise)
     for remark in mark.remarks:
         yield "Worth knowing", paragraph(remark)
     found = [one for one in mark.repairs if one not in (NOT_THERE, PART_NOT_THERE)]
     if found:
-        yield "How your answer was found", "".join(paragraph(one) for one in found)
+        yield "How your answer was found", Markup().join(map(paragraph, found))
     if PART_NOT_THERE in mark.repairs:
         yield "What is missing", paragraph(PART_NOT_THERE)
-    if mark.late:
-        yield "When", "<p>The page was handed in after the deadline.</p>"
     if mark.manual:
-        yield "Points", "<p>Your instructor has set the points of this exercise.</p>"
+        yield "Points", "Your instructor has set the points of this exercise."
     if mark.comment.strip():
         yield "From your instructor", prose(mark.comment)
 
 
-def _called(mistake: str) -> str:
-    known = MISTAKES.get(mistake)
-    if known is None:
-        return _NAMELESS
-    return f"{known.heading}."
-
-
-def _requirements(parts: Sequence[Part]) -> str:
-    rows = [
+def _requirements(mark: Mark) -> list[tuple[str, ...]]:
+    return [
         (
-            f"<strong>{shown(part.id)}</strong> {shown(part.text)}{_why(part)}",
+            html(
+                "<strong>{}</strong> {}{}{}",
+                part.id,
+                part.text,
+                " (optional)" if part.optional else "",
+                Markup() if part.met else paragraph(part.evidence),
+            ),
             f"{RIGHT} met" if part.met else f"{WRONG} not yet",
             f"{part.points} of {part.out_of}",
         )
-        for part in parts
+        for part in mark.parts
     ]
-    return table("What is required", ("Requirement", "Outcome", "Points"), rows)
 
 
-def _why(part: Part) -> str:
-    extra = " (optional)" if part.optional else ""
-    return extra if part.met else extra + paragraph(part.evidence)
+# The learner's own code.
+
+#: Lines of an answer that are shown, and letters of a line.
+_LINES, _LETTERS = 400, 300
+#: A line, and one that was named.
+_LINE = '<span class="line">{}\n</span>'
+_MARKED = '<mark class="line"><span class="hidden">(look here) </span>{}\n</mark>'
+#: How a sentence names a line of an answer; see `diagnosis.exceptions.line_of`.
+_NAMED_LINE = re.compile(r"\bLine (\d+): `([^`\n]+)`")
 
 
-def _files(graded: Graded) -> str:
-    rows = [
-        (name(own_path(one.path)), shown(one.text))
-        for one in graded.remarks
-        if one.about != REACHES_INSIDE
-    ]
-    return listed("What was noticed about them", ("File", "What was found"), rows)
+def code_of(mark: Mark) -> Markup:
+    """Return an answer as HTML, its first lines; those that were named in what was seen are marked.
+
+    A line is marked only if its text is the one that was named: an answer may have several cells,
+    and numbers count from the beginning of a cell.
+
+    Args:
+        mark: The answer, with its source.
+
+    Returns:
+        A `pre` element; nothing if the cell is empty.
+    """
+    texts = mark.source.splitlines()
+    said = (mark.evidence, mark.hint, *(part.evidence for part in mark.parts if not part.met))
+    marked: set[int] = set()
+    for number, code in (found for text in said for found in _NAMED_LINE.findall(text)):
+        alike = [at for at, text in enumerate(texts, 1) if text.strip() == code.strip()]
+        marked |= {int(number)} & set(alike) or set(alike if len(alike) == 1 else ())
+    first = "\n".join(most(text, _LETTERS) for text in texts[:_LINES])
+    lines = str(Markup.escape(visible(first))).split("\n")
+    shown = "".join(
+        (_MARKED if at in marked else _LINE).format(text) for at, text in enumerate(lines, 1)
+    )
+    return html('<pre class="code" tabindex="0">{}</pre>', Markup(shown)) if texts else Markup()
+
+
+def _code_to_show(mark: Mark) -> Markup:
+    return Markup() if mark.status in (MISSING, NOT_ATTEMPTED) else code_of(mark)
+
+
+def _picture_to_show(mark: Mark, expected: str) -> Picture | None:
+    return None if mark.status == PASSED else picture(mark.trace, expected)
+
+
+# Zips to upload.
+
+#: The date of every entry, so that the same feedback gives the same bytes.
+_DATE = (1980, 1, 1, 0, 0, 0)
+#: What a name in Moodle's file names must not have.
+_NOT_IN_A_NAME = re.compile(r"[_/\\\x00-\x1f\x7f]+")
+
+
+class FeedbackZips:
+    """Fill the zips that Moodle and Canvas take, learner by learner."""
+
+    def __init__(self) -> None:
+        self._made: dict[str, tuple[BytesIO, ZipFile]] = {}
+
+    def add(self, graded: Graded, page: str) -> None:
+        """Add the feedback of one learner, if a system takes it.
+
+        Args:
+            graded: What was found.
+            page: The learner's page, as `feedback` made it.
+        """
+        if graded.system == "moodle" and graded.learner.isdecimal():
+            called = _NOT_IN_A_NAME.sub(" ", graded.name).strip(" .~") or "learner"
+            name = f"{called}_{graded.learner}_assignfeedback_file_feedback.html"
+            self._put("moodle_feedback.zip", name, page)
+        if graded.system == "canvas":
+            for lesson, path in graded.files:
+                name = _canvas_name(path)
+                if name:
+                    self._put("canvas_feedback.zip", name, feedback_notebook(graded, lesson))
+
+    def files(self) -> dict[str, bytes]:
+        """Return the content of each zip by its name; empty for a system of which nobody came."""
+        found = {"moodle_feedback.zip": b"", "canvas_feedback.zip": b""}
+        for file, (content, archive) in self._made.items():
+            archive.close()
+            found[file] = content.getvalue()
+        return found
+
+    def _put(self, archive: str, name: str, text: str) -> None:
+        if archive not in self._made:
+            content = BytesIO()
+            self._made[archive] = content, ZipFile(content, "w", ZIP_DEFLATED)
+        entry = ZipInfo(name, _DATE)
+        entry.compress_type = ZIP_DEFLATED
+        entry.external_attr = 0o644 << 16
+        self._made[archive][1].writestr(entry, text.encode("utf-8", "backslashreplace"))
+
+
+def _canvas_name(path: str) -> str:
+    """Return the name that Canvas gave to a downloaded notebook; empty if it was another file."""
+    for part in path.split("/"):
+        owner = owner_of((part,))
+        if owner is not None and owner.system == "canvas":
+            return part if part.endswith(".ipynb") else ""
+    return ""
+
+
+def feedback_notebook(graded: Graded, page: str) -> str:
+    """Return the feedback on one page as a notebook, with the learner's answers as cells.
+
+    Args:
+        graded: What was found.
+        page: The lesson's name.
+    """
+    marks = [mark for mark in graded.marks if mark.page == page]
+    reached, out_of = sum(mark.points for mark in marks), sum(mark.out_of for mark in marks)
+    title = f"Feedback: {page_title(page)}: {points_of(reached, out_of)}{so_far(marks)}"
+    cells = [_cell("markdown", "\n\n".join([html("<h1>{}</h1>", title), prose(graded.comment)]))]
+    for mark in marks:
+        cells.append(_cell("markdown", "\n\n".join(_in_short(mark))))
+        if _code_to_show(mark):
+            cells.append({**_cell("code", mark.source), "execution_count": None, "outputs": []})
+    named = [{**cell, "id": f"feedback-{number}"} for number, cell in enumerate(cells)]
+    about = {"language_info": {"name": "python"}}
+    document = {"cells": named, "metadata": about, "nbformat": 4, "nbformat_minor": 5}
+    return json.dumps(document, indent=1) + "\n"
+
+
+def _cell(kind: str, source: str) -> dict[str, Any]:
+    return {"cell_type": kind, "metadata": {}, "source": source}
+
+
+def _in_short(mark: Mark) -> Iterator[Markup]:
+    """Yield what was found as blocks of HTML, which Markdown leaves as they are."""
+    reached = "no points yet" if mark.status == HELD else points_of(mark.points, mark.out_of)
+    sign = look_of(mark.status).sign
+    head = "<h2>{} {} {}: {}, {}</h2>"
+    yield html(head, sign, mark.exercise, mark.title, _word_of(mark), reached)
+    if mark.status != LOOKED_AT:
+        yield _block(mark.evidence or mark.cause)
+    for part in mark.parts:
+        word = f"{RIGHT} met" if part.met else f"{WRONG} not yet"
+        yield _block(f"{part.id} {word}: {part.text} {'' if part.met else part.evidence}")
+    for term, said in _details(mark):
+        yield html("<p><strong>{}</strong></p>", term)
+        yield said if isinstance(said, Markup) else paragraph(said)
+
+
+def _block(text: str) -> Markup:
+    return paragraph(text.strip("\n"))

@@ -15,9 +15,11 @@ from typing import Any
 
 from rosbeat.diagnosis.exceptions import first_sentence
 from rosbeat.errors import RecordError
+from rosbeat.exercises.draw import PAGE
 from rosbeat.exercises.evidence import from_json
 from rosbeat.exercises.exercise import Exercise, before_judging, failed, not_attempted
 from rosbeat.grading.jobs import FORGED, LOST, Evidence
+from rosbeat.grading.traces import trace_of
 from rosbeat.records import Fault, Observation, Outcome
 
 _WHERE = "the cell"
@@ -37,7 +39,7 @@ _UNREAD = {
 }
 
 
-def judge(exercise: Exercise[Any], evidence: Evidence, seed: int = 0) -> Outcome:
+def judge(exercise: Exercise[Any], evidence: Evidence, seed: int = PAGE) -> Outcome:
     """Say what an answer is worth.
 
     Args:
@@ -45,8 +47,22 @@ def judge(exercise: Exercise[Any], evidence: Evidence, seed: int = 0) -> Outcome
         evidence: What came out of the sandbox; not trusted.
         seed: From what the inputs of the scenario were drawn; 0 on a page.
     """
-    outcome = _before_reading(exercise, evidence) or _read(exercise, evidence, seed)
-    return replace(outcome, out_of=exercise.points)
+    return judge_and_trace(exercise, evidence, seed)[0]
+
+
+def judge_and_trace(
+    exercise: Exercise[Any], evidence: Evidence, seed: int = PAGE
+) -> tuple[Outcome, str]:
+    """Return what an answer is worth, and its trace for pages that show what it did.
+
+    Args:
+        exercise: The exercise.
+        evidence: What came out of the sandbox; not trusted.
+        seed: From what the inputs of the scenario were drawn; 0 on a page.
+    """
+    early = _before_reading(exercise, evidence)
+    outcome, trace = (early, "") if early else _read(exercise, evidence, seed)
+    return replace(outcome, out_of=exercise.points), trace
 
 
 def _before_reading(exercise: Exercise[Any], evidence: Evidence) -> Outcome | None:
@@ -58,14 +74,15 @@ def _before_reading(exercise: Exercise[Any], evidence: Evidence) -> Outcome | No
     return _ENDINGS.get(evidence.how, _left)(exercise.id, evidence)
 
 
-def _read(exercise: Exercise[Any], evidence: Evidence, seed: int) -> Outcome:
+def _read(exercise: Exercise[Any], evidence: Evidence, seed: int) -> tuple[Outcome, str]:
     try:
         with _uncollected():
-            return exercise.judged(from_json(evidence.seen), seed)
+            seen = from_json(evidence.seen)
+            return exercise.judged(seen, seed), trace_of(seen)
     except RecordError as error:
-        return _forged(exercise.id, str(error.what))
+        return _forged(exercise.id, str(error.what)), ""
     except Exception as error:  # a judge may meet evidence that no scenario would have written
-        return _forged(exercise.id, f"it has led to {type(error).__name__}")
+        return _forged(exercise.id, f"it has led to {type(error).__name__}"), ""
 
 
 @contextmanager

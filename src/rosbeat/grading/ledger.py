@@ -109,6 +109,7 @@ class Ledger:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._known: dict[str, Outcome] = {}
+        self._traces: dict[str, str] = {}
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             self._file: BinaryIO = path.open("ab+")
@@ -134,21 +135,26 @@ class Ledger:
         """Return the outcome of an answer, if it has been judged."""
         return self._known.get(key)
 
-    def add(self, key: str, outcome: Outcome, stays: bool = True) -> None:
+    def trace(self, key: str) -> str:
+        """Return the trace of an answer; empty if there is none."""
+        return self._traces.get(key, "")
+
+    def add(self, key: str, outcome: Outcome, stays: bool = True, trace: str = "") -> None:
         """Keep an outcome.
 
         Args:
             key: What the answer is known by.
             outcome: What was said of it.
             stays: Whether it is kept for later runs, too.
+            trace: What the answer did over time, as `traces.trace_of` wrote it.
 
         Raises:
             GradingError: If it cannot be written.
         """
-        self._known[key] = outcome
+        self._known[key], self._traces[key] = outcome, trace
         if not stays:
             return
-        line = write(outcome, {"key": key})
+        line = write(outcome, {"key": key, **({"trace": trace} if trace else {})})
         try:
             self._file.write(line.encode("ascii") + b"\n")
             self._file.flush()
@@ -167,7 +173,8 @@ class Ledger:
     def _take(self, line: bytes) -> None:
         try:
             body: Any = json.loads(line)
-            key = body.pop("key")
+            key, trace = body.pop("key"), body.pop("trace", "")
+            self._traces[str(key)] = trace if isinstance(trace, str) else ""
             self._known[str(key)] = record(Outcome, body, "outcome")
         except (ValueError, KeyError, AttributeError, TypeError, RecursionError, RecordError):
             return  # half a line, or one of an older version: it is judged again

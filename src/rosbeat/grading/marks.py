@@ -5,11 +5,11 @@ Plain data, made from outcomes. Every file that `rosbeat grade` writes is made f
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from rosbeat.grading.remarks import Remark
 from rosbeat.grading.submissions import Collection, HandedIn, Submission
-from rosbeat.records import Part
+from rosbeat.records import OMIT_EMPTY, Part
 
 #: The status of an exercise besides those of an outcome: its page was not handed in; it has no
 #: points yet, because a person has to look at it or its file cannot be read; a person has looked at
@@ -43,6 +43,8 @@ class Mark:
         seconds: How long it was observed, by the clock on the wall.
         answer: The text of an answer that a person has to look at, or has looked at.
         file: The file that an exercise which is or was held was handed in with.
+        source: The text of the learner's cells of this exercise, for people; not in results.json.
+        trace: What the answer did over time, as `traces.trace_of` wrote it; not in results.json.
     """
 
     exercise: str
@@ -65,6 +67,8 @@ class Mark:
     seconds: float = 0.0
     answer: str = ""
     file: str = ""
+    source: str = field(default="", metadata=OMIT_EMPTY)
+    trace: str = field(default="", metadata=OMIT_EMPTY)
 
     @property
     def waits_for_its_file(self) -> bool:
@@ -84,6 +88,7 @@ class Graded:
         remarks: What is worth telling about the files.
         comment: What a person has written to the learner about the whole.
         excused: Whether there is no grade because nothing was handed in.
+        files: Of each page that was handed in its name and its path; not in results.json.
     """
 
     learner: str
@@ -93,6 +98,7 @@ class Graded:
     remarks: tuple[Remark, ...] = ()
     comment: str = ""
     excused: bool = False
+    files: tuple[tuple[str, str], ...] = field(default=(), metadata=OMIT_EMPTY)
 
     @property
     def called(self) -> str:
@@ -121,6 +127,21 @@ class Graded:
 
 
 @dataclass(frozen=True)
+class Solution:
+    """Hold the published solution of one exercise, observed as an answer is.
+
+    Attributes:
+        exercise: The exercise's id.
+        source: Its text.
+        trace: What it did over time, on the input that the class's answers had.
+    """
+
+    exercise: str
+    source: str
+    trace: str = ""
+
+
+@dataclass(frozen=True)
 class Gradebook:
     """Hold a class.
 
@@ -128,11 +149,13 @@ class Gradebook:
         course: The version of the course that has judged.
         learners: One for each learner, sorted by `learner`.
         remarks: About files that belong to no learner.
+        solutions: What the published solutions are and do; not in results.json.
     """
 
     course: str
     learners: tuple[Graded, ...]
     remarks: tuple[Remark, ...] = ()
+    solutions: tuple[Solution, ...] = field(default=(), metadata=OMIT_EMPTY)
 
 
 # What the files say about the marks of their answers.

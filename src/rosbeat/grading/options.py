@@ -48,6 +48,7 @@ def grade_arguments(parser: argparse.ArgumentParser) -> None:
     many = "answers at a time (default: one per processor)"
     add("--workers", type=_from(1), metavar="N", help=many)
     add("--scheduler", metavar="ADDRESS", help="a Dask cluster that observes, instead of --workers")
+    add("--review", action="store_true", help="then mark by eye, in a browser on this computer")
     add("--unsafe-no-sandbox", action="store_true", help="run strangers' code with limits only")
 
 

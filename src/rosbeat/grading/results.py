@@ -1,5 +1,6 @@
-"""`results.json`: all that is known of a class, for programs; docs/results.schema.json is its form.
+"""Write the folder of results, and say in a terminal what has come out.
 
+`results.json` has all that is known of a class, for programs; docs/results.schema.json is its form.
 The same gradebook gives the same bytes. There is no time in it, neither of day nor of work, so a
 run that was interrupted and went on gives the file of a run that was not.
 """
@@ -7,13 +8,30 @@ run that was interrupted and went on gives the file of a run that was not.
 from __future__ import annotations
 
 import json
-from dataclasses import fields
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import fields, replace
 from math import isfinite
+from pathlib import Path
 from typing import Any
 
-from rosbeat.grading.marks import Gradebook, Mark
+from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.errors import GradingError, RecordError
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.grading.cells import number
+from rosbeat.grading.feedback import FOLDER as FEEDBACK
+from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_files
+from rosbeat.grading.manual import FILE as MANUAL
+from rosbeat.grading.manual import write_template
+from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Mark
+from rosbeat.grading.remarks import Remark, printable
+from rosbeat.grading.report import class_report, cut_off, held
+from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
+from rosbeat.grading.writing import write_whole
 from rosbeat.record_json import parse, record, refusal, write
 
+RESULTS = "results.json"
 FORMAT = "rosbeat results"
 #: Raised by one whenever a field is added, taken away or given another meaning.
 VERSION = 3
@@ -21,6 +39,95 @@ VERSION = 3
 UNSTEADY = ("seconds",)
 _POINTS = ("points", "out_of", "judged")
 _DIGITS = 6
+#: Statuses in the order in which they are told, and what they are called.
+_CALLED = {
+    PASSED: "right",
+    FAILED: "wrong",
+    NOT_ATTEMPTED: "not attempted",
+    MISSING: "not handed in",
+    LOOKED_AT: "looked at by you",
+    HELD: "held",
+}
+#: Things of one kind that are named; of more, only how many there are is told.
+_MOST_NAMED = 5
+
+
+# The folder.
+
+
+def require_folder(out: Path) -> None:
+    """Refuse a place for results that is a file, or lies in one.
+
+    Args:
+        out: The folder, which need not be there yet.
+
+    Raises:
+        GradingError: If there is a file in its place.
+    """
+    there = next((one for one in (out, *out.parents) if one.exists()), None)
+    if there is not None and not there.is_dir():
+        raise GradingError(
+            f"{printable(str(there), 1000)} is a file, not a folder.",
+            "All results go into a folder, which need not be there yet; the file stays as it is.",
+            "Name a folder:  --out ~/class/grades",
+        )
+
+
+def write_results(out: Path, gradebook: Gradebook, assignment: str = "rosbeat") -> None:
+    """Write every file of results; what is equal already is not touched.
+
+    Pages of learners who were there the last time and are not any more are taken away.
+
+    Args:
+        out: The folder.
+        gradebook: The class.
+        assignment: What the assignment is called in Canvas.
+
+    Raises:
+        GradingError: If one cannot be written.
+    """
+    before = feedback_files(previous_results(out))
+    names, zips = feedback_files(gradebook), FeedbackZips()
+    for one in gradebook.learners:
+        page = feedback(one, gradebook.solutions)
+        write_whole(out / FEEDBACK / names[one.learner], page)
+        zips.add(one, page)
+    files: dict[str, str | bytes] = {
+        "class.html": class_report(gradebook),
+        "grades.csv": grades_csv(gradebook),
+        "moodle.csv": moodle_csv(gradebook),
+        "canvas.csv": canvas_csv(gradebook, assignment),
+        **zips.files(),
+    }
+    for name, content in files.items():
+        _write(out / name, content)
+    for name in set(before.values()) - set(names.values()):
+        (out / FEEDBACK / name).unlink(missing_ok=True)
+    write_template(out / MANUAL, gradebook)
+    # Last: where it is, all the others are.
+    write_whole(out / RESULTS, to_results(gradebook))
+
+
+def _write(path: Path, content: str | bytes) -> None:
+    """Write a file; one without learners is none, and an older one would be wrong."""
+    if content:
+        write_whole(path, content)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def previous_results(out: Path) -> Gradebook:
+    """Read what was written the last time; nothing, if there is nothing that can be read.
+
+    Args:
+        out: The folder.
+    """
+    with suppress(OSError, RecordError, GradingError, ValueError):
+        return from_results((out / RESULTS).read_text(encoding="utf-8"))
+    return Gradebook("", ())
+
+
+# results.json.
 
 
 def to_results(gradebook: Gradebook) -> str:
@@ -29,7 +136,7 @@ def to_results(gradebook: Gradebook) -> str:
     Args:
         gradebook: A class.
     """
-    document = json.loads(write(gradebook, {"format": FORMAT, "version": VERSION}))
+    document = json.loads(write(_kept(gradebook), {"format": FORMAT, "version": VERSION}))
     document["learners"].sort(key=lambda graded: graded["learner"])
     for mark in _marks(document):
         for name in UNSTEADY:
@@ -37,6 +144,17 @@ def to_results(gradebook: Gradebook) -> str:
         for name in _POINTS:  # 2 and 2.0 are one number, and so are 0 and -0
             mark[name] = round(float(mark[name]), _DIGITS) + 0.0
     return json.dumps(document, indent=1, allow_nan=False) + "\n"
+
+
+def _kept(gradebook: Gradebook) -> Gradebook:
+    """Return what is written: without the texts of answers and what they did."""
+    learners = [
+        replace(
+            one, files=(), marks=tuple(replace(mark, source="", trace="") for mark in one.marks)
+        )
+        for one in gradebook.learners
+    ]
+    return replace(gradebook, learners=tuple(learners), solutions=())
 
 
 def from_results(text: str) -> Gradebook:
@@ -71,3 +189,90 @@ def _float(value: Any) -> Any:  # noqa: ANN401 - unchecked: the next reader comp
     if not isfinite(value):
         raise ValueError("there are endless points")
     return float(value)
+
+
+# What a terminal is told.
+
+
+def summary(gradebook: Gradebook, out: Path) -> str:
+    """Say what has come out, a few lines for a terminal.
+
+    Args:
+        gradebook: A class.
+        out: The folder with the results.
+    """
+    return "\n".join(_lines(gradebook, out))
+
+
+def _lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
+    marks = [mark for one in gradebook.learners for mark in one.marks]
+    exercises = {mark.exercise for mark in marks}
+    learners = _many(len(gradebook.learners), "learner")
+    yield f"{learners}, {_many(len(exercises), 'exercise')}: {_by_status(marks)}."
+    if gradebook.learners:
+        reached = sum(one.points for one in gradebook.learners) / len(gradebook.learners)
+        whole = max(one.out_of for one in gradebook.learners)
+        yield f"On average {number(round(reached, 1))} of {number(whole)} points."
+    yield from _mistake_lines(marks)
+    yield from _remark_lines(gradebook)
+    yield from _held_lines(gradebook, out)
+    yield f"All results are in {printable(str(out), 1000)}; begin with class.html."
+
+
+def _by_status(marks: Sequence[Mark]) -> str:
+    found = Counter(mark.status for mark in marks)
+    told = [f"{found[status]} {called}" for status, called in _CALLED.items() if found[status]]
+    return ", ".join(told) or "nothing to grade"
+
+
+def _mistake_lines(marks: Sequence[Mark]) -> Iterator[str]:
+    found = Counter((mark.mistake, mark.exercise) for mark in marks if mark.mistake)
+    ordered = sorted(found.items(), key=lambda one: (-one[1], one[0]))
+    for (mistake, exercise), times in ordered[:1]:
+        if times == 1:  # each is as frequent as any other
+            return
+        title = MISTAKES[mistake].title if mistake in MISTAKES else mistake
+        yield f"The most frequent mistake: {printable(title)} ({times} times, in {exercise})."
+
+
+def _remark_lines(gradebook: Gradebook) -> Iterator[str]:
+    by_hand = [one for one in gradebook.remarks if one.about == "manual"]
+    for one in by_hand[:_MOST_NAMED]:
+        yield f"{printable(one.path)}: {printable(one.text, 1000)}"
+    if len(by_hand) > _MOST_NAMED:
+        yield f"  and {len(by_hand) - _MOST_NAMED} more such lines; class.html lists them all"
+    files = [one for one in _remarks(gradebook) if one.about != "manual"]
+    if files:
+        kinds = Counter(printable(one.about) for one in files)
+        told = ", ".join(f"{times} {about}" for about, times in sorted(kinds.items()))
+        yield f"{_many(len(files), 'remark')} about files: {told}."
+
+
+def _remarks(gradebook: Gradebook) -> list[Remark]:
+    return [*gradebook.remarks, *(one for graded in gradebook.learners for one in graded.remarks)]
+
+
+def _held_lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
+    named = [f"{printable(one.called, 60)} {mark.exercise}" for one, mark in held(gradebook)]
+    if named:
+        yield f"Held for you to look at: {_first(named)}."
+        file = printable(str(out / "manual.csv"), 1000)
+        yield f"  class.html shows them. Mark them with --review, or write points into {file}"
+        yield "  and run the command again, same options."
+    half = [
+        f"{printable(one.called, 60)} {', '.join(exercises)}"
+        for one, _, exercises in cut_off(gradebook)
+    ]
+    if half:
+        first = _first(half, "; ")
+        yield f"Not whole or not readable, so without points for these exercises: {first}."
+        yield "  Ask for these files again."
+
+
+def _first(names: Sequence[str], between: str = ", ") -> str:
+    more = f"{between}and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
+    return between.join(names[:_MOST_NAMED]) + more
+
+
+def _many(number_of: int, what: str) -> str:
+    return f"{number_of} {what}" if number_of == 1 else f"{number_of} {what}s"

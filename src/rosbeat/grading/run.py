@@ -32,9 +32,10 @@ from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.answers import NOT_THERE, Answer, answers_on
 from rosbeat.grading.course_pages import CoursePage
 from rosbeat.grading.jobs import LOST, Evidence, Job, read_evidence, to_line
-from rosbeat.grading.judging import WATCHER_LOST, judge, untouched
+from rosbeat.grading.judging import WATCHER_LOST, judge_and_trace, untouched
 from rosbeat.grading.ledger import Ledger, key_of
-from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
+from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark, Solution
+from rosbeat.grading.notebook import Cell
 from rosbeat.grading.remarks import REACHES_INSIDE, Remark, printable
 from rosbeat.grading.submissions import Collection, HandedIn, Submission
 from rosbeat.grading.weights import Points, scaled
@@ -58,12 +59,14 @@ class Plan:
         version: The version of the course.
         points: What exercises are worth.
         seed: From what the inputs of scenarios are drawn; 0 on a page. See `ledger.seed_of`.
+        solved: The same pages with the published solutions, as far as there are any.
     """
 
     pages: tuple[CoursePage, ...]
     version: str
     points: Points = field(default_factory=Points)
     seed: int = 0
+    solved: Mapping[str, tuple[Cell, ...]] = field(default_factory=dict)
 
     def out_of(self, exercise: str) -> float:
         """Return what an exercise is worth."""
@@ -90,11 +93,29 @@ def grade(
         GradingError: If no sandbox can be made, or the ledger cannot be written.
     """
     answers = all_answers(collection, plan)
-    jobs = _different_jobs(collection, answers, plan)
+    published = tuple(one for page in plan.pages for one in _published(page, plan))
+    submitted = [
+        [one for handed in each.pages for one in answers.get((each.learner, handed.page), ())]
+        for each in collection.submissions
+    ]
+    jobs = _different_jobs([published, *submitted], plan)
     todo = [[(key, job) for key, job in some if ledger.get(key) is None] for some in jobs]
     _judge_new([some for some in todo if some], sum(map(len, jobs)), plan, ledger, observe, tell)
     learners = tuple(_graded(one, answers, plan, ledger) for one in collection.submissions)
-    return Gradebook(plan.version, learners, collection.remarks)
+    solutions = tuple(
+        Solution(one.exercise, one.source, _trace(one, plan, ledger)) for one in published
+    )
+    return Gradebook(plan.version, learners, collection.remarks, solutions)
+
+
+def _published(page: CoursePage, plan: Plan) -> tuple[Answer, ...]:
+    """Return the published solutions of a page, found as a learner's answers are."""
+    found = answers_on(page, plan.solved.get(page.lesson, ()), seed=plan.seed)
+    return tuple(one for one in found if plan.out_of(one.exercise) > 0 and one.job)
+
+
+def _trace(answer: Answer, plan: Plan, ledger: Ledger) -> str:
+    return ledger.trace(key_of(answer.job, plan.version)) if answer.job else ""
 
 
 def all_answers(collection: Collection, plan: Plan) -> Answers:
@@ -120,18 +141,13 @@ def all_answers(collection: Collection, plan: Plan) -> Answers:
 
 
 def _different_jobs(
-    collection: Collection, answers: Answers, plan: Plan
+    submissions: Iterable[Sequence[Answer]], plan: Plan
 ) -> list[list[tuple[str, Job]]]:
     """Return what there is to observe by submission; of equal answers the first one only."""
     known: set[str] = set()
     found: list[list[tuple[str, Job]]] = []
-    for one in collection.submissions:
-        jobs = {
-            key_of(answer.job, plan.version): answer.job
-            for handed in one.pages
-            for answer in answers.get((one.learner, handed.page), ())
-            if answer.job is not None
-        }
+    for answers in submissions:
+        jobs = {key_of(one.job, plan.version): one.job for one in answers if one.job is not None}
         found.append([(key, job) for key, job in jobs.items() if key not in known])
         known.update(jobs)
     return found
@@ -153,7 +169,8 @@ def _judge_new(
     for done, (key, evidence) in enumerate(observe(todo), known + 1):
         # Who loses workers may have had bad luck; the next run tries that answer again.
         stays = evidence.how != LOST
-        ledger.add(key, judge(EXERCISES[jobs[key].exercise], evidence, plan.seed), stays)
+        outcome, trace = judge_and_trace(EXERCISES[jobs[key].exercise], evidence, plan.seed)
+        ledger.add(key, outcome, stays, trace)
         tell(done, total)
 
 
@@ -172,7 +189,8 @@ def _graded(one: Submission, answers: Answers, plan: Plan, ledger: Ledger) -> Gr
         )
     ]
     remarks = (*one.remarks, *_remarks(one, answers))
-    return Graded(one.learner, one.name, one.system, tuple(marks), remarks)
+    files = tuple((page.page, page.path) for page in one.pages)
+    return Graded(one.learner, one.name, one.system, tuple(marks), remarks, files=files)
 
 
 def _remarks(one: Submission, answers: Answers) -> Iterator[Remark]:
@@ -198,7 +216,8 @@ def _marks(
             yield _held(page, exercise, answer, out_of, handed, WATCHER_LOST)
         else:
             outcome = known or _untried(exercise, answer)
-            yield _mark(page, exercise, answer, outcome, out_of, handed.late)
+            mark = _mark(page, exercise, answer, outcome, out_of, handed.late)
+            yield replace(mark, source=answer.source, trace=_trace(answer, plan, ledger))
 
 
 def _untried(exercise: Exercise[object], answer: Answer) -> Outcome:

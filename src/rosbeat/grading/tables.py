@@ -1,4 +1,4 @@
-"""The tables that `rosbeat grade` writes: one to look at, and one for each system to upload.
+"""Write tables as CSV: one to look at, and one for each system to upload.
 
 Where the forms come from:
 
@@ -21,6 +21,7 @@ from html import escape
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.cells import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number
+from rosbeat.grading.feedback import told_to
 from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark, printable
 from rosbeat.grading.submissions import own_path
@@ -51,7 +52,7 @@ _MOST_FILES = 10
 
 
 def grades_csv(gradebook: Gradebook) -> str:
-    """A row for each learner and exercise, with the cause, to open in a spreadsheet.
+    """Return a row for each learner and exercise, with the cause, to open in a spreadsheet.
 
     It begins with a byte order mark: without one, Excel shows every name that is not ASCII wrong.
 
@@ -82,11 +83,11 @@ def _yes(is_so: bool) -> str:
 
 
 def moodle_csv(gradebook: Gradebook) -> str:
-    """Moodle's grading worksheet: "Upload grading worksheet" of an assignment takes it.
+    """Return Moodle's grading worksheet: "Upload grading worksheet" of an assignment takes it.
 
     Moodle has to be shown in English, the assignment's maximum grade has to be the learner's
     `out_of`, and for a second upload the instructor allows Moodle to update records that are newer.
-    Who has an exercise that is held has no grade yet, and Moodle leaves such a row alone.
+    A learner with an exercise that is held has no grade yet; Moodle leaves such a row alone.
 
     Args:
         gradebook: A class.
@@ -105,7 +106,7 @@ def _of_moodle(graded: Graded) -> tuple[str | float, ...]:
 
 
 def _feedback(graded: Graded) -> str:
-    """What Moodle shows to the learner, as HTML; no sentence is broken off to fit into a cell."""
+    """Return what Moodle shows to the learner, as HTML; no sentence breaks off at the end."""
     lines: list[str] = []
     room = MOST_OF_A_CELL
     for line in _feedback_lines(graded):
@@ -128,7 +129,7 @@ def _feedback_lines(graded: Graded) -> Iterator[str]:
         yield "<p>Your instructor will look at one of your answers; then there are points.</p>"
     if graded.comment:
         yield f"<p>{_html(graded.comment)}</p>"
-    yield from _file_lines(graded.remarks)
+    yield from _file_lines(told_to(graded))
     for mark in graded.marks:
         reached = f"{number(mark.points)} of {number(mark.out_of)}"
         reached = "not settled yet" if mark.status == HELD else reached
@@ -138,7 +139,7 @@ def _feedback_lines(graded: Graded) -> Iterator[str]:
 
 
 def _file_lines(remarks: Sequence[Remark]) -> Iterator[str]:
-    """What was noticed about files, so that nobody has to guess where points went."""
+    """Yield what was noticed about files, so that nobody has to guess where points went."""
     for one in remarks[:_MOST_FILES]:
         yield f"<p>{_html(f'{own_path(one.path)}: {one.text}')}</p>"
     if len(remarks) > _MOST_FILES:
@@ -151,9 +152,9 @@ def _html(text: str) -> str:
 
 
 def canvas_csv(gradebook: Gradebook, assignment: str = "rosbeat") -> str:
-    """Canvas's gradebook: "Import" of the gradebook takes it.
+    """Return Canvas's gradebook: "Import" of the gradebook takes it.
 
-    Who has an exercise that is held has no grade yet.
+    A learner with an exercise that is held has no grade yet.
 
     Args:
         gradebook: A class.

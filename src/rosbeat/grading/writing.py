@@ -1,4 +1,4 @@
-"""Files of results: written whole or not at all, under names that are safe on every computer."""
+"""Write files whole or not at all, under names that are safe on every computer."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def _replace(path: Path, data: bytes) -> None:
 
 
 def file_name(learner: str, name: str = "") -> str:
-    """A file name for a learner, without a suffix: small letters, digits, hyphens, one underscore.
+    """Return a file name for a learner: small letters, digits, hyphens, one underscore; no suffix.
 
     It depends on this learner alone, so it stays the same whoever else is in the class. Unless the
     id is such a name already, a digest of it makes the name this learner's own: `Ana`, `ana` and
@@ -94,7 +94,7 @@ def file_name(learner: str, name: str = "") -> str:
 
 
 def file_names(learners: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """A file name for each learner of a class, no two the same.
+    """Return a file name for each learner of a class, no two the same.
 
     Args:
         learners: Of each, what tells this learner from others, and the name.

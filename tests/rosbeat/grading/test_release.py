@@ -360,7 +360,7 @@ def test_what_must_not_be_in_it(files, part):
         "environment/course.lock",
         "environment/course_tool/__main__.py",
         "src/rosbeat/cli.py",
-        "src/rosbeat/grading/html_page.css",
+        "src/rosbeat/grading/templates/style.css",
         "src/rosbeat/panel/panel.js",
         "src/ros2_command/pyproject.toml",
         "notebooks/13_build_your_own.ipynb",

@@ -1,0 +1,361 @@
+"""Report a class to its instructor: how each exercise went, and which mistakes to talk about.
+
+Learners are named only where somebody has to look at their work, and in a table that is folded.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from statistics import mean, median
+
+from markupsafe import Markup
+
+from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
+from rosbeat.exercises.exercise import FAILED
+from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
+from rosbeat.grading.feedback import FOLDER, feedback_files
+from rosbeat.grading.groups import groups_of
+from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
+from rosbeat.grading.rendering import (
+    STATUSES,
+    Segment,
+    html,
+    most,
+    name,
+    number,
+    render,
+    segments_of,
+)
+from rosbeat.grading.submissions import own_path
+from rosbeat.viz.words import count
+
+#: How many per cent of the points each step of the distribution covers; 100 is a step of its own.
+STEP = 10
+#: Exercises that are named with a mistake; the table has all of them.
+_PLACES = 6
+#: Characters of a text of somebody's run.
+_MOST = 300
+#: Names in a list of answers that are alike, and lines of an answer from which on they are listed.
+_NAMES, _LONG = 20, 8
+#: The headings of remarks, by what they are about.
+_ABOUT = {
+    "late": "Handed in late",
+    "duplicate": "Handed in more than once",
+    "renamed": "Under another name",
+    "empty": "Empty files",
+    "half-uploaded": "Files that are not whole",
+    "mended": "Files that were mended to be read",
+    "wrong-course": "Notebooks of another course",
+    "unreadable": "Files that cannot be read",
+    "too-large": "Files that are too large",
+    "refused": "Files that were refused",
+    "left-out": "Files that were left out",
+    "reaches-inside": "Answers that reach for what observes them; their marks stand",
+    "manual": "Lines of manual.csv that need a look",
+    "roster": "Lines of the roster that need a look",
+}
+_Rows = list[tuple[str, ...]]
+
+
+def class_report(book: Gradebook) -> str:
+    """Return the report of a class.
+
+    Args:
+        book: The class.
+
+    Returns:
+        A whole HTML document, the same for the same input; it needs no network and no script.
+    """
+    exercises, mistakes = tally_exercises(book), tally_mistakes(book)
+    signs = ", ".join(f"{look.sign} {look.of_class}" for look in STATUSES.values())
+    return render(
+        "class.html",
+        book=book,
+        own_path=own_path,
+        segment=Segment,
+        points=tally_points(book),
+        mistakes=mistakes,
+        mistake_rows=[(one.title, one.count, one.learners, one.all_places) for one in mistakes],
+        exercises=exercises,
+        pages=[(page, list(some)) for page, some in groupby(exercises, lambda one: one.page)],
+        legend=f"Learners by outcome: {signs}",
+        exercise_head=["Exercise", *map(_abbreviation, STATUSES)],
+        exercise_rows=[
+            (one.exercise, *(one.counts.get(status, 0) for status in STATUSES)) for one in exercises
+        ],
+        held=held(book),
+        cut_off=[
+            (name(learner.called), ", ".join(exercises), name(own_path(file)))
+            for learner, file, exercises in cut_off(book)
+        ],
+        nameless=[
+            (name(learner.called), mark.exercise, most(mark.evidence or mark.cause, _MOST))
+            for learner, mark in nameless(book)
+        ],
+        alike=_alike(book),
+        learners=_learners(book),
+        files=list(_files(book)),
+    )
+
+
+def _abbreviation(status: str) -> Markup:
+    look = STATUSES[status]
+    return html('<abbr title="{}">{}</abbr>', look.of_class, look.sign)
+
+
+def _learners(book: Gradebook) -> _Rows:
+    files = feedback_files(book)
+    return [
+        (
+            html('<a href="{}/{}">{}</a>', FOLDER, files[one.learner], name(one.name)),
+            name(one.learner),
+            f"{number(one.points)}{'' if one.is_settled else ' ?'}",
+            number(one.out_of),
+            str(len(one.remarks) or ""),
+        )
+        for one in sorted(book.learners, key=lambda one: (one.name.casefold(), one.learner))
+    ]
+
+
+def _alike(book: Gradebook) -> _Rows:
+    """Return who handed in answers that are alike; short answers have few right forms."""
+    return [
+        (
+            group.exercise,
+            str(len(group.members)),
+            Markup(", ").join(name(one.called) for one, _ in group.members[:_NAMES])
+            + (f" and {len(group.members) - _NAMES} more" if len(group.members) > _NAMES else ""),
+            group.solution or "equal to each other but for names and layout",
+        )
+        for group in groups_of(book)
+        if len(group.members) > 1 and len(group.first.source.split("\n")) >= _LONG
+    ]
+
+
+def _files(book: Gradebook) -> Iterator[tuple[str, tuple[str, ...], _Rows]]:
+    """Yield tables about files: caption, headings of the columns, rows."""
+    nobody: _Rows = [(name(one.called),) for one in empty_handed(book)]
+    yield "Learners of whom no page was found", ("Learner",), nobody
+    found: dict[str, _Rows] = defaultdict(list)
+    for learner in book.learners:
+        for one in learner.remarks:
+            row = name(learner.name), name(own_path(one.path)), most(one.text, _MOST)
+            found[one.about].append(row)
+    for one in book.remarks:
+        found[one.about].append(("–", name(one.path), most(one.text, _MOST)))
+    for about in sorted(found):
+        head = ("Learner", "File", "What was found")
+        yield _ABOUT.get(about) or most(about, _MOST), head, found[about]
+    repaired = [(learner, mark) for learner, mark in all_marks(book) if mark.repairs]
+    searched = [_repaired(*one) for one in repaired if not _is_not_there(one[1])]
+    yield "Answers that had to be searched for", ("Learner", "Exercise", "How"), searched
+    lost = [_repaired(*one) for one in repaired if _is_not_there(one[1])]
+    head = ("Learner", "Exercise", "What was found")
+    yield "Exercises whose cells are not on the page", head, lost
+
+
+def _repaired(learner: Graded, mark: Mark) -> tuple[str, ...]:
+    return name(learner.name), mark.exercise, most(" ".join(mark.repairs), _MOST)
+
+
+def _is_not_there(mark: Mark) -> bool:
+    return NOT_THERE in mark.repairs or PART_NOT_THERE in mark.repairs
+
+
+# Counting: pure functions of a gradebook.
+
+
+@dataclass(frozen=True)
+class ExerciseTally:
+    """Hold how one exercise went in a class.
+
+    Attributes:
+        exercise: Its id.
+        title: What it is about.
+        page: The lesson's name.
+        counts: How many learners there are of each status.
+    """
+
+    exercise: str
+    title: str
+    page: str
+    counts: dict[str, int]
+
+    @property
+    def learners(self) -> int:
+        """Return of how many learners it was graded."""
+        return sum(self.counts.values())
+
+    @property
+    def segments(self) -> list[Segment]:
+        """Return the parts of its bar."""
+        return segments_of(Counter(self.counts).elements(), of_class=True)
+
+
+@dataclass(frozen=True)
+class MistakeTally:
+    """Hold how often one mistake was made in a class.
+
+    Attributes:
+        mistake: Its id.
+        count: In how many answers it was found.
+        learners: How many learners made it.
+        places: The exercises in which it was found, with how often, most frequent first.
+        hint: The hint that was given for it most often.
+        evidence: What was observed most often.
+    """
+
+    mistake: str
+    count: int
+    learners: int
+    places: tuple[tuple[str, int], ...]
+    hint: str
+    evidence: str
+
+    @property
+    def title(self) -> str:
+        """Return what it is called."""
+        known = MISTAKES.get(self.mistake)
+        return known.heading if known else "Mistakes without a name"
+
+    @property
+    def segment(self) -> Segment:
+        """Return its bar."""
+        return Segment("failed", self.count, "answers")
+
+    @property
+    def all_places(self) -> str:
+        """Return where it was found, in words."""
+        return ", ".join(f"{exercise} {many}×" for exercise, many in self.places)
+
+    @property
+    def first_places(self) -> str:
+        """Return where it was found most often, in words."""
+        first = ", ".join(f"{exercise} {many}×" for exercise, many in self.places[:_PLACES])
+        more = len(self.places) - _PLACES
+        return f"{first} and in {count(more, 'more exercise')}" if more > 0 else first
+
+
+@dataclass(frozen=True)
+class PointsTally:
+    """Hold the points of a class, in per cent of what each learner could reach.
+
+    Attributes:
+        steps: For each step its name, such as `50 to 59 %`, and how many learners are in it.
+        median: The median in per cent.
+        mean: The mean in per cent.
+    """
+
+    steps: tuple[tuple[str, int], ...]
+    median: float
+    mean: float
+
+    @property
+    def highest(self) -> int:
+        """Return how many learners are in the largest step."""
+        return max(many for _, many in self.steps)
+
+    @property
+    def range(self) -> tuple[tuple[str, int], ...]:
+        """Return the steps from the lowest that has a learner to the highest."""
+        taken = [at for at, (_, many) in enumerate(self.steps) if many]
+        return self.steps[taken[0] : taken[-1] + 1] if taken else ()
+
+
+def all_marks(book: Gradebook) -> Iterator[tuple[Graded, Mark]]:
+    """Yield every mark with its learner, learner by learner."""
+    yield from ((learner, mark) for learner in book.learners for mark in learner.marks)
+
+
+def tally_exercises(book: Gradebook) -> tuple[ExerciseTally, ...]:
+    """Count the outcomes of each exercise, in the order of the course."""
+    counts: dict[tuple[str, str, str], Counter[str]] = defaultdict(Counter)
+    for _, mark in all_marks(book):
+        counts[mark.page, mark.exercise, mark.title][mark.status] += 1
+    return tuple(
+        ExerciseTally(exercise, title, page, dict(found))
+        for (page, exercise, title), found in counts.items()
+    )
+
+
+def tally_mistakes(book: Gradebook) -> tuple[MistakeTally, ...]:
+    """Count the mistakes, most frequent first."""
+    found: dict[str, list[tuple[str, Mark]]] = defaultdict(list)
+    for learner, mark in all_marks(book):
+        if mark.status == FAILED:
+            found[mark.mistake or UNKNOWN].append((learner.learner, mark))
+    tallies = (_mistake(mistake, marks) for mistake, marks in found.items())
+    return tuple(sorted(tallies, key=lambda one: (-one.count, one.mistake)))
+
+
+def _mistake(mistake: str, found: Sequence[tuple[str, Mark]]) -> MistakeTally:
+    marks = [mark for _, mark in found]
+    return MistakeTally(
+        mistake,
+        len(marks),
+        len({learner for learner, _ in found}),
+        tuple(_ranked(mark.exercise for mark in marks)),
+        _first(_ranked(mark.hint for mark in marks if mark.hint)),
+        _first(_ranked(mark.evidence for mark in marks if mark.evidence)),
+    )
+
+
+def _ranked(words: Iterable[str]) -> list[tuple[str, int]]:
+    """Return words with their counts, most frequent first, then by name."""
+    return sorted(Counter(words).items(), key=lambda one: (-one[1], one[0]))
+
+
+def _first(ranked: Sequence[tuple[str, int]]) -> str:
+    return ranked[0][0] if ranked else ""
+
+
+def tally_points(book: Gradebook) -> PointsTally:
+    """Sort the learners into steps by their share of the points.
+
+    Args:
+        book: The class; learners for whom there are no points are left out.
+    """
+    shares = [100 * one.points / one.out_of for one in book.learners if one.out_of > 0]
+    steps = Counter(int(min(max(share, 0.0), 100.0) // STEP) for share in shares)
+    rows = [(f"{at} to {at + STEP - 1} %", steps[at // STEP]) for at in range(0, 100, STEP)]
+    rows.append(("100 %", steps[100 // STEP]))
+    return PointsTally(
+        tuple(rows), median(shares) if shares else 0.0, mean(shares) if shares else 0.0
+    )
+
+
+def held(book: Gradebook) -> list[tuple[Graded, Mark]]:
+    """Return what is held for a person to look at."""
+    return [
+        (learner, mark)
+        for learner, mark in all_marks(book)
+        if mark.status == HELD and not mark.waits_for_its_file
+    ]
+
+
+def cut_off(book: Gradebook) -> list[tuple[Graded, str, list[str]]]:
+    """Return files that break off: the learner, the path, and the ids of exercises not in them."""
+    return [
+        (learner, file, [mark.exercise for mark in marks])
+        for learner in book.learners
+        for file, marks in groupby(
+            (mark for mark in learner.marks if mark.waits_for_its_file), lambda mark: mark.file
+        )
+    ]
+
+
+def nameless(book: Gradebook) -> list[tuple[Graded, Mark]]:
+    """Return answers that failed with a mistake that has no name."""
+    return [
+        (learner, mark)
+        for learner, mark in all_marks(book)
+        if mark.status == FAILED and mark.mistake in ("", UNKNOWN)
+    ]
+
+
+def empty_handed(book: Gradebook) -> list[Graded]:
+    """Return learners of whom no page was found."""
+    return [one for one in book.learners if all(mark.status == MISSING for mark in one.marks)]

@@ -1,0 +1,405 @@
+"""The report of a class: counted, drawn, said in words, and safe whatever a learner wrote."""
+
+import re
+from dataclasses import replace
+from importlib.resources import files
+from xml.etree import ElementTree
+
+import pytest
+
+from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
+from parsed_html import ELEMENTS, Parsed
+from reviewing import a_class_to_review
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.grading.cells import number
+from rosbeat.grading.feedback import feedback_files
+from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded
+from rosbeat.grading.rendering import (
+    STATUSES,
+    look_of,
+    most,
+    name,
+    page_title,
+    paragraph,
+    points_of,
+    prose,
+    readable,
+    visible,
+)
+from rosbeat.grading.report import (
+    class_report,
+    empty_handed,
+    held,
+    nameless,
+    tally_exercises,
+    tally_mistakes,
+    tally_points,
+)
+
+ONE = Gradebook("0.1.0", (one_of_each(),))
+STYLE = (files("rosbeat.grading") / "templates" / "style.css").read_text("utf-8")
+
+
+def text_of(page):
+    return " ".join(Parsed(page).text.split())
+
+
+def sections(page):
+    """The sections of a page, by their headings."""
+    return {part.split("</h2>")[0]: part for part in page.split("<h2>")[1:]}
+
+
+# What is said.
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "1 learner, 10 exercises. 1 answer waits for you to look at.",
+        "Judged by version 0.1.0",
+        "40 to 49 %: 1 learner",
+        "A topic's name that nobody else uses",
+        "Hint for the class: Compare the two names letter by letter.",
+        "03 Write a publisher",
+        "Ana Muster (4711), 04b raise the alarm in 04.ipynb It used more memory than there is.",
+        "The answer, 2 lines import os class A: pass",
+        "Ana Muster (4711) 03c KeyError: 'x'.",
+        "Ana Muster homework (1).ipynb This is the page 03; it has another name.",
+        "Ana Muster 04c Its cell has lost its name.",
+    ],
+)
+def test_everything_is_said(said):
+    assert said in text_of(class_report(ONE))
+
+
+def test_the_numbers_are_those_of_the_class():
+    book = a_class(60)
+    text = text_of(class_report(book))
+    for one in tally_mistakes(book):
+        assert f"{one.count} answers of {one.learners} learners" in text
+    for one in tally_exercises(book)[:5]:
+        assert f"{one.exercise} {one.title} " in text
+        assert f"✓ passed {one.counts['passed']}" in text
+
+
+def test_each_drawing_is_said_in_words():
+    elements = Parsed(class_report(a_class(30))).elements
+    drawn = [attrs for tag, attrs in elements if tag == "svg"]
+    assert len(drawn) > 40
+    assert all(attrs["role"] == "img" and ": " in attrs["aria-label"] for attrs in drawn)
+    assert [tag for tag, _ in elements].count("table") > 5
+
+
+def test_nobody_is_named_who_need_not_be():
+    book = a_class(20)
+    named = "Learner 4"  # nothing of this learner was late, held or nameless
+    clean = next(one for one in book.learners if one.name == named)
+    quiet = Gradebook("1", (*ONE.learners, _without_trouble(clean)))
+    page = class_report(quiet)
+    assert text_of(page).count(named) == 1
+    assert "<details>\n<summary>2 learners" in page
+
+
+def _without_trouble(learner):
+    marks = tuple(replace(one, status="passed", repairs=()) for one in learner.marks)
+    return replace(learner, marks=marks, remarks=())
+
+
+@pytest.mark.parametrize("size", [0, 1, 1000])
+def test_classes_of_every_size(size):
+    page = class_report(a_class(size))
+    assert page == class_report(a_class(size))
+    assert len(page) < 1_000_000
+    assert {tag for tag, _ in Parsed(page).elements} <= ELEMENTS
+
+
+def test_strange_texts_stay_text():
+    page = class_report(Gradebook("<b>", tuple(hostile_learner(one) for one in HOSTILE)))
+    page.encode("utf-8")
+    elements = Parsed(page).elements
+    assert {tag for tag, _ in elements} <= ELEMENTS
+    assert not any(name.startswith("on") for _, attrs in elements for name in attrs)
+    assert not set("\0\x1b\u202e") & set(page)
+
+
+# Who is named.
+
+
+def test_every_learner_has_points_and_a_link_to_the_feedback():
+    learners = [replace(one, name=f"Ünal & {n}") for n, one in enumerate(a_class(700).learners)]
+    book = Gradebook("1", tuple(reversed(learners)))
+    page = sections(class_report(book))["Learners"]
+    links = [attrs["href"] for tag, attrs in Parsed(page).elements if tag == "a"]
+    files = feedback_files(book)
+    assert set(links) == {f"feedback/{files[one.learner]}" for one in learners}
+    assert len(links) == 700
+    text = text_of(page)
+    one = learners[0]
+    assert f"Ünal & 0 0000 {number(one.points)} ? {number(one.out_of)} 1 Ünal & 1 0001" in text
+
+
+def test_a_held_answer_is_shown_as_it_is_and_stays_text():
+    answer = "import os\n\n    <script>alert(1)</script>\u202e\n" + "x = 1\n" * 5_000
+    held = mark("03a", "held", answer=answer, file="ana/<b>.ipynb")
+    page = class_report(Gradebook("1", (replace(one_of_each(), marks=(held,)),)))
+    assert "import os\n\n    &lt;script&gt;alert(1)&lt;/script&gt;\\u202e\nx = 1" in page
+    assert "more characters; the file has all of them" in page
+    assert {tag for tag, _ in Parsed(page).elements} <= ELEMENTS
+
+
+def test_more_held_answers_than_anybody_reads_are_counted():
+    held = mark("03a", "held", answer="import os", file="a")
+    page = class_report(Gradebook("1", (replace(one_of_each(), marks=(held,) * 250),)))
+    assert page.count("import os") == 200
+    assert "And 50 more; results.json has all of them." in page
+    assert "<details open>" not in page
+
+
+def test_exercises_behind_the_end_of_a_file_are_named_with_it():
+    marks = [mark(name, "held", file="x/04.ipynb") for name in ("04a", "04b")]
+    book = Gradebook("1", (replace(one_of_each(), marks=tuple(marks)),))
+    text = text_of(class_report(book))
+    assert "No answer waits for you. 1 file is not whole." in text
+    assert "stop before these exercises" in text
+    assert "Ana Muster (4711) 04a, 04b 04.ipynb" in text
+
+
+def test_what_was_looked_at_waits_for_nobody_and_is_no_mistake():
+    seen = mark("03a", "looked at", points=0.5, manual=True, answer="import os")
+    text = text_of(class_report(Gradebook("1", (replace(one_of_each(), marks=(seen,)),))))
+    assert "No answer waits for you." in text
+    assert "No answer failed." in text
+    assert "✎ looked at by you 1" in text
+    assert "import os" not in text
+
+
+@pytest.mark.parametrize(
+    "said", ["Its cell is not on the page.", "A cell of it is not on the page."]
+)
+def test_what_was_not_found_is_not_among_what_was(said):
+    one = replace(one_of_each(), marks=(mark("04a", "not attempted", repairs=(said,)),))
+    text = text_of(class_report(Gradebook("1", (one,))))
+    assert "searched for" not in text
+    assert f"not on the page Learner Exercise What was found Ana Muster 04a {said}" in text
+
+
+def test_answers_that_are_alike_are_listed_as_a_fact():
+    text = text_of(class_report(a_class_to_review(70)))
+    assert "fact and no verdict" in text
+    names = "equal to the published solution but for names and layout"
+    assert re.search(rf"04a 47 Learner 0 \(0000\), .* and 27 more {names}", text)
+    assert re.search(r"04a 23 Learner 2 .* and 3 more equal to each other but for names", text)
+    assert "04b 35" not in text  # one line: whoever is right writes it so
+    assert "alike" not in text_of(class_report(ONE))
+
+
+# Counting.
+
+
+def learner(name, *marks):
+    return Graded(name, name, "folder", marks)
+
+
+def wrong(exercise, mistake, hint="h", evidence="e"):
+    return mark(exercise, "failed", mistake=mistake, hint=hint, evidence=evidence)
+
+
+BOOK = Gradebook(
+    "1",
+    (
+        learner("ana", mark("03a"), wrong("04a", "boundary", "one")),
+        learner("ben", wrong("03a", "boundary", "two"), wrong("04a", "boundary", "two")),
+        learner("cy", mark("03a", "held"), wrong("04a", "new-to-me")),
+        learner("di", mark("03a", "missing"), mark("04a", "missing")),
+    ),
+)
+
+
+def test_exercises_are_counted_in_the_order_of_the_course():
+    found = tally_exercises(BOOK)
+    assert [one.exercise for one in found] == ["03a", "04a"]
+    assert found[0].counts == {"passed": 1, "failed": 1, "held": 1, "missing": 1}
+    assert found[1].counts == {"failed": 3, "missing": 1}
+    assert {one.learners for one in found} == {4}
+
+
+def test_mistakes_come_most_frequent_first_with_their_places_and_hint():
+    first, second = tally_mistakes(BOOK)
+    assert (first.mistake, first.count, first.learners) == ("boundary", 3, 2)
+    assert first.places == (("04a", 2), ("03a", 1))
+    assert first.hint == "two"
+    assert (second.mistake, second.count) == ("new-to-me", 1)
+
+
+def test_points_are_sorted_into_steps():
+    found = tally_points(BOOK)
+    assert dict(found.steps)["50 to 59 %"] == 1
+    assert dict(found.steps)["0 to 9 %"] == 3
+    assert (found.median, found.mean) == (0.0, 12.5)
+    assert found.highest == 3
+    assert (found.range[0][0], found.range[-1][0]) == ("0 to 9 %", "50 to 59 %")
+
+
+@pytest.mark.parametrize(
+    ("points", "step"),
+    [(0, "0 to 9 %"), (0.999, "90 to 99 %"), (1, "100 %"), (2, "100 %"), (-1, "0 to 9 %")],
+)
+def test_each_share_has_its_step(points, step):
+    found = tally_points(Gradebook("1", (learner("ana", mark(points=points)),)))
+    assert [name for name, many in found.steps if many] == [step]
+
+
+def test_without_points_nothing_is_counted():
+    for book in (Gradebook("1", ()), Gradebook("1", (learner("ana"),))):
+        found = tally_points(book)
+        assert (found.highest, found.range, found.median) == (0, (), 0.0)
+
+
+def test_who_has_to_be_looked_at():
+    assert [(one.name, found.exercise) for one, found in held(BOOK)] == [("cy", "03a")]
+    assert [(one.name, found.exercise) for one, found in nameless(BOOK)] == [("cy", "04a")]
+    assert [one.name for one in empty_handed(BOOK)] == ["di"]
+
+
+def test_a_class_adds_up():
+    book = a_class(120)
+    assert all(one.learners == 120 for one in tally_exercises(book))
+    failed = sum(one.counts.get("failed", 0) for one in tally_exercises(book))
+    assert sum(one.count for one in tally_mistakes(book)) == failed
+    assert sum(many for _, many in tally_points(book).steps) == 120
+
+
+# A page works from one file, whatever is in it.
+
+
+def test_a_page_has_what_browsers_and_readers_need():
+    parsed = Parsed(class_report(ONE))
+    tags = [tag for tag, _ in parsed.elements]
+    metas = [attrs for tag, attrs in parsed.elements if tag == "meta"]
+    assert ("html", {"lang": "en"}) in parsed.elements
+    assert {"charset": "utf-8"} in metas
+    assert {"name": "viewport", "content": "width=device-width, initial-scale=1"} in metas
+    (policy,) = [one["content"] for one in metas if "http-equiv" in one]
+    assert policy == "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
+    assert not {"script", "link", "iframe", "object"} & set(tags)
+
+
+def test_a_page_asks_the_network_for_nothing():
+    assert not re.search(r"https?:|url\(|@import|src=", class_report(a_class(3)))
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
+@pytest.mark.parametrize("make", [readable, name, paragraph, prose, visible])
+def test_what_is_hidden_in_a_text_is_shown(make, text):
+    made = make(text)
+    made.encode("utf-8")
+    assert not set("\0\x1b\u202e") & set(made)
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
+@pytest.mark.parametrize("make", [name, paragraph, prose])
+def test_a_text_makes_no_elements(make, text):
+    elements = Parsed(f"<i>{make(text)}</i>").elements
+    assert {tag for tag, _ in elements} <= {"i", "p", "pre", "bdi"}
+    assert all(set(attrs) <= {"dir", "class"} for _, attrs in elements)
+
+
+def test_hidden_characters_are_shown_and_line_breaks_stay():
+    assert visible("a\u202eb\0c\n\td") == "a\\u202eb\\u0000c\n\td"
+    assert paragraph("a\n  b") == "<pre>a\n  b</pre>"
+    assert paragraph("a") == '<p dir="auto">a</p>'
+    assert prose("a\nb") == '<p class="said" dir="auto">a\nb</p>'
+    assert paragraph(" ") == prose(" ") == ""
+
+
+def test_a_long_text_is_cut_and_says_so():
+    assert len(readable("W" * 100_000)) < 5_000
+    assert "100,000 characters in all" in readable("W" * 100_000)
+    assert readable("W" * 3_000) == "W" * 3_000
+    assert most("abcdef", 4) == "abc…"
+
+
+@pytest.mark.parametrize(
+    ("points", "out_of", "said"),
+    [(1, 1, "1 of 1 point"), (0.5, 2.0, "0.5 of 2 points"), (0.1 + 0.2, 1, "0.3 of 1 point")],
+)
+def test_points_in_words(points, out_of, said):
+    assert points_of(points, out_of) == said
+
+
+def test_titles_of_pages():
+    assert page_title("03_write_a_publisher") == "03 Write a publisher"
+    assert page_title("") == "The whole system"
+    assert page_title("99_strange") == "99_strange"
+
+
+def test_a_table_has_headings_of_both_kinds_and_a_long_one_is_folded():
+    page = class_report(ONE)
+    scopes = {attrs["scope"] for tag, attrs in Parsed(page).elements if tag == "th"}
+    assert scopes == {"col", "row"}
+    many = replace(one_of_each(), remarks=one_of_each().remarks * 12)
+    assert "<summary>Under another name (12)</summary>" in class_report(Gradebook("1", (many,)))
+
+
+def test_a_table_that_nobody_reads_says_how_much_is_left():
+    remarks = one_of_each().remarks * 503
+    page = class_report(Gradebook("1", (replace(one_of_each(), remarks=remarks),)))
+    assert "And 3 more; the file grades.csv has all of them." in page
+
+
+def test_lengths_of_a_bar_are_shares_and_a_number_stands_where_it_fits():
+    marks = [mark("03a")] * 199 + [mark("03a", "failed")]
+    learners = tuple(Graded(str(n), "", "folder", (one,)) for n, one in enumerate(marks))
+    bars = re.findall(r"<svg.*?</svg>", class_report(Gradebook("1", learners)))
+    (tree,) = [one for one in map(ElementTree.fromstring, bars) if len(list(one.iter("rect"))) == 2]
+    widths = [(one.get("class"), one.get("x"), one.get("width")) for one in tree.iter("rect")]
+    assert widths == [("passed", "0.000%", "99.500%"), ("failed", "99.500%", "0.500%")]
+    assert [one.text for one in tree.iter("text")] == ["199"]
+    assert tree.get("aria-label") == "03a another sensor: 199 passed, 1 not there yet"
+
+
+# Colours: text and edges can be made out, in both themes.
+
+
+def colours(theme):
+    """Colours of a theme by name."""
+    blocks = re.findall(r":root \{([^}]*--ink[^}]*)\}", STYLE)
+    assert len(blocks) == 2
+    return dict(re.findall(r"--([\w-]+): (#\w+);", blocks[("light", "dark").index(theme)]))
+
+
+def luminance(colour):
+    """Relative luminance of a colour (WCAG 2.2)."""
+    parts = [int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5)]
+    linear = [one / 12.92 if one <= 0.04045 else ((one + 0.055) / 1.055) ** 2.4 for one in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(one, other):
+    low, high = sorted((luminance(one), luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_colours_can_be_told_apart(theme):
+    found = colours(theme)
+    for ground in ("page", "card", "missing"):
+        assert contrast(found["ink"], found[ground]) >= 4.5
+    for text in ("muted", "link"):
+        assert min(contrast(found[text], found[ground]) for ground in ("page", "card")) >= 4.5
+    for look in STATUSES.values():
+        assert contrast(found[f"on-{look.kind}"], found[look.kind]) >= 4.5
+        assert look.kind == "missing" or contrast(found[look.kind], found["card"]) >= 3
+    assert contrast("#000000", "#ffffff") == pytest.approx(21)
+
+
+def test_both_themes_have_all_the_colours_that_are_used():
+    used = set(re.findall(r"var\(--([\w-]+)\)", STYLE))
+    assert used <= set(colours("light")) == set(colours("dark"))
+
+
+def test_every_status_has_a_look_of_its_own():
+    assert set(STATUSES) == {PASSED, FAILED, NOT_ATTEMPTED, MISSING, HELD, LOOKED_AT}
+    for part in ("sign", "word", "of_class", "kind"):
+        assert len({getattr(look, part) for look in STATUSES.values()}) == len(STATUSES)
+    assert look_of("strange").word == "strange"
