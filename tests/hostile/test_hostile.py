@@ -149,7 +149,11 @@ def test_honest_marks_are_what_they_are_without_the_others(graded, surroundings,
 
 
 def test_no_byte_leaks_into_results_or_evidence(graded):
-    assert [path for path, data in _written(graded[1]).items() if CANARY.encode() in data] == []
+    found = {path: data for path, data in _written(graded[1]).items() if CANARY.encode() in data}
+    # Whose answer it is reads it on their own page, once, as a line of their own code.
+    assert list(found) == [graded[1] / "feedback" / "honest-ana.html"]
+    (page,) = found.values()
+    assert page.count(CANARY.encode()) == page.count(f"# {CANARY}\n".encode()) == 1
     assert len(graded[3]) > len(DEEDS)
     assert [one for one in graded[3] if CANARY in str(one)] == []
 
