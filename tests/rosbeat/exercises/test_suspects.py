@@ -11,13 +11,38 @@ from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import QoS
 
 SECOND = 10**9
+
+
+def fed(exercise, seed=0):
+    """Return what an exercise draws."""
+    (drawn,) = EXERCISES[exercise].inputs(seed)
+    return drawn
+
+
+def noted(lines):
+    """Return log lines as those models are fed them that say what to publish of each."""
+    return {1.0 * number: (line, "/watcher") for number, line in enumerate(lines, 1)}
+
+
 #: What is fed, what is right, and the suspects; of an exercise that draws its inputs, its id.
 TABLES = {
     "04a": ("04a", page_04._each(page_04._state), page_04.FRIDGE_SUSPECTS),
     "04b": ("04b", page_04._alerts(), page_04.ROOM_SUSPECTS),
     "04c mean": ("04c", page_04._means(), page_04.MEAN_SUSPECTS),
     "04c status": ("04c", page_04._statuses(), page_04.STATUS_SUSPECTS),
-    **{f"07 {number}": table for number, table in enumerate(page_07.MODELS)},
+    "07b": ("07b", page_07._right, page_07._SUSPECT_MONITORS),
+    "07b defaults": (
+        fed("07b"),
+        page_07._right,
+        (*page_07._SUSPECT_MONITORS, *page_07.default_suspects(fed("07b").readings)),
+    ),
+    "07c": ("07c", page_07._warnings, page_07._SUSPECT_LINES),
+    "07c name": (
+        fed("07c"),
+        page_07._warnings,
+        (*page_07._SUSPECT_LINES, *page_07._single_names(fed("07c"))),
+    ),
+    "07c text": (noted(fed("07c")), page_07._names, page_07._SUSPECT_TEXTS),
     "08a": (page_08.COMMANDS, page_08._keep_mode, page_08.KEEPERS),
     "08c": (
         page_08.TIMES,
@@ -33,12 +58,6 @@ TABLES = {
 DRAWN = {name: table for name, table in TABLES.items() if isinstance(table[0], str)}
 #: Seeds that are tried of each exercise; the first one is the page's.
 SEEDS = range(1_001)
-
-
-def fed(exercise, seed=0):
-    """Return what an exercise draws."""
-    (drawn,) = EXERCISES[exercise].inputs(seed)
-    return drawn
 
 
 @pytest.mark.parametrize("exercise", [one.id for one in EXERCISES.values() if one.draw])
