@@ -43,12 +43,8 @@ TABLES = {
         (*page_07._SUSPECT_LINES, *page_07._single_names(fed("07c"))),
     ),
     "07c text": (noted(fed("07c")), page_07._names, page_07._SUSPECT_TEXTS),
-    "08a": (page_08.COMMANDS, page_08._keep_mode, page_08.KEEPERS),
-    "08c": (
-        page_08.TIMES,
-        page_08._watch,
-        (*page_08.WATCHDOGS, *page_08.deadline_suspects([QoS(deadline_ns=3 * SECOND)])),
-    ),
+    "08a": ("08a", page_08._keep_mode, page_08.KEEPERS),
+    "08c": ("08c", page_08._watch, page_08._WITH_A_LATE_DEADLINE),
     "09a": (page_09.READINGS, page_09._watch(), page_09.SILENCE_SUSPECTS),
     "09b": (WORK, page_09._worker(), page_09.WORK_SUSPECTS),
     "09b, longer": (WORK + 0.5, page_09._worker(), page_09.WORK_SUSPECTS),
@@ -58,6 +54,7 @@ TABLES = {
 DRAWN = {name: table for name, table in TABLES.items() if isinstance(table[0], str)}
 #: Seeds that are tried of each exercise; the first one is the page's.
 SEEDS = range(1_001)
+FEW_SEEDS = range(101)
 
 
 @pytest.mark.parametrize("exercise", [one.id for one in EXERCISES.values() if one.draw])
@@ -91,7 +88,12 @@ def test_limits_that_no_parameter_changes_are_right_where_they_are_the_defaults(
 # Policies of a publisher and of a subscription, page 08.
 
 ONE, ROOMY = QoS(depth=1, durability="TRANSIENT_LOCAL"), QoS("BEST_EFFORT", depth=16)
-MODES = [(at, word) for at, (word,) in page_08._keep_mode(page_08.COMMANDS).items()]
+
+
+def drawn_modes(seed):
+    """Return what displays hear of a right publisher."""
+    words = [(at, word) for at, (word,) in page_08._keep_mode(fed("08a", seed)).items()]
+    return page_08.Modes(words, fed("08a", seed).joins)
 
 
 @pytest.mark.parametrize(
@@ -107,10 +109,11 @@ MODES = [(at, word) for at, (word,) in page_08._keep_mode(page_08.COMMANDS).item
 )
 def test_each_policy_of_a_publisher_of_modes_shows_in_what_displays_hear(wrong, mistake):
     offers = replace(ONE, **wrong)
-    done = page_08._heard_by_displays(MODES, offers)
-    assert not agree(done, page_08._heard_by_displays(MODES, ONE))
-    found = matching(MODES, done, page_08.offer_suspects(MODES, offers))
-    assert {one.mistake for one in found} == {mistake}
+    for modes in map(drawn_modes, FEW_SEEDS):
+        done = page_08._heard_by_displays(modes, offers)
+        assert not agree(done, page_08._heard_by_displays(modes, ONE))
+        found = matching(modes, done, page_08.offer_suspects(modes, offers))
+        assert {one.mistake for one in found} == {mistake}
 
 
 @pytest.mark.parametrize(
@@ -126,7 +129,8 @@ def test_each_policy_of_a_publisher_of_modes_shows_in_what_displays_hear(wrong, 
 )
 def test_each_policy_of_an_archive_shows_in_what_it_holds(wrong, mistake):
     asks = replace(ROOMY, **wrong)
-    done = page_08._archive(page_08.FED, asks)
-    assert not agree(done, page_08._archive(page_08.FED, ROOMY))
-    found = matching(page_08.FED, done, page_08.archive_suspects([asks]))
-    assert {one.mistake for one in found} == {mistake}
+    for sensors in (fed("08b", seed) for seed in FEW_SEEDS):
+        done = page_08._archive(sensors, asks)
+        assert not agree(done, page_08._archive(sensors, ROOMY))
+        found = matching(sensors, done, page_08.archive_suspects(sensors, [asks]))
+        assert {one.mistake for one in found} == {mistake}
