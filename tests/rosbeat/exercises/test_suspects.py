@@ -6,7 +6,7 @@ import pytest
 
 from rosbeat.exercises import page_04, page_07, page_08, page_09
 from rosbeat.exercises.model import agree, matching, tells_apart
-from rosbeat.exercises.page_09 import GREENHOUSE, HOME, PORCH, WORK
+from rosbeat.exercises.page_09 import WORK
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import QoS
 
@@ -45,11 +45,15 @@ TABLES = {
     "07c text": (noted(fed("07c")), page_07._names, page_07._SUSPECT_TEXTS),
     "08a": ("08a", page_08._keep_mode, page_08.KEEPERS),
     "08c": ("08c", page_08._watch, page_08._WITH_A_LATE_DEADLINE),
-    "09a": (page_09.READINGS, page_09._watch(), page_09.SILENCE_SUSPECTS),
-    "09b": (WORK, page_09._worker(), page_09.WORK_SUSPECTS),
-    "09b, longer": (WORK + 0.5, page_09._worker(), page_09.WORK_SUSPECTS),
+    "09a": ("09a", page_09._watch(), page_09.SILENCE_SUSPECTS),
+    "09b": ("09b", page_09._worker(), page_09.WORK_SUSPECTS),
+    "09b, longer": (
+        fed("09b")._replace(each=WORK + 0.5),
+        page_09._worker(),
+        page_09.WORK_SUSPECTS,
+    ),
     # Elsewhere, limits that stay at their defaults are right, or cannot be told from each other.
-    "09c": (GREENHOUSE, page_09._words(), page_09.PLACE_SUSPECTS),
+    "09c": (fed("09c")[1], page_09._words(), page_09.PLACE_SUSPECTS),
 }
 DRAWN = {name: table for name, table in TABLES.items() if isinstance(table[0], str)}
 #: Seeds that are tried of each exercise; the first one is the page's.
@@ -75,14 +79,22 @@ def test_whatever_is_drawn_tells_each_suspect_from_the_right_model_and_from_othe
 
 @pytest.mark.parametrize("suspect", [page_09.TOO_SHORT, page_09.TOO_LONG])
 def test_work_of_another_length_is_not_right(suspect):
-    assert suspect.model(WORK + 1) != suspect.model(WORK)
+    for work in (fed("09b", seed) for seed in FEW_SEEDS):
+        assert suspect.model(work._replace(each=WORK + 1)) != suspect.model(work)
 
 
-@pytest.mark.parametrize("place", [HOME, PORCH])
+@pytest.mark.parametrize("place", [0, 2])
 def test_limits_that_no_parameter_changes_are_right_where_they_are_the_defaults(place):
     fixed = [one for one in page_09.PLACE_SUSPECTS if one.mistake == "limits-fixed"]
-    at_default = replace(place, low=20.0, high=26.0)
-    assert all(one.model(at_default) == page_09._words()(at_default) for one in fixed)
+    for places in (fed("09c", seed) for seed in FEW_SEEDS):
+        at_default = replace(places[place], low=20.0, high=26.0)
+        assert all(one.model(at_default) == page_09._words()(at_default) for one in fixed)
+
+
+def test_other_limits_show_wherever_a_monitor_is_told_of_them():
+    right = page_09._words()
+    for _, greenhouse, _ in (fed("09c", seed) for seed in FEW_SEEDS):
+        assert tells_apart(greenhouse, right, page_09.PLACE_SUSPECTS)
 
 
 # Policies of a publisher and of a subscription, page 08.
