@@ -57,11 +57,19 @@ def draw_readings(draw: Draw) -> Readings:
     """Draw readings: late at first, then with pauses too short to count, and two silences.
 
     A silence begins at a full second or half of one: so a node that counts seconds, or halves, is
-    in time on each page or on none.
+    in time with each seed or with none. And one that looks every three seconds only is late.
     """
     return draw.until(
-        partial(_readings, draw), lambda fed: tells_apart(fed, _watch(), SILENCE_SUSPECTS)
+        partial(_readings, draw),
+        lambda fed: (
+            tells_apart(fed, _watch(), SILENCE_SUSPECTS)
+            and any(0 < last % SILENCE < SILENCE - LATE for last in _before_silences(fed))
+        ),
     )
+
+
+def _before_silences(readings: Readings) -> list[float]:
+    return [last for last, first in pairwise(readings) if first - last > SILENCE]
 
 
 def _readings(draw: Draw) -> Readings:
