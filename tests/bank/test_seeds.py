@@ -7,7 +7,7 @@ import pytest
 from bank import held_out, pages
 from bank.beyond import page_07, page_08, page_09, page_11, page_12, page_13
 from bank.nodes import table
-from bank.running import outcome_of
+from bank.running import namespace_of, outcome_of
 from rosbeat.diagnosis.mistakes import UNKNOWN
 from rosbeat.exercises.registry import EXERCISES
 
@@ -30,6 +30,15 @@ def test_a_held_out_answer_gets_its_outcome_with_any_seed(answer):
     outcome = outcome_of(answer.exercise, answer.text, handed, seed_of(answer))
     assert outcome.status == answer.status, outcome
     assert outcome.mistake in (answer.mistake, UNKNOWN), outcome
+
+
+@pytest.mark.parametrize("exercise", DRAWN)
+def test_evidence_of_a_right_answer_does_not_pass_with_another_seed(exercise):
+    space = namespace_of(exercise, pages.references_of(exercise), "<reference>")
+    judged, seen = (getattr(EXERCISES[exercise], name) for name in ("judged", "observed"))
+    evidence = seen(eval(pages.subject(exercise), space))
+    assert judged(evidence).status == "passed"
+    assert {judged(evidence, seed).status for seed in range(1, 50)} == {"failed"}
 
 
 @pytest.mark.thorough

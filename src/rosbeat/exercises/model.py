@@ -21,7 +21,7 @@ from functools import partial
 from typing import Any, TypeAlias
 
 from rosbeat.diagnosis.exceptions import line_of
-from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import Wire
 from rosbeat.exercises.exercise import BLANK, Verdict, not_attempted
 from rosbeat.exercises.scenarios import Report, Value
@@ -288,6 +288,22 @@ def explain_subscription(wire: Wire, fault: Fault) -> Diagnosis | None:
         f"{wire.topic}.{line_of(fault)}",
         "Publishing takes no callback. Which method of a node makes a publisher?",
     )
+
+
+def diagnose_length(observation: Observation, *seconds: float) -> Diagnosis | None:
+    """Say that a run ended at another moment than any that was drawn.
+
+    No node can do that; evidence of another run does.
+
+    Args:
+        observation: What was seen; nothing was raised.
+        seconds: How long the run may have lasted.
+    """
+    if observation.time_ns in [round(one * NANOSECONDS) for one in seconds]:
+        return None
+    due = " or ".join(f"{one:g}" for one in seconds)
+    evidence = f"The run ended at {observation.time:g} s, and it was to last {due} s."
+    return Diagnosis(UNKNOWN, evidence, "Does your node change what the session records?")
 
 
 # A beat: messages that come one period apart, the first after one period.

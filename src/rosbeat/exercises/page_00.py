@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from functools import partial
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     diagnose_beat,
+    diagnose_length,
     diagnose_wait,
     explain_subscription,
     samples_on,
@@ -22,25 +25,41 @@ _STRING = "std_msgs/msg/String"
 # 00a, read the weather. Which topics were heard, and how often, says all; no model is needed.
 
 _WEATHER = Wire("/weather", _STRING)
-#: How many articles each reporter publishes, one a second.
-_ARTICLES = 3
+#: Whether each reporter publishes an article in a second, from 1 s on.
+Seconds = Sequence[bool]
 
 
-def _run_among_reporters(answer: Answer) -> Observation:
+def draw_articles(draw: Draw) -> Seconds:
+    """Draw when there are articles; on the page three, one a second.
+
+    So it ends in any case: a reader that waits too long in its callback misses one of them.
+    """
+    earlier = (True,) * draw.whole(0, 2, 4) + (False,) * draw.whole(0, 10, 40)
+    pause = (False,) * draw.whole(0, 2, 4)
+    return (*draw.shuffled(earlier), *pause, True, True, True)
+
+
+def _run_among_reporters(answer: Answer, seconds: Seconds) -> Observation:
     reporters = [
         feeder(
-            f"{topic}_reporter", Wire(topic, _STRING), [f"{topic} {n}" for n in range(_ARTICLES)]
+            f"{topic}_reporter",
+            Wire(topic, _STRING),
+            [f"{topic} {n}" if there else None for n, there in enumerate(seconds)],
         )
         for topic in ("weather", "sports", "politics")
     ]
-    return observe(answer, 5, others=reporters)
+    return observe(answer, len(seconds) + 2, others=reporters)
 
 
-def _judge_reader(observation: Observation) -> Verdict:
+def _judge_reader(observation: Observation, seconds: Seconds) -> Verdict:
     heard = Counter(call.source for call in observation.callbacks if call.kind == "subscription")
-    count = heard.total()
-    if heard == {_WEATHER.topic: _ARTICLES}:
-        return passed(f"The reader got all {_ARTICLES} articles on /weather and no others.")
+    count, articles = heard.total(), sum(seconds)
+    if heard == {_WEATHER.topic: articles}:
+        return (
+            diagnose_length(observation, len(seconds) + 2)
+            or _heard_at_other_times(observation, seconds)
+            or passed(f"The reader got all {articles} articles on /weather and no others.")
+        )
     unheard = None if heard else diagnose_unheard(observation, _WEATHER)
     if unheard:
         return unheard
@@ -51,34 +70,55 @@ def _judge_reader(observation: Observation) -> Verdict:
             "It should run for /weather only. The second argument of create_subscription is the "
             "topic.",
         )
-    if count < _ARTICLES:
-        evidence = f"The reader heard {count} of {_ARTICLES} articles on /weather."
+    if count < articles:
+        evidence = f"The reader heard {count} of {articles} articles on /weather."
         hint = "What makes the reader stop? Look at what its callback does."
         return diagnose_wait(observation, evidence) or Diagnosis(UNKNOWN, evidence, hint)
     return Diagnosis(
         "heard-twice",
-        f"There were {_ARTICLES} articles, and the reader's callback ran {count} times.",
+        f"There were {articles} articles, and the reader's callback ran {count} times.",
         "One subscription is enough. Is create_subscription there twice?",
     )
 
 
-# 00b, report on sports.
+def _heard_at_other_times(observation: Observation, seconds: Seconds) -> Diagnosis | None:
+    """Say that articles were not heard when they came; a reader that waits may be late."""
+    due = [float(second) for second, there in enumerate(seconds, 1) if there]
+    heard = [one.time for one in observation.callbacks if one.kind == "subscription"]
+    first = next((pair for pair in zip(due, heard, strict=True) if pair[0] != pair[1]), None)
+    if first is None or (observation.waits and first[0] < first[1]):
+        return None
+    return Diagnosis(
+        UNKNOWN,
+        f"An article came at {first[0]:g} s, and the reader's callback ran at {first[1]:g} s.",
+        "The callback runs when an article comes. What else calls it?",
+    )
+
+
+# 00b, report on sports. Nothing is fed to a reporter; drawn is how long it is watched.
 
 _SPORTS = Wire("/sports", _STRING)
 #: Seconds from one article to the next.
 _PERIOD = 2.0
+_NUMERALS: dict[float, str] = {4: "Four", 9: "nine"}
 
 
-def _run_alone(answer: Answer) -> Observation:
-    return observe(answer, 9)
+def draw_seconds(draw: Draw) -> float:
+    """Draw for how long a reporter is watched; never until the moment of an article."""
+    return draw.whole(4, 4, 30) * _PERIOD + draw.number(1.0, 0.25, 1.75, 1 / 4096)
 
 
-def _judge_reporter(observation: Observation) -> Verdict:
+def _judge_reporter(observation: Observation, seconds: float) -> Verdict:
+    count = int(seconds / _PERIOD)
     return (
         diagnose_unpublished(observation, _SPORTS)
         or diagnose_beat(observation, _SPORTS, _PERIOD, "articles")
         or _empty_article(observation)
-        or passed("Four articles in nine seconds on /sports, one every two seconds.")
+        or diagnose_length(observation, seconds)
+        or passed(
+            f"{_NUMERALS.get(count, count)} articles in "
+            f"{_NUMERALS.get(seconds, f'{seconds:g}')} seconds on /sports, one every two seconds."
+        )
     )
 
 
@@ -105,10 +145,11 @@ EXERCISES = (
             "create_subscription is given.",
             "The name of a topic is a text, so it stands in quotes.",
         ),
+        draw=draw_articles,
     ),
     Exercise(
         "00b",
-        _run_alone,
+        observe,
         _judge_reporter,
         "report on sports",
         1,
@@ -117,6 +158,7 @@ EXERCISES = (
             "next.",
             "The topic is a text in quotes. The timer wants a number: seconds between two calls.",
         ),
+        draw=draw_seconds,
         explains=partial(explain_subscription, _SPORTS),
     ),
 )

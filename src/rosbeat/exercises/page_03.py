@@ -12,26 +12,37 @@ from typing import Any
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, diagnose_unpublished
+from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
-from rosbeat.exercises.model import diagnose_beat, explain_subscription, samples_on
+from rosbeat.exercises.model import (
+    diagnose_beat,
+    diagnose_length,
+    explain_subscription,
+    samples_on,
+)
 from rosbeat.exercises.scenarios import Answer, drift, observe
 from rosbeat.records import Observation
 
 _FLOAT = "std_msgs/msg/Float32"
 
+# Nothing is fed to a sensor, and what is asked of it is told on the page; drawn is how long it is
+# watched. Random numbers are those of the page in any case: a walk that passes there passes later.
+
 # 03a, another sensor.
 
 _HUMIDITY = Wire("/humidity", _FLOAT)
-_SECONDS, _DEPTH = 5, 5
+_PERIOD, _DEPTH = 0.5, 5
 
 
-def _run_alone(answer: Answer) -> Observation:
-    return observe(answer, _SECONDS)
+def draw_seconds(draw: Draw) -> float:
+    """Draw for how long a sensor is watched; only on the page until the moment of a reading."""
+    return draw.whole(10, 10, 60) * _PERIOD + draw.number(0.0, 0.0625, 0.4375, 1 / 16_384)
 
 
-def _judge_beat(observation: Observation) -> Verdict:
+def _judge_beat(observation: Observation, seconds: float) -> Verdict:
     wrong = diagnose_unpublished(observation, _HUMIDITY)
-    wrong = wrong or diagnose_beat(observation, _HUMIDITY, 0.5)
+    wrong = wrong or diagnose_beat(observation, _HUMIDITY, _PERIOD)
+    wrong = wrong or diagnose_length(observation, seconds)
     if wrong:
         return wrong
     ends = observation.graph.on(_HUMIDITY.topic, "publisher")
@@ -44,7 +55,7 @@ def _judge_beat(observation: Observation) -> Verdict:
             f"A depth of {_DEPTH} is wanted. Which argument of create_publisher is that?",
         )
     evidence = (
-        f"{len(samples_on(observation, _HUMIDITY))} readings in {_SECONDS} seconds on /humidity."
+        f"{len(samples_on(observation, _HUMIDITY))} readings in {seconds:g} seconds on /humidity."
     )
     return passed(evidence, *([_BEST_EFFORT] if qos.reliability == "BEST_EFFORT" else []))
 
@@ -67,8 +78,8 @@ _BEST_EFFORT = (
 
 #: Readings while the drift goes in one direction, and exponents of the drift.
 _PHASE, _UP, _DOWN, _FREE = 600, 1 / 3, 3.0, 1.0
-#: Readings of a run; a longer one follows if a limit may not have been met yet. A walk without
-#: drift misses a limit in one of 10,000 runs of the last kind.
+#: Readings of a run, or some more; a longer one follows if a limit may not have been met yet. A
+#: walk without drift misses a limit in one of 10,000 runs of the last kind.
 _RUNS = (3_600, 10_800, 32_400)
 #: Seconds of wall time for a longer run; a busy machine needs a tenth of it.
 _PATIENCE = {"deadline": 30.0}
@@ -112,13 +123,24 @@ _GREENHOUSE = _Asked(
 )
 
 
-def _run_walk(asked: _Asked, answer: Answer) -> Observation:
+def draw_more(draw: Draw) -> float:
+    """Draw for how many readings more than on the page a sensor is watched."""
+    return draw.number(0.0, 0.25, 512.25, 1 / 128)
+
+
+def _seconds(asked: _Asked, more: float) -> list[float]:
+    """Return how long each run of a sensor takes."""
+    return [(readings + more) / asked.rate for readings in _RUNS]
+
+
+def _run_walk(asked: _Asked, answer: Answer, more: float) -> Observation:
     """Run a sensor until it has met both limits, or shown that it never will."""
     phase = _PHASE / asked.rate
     others = [drift([(phase, _UP), (phase, _DOWN), (0, _FREE)])]
-    for readings in _RUNS:
-        options = _PATIENCE if readings > _RUNS[0] else {}
-        seen = observe(answer, readings / asked.rate, others=others, seed=3, **options)
+    first, *_ = lengths = _seconds(asked, more)
+    for seconds in lengths:
+        options = _PATIENCE if seconds > first else {}
+        seen = observe(answer, seconds, others=others, seed=3, **options)
         walk = _walk(asked, seen)
         found = walk.first_sign() if isinstance(walk, _Walk) else None
         if found is None or found[0] is not _NOT_MET:
@@ -361,13 +383,15 @@ def _walk(asked: _Asked, observation: Observation) -> _Walk | Diagnosis:
     return wrong or _Walk(asked, values)
 
 
-def _judge_walk(asked: _Asked, observation: Observation) -> Verdict:
+def _judge_walk(asked: _Asked, observation: Observation, more: float) -> Verdict:
     walk = _walk(asked, observation)
     if isinstance(walk, Diagnosis):
         return walk
     found = walk.first_sign()
     if found is None:
-        return passed(asked.rate_in_words + walk.evidence())
+        return diagnose_length(observation, *_seconds(asked, more)) or passed(
+            asked.rate_in_words + walk.evidence()
+        )
     sign, seen = found
     hint = sign.hint.format(seen, asked=asked)
     return Diagnosis(sign.mistake, walk.evidence(sign.mistake) + walk.first_slip(), hint)
@@ -376,7 +400,7 @@ def _judge_walk(asked: _Asked, observation: Observation) -> Verdict:
 EXERCISES = (
     Exercise(
         "03a",
-        _run_alone,
+        observe,
         _judge_beat,
         "another sensor",
         2,
@@ -388,6 +412,7 @@ EXERCISES = (
             "create_timer takes the time between two calls in seconds, and then the method, "
             "without brackets. Twice a second: how long is that from one call to the next?",
         ),
+        draw=draw_seconds,
         explains=partial(explain_subscription, _HUMIDITY),
     ),
     Exercise(
@@ -403,6 +428,7 @@ EXERCISES = (
             "other, and keep the result in self.temperature.",
             "A message is made with Float32(data=...), and self.publisher_.publish sends it.",
         ),
+        draw=draw_more,
         explains=partial(explain_subscription, _ROOM.wire),
     ),
     Exercise(
@@ -420,6 +446,7 @@ EXERCISES = (
             "The result of a calculation such as c * 9 / 5 + 32 is a float already; put it into "
             "a variable of its own.",
         ),
+        draw=draw_more,
         explains=partial(explain_subscription, _GREENHOUSE.wire),
     ),
 )

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import product
 from typing import Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.model import (
     STATUSES,
@@ -25,12 +26,14 @@ from rosbeat.exercises.model import (
     numbered,
     status_of,
     suspects,
+    tells_apart,
     track,
 )
 from rosbeat.exercises.scenarios import Answer, Report, Value, feeder, observe, publishing, report
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, QoS
 
-# 07a: findings about a greenhouse that somebody else wrote.
+# 07a: findings about a greenhouse that somebody else wrote. Nothing is drawn: learners examine the
+# greenhouse of the page, and hand over what is true of that one.
 
 #: A measured rate may differ by this share.
 _TOLERANCE = 0.06
@@ -290,27 +293,61 @@ _STATUS = Wire("/status", "std_msgs/msg/String")
 #: The values before anything is set.
 _DEFAULTS = {"low": 20.0, "high": 26.0}
 _EXCHANGED = {"low": 26.0, "high": 20.0}
-#: What is set, half a second before the reading of this number; two limits are no whole numbers.
-CHANGES = ((9, {"high": 24.5}), (13, {"low": 21.5}), (17, {"low": 10.0, "high": 30.0}))
-#: One reading a second. Those before the first change, and at each limit a reading.
-READINGS = (
-    *(23.0, 26.0, 26.25, 20.0, 19.75, 25.5, 20.5, 25.0),
-    *(25.0, 24.5, 24.75, 21.0),
-    *(21.0, 21.5, 23.0, 21.25),
-    *(28.0, 15.0, 30.0, 30.25, 10.0, 9.75),
-)
 
 
-def _observe_tuning(answer: Answer) -> Observation:
+class Tuning(NamedTuple):
+    """Hold what a monitor is fed.
+
+    Attributes:
+        readings: One a second, the first at 1 s.
+        changes: Number of a reading, name of a limit, and the value to which it is set half a
+            second before that reading.
+    """
+
+    readings: tuple[float, ...]
+    changes: tuple[tuple[int, str, float], ...]
+
+
+def draw_tuning(draw: Draw) -> Tuning:
+    """Draw readings, at each limit and beside it, and limits, of which two are no whole numbers."""
+    return draw.until(
+        partial(_tuning, draw), lambda fed: tells_apart(fed, _right, _SUSPECT_MONITORS)
+    )
+
+
+def _tuning(draw: Draw) -> Tuning:
+    high, low = draw.one_of(24.5, 24.25, 24.75, 25.5), draw.one_of(21.5, 20.5, 20.75, 21.25, 22.5)
+    lowest, highest = draw.whole(10, 5, 14), draw.whole(30, 29, 40)
+    far, near = partial(draw.number, step=0.25), draw.number(23.0, 22.75, 24.0)
+    parts = (
+        ((), (near, 26.0, 26.25, 20.0, 19.75, 25.5, 20.5, far(25.0, 24.0, 25.75))),
+        ((("high", high),), (high + 0.5, high, high + 0.25, far(21.0, 20.0, 22.0))),
+        ((("low", low),), (low - 0.5, low, near, low - 0.25)),
+        (
+            (("low", float(lowest)), ("high", float(highest))),
+            (
+                *(far(28.0, 26.5, 28.75), far(15.0, 14.25, 19.5), float(highest), highest + 0.25),
+                *(float(lowest), lowest - 0.25),
+            ),
+        ),
+    )
+    readings: list[float] = []
+    changes: list[tuple[int, str, float]] = []
+    for limits, values in parts:
+        changes += [(len(readings) + 1, name, value) for name, value in limits]
+        more = [draw.one_of(*values) for _ in range(draw.whole(0, 0, 3))]
+        readings += draw.shuffled((*values, *more))
+    return Tuning(tuple(readings), tuple(changes))
+
+
+def _observe_tuning(answer: Answer, fed: Tuning) -> Observation:
     from rosbeat.ros.scenario import SetParameter
 
     steps = [
-        SetParameter(second - 0.5, name=name, value=value)
-        for second, values in CHANGES
-        for name, value in values.items()
+        SetParameter(number - 0.5, name=name, value=value) for number, name, value in fed.changes
     ]
-    sensor = feeder("temperature_sensor", _TEMPERATURE, READINGS)
-    return observe(answer, len(READINGS) + 0.5, others=[sensor], steps=steps)
+    sensor = feeder("temperature_sensor", _TEMPERATURE, fed.readings)
+    return observe(answer, len(fed.readings) + 0.5, others=[sensor], steps=steps)
 
 
 #: Returns the status of a reading, from the reading and the limits `low` and `high`.
@@ -318,14 +355,18 @@ _Rule = Callable[[float, float, float], str]
 
 
 def _limits(
-    at: float, start: Mapping[str, float] = _DEFAULTS, frozen: Collection[str] = ()
+    fed: Tuning,
+    at: float,
+    start: Mapping[str, float] = _DEFAULTS,
+    frozen: Collection[str] = (),
 ) -> dict[str, float]:
     """Return the limits at a time, of which the frozen ones stay as they were at the start."""
-    found = dict(start)
-    for second, values in CHANGES:
-        if second - 0.5 <= at:
-            found |= {name: value for name, value in values.items() if name not in frozen}
-    return found
+    changed = {
+        name: value
+        for number, name, value in fed.changes
+        if number - 0.5 <= at and name not in frozen
+    }
+    return {**start, **changed}
 
 
 def _monitor(
@@ -335,9 +376,9 @@ def _monitor(
     asked_at: Callable[[int], float] = float,
 ) -> Model:
     """Return the model of a monitor, by default a right one; `asked_at` is when it asks."""
-    return lambda readings: numbered(
-        rule(value, *_limits(asked_at(number), start, frozen).values())
-        for number, value in enumerate(readings, 1)
+    return lambda fed: numbered(
+        rule(value, *_limits(fed, asked_at(number), start, frozen).values())
+        for number, value in enumerate(fed.readings, 1)
     )
 
 
@@ -353,7 +394,12 @@ _NEVER = "never appears. Is its condition reached, and what comes after?"
 
 def _kept(keeps: Callable[[Track, int], bool]) -> Model:
     """Return the model of a right monitor that publishes only some of its statuses."""
-    return lambda fed: {at: now for at, now in _right(fed).items() if keeps(_right(fed), at)}
+
+    def model(fed: Tuning) -> Track:
+        right = _right(fed)
+        return {at: now for at, now in right.items() if keeps(right, at)}
+
+    return model
 
 
 _SUSPECT_MONITORS = suspects(
@@ -398,30 +444,35 @@ _SUSPECT_MONITORS = suspects(
      _monitor(lambda v, low, high: status_of(v, high, high)),
      _monitor(lambda v, low, high: status_of(v, low, low))),
     ("wrong-state", "Each status is that of the reading before. Decide, and then publish.",
-     lambda fed: {at: _right(fed).get(at - 1, ("Normal",)) for at in _right(fed)}),
+     lambda fed: numbered(["Normal", *(word for (word,) in _right(fed).values())][:-1])),
     ("wrong-rate", f"{_EACH_READING}whether it has changed or not.",
      _kept(lambda said, at: said[at] != said.get(at - 1))),
     ("wrong-rate", f"{_EACH_READING}also while it is Normal.",
      _kept(lambda said, at: said[at] != ("Normal",))),
     ("wrong-rate", f"{_EACH_READING}and only once.",
      lambda fed: {at: now * 2 for at, now in _right(fed).items()}),
-    # Of all defaults between two readings one is enough: their statuses are the same.
-    ("other-default", "`low` begins at 20.0, and `high` at 26.0.",
-     *(_monitor(start={"low": low, "high": high})
-       for low, high in product((0.0, *sorted({*READINGS}), 99.0), repeat=2)
-       if {"low": low, "high": high} != _DEFAULTS)),
 )  # fmt: skip
 
 
-def _judge_tuning(observation: Observation) -> Verdict:
+def default_suspects(readings: Collection[float]) -> tuple[Suspect, ...]:
+    """Return monitors whose limits begin elsewhere.
+
+    Of all defaults between two readings one is enough: their statuses are the same.
+    """
+    limits = product((0.0, *sorted({*readings}), 99.0), repeat=2)
+    starts = ({"low": low, "high": high} for low, high in limits)
+    models = (_monitor(start=start) for start in starts if start != _DEFAULTS)
+    return suspects(("other-default", "`low` begins at 20.0, and `high` at 26.0.", *models))
+
+
+def _judge_tuning(observation: Observation, fed: Tuning) -> Verdict:
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or diagnose_unpublished(observation, _STATUS)
         or _refused(observation)
-        or _wrong_statuses(track(observation, _STATUS, _stripped))
+        or _wrong_statuses(track(observation, _STATUS, _stripped), fed)
         or passed(
-            f"{len(READINGS)} readings, {sum(len(values) for _, values in CHANGES)} changes of a "
-            "parameter, no slip."
+            f"{len(fed.readings)} readings, {len(fed.changes)} changes of a parameter, no slip."
         )
     )
 
@@ -453,7 +504,8 @@ def _refused(observation: Observation) -> Diagnosis | None:
     return Diagnosis(mistake, f"`ros2 param set` was refused for {name}: {said}.", hint)
 
 
-def _wrong_statuses(done: Track) -> Diagnosis | None:
+def _wrong_statuses(done: Track, fed: Tuning) -> Diagnosis | None:
+    readings = fed.readings
     said = [word for words in done.values() for word in words]
 
     def describe(mismatch: Mismatch) -> Diagnosis:
@@ -462,21 +514,22 @@ def _wrong_statuses(done: Track) -> Diagnosis | None:
         evidence = f"At {at:g} s your node published {gave}, and no reading came then."
         if mismatch.right:
             # What they are in the node is unknown: its first values may be others.
-            low, high = _limits(at).values()
+            low, high = _limits(fed, at).values()
             evidence = (
                 f"At {at:g} s `low` should be {low:g} and `high` {high:g}: a reading of "
-                f"{READINGS[int(at) - 1]:g} gave {gave} instead of {right}."
+                f"{readings[int(at) - 1]:g} gave {gave} instead of {right}."
             )
         # Any text may come, at any time: no model can foretell those.
-        if len(said) != len(READINGS) or len(done) != len(READINGS):
-            count = f"{len(READINGS)} readings arrived, and {len(said)} statuses were published."
+        if len(said) != len(readings) or len(done) != len(readings):
+            count = f"{len(readings)} readings arrived, and {len(said)} statuses were published."
             return Diagnosis("wrong-rate", f"{count} {evidence}", f"{_EACH_READING}and only then.")
         if not set(STATUSES).issuperset(said):
             hint = "The words are High, Low and Normal, and nothing else."
             return Diagnosis("wrong-word", evidence, hint)
         return Diagnosis("wrong-state", evidence, "Which of your conditions is true there?")
 
-    return diagnose(READINGS, done, _right(READINGS), _SUSPECT_MONITORS, describe)
+    wrong_ones = (*_SUSPECT_MONITORS, *default_suspects(readings))
+    return diagnose(fed, done, _right(fed), wrong_ones, describe)
 
 
 _TUNING = Exercise(
@@ -491,6 +544,7 @@ _TUNING = Exercise(
         "The constructor runs once, so what it asks for is asked for once. The callback runs at "
         "each reading.",
     ),
+    draw=draw_tuning,
 )
 
 # 07c: a node that listens to log lines.
@@ -509,8 +563,10 @@ class Line(NamedTuple):
     msg: str
 
 
-#: One a second. Texts hold `warning` and `error` where there is none; names and a text come twice.
-LINES = (
+#: One a second.
+Lines = Sequence[Line]
+# Texts hold `warning` and `error` where there is none; names and a text come twice.
+_LINES = (
     Line(_INFO, "gardener", "The window is shut"),
     Line(_WARN, "lamp", "I do not know how bright it is"),
     Line(_DEBUG, "weather", "warning: only a test"),
@@ -526,10 +582,24 @@ LINES = (
 )
 
 
-def _observe_log_watcher(answer: Answer) -> Observation:
-    lines = [(second, line._asdict()) for second, line in enumerate(LINES, 1)]
+def draw_lines(draw: Draw) -> Lines:
+    """Draw the order of lines, who logs them, and some that come again."""
+    right, names = _warnings, sorted({line.name for line in _LINES})
+    numbers = {name: draw.whole(0, 1, 99) for name in names}
+    lines = [
+        line._replace(name=f"{line.name}_{numbers[line.name]}" if numbers[line.name] else line.name)
+        for line in _LINES
+    ]
+    return draw.until(
+        lambda: draw.shuffled((*lines, *(draw.one_of(*lines) for _ in range(draw.whole(0, 0, 4))))),
+        lambda fed: tells_apart(fed, right, (*_SUSPECT_LINES, *_single_names(fed))),
+    )
+
+
+def _observe_log_watcher(answer: Answer, lines: Lines) -> Observation:
+    fed = [(second, line._asdict()) for second, line in enumerate(lines, 1)]
     qos = QoS(durability="TRANSIENT_LOCAL", depth=1000)  # as every node's own publisher
-    return observe(answer, len(LINES) + 0.5, steps=publishing(_ROSOUT, lines, qos))
+    return observe(answer, len(lines) + 0.5, steps=publishing(_ROSOUT, fed, qos))
 
 
 #: Within how many seconds a name may follow its line: a timer may tell what a callback heard.
@@ -600,12 +670,17 @@ _SUSPECT_LINES = suspects(
      _once(lambda line: line.msg, memory=1),
      _once(lambda line: line.level),
      _once(lambda line: (line.name, line.level))),
-    ("one-name-only", "The level decides, whichever node logs the line.",
-     *(_among((name,), "name")
-       for name in sorted({line.name for line in LINES if _is_warning(line)}))),
     ("alert-too-many", f"Each name comes a second late. {_AT_ONCE}",
      lambda lines: {at + 1: said for at, said in _warnings(lines).items()}),
 )  # fmt: skip
+
+
+def _single_names(lines: Lines) -> tuple[Suspect, ...]:
+    """Return watchers for which one name counts."""
+    names = sorted({line.name for line in lines if _is_warning(line)})
+    models = (_among((name,), "name") for name in names)
+    hint = "The level decides, whichever node logs the line."
+    return suspects(("one-name-only", hint, *models))
 
 
 def _texts_of(text: Callable[[Line, str], str]) -> Model:
@@ -631,28 +706,29 @@ _SUSPECT_TEXTS = suspects(
 )  # fmt: skip
 
 
-def _judge_log_watcher(observation: Observation) -> Verdict:
+def _judge_log_watcher(observation: Observation, lines: Lines) -> Verdict:
     said = track(observation, _WARNINGS, _stripped)
     return (
         diagnose_unheard(observation, _ROSOUT)
         or diagnose_unpublished(observation, _WARNINGS)
-        or _wrong_lines(said)
-        or _wrong_texts(_by_line(said), observation.subject)
+        or _wrong_lines(said, lines)
+        or _wrong_texts(_by_line(said), lines, observation.subject)
         or passed(
-            f"{len(LINES)} log lines, {len(_warnings(LINES))} warnings or worse, each one named."
+            f"{len(lines)} log lines, {len(_warnings(lines))} warnings or worse, each one named."
         )
     )
 
 
-def _wrong_lines(said: Track) -> Diagnosis | None:
+def _wrong_lines(said: Track, lines: Lines) -> Diagnosis | None:
     """Say which line was named and does not count, or the other way round."""
-    told, right = _by_line(said), _warnings(LINES)
+    told, right = _by_line(said), _warnings(lines)
     done: Track = dict.fromkeys(told, (True,))
-    at = {float(second): line for second, line in enumerate(LINES, 1)}
+    at = {float(second): line for second, line in enumerate(lines, 1)}
+    watchers = (*_SUSPECT_LINES, *_single_names(lines))
 
     def describe(mismatch: Mismatch) -> Diagnosis:
         late = sorted(said.keys() - at.keys())  # no model: a timer may publish at any time
-        if late and not matching(LINES, done, _SUSPECT_LINES):
+        if late and not matching(lines, done, watchers):
             soon = [one for one in late if one - int(one) <= _SOON and float(int(one)) in right]
             stray = next((one for one in late if one not in soon), late[0])
             since = f"the log line before it came at {int(stray)} s"
@@ -668,12 +744,12 @@ def _wrong_lines(said: Track) -> Diagnosis | None:
         hint = "What does your method do with this line, step by step?"
         return Diagnosis(UNKNOWN, evidence, hint)
 
-    return diagnose(LINES, done, right, _SUSPECT_LINES, describe)
+    return diagnose(lines, done, right, watchers, describe)
 
 
-def _wrong_texts(said: Track, node: str) -> Diagnosis | None:
+def _wrong_texts(said: Track, lines: Lines, node: str) -> Diagnosis | None:
     """Say what is wrong with the texts for the right lines."""
-    fed = {at: (LINES[int(at) - 1], node) for at in said}
+    fed = {at: (lines[int(at) - 1], node) for at in said}
 
     def describe(mismatch: Mismatch) -> Diagnosis:
         text, name = mismatch.done[0], mismatch.right[0]
@@ -692,13 +768,6 @@ def _wrong_texts(said: Track, node: str) -> Diagnosis | None:
     return Diagnosis("alert-too-many", evidence, "One name for each line is enough.")
 
 
-#: What the models of 07b and 07c are fed, the right one, and the suspects; for tests.
-MODELS: tuple[tuple[Any, Model, tuple[Suspect, ...]], ...] = (
-    (READINGS, _right, _SUSPECT_MONITORS),
-    (LINES, _warnings, _SUSPECT_LINES),
-    ({1.0 * n: (line, "/watcher") for n, line in enumerate(LINES)}, _names, _SUSPECT_TEXTS),
-)
-
 _LOG_WATCHER = Exercise(
     "07c",
     _observe_log_watcher,
@@ -711,6 +780,7 @@ _LOG_WATCHER = Exercise(
         "the fields level, name and msg.",
         "Levels are numbers, and worse is greater. Log.WARN is the number of a warning.",
     ),
+    draw=draw_lines,
 )
 
 EXERCISES: tuple[Exercise[Any], ...] = (_FINDINGS, _TUNING, _LOG_WATCHER)

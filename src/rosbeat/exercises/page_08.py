@@ -10,12 +10,13 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import pairwise
-from typing import Any
+from itertools import accumulate, pairwise
+from typing import Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import POLICY_ALONE, incompatible, rule
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     Mismatch,
@@ -27,6 +28,7 @@ from rosbeat.exercises.model import (
     grouped,
     samples_on,
     spelling,
+    tells_apart,
     track,
     variants,
 )
@@ -81,31 +83,61 @@ def _suspects_by_policy(
 # 08a, the last word waits: displays come at different times and log what they hear.
 
 _MODE, _COMMAND = Wire("/mode", _STRING), Wire("/command", _STRING)
-#: Commands for the mode that there is are among them, the very first one too, and modes come back.
-COMMANDS = (
-    *((0.75, "idle"), (1.0, "drive"), (2.0, "drive"), (3.0, "stop"), (5.0, "idle")),
-    *((6.0, "dock"), (7.0, "drive")),
-)
+#: Modes of which three are commanded, besides the first one.
+_MODES = ("drive", "stop", "dock", "charge", "explore", "follow", "lift", "park", "turn", "wait")
 _ONE_STORED = QoS(depth=1, durability="TRANSIENT_LOCAL")
 _TEN_STORED = QoS(depth=10, durability="TRANSIENT_LOCAL")
-#: Names of displays, with the second at which each joins, and what it asks for.
-DISPLAYS = {
-    "display_from_the_start": (0.0, _ONE_STORED),
-    "display_after_the_first_mode": (0.5, _TEN_STORED),
-    "display_of_what_is_new": (2.5, QoS(depth=10)),
-    "display_in_between": (2.5, _TEN_STORED),
-    "display_of_one_word": (4.0, _ONE_STORED),
-    "display_that_is_in_no_hurry": (4.0, QoS("BEST_EFFORT", depth=5)),
-    "display_at_the_end": (28.0, _TEN_STORED),
+#: Names of displays, and what each asks for.
+_DISPLAYS = {
+    "display_from_the_start": _ONE_STORED,
+    "display_after_the_first_mode": _TEN_STORED,
+    "display_of_what_is_new": QoS(depth=10),
+    "display_in_between": _TEN_STORED,
+    "display_of_one_word": _ONE_STORED,
+    "display_that_is_in_no_hurry": QoS("BEST_EFFORT", depth=5),
+    "display_at_the_end": _TEN_STORED,
 }
 _START = "idle"
 
 
-def _run_mode_keeper(answer: Answer) -> Observation:
-    displays = [(joins, listener(name, _MODE, qos)) for name, (joins, qos) in DISPLAYS.items()]
+class Commands(NamedTuple):
+    """Hold what a mode keeper is fed.
+
+    Attributes:
+        said: Commands, with their times.
+        joins: The second at which each display joins, in the order of the displays.
+    """
+
+    said: tuple[_Word, ...]
+    joins: tuple[float, ...]
+
+
+def draw_commands(draw: Draw) -> Commands:
+    """Draw three modes, and when commands and displays come.
+
+    Commands for the mode that there is are among them, the very first one too, and modes come
+    back. No display joins when a command comes; the last one joins 21 s or more after it.
+    """
+    drive, stop, dock, *_ = draw.shuffled(_MODES)
+    words = (_START, drive, drive, stop, _START, dock, drive)
+    times = (
+        *(draw.number(0.75, 0.5, 0.875), draw.number(1.0, 1.0, 1.5), draw.number(2.0, 1.75, 2.25)),
+        *(draw.number(3.0, 2.75, 3.5), draw.number(5.0, 4.5, 5.25), draw.number(6.0, 5.5, 6.25)),
+        draw.number(7.0, 6.5, 7.0),
+    )
+    first, second = draw.number(0.5, 0.125, 0.375), draw.number(2.5, 2.375, 2.625)
+    third = draw.number(4.0, 3.75, 4.25)
+    joins = (0.0, first, second, second, third, third, 28.0)
+    return Commands(tuple(zip(times, words, strict=True)), joins)
+
+
+def _run_mode_keeper(answer: Answer, commands: Commands) -> Observation:
+    makes = [listener(name, _MODE, qos) for name, qos in _DISPLAYS.items()]
+    displays = list(zip(commands.joins, makes, strict=True))
     late = [adding(joins, make) for joins, make in displays if joins]
     others = [make for joins, make in displays if not joins]
-    return observe(answer, 30.0, others=others, steps=[*publishing(_COMMAND, COMMANDS), *late])
+    steps = [*publishing(_COMMAND, commands.said), *late]
+    return observe(answer, 30.0, others=others, steps=steps)
 
 
 #: Whether a command is worth a message, from the mode, the command before and the command.
@@ -113,14 +145,14 @@ _IsNews = Callable[[str, str, str], bool]
 
 
 def _keep_mode(
-    commands: Sequence[_Word],
+    commands: Commands,
     is_news: _IsNews = lambda mode, _, command: command != mode,
     begins: bool = True,
 ) -> Track:
     """Return what a mode keeper publishes, by time in seconds; with `begins` its first mode."""
     said: dict[float, tuple[str, ...]] = {0.0: (_START,)} if begins else {}
     mode, before = _START, ""
-    for at, command in commands:
+    for at, command in commands.said:
         if is_news(mode, before, command):
             mode = command
             said[at] = (mode,)
@@ -146,10 +178,17 @@ KEEPERS = variants(_keep_mode, (
 ))  # fmt: skip
 
 
-def _heard_by_displays(words: Sequence[_Word], qos: QoS) -> Track:
-    """Return what each display hears of some words, by its place in `DISPLAYS`."""
-    heard: dict[int, tuple[str, ...]] = {}
-    for number, (joins, asks) in enumerate(DISPLAYS.values()):
+class Modes(NamedTuple):
+    """Hold what displays may hear: words with their times, and when each display joins."""
+
+    words: Sequence[_Word]
+    joins: Sequence[float]
+
+
+def _heard_by_displays(modes: Modes, qos: QoS) -> Track:
+    """Return what each display hears of some words, by its place in `_DISPLAYS`."""
+    words, heard = modes.words, dict[int, tuple[str, ...]]()
+    for number, (joins, asks) in enumerate(zip(modes.joins, _DISPLAYS.values(), strict=True)):
         if incompatible(qos, asks):
             continue
         stores = "TRANSIENT_LOCAL" == qos.durability == asks.durability
@@ -183,26 +222,26 @@ _MODE_POLICIES = (
 )
 
 
-def offer_suspects(words: Sequence[_Word], offers: QoS) -> list[Suspect]:
+def offer_suspects(modes: Modes, offers: QoS) -> list[Suspect]:
     """Return what each policy that a publisher of these words offers may have done."""
-    return _suspects_by_policy(_MODE_POLICIES, _heard_by_displays, words, _ONE_STORED, offers)
+    return _suspects_by_policy(_MODE_POLICIES, _heard_by_displays, modes, _ONE_STORED, offers)
 
 
-def _judge_mode_keeper(observation: Observation) -> Verdict:
+def _judge_mode_keeper(observation: Observation, commands: Commands) -> Verdict:
     return (
         diagnose_unpublished(observation, _MODE)
         or diagnose_unheard(observation, _COMMAND)
-        or _diagnose_modes(track(observation, _MODE, str))
-        or _diagnose_displays(observation)
+        or _diagnose_modes(track(observation, _MODE, str), commands)
+        or _diagnose_displays(observation, commands.joins)
         or passed(
-            f"{len(DISPLAYS)} displays came at different times. Each one that asked for it got the "
-            "mode of that moment, and only that one."
+            f"{len(_DISPLAYS)} displays came at different times. Each one that asked for it got "
+            "the mode of that moment, and only that one."
         )
     )
 
 
-def _diagnose_modes(done: Track) -> Diagnosis | None:
-    right = _keep_mode(COMMANDS)
+def _diagnose_modes(done: Track, commands: Commands) -> Diagnosis | None:
+    right = _keep_mode(commands)
 
     def describe(mismatch: Mismatch) -> Diagnosis:
         said, due = _listed(mismatch.done), _listed(mismatch.right)
@@ -219,18 +258,19 @@ def _diagnose_modes(done: Track) -> Diagnosis | None:
         hint = spelling(mismatch.done[0], modes) or "The mode is the command's text, unchanged."
         return Diagnosis("wrong-values", evidence, hint)
 
-    return diagnose(COMMANDS, done, right, KEEPERS, describe)
+    return diagnose(commands, done, right, KEEPERS, describe)
 
 
-def _diagnose_displays(observation: Observation) -> Diagnosis | None:
+def _diagnose_displays(observation: Observation, joining: Sequence[float]) -> Diagnosis | None:
     words = [(one.time, str(one.value)) for one in samples_on(observation, _MODE)]
-    numbers = {name: number for number, name in enumerate(DISPLAYS)}
+    modes = Modes(words, joining)
+    numbers = {name: number for number, name in enumerate(_DISPLAYS)}
     done = grouped((numbers[log.name], log.text) for log in observation.logs if log.name in numbers)
     # A publisher that was destroyed is no longer in the graph.
     offers = next((end.qos for end in _ends(observation, _MODE, "publisher")), _ONE_STORED)
 
     def describe(mismatch: Mismatch) -> Diagnosis:
-        joins, asks = [*DISPLAYS.values()][mismatch.at]
+        joins, asks = joining[mismatch.at], [*_DISPLAYS.values()][mismatch.at]
         evidence = (
             f"A display joined at {joins:g} s and asked for {asks.reliability}, "
             f"{asks.durability}. It heard {_listed(mismatch.done)}, and should have heard "
@@ -239,8 +279,8 @@ def _diagnose_displays(observation: Observation) -> Diagnosis | None:
         hint = "Compare what the publisher offers with what such a display asks for."
         return Diagnosis(UNKNOWN, evidence, hint)
 
-    right = _heard_by_displays(words, _ONE_STORED)
-    return diagnose(words, done, right, offer_suspects(words, offers), describe)
+    right = _heard_by_displays(modes, _ONE_STORED)
+    return diagnose(modes, done, right, offer_suspects(modes, offers), describe)
 
 
 def _listed(words: Iterable[str]) -> str:
@@ -250,48 +290,86 @@ def _listed(words: Iterable[str]) -> str:
 # 08b, listen to everybody: two sensors, and a node that is away for a while.
 
 _READING, _ARCHIVE = Wire("/reading", _FLOAT), Wire("/archive", _FLOAT)
-#: What the two sensors publish, once a second each: no number twice, and none follows from another.
-#: A float32 holds each of them exactly.
-READINGS = {
-    "/new_sensor": tuple(20.0 + number * number % 61 / 8 for number in range(20)),
-    "/old_sensor": tuple(40.0 + number / 8 for number in range(20)),
-}
 _OFFERED = {"/new_sensor": QoS("BEST_EFFORT", depth=5), "/old_sensor": QoS(depth=5)}
-_AWAY = (5.5, 13.5)
-#: Values of readings, by the second at which each is published, and the node.
-_Readings = dict[tuple[float, str], float]
-FED: _Readings = {
-    (float(at), node): value
-    for node, values in READINGS.items()
-    for at, value in enumerate(values, 1)
-}
-_ROOMY = QoS("BEST_EFFORT", depth=len(FED))
+#: Seconds for which the archive is away; that is told on the page.
+_ABSENCE = 8.0
 
 
-def _run_archive(answer: Answer) -> Observation:
+class Sensors(NamedTuple):
+    """Hold what an archive is fed, and when it is away.
+
+    Attributes:
+        new: What the new sensor publishes, one reading a second.
+        old: What the old sensor publishes.
+        leaves: The second at which the archive begins to be away.
+    """
+
+    new: tuple[float, ...]
+    old: tuple[float, ...]
+    leaves: float
+
+    @property
+    def returns(self) -> float:
+        """Return the second at which the archive is back."""
+        return self.leaves + _ABSENCE
+
+    def by_sensor(self) -> dict[str, tuple[float, ...]]:
+        """Return the readings by the node that publishes them."""
+        return {"/new_sensor": self.new, "/old_sensor": self.old}
+
+    def readings(self) -> dict[tuple[float, str], float]:
+        """Return the value of each reading, by the second at which it comes, and the node."""
+        return {
+            (float(at), node): value
+            for node, values in self.by_sensor().items()
+            for at, value in enumerate(values, 1)
+        }
+
+
+_COUNT = 20
+_ROOMY = QoS("BEST_EFFORT", depth=2 * _COUNT)
+
+
+def draw_sensors(draw: Draw) -> Sensors:
+    """Draw readings: no number twice, and none follows from another.
+
+    A float32 holds each of them exactly.
+    """
+    numbers = range(_COUNT)
+    new = tuple(20.0 + number * number % 61 / 8 for number in numbers)
+    old = tuple(40.0 + number / 8 for number in numbers)
+    if not draw.is_page:
+        drawn = [10.0 + number / 8 for number in draw.shuffled(range(400))]
+        new, old = tuple(drawn[:_COUNT]), tuple(drawn[_COUNT : 2 * _COUNT])
+    return Sensors(new, old, draw.number(5.5, 2.5, 10.5, 1.0))
+
+
+def _run_archive(answer: Answer, fed: Sensors) -> Observation:
     from rosbeat.ros.scenario import Pause, Resume
 
     sensors = [
         feeder(name.strip("/"), _READING, values, qos=_OFFERED[name])
-        for name, values in READINGS.items()
+        for name, values in fed.by_sensor().items()
     ]
-    return observe(answer, 21.0, others=sensors, steps=[Pause(_AWAY[0]), Resume(_AWAY[1])])
+    steps = [Pause(fed.leaves), Resume(fed.returns)]
+    return observe(answer, _COUNT + 1.0, others=sensors, steps=steps)
 
 
-def _archive(fed: _Readings, qos: QoS | Sequence[QoS], most: int = 99) -> Track:
+def _archive(fed: Sensors, qos: QoS | Sequence[QoS], most: int = 99) -> Track:
     """Return each reading as often as an archive with these subscriptions has it, or `most`."""
     counts: Counter[tuple[float, str]] = Counter()
+    readings = fed.readings()
     for asks in [qos] if isinstance(qos, QoS) else qos:
-        heard = sorted(one for one in fed if not incompatible(_OFFERED[one[1]], asks))
-        waiting = [one for one in heard if _AWAY[0] < one[0] <= _AWAY[1]]
+        heard = sorted(one for one in readings if not incompatible(_OFFERED[one[1]], asks))
+        waiting = [one for one in heard if fed.leaves < one[0] <= fed.returns]
         counts.update(one for one in heard if one not in waiting)
         depth = len(waiting) if asks.history == "KEEP_ALL" else asks.depth
         counts.update(
             one
             for one in waiting[-depth:]
-            if not asks.lifespan_ns or (_AWAY[1] - one[0]) * NANOSECONDS < asks.lifespan_ns
+            if not asks.lifespan_ns or (fed.returns - one[0]) * NANOSECONDS < asks.lifespan_ns
         )
-    return {one: (fed[one],) * min(count, most) for one, count in counts.items()}
+    return {one: (readings[one],) * min(count, most) for one, count in counts.items()}
 
 
 _QUEUE = (
@@ -309,32 +387,34 @@ _READING_POLICIES = (
 )
 
 
-def archive_suspects(asks: Sequence[QoS]) -> list[Suspect]:
+def archive_suspects(fed: Sensors, asks: Sequence[QoS]) -> list[Suspect]:
     """Return what the policies of an archive's subscriptions may have done."""
     if len(asks) == 1:
-        return _suspects_by_policy(_READING_POLICIES, _archive, FED, _ROOMY, asks[0])
+        return _suspects_by_policy(_READING_POLICIES, _archive, fed, _ROOMY, asks[0])
     return [
         Suspect("heard-twice", _TWICE, partial(_archive, qos=asks)),
         Suspect("queue-too-short", _QUEUE, partial(_archive, qos=asks, most=1)),
     ]
 
 
-def _judge_archive(observation: Observation) -> Verdict:
+def _judge_archive(observation: Observation, fed: Sensors) -> Verdict:
+    sensors, count = len(fed.by_sensor()), len(fed.readings())
     return (
         diagnose_unheard(observation, _READING)
         or diagnose_unpublished(observation, _ARCHIVE)
-        or _diagnose_archive(observation)
+        or _diagnose_archive(observation, fed)
         or passed(
-            f"{len(READINGS)} sensors, {len(FED)} readings, {len(FED)} in the archive: it heard "
-            "everybody, and nothing was lost while it was away."
+            f"{sensors} sensors, {count} readings, {count} in the archive: it heard everybody, and "
+            "nothing was lost while it was away."
         )
     )
 
 
-def _diagnose_archive(observation: Observation) -> Diagnosis | None:
+def _diagnose_archive(observation: Observation, fed: Sensors) -> Diagnosis | None:
+    readings = fed.readings()
     kept = [float(one.value) for one in samples_on(observation, _ARCHIVE)]
     # Of a number that no sensor has published nobody can say which reading it was.
-    strange = next((value for value in kept if value not in FED.values()), None)
+    strange = next((value for value in kept if value not in readings.values()), None)
     if strange is not None:
         return Diagnosis(
             "wrong-values",
@@ -347,23 +427,23 @@ def _diagnose_archive(observation: Observation) -> Diagnosis | None:
     def describe(mismatch: Mismatch) -> Diagnosis:
         (at, node), times = mismatch.at, len(mismatch.done)
         found = f"in the archive {times} times" if times else "not in the archive"
-        missed = sum(not counts[value] for value in FED.values())
+        missed = sum(not counts[value] for value in readings.values())
         evidence = (
-            f"The reading {FED[at, node]:g}, which {node} published at {at:g} s, is {found}, and "
-            f"should be there once. {missed} of {len(FED)} readings are missing there; the node "
-            f"was away from {_AWAY[0]:g} s to {_AWAY[1]:g} s. Your subscription asks for "
-            f"{' and '.join(map(_described, asks)) or 'nothing'}."
+            f"The reading {readings[at, node]:g}, which {node} published at {at:g} s, is {found}, "
+            f"and should be there once. {missed} of {len(readings)} readings are missing there; "
+            f"the node was away from {fed.leaves:g} s to {fed.returns:g} s. Your subscription asks "
+            f"for {' and '.join(map(_described, asks)) or 'nothing'}."
         )
         return Diagnosis("wrong-values", evidence, "Publish each reading once, when it comes.")
 
-    done = {one: (value,) * counts[value] for one, value in FED.items()}
-    wrong = diagnose(FED, done, _archive(FED, _ROOMY), archive_suspects(asks), describe)
-    return wrong or _diagnose_order(kept)
+    done = {one: (value,) * counts[value] for one, value in readings.items()}
+    wrong = diagnose(fed, done, _archive(fed, _ROOMY), archive_suspects(fed, asks), describe)
+    return wrong or _diagnose_order(kept, fed)
 
 
-def _diagnose_order(kept: Sequence[float]) -> Diagnosis | None:
+def _diagnose_order(kept: Sequence[float], fed: Sensors) -> Diagnosis | None:
     """Compare the order; what turns it round is the node's own doing, whatever its policies."""
-    for name, values in READINGS.items():
+    for name, values in fed.by_sensor().items():
         if [value for value in kept if value in values] != list(values):
             return Diagnosis(
                 "wrong-values",
@@ -380,17 +460,45 @@ _TEMPERATURE, _HEALTH = Wire("/temperature", _FLOAT), Wire("/health", _STRING)
 LOST, BACK = "lost", "back"
 #: The deadline that the sensor offers, in seconds: no longer silence is none.
 LIMIT = 2.0
-#: Readings a second apart, or nearly two; a long silence, a short one, and one to the end.
-TIMES = (1.0, 2.0, 3.0, 4.75, 6.0, 13.5, 14.5, 15.5, 18.0)
-_END = 25.0
 #: How late a node may be that looks at a clock now and then, and any other, in seconds.
 _LATE, _EXACT = 0.45, 1e-6
 
 
-def _run_watchdog(answer: Answer) -> Observation:
+class Silences(NamedTuple):
+    """Hold when readings come, and when the run ends, in seconds."""
+
+    times: tuple[float, ...]
+    end: float
+
+
+def draw_silences(draw: Draw) -> Silences:
+    """Draw readings a second apart, or nearly two; a long silence, a short one, one to the end.
+
+    A silence begins at a full second or half of one: so a node that looks at the clock twice a
+    second is in time.
+    """
+    return draw.until(
+        partial(_silences, draw), lambda fed: tells_apart(fed, _watch, _WITH_A_LATE_DEADLINE)
+    )
+
+
+def _silences(draw: Draw) -> Silences:
+    def seconds(usual: int) -> tuple[float, ...]:
+        return (1.0,) * draw.whole(usual, 1, 5)
+
+    nearly = draw.shuffled((1.75, 1.25))
+    gaps = (
+        *(*seconds(2), *nearly, 6.5 + draw.whole(1, 0, 7), *seconds(2)),
+        *(draw.one_of(2.5, 3.5), draw.one_of(7.0, 6.5, 7.5, 8.5, 9.5, 10.5)),
+    )
+    *times, end = accumulate(gaps, initial=draw.number(1.0, 0.5, 12.0, 0.5))
+    return Silences(tuple(times), end)
+
+
+def _run_watchdog(answer: Answer, fed: Silences) -> Observation:
     qos = QoS(deadline_ns=round(LIMIT * NANOSECONDS))
-    readings = [(at, 21.5) for at in TIMES]
-    return observe(answer, _END, steps=publishing(_TEMPERATURE, readings, qos))
+    readings = [(at, 21.5) for at in fed.times]
+    return observe(answer, fed.end, steps=publishing(_TEMPERATURE, readings, qos))
 
 
 #: Whether a word is worth a message, from the last word, the word and the deadlines missed so far.
@@ -398,7 +506,7 @@ _IsWorthIt = Callable[[str, str, int], bool]
 
 
 def _watch(
-    times: Sequence[float],
+    fed: Silences,
     is_news: _IsWorthIt = lambda last, word, _: word != last,
     limit: float = LIMIT,
     last: str = BACK,
@@ -409,13 +517,13 @@ def _watch(
 
     Its time limit begins anew with each reading, or never `restarts`.
     """
-    spans = pairwise([*times, _END]) if restarts else [(0.0, _END)]
+    spans = pairwise([*fed.times, fed.end]) if restarts else [(0.0, fed.end)]
     misses = [
         (begin + limit * (number + 1), LOST)
         for begin, end in spans
         for number in range(int((end - begin - _EXACT) / limit))
     ]
-    signals = sorted([*misses, *((at, BACK) for at in times)], key=lambda one: one[0])
+    signals = sorted([*misses, *((at, BACK) for at in fed.times)], key=lambda one: one[0])
     said: list[_Word] = []
     for number, (at, word) in enumerate(signals):
         missed = sum(earlier == LOST for _, earlier in signals[: number + 1])
@@ -470,22 +578,25 @@ def deadline_suspects(asks: Sequence[QoS]) -> list[Suspect]:
     return [Suspect("wrong-deadline", _DUE, partial(_watch, limit=limit)) for limit in limits]
 
 
-def _judge_watchdog(observation: Observation) -> Verdict:
-    silences = sum(one[0][1] == LOST for one in _watch(TIMES).values())
+_WITH_A_LATE_DEADLINE = (*WATCHDOGS, *deadline_suspects([QoS(deadline_ns=3 * NANOSECONDS)]))
+
+
+def _judge_watchdog(observation: Observation, fed: Silences) -> Verdict:
+    silences = sum(one[0][1] == LOST for one in _watch(fed).values())
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or _unmeasured(observation)
         or diagnose_unpublished(observation, _HEALTH)
         or diagnose_words(observation, _HEALTH, (LOST, BACK))
-        or _diagnose_watch(observation)
+        or _diagnose_watch(observation, fed)
         or passed(
-            f"{len(TIMES)} readings, {silences} silences: {LOST!r} once in each of them, and "
+            f"{len(fed.times)} readings, {silences} silences: {LOST!r} once in each of them, and "
             f"{BACK!r} once after each that ended."
         )
     )
 
 
-def _diagnose_watch(observation: Observation) -> Diagnosis | None:
+def _diagnose_watch(observation: Observation, fed: Silences) -> Diagnosis | None:
     said = [(one.time, str(one.value)) for one in samples_on(observation, _HEALTH)]
     asks = [end.qos for end in _ends(observation, _TEMPERATURE, "subscription")]
     mine = [one for one in observation.callbacks if one.node == observation.subject]
@@ -495,17 +606,17 @@ def _diagnose_watch(observation: Observation) -> Diagnosis | None:
         return found[1] == due[1] and due[0] - _EXACT <= found[0] <= due[0] + late
 
     def describe(mismatch: Mismatch) -> Diagnosis:
-        found = _describe_word(mismatch)
+        found = _describe_word(mismatch, fed)
         deadline = next((_seconds(qos.deadline_ns) for qos in asks if qos.deadline_ns), "")
         own = f" Your subscription has a deadline of {deadline}." if deadline else ""
         return replace(found, evidence=found.evidence + own)
 
     done: Track = {number: (one,) for number, one in enumerate(said)}
     watchdogs = [*WATCHDOGS, *deadline_suspects(asks)]
-    return diagnose(TIMES, done, _watch(TIMES), watchdogs, describe, in_time)
+    return diagnose(fed, done, _watch(fed), watchdogs, describe, in_time)
 
 
-def _describe_word(mismatch: Mismatch) -> Diagnosis:
+def _describe_word(mismatch: Mismatch, fed: Silences) -> Diagnosis:
     """Describe the first message that is not as it should be."""
     number = mismatch.at + 1
     (at, word), (due, wanted) = (
@@ -516,7 +627,7 @@ def _describe_word(mismatch: Mismatch) -> Diagnosis:
         return Diagnosis("change-missing", evidence, _EACH)
     evidence = f"Message {number} on /health was {word!r}, at {at:g} s; "
     evidence += f"{wanted!r} was due, at {due:g} s." if wanted else "nothing more was due."
-    if at < TIMES[0]:
+    if at < fed.times[0]:
         hint = "Before the first reading nothing has been lost yet, and nothing is back."
         return Diagnosis("wrong-start", evidence, hint)
     if word == BACK and not wanted:
@@ -584,6 +695,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "In the callback, compare the command with self.mode, and do nothing if they are "
             "the same.",
         ),
+        draw=draw_commands,
     ),
     Exercise(
         "08b",
@@ -597,6 +709,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Ask for no more than the poorest sensor offers. The others offer more, and that fits.",
             "Both sensors fill the same queue. Count what comes from the two in eight seconds.",
         ),
+        draw=draw_sensors,
     ),
     Exercise(
         "08c",
@@ -612,5 +725,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Both methods say their word again and again. self.word is what was said last: only "
             "another word is news, and then it has to be remembered.",
         ),
+        draw=draw_silences,
     ),
 )

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right, insort
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import pairwise
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import accumulate, pairwise
+from typing import Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     STATUSES,
@@ -28,6 +30,7 @@ from rosbeat.exercises.model import (
     samples_on,
     status_of,
     suspects,
+    tells_apart,
 )
 from rosbeat.exercises.scenarios import Answer, feeder, observe, publishing, started
 from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Sample
@@ -39,9 +42,10 @@ _CALLED = "Which callback comes to the line that publishes, and what calls it?"
 # 09a: notice the silence.
 
 _TEMPERATURE = Wire("/temperature", _FLOAT)
-#: When readings come: late at first, then with pauses too short to count, and two silences.
-READINGS = (5.25, 6.25, 7.25, 10.0, 11.0, 12.0, 20.0, 21.0, 23.5, 31.0, 32.0, 34.5)
-_READINGS_END = READINGS[-1] + 2
+#: When readings come, in seconds.
+Readings = tuple[float, ...]
+#: Seconds from the last reading to the end of the run.
+_REST = 2.0
 #: Seconds without a reading after which a sensor is lost, and how late that may be said.
 SILENCE, LATE = 3.0, 1.0
 _ROOM = 0.05
@@ -49,17 +53,47 @@ _ROOM = 0.05
 Words = Iterable[tuple[float, str]]
 
 
-def _run_with_silences(answer: Answer) -> Observation:
-    steps = publishing(_TEMPERATURE, [(at, 22.0) for at in READINGS])
-    return observe(answer, _READINGS_END, steps=steps)
+def draw_readings(draw: Draw) -> Readings:
+    """Draw readings: late at first, then with pauses too short to count, and two silences.
+
+    A silence begins at a full second or half of one: so a node that counts seconds, or halves, is
+    in time with each seed or with none. And one that looks every three seconds only is late.
+    """
+    return draw.until(
+        partial(_readings, draw),
+        lambda fed: (
+            tells_apart(fed, _watch(), SILENCE_SUSPECTS)
+            and any(0 < last % SILENCE < SILENCE - LATE for last in _before_silences(fed))
+        ),
+    )
 
 
-def _by_reading(words: Words) -> Track:
+def _before_silences(readings: Readings) -> list[float]:
+    return [last for last, first in pairwise(readings) if first - last > SILENCE]
+
+
+def _readings(draw: Draw) -> Readings:
+    def seconds(usual: int) -> tuple[float, ...]:
+        return (1.0,) * draw.whole(usual, 1, 5)
+
+    gaps = (
+        *(*seconds(2), 2.75, *seconds(2), draw.number(8.0, 6.0, 14.0, 1.0)),
+        *(*seconds(1), 2.5, draw.number(7.5, 5.5, 13.5, 1.0), *seconds(1), 2.5),
+    )
+    return tuple(accumulate(gaps, initial=draw.number(5.25, 5.25, 14.25, 1.0)))
+
+
+def _run_with_silences(answer: Answer, readings: Readings) -> Observation:
+    steps = publishing(_TEMPERATURE, [(at, 22.0) for at in readings])
+    return observe(answer, readings[-1] + _REST, steps=steps)
+
+
+def _by_reading(words: Words, readings: Readings) -> Track:
     """Return the words by the number of readings that had come, each early, due or late."""
 
     def placed(at: float, word: str) -> tuple[int, str]:
-        count = bisect_right(READINGS, at + _ROOM)
-        waited = at - READINGS[count - 1] if count else 0.0
+        count = bisect_right(readings, at + _ROOM)
+        waited = at - readings[count - 1] if count else 0.0
         due = SILENCE if word == "lost" else 0.0
         when = "early" if waited < due - _ROOM else "late" if waited > due + LATE + _ROOM else "due"
         return count, f"{word} {when}"
@@ -76,12 +110,12 @@ def _watch(after: float = SILENCE, at_once: bool = False, most: int | None = Non
         most: How many words it ever says.
     """
 
-    def model(readings: Sequence[float]) -> Track:
+    def model(readings: Readings) -> Track:
         words = []
         for last, first in pairwise(readings):
             if first - last > after:
                 words += [(first if at_once else last + after, "lost"), (first, "back")]
-        return _by_reading(words[:most])
+        return _by_reading(words[:most], readings)
 
     return model
 
@@ -103,7 +137,7 @@ SILENCE_SUSPECTS = suspects(
 )  # fmt: skip
 
 
-def _judge_silence(observation: Observation) -> Verdict:
+def _judge_silence(observation: Observation, readings: Readings) -> Verdict:
     silent = diagnose_unpublished(observation, _STATUS)
     if silent and silent.mistake == "never-published":
         silent = None  # no word was ever said: that is told better by what should have been said
@@ -111,24 +145,24 @@ def _judge_silence(observation: Observation) -> Verdict:
         diagnose_unheard(observation, _TEMPERATURE)
         or silent
         or diagnose_words(observation, _STATUS, ("lost", "back"))
-        or _wrong_words(observation)
+        or _wrong_words(observation, readings)
         or passed(
-            f"{len(READINGS)} readings, {len(_watch()(READINGS)) // 2} silences: each was noticed "
+            f"{len(readings)} readings, {len(_watch()(readings)) // 2} silences: each was noticed "
             "once, and its end too."
         )
     )
 
 
-def _wrong_words(observation: Observation) -> Diagnosis | None:
+def _wrong_words(observation: Observation, readings: Readings) -> Diagnosis | None:
     words = [(one.time, str(one.value)) for one in samples_on(observation, _STATUS)]
 
     def describe(mismatch: Mismatch) -> Diagnosis:
-        number, times = mismatch.at, (0.0, *READINGS, _READINGS_END)
-        here = [one for one in words if [*_by_reading([one])] == [number]]
+        number, times = mismatch.at, (0.0, *readings, readings[-1] + _REST)
+        here = [one for one in words if [*_by_reading([one], readings)] == [number]]
         said = " and ".join(f"{word} at {at:g} s" for at, word in here) or "nothing"
         due = f"{mismatch.right[0].split()[0] if mismatch.right else 'nothing'} was due"
         came = "the next reading came"
-        if number == len(READINGS):
+        if number == len(readings):
             came = "no reading came, and the run ended"
         begin = f"After {times[number]:g} s, {came} at {times[number + 1]:g} s. {due.capitalize()}"
         if number == 0:
@@ -136,7 +170,8 @@ def _wrong_words(observation: Observation) -> Diagnosis | None:
         evidence = f"{begin}, and the node said {said}."
         return diagnose_wait(observation, evidence, 0.5) or _first_word(mismatch, evidence)
 
-    return diagnose(READINGS, _by_reading(words), _watch()(READINGS), SILENCE_SUSPECTS, describe)
+    done, right = _by_reading(words, readings), _watch()(readings)
+    return diagnose(readings, done, right, SILENCE_SUSPECTS, describe)
 
 
 def _first_word(mismatch: Mismatch, evidence: str) -> Diagnosis:
@@ -163,10 +198,6 @@ def _first_word(mismatch: Mismatch, evidence: str) -> Diagnosis:
 # 09b: work, and go on beating.
 
 _ORDER, _DONE, _BEAT = Wire("/order", _INT), Wire("/done", _INT), Wire("/beat", _STRING)
-#: When orders come, and their numbers: one after another, and two while two others wait. A test for
-#: "no order" must not take the number 0 for none.
-ORDERS = ((2.5, 7), (9.5, 0), (9.5, 12), (11.75, 5), (11.75, 9))
-_ORDERS_END = 29.0
 #: Seconds that an order takes.
 WORK = 3.0
 #: The longest period in seconds of a timer that looks whether an order is done: a report may be
@@ -175,43 +206,80 @@ _LOOK = 1.0
 Reports = Sequence[tuple[float, int]]
 
 
-def _run_with_orders(answer: Answer) -> Observation:
-    return observe(answer, _ORDERS_END, steps=publishing(_ORDER, ORDERS))
+class Work(NamedTuple):
+    """Hold what a worker is fed.
+
+    Attributes:
+        orders: When orders come, in seconds, and their numbers.
+        end: When the run ends.
+        each: Seconds that a worker takes for an order.
+    """
+
+    orders: tuple[tuple[float, int], ...]
+    end: float
+    each: float = WORK
 
 
-def _judge_work(observation: Observation) -> Verdict:
+def draw_work(draw: Draw) -> Work:
+    """Draw orders: one after another, and two while two others wait.
+
+    A test for "no order" must not take the number 0 for none. Work begins at half a second past a
+    full one: so a node that counts halves is in time.
+    """
+
+    def tells_all(fed: Work) -> bool:
+        slow = fed._replace(each=WORK + 0.5)
+        return all(tells_apart(one, _worker(), WORK_SUSPECTS) for one in (fed, slow))
+
+    return draw.until(partial(_orders, draw), tells_all)
+
+
+def _orders(draw: Draw) -> Work:
+    one, *others = (7, 12, 5, 9) if draw.is_page else draw.shuffled(range(1, 100))[:4]
+    first = draw.number(2.5, 2.5, 7.5, 1.0)
+    second = first + draw.whole(7, 4, 12)
+    third = second + draw.one_of(2.25, 0.25, 0.75, 1.25, 1.75)
+    times = (first, second, second, third, third)
+    return Work(tuple(zip(times, (one, 0, *others), strict=True)), second + 19.5)
+
+
+def _run_with_orders(answer: Answer, fed: Work) -> Observation:
+    return observe(answer, fed.end, steps=publishing(_ORDER, fed.orders))
+
+
+def _judge_work(observation: Observation, fed: Work) -> Verdict:
     both = (_BEAT.topic, _DONE.topic)
     beats = [beat.time for beat in samples_on(observation, _BEAT)]
     thread = f"{_CALLED} A thread of its own counts real time, which does not pass here."
     return (
         diagnose_unheard(observation, _ORDER)
         or diagnose_unpublished(observation, _BEAT, both, _CALLED)
-        or _wrong_beats(beats)
+        or _wrong_beats(beats, fed)
         or diagnose_unpublished(observation, _DONE, both, thread)
-        or _wrong_reports(observation)
+        or _wrong_reports(observation, fed)
         or passed(
-            f"{len(ORDERS)} orders, each done after {WORK:g} s, one after the other; meanwhile "
+            f"{len(fed.orders)} orders, each done after {WORK:g} s, one after the other; meanwhile "
             f"{len(beats)} beats, none of them late."
         )
     )
 
 
-def _wrong_beats(beats: Sequence[float]) -> Diagnosis | None:
+def _wrong_beats(beats: Sequence[float], fed: Work) -> Diagnosis | None:
     """Say what is wrong with the beat; without a model, since a timer may begin at any moment."""
     hint = "One beat a second, whether it works or not."
     # Before the first beat, and behind the last one, a gap may be shorter.
-    for begin, end in pairwise((0.0, *beats, _ORDERS_END)):
-        if end - begin < 0.9 and begin > 0.0 and end < _ORDERS_END:
+    for begin, end in pairwise((0.0, *beats, fed.end)):
+        if end - begin < 0.9 and begin > 0.0 and end < fed.end:
             evidence = f"A beat came at {begin:g} s, and the next at {end:g} s already."
             return Diagnosis("wrong-rate", evidence, hint)
-        if end - begin > 1.1 and end <= ORDERS[0][0]:
+        if end - begin > 1.1 and end <= fed.orders[0][0]:
             evidence = f"Between {begin:g} s and {end:g} s there was no beat, and no work to do."
             return Diagnosis("wrong-rate", evidence, "One beat a second needs a timer of 1.0 s.")
         if end - begin > 1.1:
             return Diagnosis(
                 "beat-starved",
                 f"Between {begin:g} s and {end:g} s there was no beat, "
-                f"{_work_between(begin, end)}.",
+                f"{_work_between(begin, end, fed)}.",
                 "A node runs one callback at a time. While yours waits for the work to be done, no "
                 "other can run: what could call you back when it is done?",
             )
@@ -222,20 +290,20 @@ def _wrong_beats(beats: Sequence[float]) -> Diagnosis | None:
     return None
 
 
-def _work_between(begin: float, end: float) -> str:
+def _work_between(begin: float, end: float, fed: Work) -> str:
     """Return what there was to do between two moments, for somebody who does it as asked."""
     free = 0.0
-    for at, number in ORDERS:
+    for at, number in fed.orders:
         started = max(at, free)
         free = started + WORK
         if begin < free and started < end:
             return f"while order {number} was being worked on"
-    return f"after order {[number for at, number in ORDERS if at < end][-1]} had come"
+    return f"after order {[number for at, number in fed.orders if at < end][-1]} had come"
 
 
-def _by_report(reports: Reports) -> Track:
+def _by_report(reports: Reports, fed: Work) -> Track:
     """Return each report's number, and the seconds from when the order could begin."""
-    came, free, found = {number: at for at, number in ORDERS}, 0.0, {}
+    came, free, found = {number: at for at, number in fed.orders}, 0.0, {}
     for place, (at, number) in enumerate(reports):
         found[place] = (number, at - max(free, came.get(number, 0.0)))
         free = at
@@ -247,7 +315,7 @@ def _worker(
     take: Callable[[list[int]], list[int]] = lambda waiting: [waiting.pop(0)],
     restart: bool = False,
 ) -> Model:
-    """Return the model of a worker, from the seconds that it works to its reports.
+    """Return the model of a worker, from orders and the seconds that each takes to its reports.
 
     Args:
         put: Adds an order to those that wait; the first of them is being worked on.
@@ -255,34 +323,34 @@ def _worker(
         restart: Whether each order that comes begins the time anew.
     """
 
-    def model(work: float) -> Track:
+    def model(fed: Work) -> Track:
         reports: list[tuple[float, int]] = []
         waiting: list[int] = []
-        due = _ORDERS_END
-        for at, order in (*ORDERS, (_ORDERS_END, 0)):
+        due, work = fed.end, fed.each
+        for at, order in (*fed.orders, (fed.end, 0)):
             while waiting and due <= at:
                 reports += [(due, number) for number in take(waiting)]
                 due += work
             if restart or not waiting:
                 due = at + work
             put(waiting, order)
-        return _by_report(reports)
+        return _by_report(reports, fed)
 
     return model
 
 
-def _independent(work: float) -> Track:
+def _independent(fed: Work) -> Track:
     """Return the reports of a timer for each order, which all run at once."""
-    return _by_report([(at + work, number) for at, number in ORDERS])
+    return _by_report([(at + fed.each, number) for at, number in fed.orders], fed)
 
 
-def _free_running(_: float) -> Track:
+def _free_running(fed: Work) -> Track:
     """Return the reports of a timer that runs from the beginning."""
-    reports, waiting = [], list(ORDERS)
-    for tick in range(3, int(_ORDERS_END), 3):
+    reports, waiting = [], list(fed.orders)
+    for tick in range(3, int(fed.end), 3):
         if waiting and waiting[0][0] <= tick:
             reports.append((float(tick), waiting.pop(0)[1]))
-    return _by_report(reports)
+    return _by_report(reports, fed)
 
 
 def _keep(most: int) -> Callable[[list[int], int], None]:
@@ -333,9 +401,9 @@ def _lateness(observation: Observation) -> float:
     return max((period for period in periods if period <= _LOOK), default=0.0)
 
 
-def _wrong_reports(observation: Observation) -> Diagnosis | None:
+def _wrong_reports(observation: Observation, fed: Work) -> Diagnosis | None:
     reports = [(report.time, int(report.value)) for report in samples_on(observation, _DONE)]
-    done = _by_report(reports)
+    done = _by_report(reports, fed)
     late = _lateness(observation)
     room = min(late, 0.1) + 0.01  # a counter of small steps may be off by one
 
@@ -344,14 +412,14 @@ def _wrong_reports(observation: Observation) -> Diagnosis | None:
             isinstance(found, float) and -room <= found - wanted <= late + room
         )
 
-    mismatch = first_mismatch(done, _worker()(WORK), in_time)
+    mismatch = first_mismatch(done, _worker()(fed), in_time)
     if mismatch is None:
         return None
     place = mismatch.at
-    evidence = f"No order was due after {len(ORDERS)} reports"
+    evidence = f"No order was due after {len(fed.orders)} reports"
     if mismatch.right:
         order = mismatch.right[0]
-        at = next(at for at, number in ORDERS if number == order)
+        at = next(at for at, number in fed.orders if number == order)
         begin = max(at, reports[place - 1][0]) if 0 < place <= len(reports) else at
         evidence = f"Order {order} could begin at {begin:g} s and was due {WORK:g} s later"
     said = f"it was not done by {observation.time:g} s"
@@ -360,18 +428,19 @@ def _wrong_reports(observation: Observation) -> Diagnosis | None:
     work = done[0][1]
     other_length = TOO_SHORT if work < WORK else TOO_LONG
     # That one fits for every length of the work; others only for some lengths.
-    matches = matching(work, done, [other_length], in_time)
+    as_measured = fed._replace(each=work)
+    matches = matching(as_measured, done, [other_length], in_time)
     return name_mistake(
-        matches or matching(work, done, WORK_SUSPECTS, in_time),
-        _first_report(mismatch, done, f"{evidence}; {said}."),
+        matches or matching(as_measured, done, WORK_SUSPECTS, in_time),
+        _first_report(mismatch, done, f"{evidence}; {said}.", fed),
     )
 
 
-def _first_report(mismatch: Mismatch, reports: Track, evidence: str) -> Diagnosis:
+def _first_report(mismatch: Mismatch, reports: Track, evidence: str, fed: Work) -> Diagnosis:
     """Name a mistake by its first report alone: several at once have too many models."""
     done, right = mismatch.done, mismatch.right
     numbers = [number for number, _ in reports.values()]
-    if done and (done[0] not in [number for _, number in ORDERS] or done[1] < 0):
+    if done and (done[0] not in [number for _, number in fed.orders] or done[1] < 0):
         return Diagnosis("wrong-values", evidence, "What was ordered is what gets done.")
     if done and numbers.count(done[0]) > 1:
         hint = "A timer calls again and again until it is stopped."
@@ -412,79 +481,127 @@ class Place:
     low: float = LOW
     high: float = HIGH
     unit: str = UNIT
-    remappings: Mapping[str, str] = field(default_factory=dict)
-    parameters: Mapping[str, Any] = field(default_factory=dict)
+    remappings: tuple[tuple[str, str], ...] = ()
+    parameters: tuple[tuple[str, Any], ...] = ()
 
 
-# Readings at the limits of a place, just outside, and between the limits of the others. A float32
-# holds each of the numbers at a limit exactly.
-HOME = Place(
-    "", "/reading", "/status",
-    (22.0, 27.5, 26.0, 26.015625, 25.5, 20.0, 19.984375, 12.5, 20.5, 55.0),
-)  # fmt: skip
-GREENHOUSE = Place(
-    "/greenhouse/humidity_monitor", "/greenhouse/humidity", "/greenhouse/status",
-    (55.0, 72.5, 70.0, 70.015625, 40.0, 39.984375, 22.0, 27.5, 65.5, 30.5), 40.0, 70.0, "%",
-    {"reading": "humidity"}, {"low": 40.0, "high": 70.0, "unit": "%"},
-)  # fmt: skip
-PORCH = Place(
-    "/porch/light_monitor", "/porch/reading", "/porch/light",
-    (300.0, 810.5, 800.0, 19.5, 20.0, 27.5, 65.5, 12.0, 900.5, 400.0), LOW, 800.0, "lx",
-    {"status": "light"}, {"high": 800.0, "unit": "lx"},
-)  # fmt: skip
-PLACES = (HOME, GREENHOUSE, PORCH)
+#: The one without arguments, then one with all limits of its own, and one with an upper limit.
+Places = tuple[Place, Place, Place]
+
+
+def draw_places(draw: Draw) -> Places:
+    """Draw places; all limits of the first one are the defaults, and one of the last."""
+    return draw.until(
+        partial(_places, draw), lambda places: tells_apart(places[1], _words(), PLACE_SUSPECTS)
+    )
+
+
+def _places(draw: Draw) -> Places:
+    # Readings at the limits of a place, just outside, and between the limits of the others. A
+    # float32 holds each of the numbers at a limit exactly.
+    number = partial(draw.number, step=0.5)
+    readings = (
+        *(number(22.0, 20.5, 25.0), number(27.5, 26.5, 29.0), 26.0, 26.015625, 25.5, 20.0),
+        *(19.984375, number(12.5, -5.0, 19.0), 20.5, number(55.0, 30.0, 90.0)),
+    )
+    home = Place("", "/reading", "/status", draw.shuffled(readings))
+
+    low, high = number(40.0, 38.0, 50.0), number(70.0, 67.0, 80.0)
+    space = draw.one_of("greenhouse", "cellar", "attic", "bathroom", "barn")
+    name, topic, unit = draw.one_of(("humidity", "humidity", "%"), ("soil", "moisture", "pct"))
+    greenhouse = Place(
+        f"/{space}/{name}_monitor",
+        f"/{space}/{topic}",
+        f"/{space}/status",
+        draw.shuffled(
+            (
+                *(number(55.0, 51.0, 66.0), high + 2.5, high, high + 0.015625, low),
+                *(low - 0.015625, number(22.0, 20.5, 25.5), number(27.5, 26.5, 37.0)),
+                *(number(65.5, 51.0, 66.0), number(30.5, 27.0, 37.0)),
+            )
+        ),
+        low,
+        high,
+        unit,
+        (("reading", topic),),
+        (("low", low), ("high", high), ("unit", unit)),
+    )
+
+    high = number(800.0, 500.0, 1000.0)
+    space = draw.one_of("porch", "garage", "street", "garden", "roof")
+    topic, unit = draw.one_of(("light", "lx"), ("noise", "dB"), ("dust", "ug"))
+    porch = Place(
+        f"/{space}/{topic}_monitor",
+        f"/{space}/reading",
+        f"/{space}/{topic}",
+        draw.shuffled(
+            (
+                *(number(300.0, 100.0, 450.0), high + 10.5, high, 19.5, 20.0),
+                *(number(27.5, 26.5, 37.0), number(65.5, 51.0, 66.0), number(12.0, -5.0, 19.0)),
+                *(high + 100.5, number(400.0, 100.0, 450.0)),
+            )
+        ),
+        LOW,
+        high,
+        unit,
+        (("status", topic),),
+        (("high", high), ("unit", unit)),
+    )
+    return home, greenhouse, porch
+
+
 _PARAMETERS = {"low": LOW, "high": HIGH, "unit": UNIT}
 
 
-def _run_everywhere(answer: Answer) -> Observation:
+def _run_everywhere(answer: Answer, places: Places) -> Observation:
     """Start an answer in three places at once; the one without arguments is looked at."""
     from rosbeat.ros.scenario import SetParameters
 
-    seconds = len(HOME.readings) + 1
+    seconds = len(places[0].readings) + 1
     feeds = [
         feeder(f"sensor_{number}", Wire(one.listens, _FLOAT), one.readings)
-        for number, one in enumerate(PLACES, 1)
+        for number, one in enumerate(places, 1)
     ]
     elsewhere = [
         started(
             answer,
             name=one.node.split("/")[2],
             namespace=one.node.split("/")[1],
-            remappings=one.remappings,
-            parameters=one.parameters,
+            remappings=dict(one.remappings),
+            parameters=dict(one.parameters),
         )
-        for one in PLACES[1:]
+        for one in places[1:]
     ]
     # The reply says whether there is such a parameter.
     steps = [SetParameters(seconds - 0.5, values={name: _PARAMETERS[name]}) for name in _PARAMETERS]
     return observe(answer, seconds, others=[*feeds, *elsewhere], steps=steps)
 
 
-def _judge_places(observation: Observation) -> Verdict:
+def _judge_places(observation: Observation, places: Places) -> Verdict:
     each = (
-        *(_wrong_names(observation, place) for place in PLACES[1:]),
-        *(_wrong_count(observation, place) for place in PLACES),
+        *(_wrong_names(observation, place) for place in places[1:]),
+        *(_wrong_count(observation, place) for place in places),
     )
     return (
-        diagnose_unheard(observation, Wire(HOME.listens, _FLOAT))
+        diagnose_unheard(observation, Wire(places[0].listens, _FLOAT))
         or diagnose_unpublished(observation, _STATUS, hint=_CALLED)
         or next(filter(None, each), None)
-        or next(filter(None, (_wrong_texts(observation, place) for place in PLACES)), None)
+        or next(filter(None, (_wrong_texts(observation, place, places) for place in places)), None)
         or passed(
-            f"One class in {len(PLACES)} places at once, with other topics, limits and units "
-            f"({', '.join(place.unit for place in PLACES)}): "
-            f"{sum(len(place.readings) for place in PLACES)} readings, no wrong word."
+            f"One class in {len(places)} places at once, with other topics, limits and units "
+            f"({', '.join(place.unit for place in places)}): "
+            f"{sum(len(place.readings) for place in places)} readings, no wrong word."
         )
     )
 
 
-def _wrong_texts(observation: Observation, place: Place) -> Diagnosis | None:
+def _wrong_texts(observation: Observation, place: Place, places: Places) -> Diagnosis | None:
     """Say what is wrong with the texts in a place, which has one text for each reading."""
     texts = [str(one.value) for one in _published(observation, place)]
     said = list(zip(place.readings, texts, strict=True))
     return (
         _unfilled(said, place)
-        or _wrong_states(observation, place, texts)
+        or _wrong_states(observation, place, places, texts)
         or _wrong_form(observation, place, said)
     )
 
@@ -580,7 +697,9 @@ def _states(texts: Iterable[str]) -> Track:
     return {second: words or ("",) for second, words in enumerate(found, 1)}
 
 
-def _wrong_states(observation: Observation, place: Place, texts: Sequence[str]) -> Diagnosis | None:
+def _wrong_states(
+    observation: Observation, place: Place, places: Places, texts: Sequence[str]
+) -> Diagnosis | None:
     def describe(mismatch: Mismatch) -> Diagnosis:
         number = mismatch.at - 1
         evidence = (
@@ -590,8 +709,9 @@ def _wrong_states(observation: Observation, place: Place, texts: Sequence[str]) 
         if mismatch.done[0] not in STATUSES or len(mismatch.done) > 1:
             hint = "One of three words stands in each text: High, Low or Normal, letter by letter."
             return Diagnosis("wrong-word", evidence, f"{hint} Capitals count.")
-        elsewhere = _states(str(one.value) for one in _published(observation, GREENHOUSE))
-        if place == HOME and elsewhere == _words()(GREENHOUSE):
+        home, told, _ = places
+        elsewhere = _states(str(one.value) for one in _published(observation, told))
+        if place == home and elsewhere == _words()(told):
             hint = f"Where it is told no limits, they are {LOW:g} and {HIGH:g}: the default values."
             return Diagnosis("other-default", f"{evidence} Where it was told, it kept them.", hint)
         return Diagnosis("wrong-state", evidence, "Which of your conditions is true for it?")
@@ -691,6 +811,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Before the first reading there is nothing to lose. Say a word only when what is "
             "remembered changes.",
         ),
+        draw=draw_readings,
     ),
     Exercise(
         "09b",
@@ -707,6 +828,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "A timer can be stopped with cancel() and begins anew with reset(); is_canceled() says "
             "whether it is stopped.",
         ),
+        draw=draw_work,
     ),
     Exercise(
         "09c",
@@ -724,5 +846,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Decide first: above one limit, below the other, or neither. Then make one text of the "
             "word, the reading and the unit.",
         ),
+        draw=draw_places,
     ),
 )

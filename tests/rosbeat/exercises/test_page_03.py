@@ -49,7 +49,7 @@ def sensor(draw):
 def test_a_walk_is_watched_until_it_has_met_both_limits():
     own = random.Random(12)
     lengths = [
-        len(EXERCISES["03b"].scenario(sensor(draw)).samples)
+        len(EXERCISES["03b"].observed(sensor(draw)).samples)
         for draw in (
             lambda: random.uniform(-1.0, 1.0),
             lambda: own.uniform(-1.0, 1.0),

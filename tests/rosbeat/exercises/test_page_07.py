@@ -9,7 +9,7 @@ from std_msgs.msg import Float32
 
 from bank.running import outcome_of
 from rosbeat import Session
-from rosbeat.exercises.page_07 import CHANGES, LINES, READINGS, Greenhouse, judge_findings
+from rosbeat.exercises.page_07 import Greenhouse, judge_findings
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.exercises.scenarios import Report
 from rosbeat.records import Endpoint, GraphSnapshot, LogRecord, Observation, QoS, Sample
@@ -52,7 +52,8 @@ def test_a_name_may_follow_its_line_a_moment_later(period, said):
 
 
 @pytest.mark.ros
-def test_a_monitor_hears_each_reading_and_gets_each_change():
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_monitor_hears_each_reading_and_gets_each_change(seed):
     class Monitor(Node):
         def __init__(self):
             super().__init__("monitor")
@@ -64,16 +65,18 @@ def test_a_monitor_hears_each_reading_and_gets_each_change():
             low, high = (self.get_parameter(name).value for name in ("low", "high"))
             self.get_logger().info(f"{msg.data} {low} {high}")
 
-    seen = EXERCISES["07b"].scenario(Monitor)
-    limits, expected, planned = {"low": 0.0, "high": 0.0}, [], dict(CHANGES)
-    for second, value in enumerate(READINGS, 1):
-        limits |= planned.get(second, {})
+    (fed,) = EXERCISES["07b"].inputs(seed)
+    seen = EXERCISES["07b"].observed(Monitor, seed)
+    limits, expected = {"low": 0.0, "high": 0.0}, []
+    for second, value in enumerate(fed.readings, 1):
+        limits |= {name: limit for number, name, limit in fed.changes if number == second}
         expected.append(f"{value} {limits['low']} {limits['high']}")
     assert [log.text for log in seen.logs] == expected
 
 
 @pytest.mark.ros
-def test_a_watcher_hears_each_line_and_nothing_else():
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_watcher_hears_each_line_and_nothing_else(seed):
     heard = []
 
     class Watcher(Node):
@@ -84,8 +87,9 @@ def test_a_watcher_hears_each_line_and_nothing_else():
         def hear(self, msg):
             heard.append((msg.level, msg.name, msg.msg))
 
-    assert not EXERCISES["07c"].scenario(Watcher).faults
-    assert heard == [(line.level, line.name, line.msg) for line in LINES]
+    (lines,) = EXERCISES["07c"].inputs(seed)
+    assert not EXERCISES["07c"].observed(Watcher, seed).faults
+    assert heard == [(line.level, line.name, line.msg) for line in lines]
 
 
 @pytest.mark.ros
