@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import struct
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
@@ -19,6 +18,7 @@ from typing import Any
 
 from rosbeat.errors import ExerciseError, RecordError
 from rosbeat.exercises.cards import words
+from rosbeat.exercises.model import as_float32
 from rosbeat.exercises.scenarios import station
 from rosbeat.record_json import record
 
@@ -279,11 +279,6 @@ def air(numbers: Mapping[str, float]) -> Air:
     opening, closing = numbers["open_above"], numbers["close_below"]
     middle = (opening + closing) / 2
     return Air(opening + _BEYOND, middle, closing - _BEYOND, numbers["dry_below"] - 10)
-
-
-def as_float32(value: float) -> float:
-    """Return a number as a `Float32` carries it."""
-    return float(struct.unpack("f", struct.pack("f", value))[0])
 
 
 def _vent_readings(numbers: Mapping[str, float]) -> list[float]:
