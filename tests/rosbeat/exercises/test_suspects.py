@@ -5,7 +5,7 @@ from functools import partial
 
 import pytest
 
-from rosbeat.exercises import page_04, page_07, page_08, page_09, page_11
+from rosbeat.exercises import page_04, page_07, page_08, page_09, page_11, page_12
 from rosbeat.exercises.model import agree, matching, tells_apart
 from rosbeat.exercises.page_09 import GREENHOUSE, HOME, PORCH, WORK
 from rosbeat.exercises.registry import EXERCISES
@@ -37,6 +37,8 @@ TABLES = {
     },
     "11b": ("11b", *page_11.SICK_SENSOR.models),
     "11c": ("11c", *page_11.TWO_SENSORS.models),
+    "12a": ("12a", *page_12.SERVICE_MODELS, page_12.same),
+    "12b": ("12b", *page_12.PARAMETER_MODELS, page_12.same),
 }
 DRAWN = {name: table for name, table in TABLES.items() if isinstance(table[0], str)}
 #: Seeds that are tried of each exercise; the first one is the page's.
