@@ -1,17 +1,18 @@
 """The greenhouse of page 13: what is required of it, and the weather to try it in.
 
 The requirements are read from JSON; `ROSBEAT_RUBRIC` names another file than the course's own. The
-weather of every trial follows from the numbers in that file.
+weather of every trial follows from the numbers in that file, and from a seed.
 """
 
 from __future__ import annotations
 
 import json
 import os
-import struct
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from importlib.resources import files
+from itertools import chain
 from math import inf, isfinite, nan
 from pathlib import Path
 from textwrap import wrap
@@ -19,6 +20,8 @@ from typing import Any
 
 from rosbeat.errors import ExerciseError, RecordError
 from rosbeat.exercises.cards import words
+from rosbeat.exercises.draw import PAGE, Draw
+from rosbeat.exercises.model import as_float32
 from rosbeat.exercises.scenarios import station
 from rosbeat.record_json import record
 
@@ -212,7 +215,8 @@ def _refused(name: str, why: str) -> ExerciseError:
 
 
 # The weather. Each temperature is held for one second longer than a system may take to react, so
-# that what it does can be told from what it did.
+# that what it does can be told from what it did. When a class is graded, its seed draws how far
+# readings are beyond the limits, and how long most of them are held; on a page nothing is added.
 
 #: Names of the trials, and of the sensors.
 PLAIN, BROKEN, LOSSY, OTHER = "plain day", "broken sensors", "ending nodes", "other limits"
@@ -274,85 +278,106 @@ class Air:
     dry: float
 
 
-def air(numbers: Mapping[str, float]) -> Air:
+def air(numbers: Mapping[str, float], seed: int = PAGE) -> Air:
     """Return the readings that the trials are made of."""
-    opening, closing = numbers["open_above"], numbers["close_below"]
-    middle = (opening + closing) / 2
-    return Air(opening + _BEYOND, middle, closing - _BEYOND, numbers["dry_below"] - 10)
+    opening, closing, draw = numbers["open_above"], numbers["close_below"], Draw(seed)
+    return Air(
+        opening + draw.number(_BEYOND, 3.0, 6.0, 0.25),
+        (opening + closing) / 2,
+        closing - draw.number(_BEYOND, 3.5, 4.5, 0.25),
+        numbers["dry_below"] - draw.number(10.0, 6.0, 14.0, 0.25),
+    )
 
 
-def as_float32(value: float) -> float:
-    """Return a number as a `Float32` carries it."""
-    return float(struct.unpack("f", struct.pack("f", value))[0])
-
-
-def _vent_readings(numbers: Mapping[str, float]) -> list[float]:
+def _vent_readings(numbers: Mapping[str, float], seed: int) -> Iterator[float]:
     """Return temperatures on all sides of both limits at which the vent moves."""
-    opening, closing, some = numbers["open_above"], numbers["close_below"], air(numbers)
+    opening, closing, some = numbers["open_above"], numbers["close_below"], air(numbers, seed)
     # A limit that a Float32 cannot carry is met by no reading.
     top = opening if as_float32(opening) == opening else opening - _JUST
     bottom = closing if as_float32(closing) == closing else closing + _JUST
-    return [
-        *(some.cold, some.middle, top, opening + _JUST),
+    slowly = (
+        *(some.middle, top, opening + _JUST),
         *(some.middle, bottom, closing - _JUST, some.middle),
-        *(some.hot, some.middle, some.cold, some.cold + 1),
-    ]
+    )
+    far = (some.hot, some.middle, some.cold, some.cold + 1)
+    yield some.cold  # how a vent stands before its first reading is up to the answer
+    yield from chain(*Draw(seed).shuffled((slowly, far)))
 
 
-def plain_day(n: Mapping[str, float]) -> Day:
+def _longer(seed: int) -> Iterator[int]:
+    """Yield by how many seconds readings are held for longer than has to be."""
+    draw = Draw(seed)
+    while True:
+        yield draw.whole(0, 0, 3)
+
+
+def _is_right_by_chance(start: float, seconds: float) -> bool:
+    """Return whether a pump that starts then, and runs until a timer ticks, runs long enough.
+
+    A timer that nobody resets ticks whenever its period is over, so how long the pump runs depends
+    on when it starts. On the page it runs for too short a time.
+    """
+    periods = (seconds, 2 * seconds - 1)
+    return any(abs(period - start % period - seconds) <= 1 for period in periods)
+
+
+def plain_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     """Return a day with sensors that work: the vent alone, the pump alone, then both at once."""
-    day, some, react = airing(n), air(n), n["react_seconds"]
+    day, some, react, more = airing(n, seed), air(n, seed), n["react_seconds"], _longer(seed)
     limit = n["dry_below"]
     at_limit = limit if as_float32(limit) == limit else limit + _JUST
     cold, pause = some.cold, n["pump_seconds"] + n["rest_seconds"]
-    day.hold(2, cold, WET, "pumping")
-    day.hold(react + 1, cold + 1, at_limit, "at the limit")
+    day.hold(2 + next(more), cold, WET, "pumping")
+    still = react + 1 + next(more)
+    while seed != PAGE and _is_right_by_chance(day.seconds + still, n["pump_seconds"]):
+        still += 1
+    day.hold(still, cold + 1, at_limit, "at the limit")
     day.hold(react + 1, cold + 2, limit - _JUST, "dry")
     day.hold(pause + 9 - react - 1, cold, some.dry)
-    day.hold(pause + 3, cold + 1, WET, "wet")
-    day.hold(react + 1, some.hot, WET, "both")
+    day.hold(pause + 3 + next(more), cold + 1, WET, "wet")
+    day.hold(react + 1 + next(more), some.hot, WET, "both")
     day.hold(max(n["pump_seconds"], react) + 10, some.hot + 1, some.dry, "hot and dry")
     day.hold(2 * react + 2, cold, some.dry, "cool and dry")
-    day.hold(pause + react + 3, cold + 1, WET)
+    day.hold(pause + react + 3 + next(more), cold + 1, WET)
     day.hold(react, cold, some.dry, "dry again")
     day.hold(n["pump_seconds"] + 6, some.hot, some.dry, "hot again")
     return day
 
 
-def airing(n: Mapping[str, float]) -> Day:
+def airing(n: Mapping[str, float], seed: int = PAGE) -> Day:
     """Return the first part of the plain day, for the vent alone."""
     day = Day()
-    for value in _vent_readings(n):
-        begins = day.hold(n["react_seconds"] + 1, value, WET)
+    for value, more in zip(_vent_readings(n, seed), _longer(seed), strict=False):
+        begins = day.hold(n["react_seconds"] + 1 + more, value, WET)
         day.held.append((begins, day.seconds, value))
     return day
 
 
-def broken_day(n: Mapping[str, float]) -> Day:
+def broken_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     """Return a day with sensors that report impossible values, and sensors that fall silent."""
-    day, some, react = Day(), air(n), n["react_seconds"]
-    still, cold = react + 1, some.cold
-    day.hold(still + 3, cold, WET)
-    day.hold(still + 2, some.hot, WET, "hot")
-    for value in (nan, n["temperature_min"] - 50, -inf):
+    day, some, react, more = Day(), air(n, seed), n["react_seconds"], _longer(seed)
+    still, cold, draw = react + 1, some.cold, Draw(seed)
+    day.hold(still + 3 + next(more), cold, WET)
+    day.hold(still + 2 + next(more), some.hot, WET, "hot")
+    for value in draw.shuffled((nan, n["temperature_min"] - draw.number(50.0, 50.0, 90.0), -inf)):
         day.hold(1, value, WET)
         day.hold(2, some.hot, WET)
-    day.hold(still, some.hot, WET, "still open")
-    day.hold(still + 2, cold, WET, "cool")
-    for value in (nan, n["temperature_max"] + 500, inf):
+    day.hold(still + next(more), some.hot, WET, "still open")
+    day.hold(still + 2 + next(more), cold, WET, "cool")
+    for value in draw.shuffled((nan, n["temperature_max"] + draw.number(500.0, 100.0, 900.0), inf)):
         day.hold(1, value, WET)
         day.hold(2, cold, WET)
-    for value in (-5.0, -inf, nan):
+    for value in draw.shuffled((-5.0, -inf, nan)):
         day.hold(1, cold, value)
         day.hold(2, cold, WET)
-    day.hold(still, cold, WET, "still closed")
+    day.hold(still + next(more), cold, WET, "still closed")
     day.hold(still + 1, cold, some.dry, "dry")
-    day.hold(n["pump_seconds"] + 3, cold, WET, "wet")
+    day.hold(n["pump_seconds"] + 3 + next(more), cold, WET, "wet")
     # Time for a second alarm that nobody wants, and for a report without a single reading.
     long = max(2 * n["silent_seconds"] + react + 2, 2 * n["report_seconds"] + 1)
     for name, humidity in (("temperature", WET), ("both", None)):
-        day.hold(long, None, humidity, f"{name} silent")
-        day.hold(react + 4, cold, WET, f"{name} back")
+        day.hold(long + next(more), None, humidity, f"{name} silent")
+        day.hold(react + 4 + next(more), cold, WET, f"{name} back")
     return day
 
 
@@ -360,11 +385,11 @@ def broken_day(n: Mapping[str, float]) -> Day:
 PATIENCE = 3
 
 
-def drought(n: Mapping[str, float]) -> Day:
+def drought(n: Mapping[str, float], seed: int = PAGE) -> Day:
     """Return a day that leaves time for a long rest: dry all along, then wet, then hot and dry."""
-    day, some, react = Day(), air(n), n["react_seconds"]
+    day, some, react = Day(), air(n, seed), n["react_seconds"]
     pause = n["pump_seconds"] + PATIENCE * n["rest_seconds"] + 2 * react + 3
-    day.hold(2, some.cold, WET)
+    day.hold(2 + next(_longer(seed)), some.cold, WET)
     day.hold(pause, some.cold, some.dry, "dry")
     day.hold(pause, some.cold, WET, "wet")
     day.hold(react, some.cold, some.dry, "dry again")
@@ -372,13 +397,13 @@ def drought(n: Mapping[str, float]) -> Day:
     return day
 
 
-def lossy_day(n: Mapping[str, float]) -> Day:
+def lossy_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     """Return a day that is three times hot and cool again; before each, a node ends."""
-    day, some = Day(), air(n)
+    day, some, more = Day(), air(n, seed), _longer(seed)
     span = n["react_seconds"] + 2
     for name in ("report", "alarm", "pump"):
-        day.hold(span, some.cold, WET, f"without {name}")
-        day.hold(span, some.hot, WET, f"hot without {name}")
+        day.hold(span + next(more), some.cold, WET, f"without {name}")
+        day.hold(span + next(more), some.hot, WET, f"hot without {name}")
     day.hold(span, some.cold, WET, "end")
     return day
 
@@ -387,25 +412,85 @@ def lossy_day(n: Mapping[str, float]) -> Day:
 COOLER, WETTER = 4.0, 20.0
 
 
-def other_limits(n: Mapping[str, float]) -> dict[str, float]:
+def _shift(seed: int) -> tuple[float, float]:
+    draw = Draw(seed)
+    return draw.number(COOLER, 3.0, 5.0, 0.25), draw.number(WETTER, 15.0, 25.0, 0.25)
+
+
+def other_limits(n: Mapping[str, float], seed: int = PAGE) -> dict[str, float]:
     """Return the parameters of the trial with other limits."""
+    cooler, wetter = _shift(seed)
     return {
-        "open_above": n["open_above"] - COOLER,
-        "close_below": n["close_below"] - COOLER,
-        "dry_below": n["dry_below"] + WETTER,
+        "open_above": n["open_above"] - cooler,
+        "close_below": n["close_below"] - cooler,
+        "dry_below": n["dry_below"] + wetter,
     }
 
 
-def other_day(n: Mapping[str, float]) -> Day:
+def other_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     """Return a day whose readings mean something only with the other limits."""
-    day, span = Day(), n["react_seconds"] + 2
-    cold = n["close_below"] - COOLER - 2
-    day.hold(span, cold, 99.0)
-    day.hold(span, n["open_above"] - COOLER / 2, 99.0, "warm")
-    day.hold(span, n["close_below"] - COOLER / 2, 99.0, "less warm")
-    day.hold(span + 1, cold, 99.0, "cool")
-    day.hold(span, cold, n["dry_below"] + WETTER / 2, "damp")
+    day, span, more = Day(), n["react_seconds"] + 2, _longer(seed)
+    cooler, wetter = _shift(seed)
+    cold = n["close_below"] - cooler - 2
+    day.hold(span + next(more), cold, 99.0)
+    day.hold(span + next(more), n["open_above"] - cooler / 2, 99.0, "warm")
+    day.hold(span + next(more), n["close_below"] - cooler / 2, 99.0, "less warm")
+    day.hold(span + 1 + next(more), cold, 99.0, "cool")
+    day.hold(span, cold, n["dry_below"] + wetter / 2, "damp")
     return day
+
+
+@dataclass(frozen=True)
+class Weather:
+    """Hold the weather of every trial.
+
+    Attributes:
+        numbers: The numbers of the rubric, by name.
+        seed: From what the days are drawn.
+    """
+
+    numbers: Mapping[str, float]
+    seed: int = PAGE
+
+    @cached_property
+    def air(self) -> Air:
+        """Return the readings that the days are made of."""
+        return air(self.numbers, self.seed)
+
+    @cached_property
+    def airing(self) -> Day:
+        """Return the first part of the plain day."""
+        return airing(self.numbers, self.seed)
+
+    @cached_property
+    def plain(self) -> Day:
+        """Return the day on which all sensors work."""
+        return plain_day(self.numbers, self.seed)
+
+    @cached_property
+    def broken(self) -> Day:
+        """Return the day on which sensors fail."""
+        return broken_day(self.numbers, self.seed)
+
+    @cached_property
+    def lossy(self) -> Day:
+        """Return the day on which nodes end."""
+        return lossy_day(self.numbers, self.seed)
+
+    @cached_property
+    def drought(self) -> Day:
+        """Return the day that stays dry."""
+        return drought(self.numbers, self.seed)
+
+    @cached_property
+    def other(self) -> Day:
+        """Return the day for other limits."""
+        return other_day(self.numbers, self.seed)
+
+
+def draw_weather(draw: Draw) -> int:
+    """Draw a seed for the weather: the days follow from it where the rubric is known."""
+    return draw.whole(PAGE, 1, 2**31 - 1)
 
 
 # What a page shows.

@@ -14,6 +14,7 @@ answer.
 from __future__ import annotations
 
 import re
+import struct
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -91,6 +92,11 @@ def equal(one: Value, other: Value) -> bool:
     if isinstance(one, float) and isinstance(other, float | int):
         return abs(one - other) <= 1e-3 or (one != one and other != other)
     return bool(one == other)
+
+
+def as_float32(value: float) -> float:
+    """Return a number as a `Float32` carries it."""
+    return float(struct.unpack("f", struct.pack("f", value))[0])
 
 
 def agree(one: Track, other: Track, same: Same = equal) -> bool:

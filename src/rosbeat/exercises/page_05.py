@@ -7,12 +7,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
+from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
 from rosbeat.exercises.scenarios import Answer, Report, Workspace, look_at_workspace, report
 from rosbeat.exercises.workspace_model import diagnose_entries, diagnose_script
 from rosbeat.workspace.packages import Package
 
-# 05a, two programs: a setup.py, which is read and never run.
+# 05a, two programs: a setup.py, which is read and never run, so nothing is drawn.
 
 _PACKAGE = "sensor_simulator"
 _PROGRAMS = ("temperature_publisher", "temperature_subscriber")
@@ -64,22 +65,31 @@ def _remarks_on_texts(package: Package) -> tuple[str, ...]:
 
 # 05b, write entry points: a function, called with several arguments.
 
-#: What the function is called with, one call after the other. The capital letters and
-#: underscores show whether it changes what it is given.
-ARGUMENTS = (
-    ("talk", "rosie", "voice"),
-    ("watch_room", "house", "monitor", "start"),
-    ("a", "b", "c", "d"),
-    ("showRoom_2", "lampKit_1", "bigDisplay_3", "runAll_4"),
-)
+#: What the function is called with, one call after the other.
+Calls = tuple[tuple[str, ...], ...]
+
+
+def draw_calls(draw: Draw) -> Calls:
+    """Draw the names with which the function is called.
+
+    The capital letters and underscores show whether it changes what it is given.
+    """
+    return (
+        draw.shuffled(("talk", "rosie", "voice")),
+        draw.shuffled(("watch_room", "house", "monitor", "start")),
+        draw.shuffled(("a", "b", "c", "d")),
+        draw.shuffled(("showRoom_2", "lampKit_1", "bigDisplay_3", "runAll_4")),
+    )
+
+
 _NO_FUNCTION = "NoFunction"
 
 
-def _call(answer: Answer) -> Report:
+def _call(answer: Answer, calls: Calls) -> Report:
     """Call a function that writes entry points, with several arguments."""
     if not callable(answer):
         return Report("", _NO_FUNCTION)
-    return report(lambda: [_plain(answer(*arguments)) for arguments in ARGUMENTS])
+    return report(lambda: [_plain(answer(*arguments)) for arguments in calls])
 
 
 #: The key under which a tuple is written down, which JSON would make a list of.
@@ -125,11 +135,12 @@ _PROBLEMS = (
 )
 
 
-def _judge_calls(seen: Report) -> Verdict:
+def _judge_calls(seen: Report, calls: Calls) -> Verdict:
     if f"'{BLANK}'" in seen.problem:
         return not_attempted()
-    found = _diagnose_problem(seen.problem) if seen.problem else _diagnose_texts(seen.value)
-    return found if found else passed(f"For example {seen.value[0]!r}.")
+    if seen.problem:
+        return _diagnose_problem(seen.problem)
+    return _diagnose_texts(seen.value, calls) or passed(f"For example {seen.value[0]!r}.")
 
 
 def _diagnose_problem(problem: str) -> Diagnosis:
@@ -142,8 +153,8 @@ def _diagnose_problem(problem: str) -> Diagnosis:
     return Diagnosis(mistake, said.get(mistake, f"It raised {problem}."), hint)
 
 
-def _diagnose_texts(results: list[Any]) -> Diagnosis | None:
-    for arguments, result in zip(ARGUMENTS, results, strict=True):
+def _diagnose_texts(results: list[Any], calls: Calls) -> Diagnosis | None:
+    for arguments, result in zip(calls, results, strict=True):
         evidence = f"entry_point{arguments} gives {_shown(result)}."
         if result is None:
             hint = "Nothing came back: the function needs a return, and print gives back nothing."
@@ -153,9 +164,9 @@ def _diagnose_texts(results: list[Any]) -> Diagnosis | None:
         if "{" in result:
             hint = "The braces are still there: an f before the first quote fills them in."
             return Diagnosis("f-missing", evidence, hint)
-    for arguments, result in zip(ARGUMENTS, results, strict=True):
+    for arguments, result in zip(calls, results, strict=True):
         if _without_spaces(result) != _right(arguments):
-            mistake, hint = _slip(results)
+            mistake, hint = _slip(results, calls)
             return Diagnosis(mistake, f"entry_point{arguments} gives {result!r}.", hint)
     return None
 
@@ -188,7 +199,7 @@ _SLIPS_OF_SIGNS = {
 }
 
 
-def _slip(results: Sequence[str]) -> tuple[str, str]:
+def _slip(results: Sequence[str], calls: Calls) -> tuple[str, str]:
     """Return the mistake in texts that are not all right, and a hint.
 
     The names with which the function was called are looked for in what it returned; what is left
@@ -196,9 +207,9 @@ def _slip(results: Sequence[str]) -> tuple[str, str]:
     """
     unknown = UNKNOWN, "Compare it with the table of the page, sign by sign and in their order."
     plain = [_without_spaces(one).lower().replace("-", "_") for one in results]
-    if plain == [_right(given).lower() for given in ARGUMENTS]:
+    if plain == [_right(given).lower() for given in calls]:
         return "wrong-values", "Names count letter by letter: put the parameters in as they are."
-    given = ARGUMENTS[1]
+    given = calls[1]
     before, *parts = re.split(f"({'|'.join(given)})", _without_spaces(results[1]))
     names, signs = parts[::2], parts[1::2]
     words = re.findall(r"\w*[^\W_]\w*", " ".join([before, *parts]).replace(".py", ""))
@@ -248,5 +259,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Four values are to be filled in, and three signs stand between them, as in the table "
             "above.",
         ),
+        draw=draw_calls,
     ),
 )

@@ -11,21 +11,25 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import partial
+from itertools import accumulate, chain, count
 from math import inf, isnan, nan
 from typing import Any
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.silence import difference, nearest
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, passed
 from rosbeat.exercises.model import (
     Mismatch,
+    Model,
     Suspect,
     Track,
     agree,
     diagnose,
     samples_on,
     status_of,
+    tells_apart,
     track,
 )
 from rosbeat.exercises.scenarios import Answer, Value, feeder, observe
@@ -39,6 +43,17 @@ _HEATER = Wire("/heater", "std_msgs/msg/Bool")
 def same(done: object, model: object) -> bool:
     """Return whether two values agree; `...` agrees with everything."""
     return done is ... or model is ... or done == model
+
+
+def in_turn(right: Model, suspects: Iterable[Suspect]) -> tuple[Model, tuple[Suspect, ...]]:
+    """Return a right model and suspects of one request or goal as models of one after the other."""
+
+    def each(model: Model) -> Model:
+        return lambda fed: {
+            (number, at): done for number, one in enumerate(fed) for at, done in model(one).items()
+        }
+
+    return each(right), tuple(replace(one, model=each(one.model)) for one in suspects)
 
 
 def _no_server(seen: Observation, kind: str, name: str, type_name: str) -> Diagnosis | None:
@@ -118,53 +133,109 @@ class Request:
         return " and ".join(f"{name} = {value:g}" for name, value in self.values.items())
 
 
+#: The limits that are asked for, by name, and the readings after that.
+_Asked = tuple[dict[str, float], tuple[float, ...]]
+_Requests = Sequence[Request]
+
+
 def _requests(
-    limits: Limits,
-    is_good: Callable[[Limits], bool],
-    *asked: tuple[dict[str, float], tuple[float, ...]],
-) -> tuple[Request, ...]:
+    draw: Draw, limits: Limits, is_good: Callable[[Limits], bool], asked: Iterable[_Asked]
+) -> _Requests:
+    """Return requests with the limits that hold before each, and readings in an order drawn."""
     found = []
-    for values, readings in asked:
-        found.append(Request(values, readings, limits, is_good(replace(limits, **values))))
+    for some, readings in asked:
+        values = dict(draw.shuffled(tuple(some.items())))
+        good = is_good(replace(limits, **values))
+        found.append(Request(values, draw.shuffled(readings), limits, good))
         limits = found[-1].after
     return tuple(found)
 
 
-BY_SERVICE = _requests(
-    Limits(26.0),
-    lambda limits: 10 <= limits.high <= 40,
-    ({}, (25.0, 26.5, 26.0)),
-    ({"high": 24.0}, (25.0, 24.0, 23.0)),
-    ({"high": 60.0}, (25.0, 23.0)),
-    ({"high": nan}, (25.0, 23.0)),
-    ({"high": -5.0}, (23.0, 25.0)),
-    ({"high": 10.0}, (11.0, 9.5)),
-    ({"high": 40.0}, (39.0, 41.0)),
-    ({"high": 40.25}, (40.125, 39.0)),
-    ({"high": 9.75}, (40.125, 39.0)),
-    ({"high": inf}, (41.0, 39.0)),
-    ({"high": 22.5}, (22.75, 22.25)),
-)
-BY_PARAMETER = _requests(
-    Limits(26.0, 20.0),
-    lambda limits: limits.low < limits.high,
-    ({}, (25.0, 26.5, 19.5)),
-    ({"high": 24.0}, (25.0, 23.0, 19.5)),
-    ({"high": 19.0}, (22.0, 25.0, 19.5)),
-    ({"high": 20.0}, (22.0, 25.0)),
-    ({"low": 24.5}, (24.25, 22.0, 19.5)),
-    ({"low": 24.0}, (23.0, 25.0)),
-    ({"low": 22.0}, (21.0, 23.0, 25.0)),
-    ({"low": 28.0, "high": 30.0}, (27.0, 29.0, 31.0)),
-    ({"high": 8.0, "low": 5.0}, (9.0, 7.0, 4.0)),
-    ({"low": 9.0, "high": 6.0}, (7.0, 10.0, 4.0)),
-    ({"high": 5.5}, (5.25, 5.75, 4.0)),
-    ({"high": nan}, (5.25, 5.75)),
-)
+def draw_service(draw: Draw) -> _Requests:
+    """Draw thresholds within their range, at its ends and beyond, and readings around them."""
+
+    def asked() -> Iterable[_Asked]:
+        one, last = draw.number(24.0, 20.25, 25.5, 0.25), draw.whole(22, 13, 37) + 0.5
+        far, below = draw.number(60.0, 41.0, 90.0), draw.number(-5.0, -40.0, 9.0)
+        groups = (
+            (
+                ({"high": one}, (one + 1, one, one - 1)),
+                *draw.shuffled(
+                    (
+                        ({"high": far}, (one + 1, one - 1)),
+                        ({"high": nan}, (one + 1, one - 1)),
+                        ({"high": below}, (one - 1, one + 1)),
+                    )
+                ),
+            ),
+            (({"high": 10.0}, (11.0, 9.5)),),
+            (
+                ({"high": 40.0}, (39.0, 41.0)),
+                *draw.shuffled(
+                    (
+                        ({"high": 40.25}, (40.125, 39.0)),
+                        ({"high": 9.75}, (40.125, 39.0)),
+                        ({"high": inf}, (41.0, 39.0)),
+                    )
+                ),
+            ),
+            (({"high": last}, (last + 0.25, last - 0.25)),),
+        )
+        return (({}, (25.0, 26.5, 26.0)), *chain(*draw.shuffled(groups)))
+
+    return draw.until(
+        lambda: _requests(draw, Limits(26.0), lambda one: 10 <= one.high <= 40, asked()),
+        lambda requests: tells_apart(requests, *SERVICE_MODELS, same),
+    )
+
+
+def draw_parameters(draw: Draw) -> _Requests:
+    """Draw limits, one or both at once, in the right order or not, and readings around them."""
+
+    def asked() -> Iterable[_Asked]:
+        low, high = draw.number(22.0, 21.25, 22.75, 0.25), draw.number(24.0, 23.25, 24.75, 0.25)
+        up, down = draw.whole(0, -3, 9), draw.whole(0, -3, 6)
+        groups = (
+            (({"low": 28.0 + up, "high": 30.0 + up}, (27.0 + up, 29.0 + up, 31.0 + up)),),
+            (
+                ({"high": 8.0 + down, "low": 5.0 + down}, (9.0 + down, 7.0 + down, 4.0 + down)),
+                *draw.shuffled(
+                    (
+                        (
+                            {"low": 9.0 + down, "high": 6.0 + down},
+                            (7.0 + down, 10.0 + down, 4.0 + down),
+                        ),
+                        ({"high": 5.5 + down}, (5.25 + down, 5.75 + down, 4.0 + down)),
+                        ({"high": nan}, (5.25 + down, 5.75 + down)),
+                    )
+                ),
+            ),
+        )
+        return (
+            ({}, (25.0, 26.5, 19.5)),
+            ({"high": high}, (25.0, 23.0, 19.5)),
+            *draw.shuffled(
+                (
+                    ({"high": draw.number(19.0, 12.0, 19.75)}, (22.0, 25.0, 19.5)),
+                    ({"high": 20.0}, (22.0, 25.0)),
+                    ({"low": high + 0.5}, (high + 0.25, 22.0, 19.5)),
+                    ({"low": high}, (23.0, 25.0)),
+                )
+            ),
+            ({"low": low}, (21.0, 23.0, 25.0)),
+            *chain(*draw.shuffled(groups)),
+        )
+
+    return draw.until(
+        lambda: _requests(draw, Limits(26.0, 20.0), lambda one: one.low < one.high, asked()),
+        lambda requests: tells_apart(requests, *PARAMETER_MODELS, same),
+    )
+
+
 _SERVICE, _BASIC = "/set_high", "test_msgs/srv/BasicTypes"
 
 
-def observe_service(answer: Answer) -> Observation:
+def observe_service(answer: Answer, requests: _Requests) -> Observation:
     """Run a monitor, and call its service between the readings."""
     from rosbeat.ros.scenario import Call
 
@@ -172,21 +243,19 @@ def observe_service(answer: Answer) -> Observation:
         value = {"float32_value": values["high"]}
         return Call(at, service="set_high", type_name=_BASIC, values=value)
 
-    return _observe_requests(answer, BY_SERVICE, call)
+    return _observe_requests(answer, requests, call)
 
 
-def observe_parameters(answer: Answer) -> Observation:
+def observe_parameters(answer: Answer, requests: _Requests) -> Observation:
     """Run a monitor, and set its parameters between the readings."""
     from rosbeat.ros.scenario import SetParameters
 
-    return _observe_requests(
-        answer, BY_PARAMETER, lambda at, values: SetParameters(at, values=values)
-    )
+    return _observe_requests(answer, requests, lambda at, values: SetParameters(at, values=values))
 
 
 def _observe_requests(
     answer: Answer,
-    requests: Sequence[Request],
+    requests: _Requests,
     step: Callable[[float, dict[str, float]], Any],
 ) -> Observation:
     """Feed a reading each second, and make each request half a second before its first reading."""
@@ -320,6 +389,13 @@ MONITORS = (
     ),
 )
 
+# One after the other is a misunderstanding of two limits in one request. The readings before the
+# first request for parameters meet no limit.
+SERVICE_MODELS = in_turn(
+    right_monitor, (one for one in MONITORS if one.mistake != "validated-one-by-one")
+)
+PARAMETER_MODELS = in_turn(right_monitor, (one for one in MONITORS if one.mistake != "boundary"))
+
 
 @dataclass(frozen=True)
 class _Answer:
@@ -331,7 +407,7 @@ class _Answer:
 
 def _wrong_monitor(
     seen: Observation,
-    requests: Sequence[Request],
+    requests: _Requests,
     answers: Sequence[_Answer] = (),
     whole: Sequence[Suspect] = (),
 ) -> Diagnosis | None:
@@ -368,7 +444,7 @@ def _wrong_monitor(
     return next(filter(None, found), None)
 
 
-def _statuses(seen: Observation, requests: Sequence[Request]) -> Iterator[tuple[str, ...]]:
+def _statuses(seen: Observation, requests: _Requests) -> Iterator[tuple[str, ...]]:
     """Yield the statuses of each request's readings; `-` for none, or for more than one."""
     said = track(seen, _STATUS, lambda value: str(value).strip())
     second = 0
@@ -410,7 +486,7 @@ def _describe_answer(request: Request, answer: _Answer, mismatch: Mismatch) -> s
     return f"{task} refused{reason}, and should be accepted{limits}."
 
 
-def _diagnose_given(seen: Observation, requests: Sequence[Request]) -> Diagnosis | None:
+def _diagnose_given(seen: Observation, requests: _Requests) -> Diagnosis | None:
     """Say what is wrong before anything is asked: what is given comes before what is asked for."""
     return (
         diagnose_unheard(seen, _TEMPERATURE)
@@ -419,8 +495,8 @@ def _diagnose_given(seen: Observation, requests: Sequence[Request]) -> Diagnosis
     )
 
 
-def _judge_service(seen: Observation) -> Verdict:
-    found = _diagnose_given(seen, BY_SERVICE) or _no_server(seen, "server", _SERVICE, _BASIC)
+def _judge_service(seen: Observation, requests: _Requests) -> Verdict:
+    found = _diagnose_given(seen, requests) or _no_server(seen, "server", _SERVICE, _BASIC)
     replies = {
         one.number: _Answer(one.data["bool_value"], one.data["string_value"])
         for one in seen.replies
@@ -429,29 +505,29 @@ def _judge_service(seen: Observation) -> Verdict:
     if not found and not replies:
         found = Diagnosis(
             "response-missing",
-            f"{_SERVICE} was called {len(BY_SERVICE) - 1} times, and never answered.",
+            f"{_SERVICE} was called {len(requests) - 1} times, and never answered.",
             "Does the callback come to its return?",
         )
-    answers = [replies.get(number, _Answer()) for number in range(1, len(BY_SERVICE))]
-    found = found or _wrong_monitor(seen, BY_SERVICE, answers, [NOT_FILLED])
-    return found or passed(_all_right("calls", "values kept,", BY_SERVICE))
+    answers = [replies.get(number, _Answer()) for number in range(1, len(requests))]
+    found = found or _wrong_monitor(seen, requests, answers, [NOT_FILLED])
+    return found or passed(_all_right("calls", "values kept,", requests))
 
 
-def _judge_parameters(seen: Observation) -> Verdict:
+def _judge_parameters(seen: Observation, requests: _Requests) -> Verdict:
     answers = [
         _Answer(one.data["successful"], one.data["reason"])
         for one in sorted(seen.replies, key=lambda one: one.number)
         if (one.word, one.name) == ("parameters", seen.subject)
     ]
     return (
-        _diagnose_given(seen, BY_PARAMETER)
+        _diagnose_given(seen, requests)
         or _refused_by_ros(answers)
-        or _wrong_monitor(seen, BY_PARAMETER, answers, [NOT_FILLED, NOT_VALIDATED])
-        or passed(_all_right("changes", "made, two of them of both at once, and", BY_PARAMETER))
+        or _wrong_monitor(seen, requests, answers, [NOT_FILLED, NOT_VALIDATED])
+        or passed(_all_right("changes", "made, two of them of both at once, and", requests))
     )
 
 
-def _all_right(what: str, kept: str, requests: Sequence[Request]) -> str:
+def _all_right(what: str, kept: str, requests: _Requests) -> str:
     asked, refused = len(requests) - 1, sum(not one.is_good for one in requests)
     return (
         f"{asked} {what}: {asked - refused} {kept} {refused} refused with a reason, NaN among them."
@@ -485,11 +561,13 @@ class Goal:
     """Hold a goal that the thermostat is sent.
 
     Attributes:
+        number: Its place among the goals, from 1 on.
         at: When.
         order: The target.
         cancel_after: When it is canceled; None for never.
     """
 
+    number: int
     at: float
     order: int
     cancel_after: float | None = None
@@ -504,23 +582,53 @@ class Goal:
         """Return whether it is canceled."""
         return self.cancel_after is not None
 
+    @property
+    def is_reached(self) -> bool:
+        """Return whether the room is warm enough before it is sent: no room gets as cold."""
+        return self.order == 10
 
-#: Reached, canceled, three out of reach, reached before it is sent, and one more.
-GOALS = (
-    Goal(2.5, 22),
-    Goal(10.5, 26, cancel_after=2.0),
-    Goal(16.5, 99),
-    Goal(18.5, 9),
-    Goal(20.5, 27),
-    Goal(22.5, 10),
-    Goal(27.5, 26),
-)
-_FIRST, _REACHED = GOALS[0], GOALS[5]
-_START = 18
+
+@dataclass(frozen=True)
+class Heating:
+    """Hold what a thermostat goes through.
+
+    Attributes:
+        start: The temperature of the room at first.
+        goals: The goals that it is sent.
+        seconds: How long it takes.
+    """
+
+    start: int
+    goals: tuple[Goal, ...]
+    seconds: float
+
+
+def draw_heating(draw: Draw) -> Heating:
+    """Draw goals: reached, canceled, out of reach or reached before they are sent, and one more.
+
+    A goal is over at least a second before the next is sent, and one that is canceled is far from
+    its target then.
+    """
+    start = draw.whole(18, 16, 18)
+    first = draw.whole(22, start + 3, 22)
+    others = draw.shuffled((draw.whole(99, 28, 120), 9, 27, 10))
+    pauses = (
+        *(draw.whole(2, 2, 5), draw.whole(8, 10, 12), draw.whole(6, 5, 7)),
+        *(draw.whole(2, 2, 4) for _ in others[1:]),
+        draw.whole(5, 4, 6),
+    )
+    cancels = (None, draw.one_of(2.0, 1.0), *[None] * 5)
+    times = (0.5 + pause for pause in accumulate(pauses))
+    sent = zip(count(1), times, (first, 26, *others, 26), cancels, strict=False)
+    goals = tuple(Goal(*one) for one in sent)
+    # A room that was cold at first takes longer in the end.
+    return Heating(start, goals, goals[-1].at + 10.5 + draw.whole(0, 4, 5))
+
+
 _HEAT, _FIBONACCI = "/heat", "test_msgs/action/Fibonacci"
 
 
-def observe_heating(answer: Answer) -> Observation:
+def observe_heating(answer: Answer, fed: Heating) -> Observation:
     """Run a thermostat in a room, and send it goals."""
     from rosbeat.ros.scenario import SendGoal
     from rosbeat.ros.test_nodes import Room
@@ -530,9 +638,9 @@ def observe_heating(answer: Answer) -> Observation:
             one.at, action="heat", type_name=_FIBONACCI, goal={"order": one.order},
             cancel_after=one.cancel_after,
         )
-        for one in GOALS
+        for one in fed.goals
     ]  # fmt: skip
-    return observe(answer, 38, others=[lambda: Room(_START)], steps=steps)
+    return observe(answer, fed.seconds, others=[lambda: Room(fed.start)], steps=steps)
 
 
 class Work(IntEnum):
@@ -597,7 +705,7 @@ THERMOSTATS = (
     _at(
         "never-switched-on",
         "The room only gets warmer after a Bool that is True on /heater.",
-        Work.SWITCHED_ON, "no", lambda goal: goal is _FIRST,
+        Work.SWITCHED_ON, "no", lambda goal: goal.number == 1,
     ),
     _at(
         "cancel-refused",
@@ -612,7 +720,7 @@ THERMOSTATS = (
     _at(
         "wrong-state",
         "If the room is warm enough, there is nothing to wait for.",
-        Work.END, "too late", lambda goal: goal is _REACHED,
+        Work.END, "too late", lambda goal: goal.is_reached,
     ),
     _at(
         "cancel-ignored",
@@ -656,14 +764,14 @@ class _Heating:
     """Hold what a client got for one goal, and what the heater did.
 
     The tolerances are why this is no plain comparison with a simulated room: a result may begin
-    with the temperature before the goal, feedback may skip its last second, and a canceled goal may
-    end before or after the next reading.
+    with the temperature before the heater was on, feedback may skip its last second, and a canceled
+    goal may end before or after the next reading.
     """
 
-    def __init__(self, seen: Observation, goal: Goal) -> None:
+    def __init__(self, seen: Observation, goal: Goal, start: int) -> None:
         self._goal, self._canceled_at = goal, goal.at + (goal.cancel_after or inf)
         self._heater = [(one.time, bool(one.value)) for one in samples_on(seen, _HEATER)]
-        replies = [one for one in seen.replies if one.number == GOALS.index(goal) + 1]
+        replies = [one for one in seen.replies if one.number == goal.number]
         self._feedback = [one for one in replies if one.word == "feedback"]
         got = {one.word: one for one in replies}
         self.decision = "neither accepted nor rejected"
@@ -674,13 +782,16 @@ class _Heating:
         result = got["result"].data if "result" in got else {"status": "", "sequence": ()}
         self._status, self._degrees = str(result["status"]), list(result["sequence"])
         room = [(one.time, int(one.value)) for one in samples_on(seen, _TEMPERATURE)]
-        start = next((value for at, value in reversed(room) if at < goal.at), _START)
+        start = next((value for at, value in reversed(room) if at < goal.at), start)
         self._wanted = list(range(start + 1, goal.order + 1))
-        self._right = (self._wanted, [start, *self._wanted])
+        self._right = [self._wanted, [start, *self._wanted]]
+        if next((value for at, value in room if at > goal.at), start) < start:
+            # The room lost a degree just before a node that reads first switched the heater on.
+            self._right.append([start - 1, start, *self._wanted])
         if goal.is_canceled:  # the last reading may have come just when the work ended
             length = len(self._degrees)
             read = [value for at, value in room if at <= (self.end or 0)]
-            self._right = (read[-length:], read[-length - 1 : -1])
+            self._right = [read[-length:], read[-length - 1 : -1]]
 
     def points(self) -> dict[Work, tuple[Any, str]]:
         """Return what was done at each point, and a sentence about it; `...` if it may be any."""
@@ -700,7 +811,7 @@ class _Heating:
         due += f", at {self._canceled_at:g} s" if canceled else ""
         # A cancel that comes after the end cannot be accepted.
         refused = canceled and end != "too soon" and not self._cancels
-        free = self._goal is _REACHED
+        free = self._goal.is_reached
         return {
             Work.DECISION: decision,
             Work.SWITCHED_ON: (
@@ -735,7 +846,7 @@ class _Heating:
             return "too soon" if after < 0 else "too late" if after > 1 else "in time"
         if self.end is None:
             return "never"
-        return "too late" if self._goal is _REACHED and self.end > self._goal.at + 2 else "in time"
+        return "too late" if self._goal.is_reached and self.end > self._goal.at + 2 else "in time"
 
     def _read(self) -> str:
         found = self._degrees
@@ -752,7 +863,7 @@ class _Heating:
         return "one too many" if more else "others"
 
     def _reported(self) -> str:
-        least = max(1, len(self._wanted) - 1) if self._goal is _FIRST else 1
+        least = max(1, len(self._wanted) - 1) if self._goal.number == 1 else 1
         if len({one.time for one in self._feedback}) < least:
             return "missing"
         return "others" if self._strange() else "each second"
@@ -776,17 +887,17 @@ class _Heating:
         return [state for at, state in self._heater if at <= time][-1:] == [True]
 
 
-def _judge_heating(seen: Observation) -> Verdict:
-    rejected = sum(not one.is_good for one in GOALS)
+def _judge_heating(seen: Observation, fed: Heating) -> Verdict:
+    rejected = sum(not one.is_good for one in fed.goals)
     return (
         _no_server(seen, "action server", _HEAT, _FIBONACCI)
-        or _blocked(seen)
-        or _wrong_work(seen, [Work.DECISION])
+        or _blocked(seen, fed)
+        or _wrong_work(seen, fed, [Work.DECISION])
         or diagnose_unpublished(seen, _HEATER, hint=_SWITCH)
-        or _wrong_work(seen, list(Work))
+        or _wrong_work(seen, fed, list(Work))
         or passed(
-            f"Heated to {_FIRST.order}, with a report each second; stopped when it was canceled; "
-            f"{rejected} goals that make no sense were rejected."
+            f"Heated to {fed.goals[0].order}, with a report each second; stopped when it was "
+            f"canceled; {rejected} goals that make no sense were rejected."
         )
     )
 
@@ -794,10 +905,10 @@ def _judge_heating(seen: Observation) -> Verdict:
 _SWITCH = "The work has to switch the heater on and off. Which lines of `heat` do that?"
 
 
-def _wrong_work(seen: Observation, judged: Sequence[Work]) -> Diagnosis | None:
+def _wrong_work(seen: Observation, fed: Heating, judged: Sequence[Work]) -> Diagnosis | None:
     """Name the mistake of a thermostat at some points of its work; any other may be as it is."""
-    for goal in GOALS:
-        points = _Heating(seen, goal).points()
+    for goal in fed.goals:
+        points = _Heating(seen, goal, fed.start).points()
         done = {at: (value if at in judged else ...,) for at, (value, _) in points.items()}
         describe = partial(_describe_work, points)
         found = diagnose(goal, done, right_thermostat(goal), THERMOSTATS, describe, same)
@@ -811,9 +922,10 @@ def _describe_work(points: Mapping[Work, tuple[Any, str]], mismatch: Mismatch) -
     return Diagnosis(UNKNOWN, points[mismatch.at][1], hint)
 
 
-def _blocked(seen: Observation) -> Diagnosis | None:
+def _blocked(seen: Observation, fed: Heating) -> Diagnosis | None:
     """Name work that keeps the node from hearing: the executor shows it, not what was done."""
-    work, begin = _Heating(seen, _FIRST), _FIRST.at
+    first = fed.goals[0]
+    work, begin = _Heating(seen, first, fed.start), first.at
     end = work.end or begin + 4
     heard = [one.time for one in seen.callbacks if one.source == _TEMPERATURE.topic]
     if work.decision != "accepted" or not heard or end < begin + 2:
@@ -843,6 +955,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Ask whether the value is good, and not whether it is bad: NaN is neither above nor "
             "below anything.",
         ),
+        draw=draw_service,
     ),
     Exercise(
         "12b",
@@ -856,6 +969,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Begin with the two limits as they are, put the new ones over them, and compare then.",
             "The result has two fields: successful and reason.",
         ),
+        draw=draw_parameters,
     ),
     Exercise(
         "12c",
@@ -873,5 +987,6 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "loop does it for both ways.",
             "A goal ends with one of two calls, and then the result is given back in any case.",
         ),
+        draw=draw_heating,
     ),
 )

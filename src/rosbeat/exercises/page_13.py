@@ -20,6 +20,7 @@ from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.silence import difference, nearest
 from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
+from rosbeat.exercises.draw import PAGE
 from rosbeat.exercises.exercise import (
     FAILED,
     NEW_TO_ME,
@@ -41,15 +42,10 @@ from rosbeat.exercises.greenhouse import (
     TOTAL,
     USUAL,
     Day,
-    air,
-    airing,
-    broken_day,
-    drought,
-    lossy_day,
+    Weather,
+    draw_weather,
     matching_rubric,
-    other_day,
     other_limits,
-    plain_day,
     read_rubric,
 )
 from rosbeat.exercises.model import (
@@ -111,42 +107,46 @@ class Trials:
         return self.runs[PLAIN]
 
 
-def observe_vent(answer: Answer, numbers: Mapping[str, float] = USUAL) -> Trials:
+def observe_vent(answer: Answer, seed: int = PAGE, numbers: Mapping[str, float] = USUAL) -> Trials:
     """Run a vent alone through the first part of the plain day.
 
     Args:
         answer: What should be a node class.
+        seed: Of the weather.
         numbers: Those of the rubric, by name.
     """
-    day = airing(numbers)
+    day = Weather(numbers, seed).airing
     sensor = station(SENSORS[0], "temperature", day.temperature)
     return Trials(dict(numbers), {PLAIN: observe(answer, day.seconds, others=[sensor])})
 
 
-def observe_greenhouse(answer: Answer, numbers: Mapping[str, float] = USUAL) -> Trials:
+def observe_greenhouse(
+    answer: Answer, seed: int = PAGE, numbers: Mapping[str, float] = USUAL
+) -> Trials:
     """Run a greenhouse through all trials.
 
     Args:
         answer: What should be a function that returns a list of nodes; see `observe_system`.
+        seed: Of the weather.
         numbers: Those of the rubric, by name.
     """
-    day, lossy = plain_day(numbers), lossy_day(numbers)
+    days = Weather(numbers, seed)
     qos = QoS(durability="TRANSIENT_LOCAL", depth=1)
     late = [
-        adding(day.seconds - 1, listener(name, Wire(topic, _BOOL), qos))
+        adding(days.plain.seconds - 1, listener(name, Wire(topic, _BOOL), qos))
         for name, topic in zip(_LATE, ("vent", "pump"), strict=True)
     ]
-    runs = {PLAIN: _observe_day(answer, day, late)}
+    runs = {PLAIN: _observe_day(answer, days.plain, late)}
     if not _is_hopeless(runs[PLAIN]):
         endings = [
-            removing(lossy.marks[f"without {name}"] + 0.5, node)
+            removing(days.lossy.marks[f"without {name}"] + 0.5, node)
             for name in ("report", "alarm", "pump")
             for node in _publishers(runs[PLAIN].graph, f"/{name}")
         ]
-        runs[BROKEN] = _observe_day(answer, broken_day(numbers))
-        runs[LOSSY] = _observe_day(answer, lossy, endings)
-        runs[DROUGHT] = _observe_day(answer, drought(numbers))
-        runs[OTHER] = _observe_day(answer, other_day(numbers), parameters=other_limits(numbers))
+        runs[BROKEN] = _observe_day(answer, days.broken)
+        runs[LOSSY] = _observe_day(answer, days.lossy, endings)
+        runs[DROUGHT] = _observe_day(answer, days.drought)
+        runs[OTHER] = _observe_day(answer, days.other, parameters=other_limits(numbers, seed))
     return Trials(dict(numbers), runs)
 
 
@@ -382,38 +382,38 @@ def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Di
     return None
 
 
-def _judge_vent(trials: Trials) -> Diagnosis | None:
-    seen, numbers = trials.plain, trials.numbers
-    return _silent(seen, "/vent") or _wrong_vent(seen, plain_day(numbers), numbers)
+def _judge_vent(trials: Trials, days: Weather) -> Diagnosis | None:
+    seen = trials.plain
+    return _silent(seen, "/vent") or _wrong_vent(seen, days.plain, days.numbers)
 
 
-def _judge_vent_alone(trials: Trials) -> Verdict:
-    seen, numbers = trials.plain, matching_rubric(trials.numbers).numbers
+def _judge_vent_alone(trials: Trials, seed: int) -> Verdict:
+    seen, days = trials.plain, Weather(matching_rubric(trials.numbers).numbers, seed)
     early = before_judging(seen)
     if early:
         return early
-    day, count = airing(numbers), len(_said(seen, "/vent"))
+    count = len(_said(seen, "/vent"))
     return (
         diagnose_unheard(seen, Wire("/temperature", _FLOAT))
         or diagnose_unpublished(seen, Wire("/vent", _BOOL))
-        or _wrong_vent(seen, day, numbers)
+        or _wrong_vent(seen, days.airing, days.numbers)
         or _repeated(seen, "/vent")
-        or passed(f"{len(day.held)} temperatures, and {count} commands.")
+        or passed(f"{len(days.airing.held)} temperatures, and {count} commands.")
     )
 
 
 # R2 and R3: the pump runs when it should, and only then.
 
 
-def _judge_pump(trials: Trials) -> Diagnosis | None:
+def _judge_pump(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R2: the pump runs for so long, rests for so long, and only when it is dry."""
-    n, day = trials.numbers, plain_day(trials.numbers)
+    n, day = days.numbers, days.plain
     spans = [one for one in _spans(trials.plain, "/pump") if one[0] < day.marks["both"]]
     return (
         _silent(trials.plain, "/pump")
         or _wrong_start(spans, day.marks, n)
         or _wrong_duration(spans, n)
-        or (None if len(spans) > 1 else _stopped_for_good(trials))
+        or (None if len(spans) > 1 else _stopped_for_good(trials, days))
         or _started_in_the_wet(spans, day.marks["wet"] + n["react_seconds"])
     )
 
@@ -450,12 +450,12 @@ def _wrong_duration(spans: _Spans, n: Mapping[str, float]) -> Diagnosis | None:
     return None
 
 
-def _stopped_for_good(trials: Trials) -> Diagnosis | None:
+def _stopped_for_good(trials: Trials, days: Weather) -> Diagnosis | None:
     """Name a pump that ran once on a day that stays dry: a rest may be long, and has an end."""
-    n, spans = trials.numbers, _spans(trials.runs[DROUGHT], "/pump")
+    n, spans = days.numbers, _spans(trials.runs[DROUGHT], "/pump")
     rest, react = n["rest_seconds"], n["react_seconds"]
     if not spans:
-        evidence = f"It was dry from {_stamp(drought(n).marks['dry'])} on, and no pump ran."
+        evidence = f"It was dry from {_stamp(days.drought.marks['dry'])} on, and no pump ran."
         hint = "What has to hold before it starts? Print each of these."
         return Diagnosis("never-switched-on", evidence, hint)
     off = spans[0][1]
@@ -476,9 +476,9 @@ def _started_in_the_wet(spans: _Spans, wet: float) -> Diagnosis | None:
     return Diagnosis("wrong-state", evidence, "Does it start again only because the rest is over?")
 
 
-def _judge_interlock(trials: Trials) -> Diagnosis | None:
+def _judge_interlock(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R3: vent and pump exclude each other, and the pump comes back afterwards."""
-    marks, react = plain_day(trials.numbers).marks, trials.numbers["react_seconds"]
+    marks, react = days.plain.marks, days.numbers["react_seconds"]
     vent, pump = _vent_and_pump(trials.plain, marks["both"])
     both = _both_on(vent, pump, react)
     if both:
@@ -490,7 +490,7 @@ def _judge_interlock(trials: Trials) -> Diagnosis | None:
     due = marks["cool and dry"]
     if any(due <= begin <= due + 2 * react + 1 + _EPS for begin, _ in pump):
         # A pump with a long rest has not yet run again when it becomes hot on a plain day.
-        hot = drought(trials.numbers).marks["hot again"]
+        hot = days.drought.marks["hot again"]
         late = _vent_and_pump(trials.runs[DROUGHT], hot)
         return _both_on(*late, react, "After a drought, from")
     evidence = f"It was cool and dry from {_stamp(due)} on, and the pump did not start."
@@ -525,12 +525,12 @@ def _both_on(vent: _Spans, pump: _Spans, react: float, lead: str = "From") -> Di
 # R4: alarms come once, in time, with the agreed words, and only then.
 
 
-def _judge_alarms(trials: Trials) -> Diagnosis | None:
+def _judge_alarms(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R4: an alarm when a sensor falls silent, and one when it is back."""
-    seen, n = trials.runs[BROKEN], trials.numbers
+    seen, n = trials.runs[BROKEN], days.numbers
     wrong = _silent(seen, "/alarm")
     alarms = [(time, str(text).lower()) for time, text in _said(seen, "/alarm")]
-    marks, wait = broken_day(n).marks, n["silent_seconds"]
+    marks, wait = days.broken.marks, n["silent_seconds"]
     for sensor, silences in (("temperature", ("temperature", "both")), ("humidity", ("both",))):
         for word, delay in (("silent", wait - 1), ("back", 0)):
             dues = [marks[f"{silence} {word}"] + delay for silence in silences]
@@ -603,16 +603,16 @@ def _no_alarm(
 _CHECKED = "Which node checks that a reading is possible, before any other uses it?"
 
 
-def _judge_belief(trials: Trials) -> Diagnosis | None:
+def _judge_belief(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R5: nonsense moves no actuator and no mean."""
-    seen, n = trials.runs[BROKEN], trials.numbers
-    marks, react = broken_day(n).marks, n["react_seconds"]
+    seen, n = trials.runs[BROKEN], days.numbers
+    marks, react = days.broken.marks, n["react_seconds"]
     return (
         _silent(seen, "/vent", "/pump", "/report")
         or _vent_believes(_spans(seen, "/vent"), marks["hot"], marks["cool"], react)
         or _pump_believes(_spans(seen, "/pump"), marks["dry"], react)
         # A report that is wrong on a plain day, too, is another matter.
-        or (None if _judge_reports(trials) else _report_believes(seen, n))
+        or (None if _judge_reports(trials, days) else _report_believes(seen, days))
     )
 
 
@@ -643,13 +643,14 @@ def _pump_believes(spans: _Spans, dry: float, react: float) -> Diagnosis | None:
     return Diagnosis("never-switched-on", evidence, "The next possible reading counts again.")
 
 
-def _report_believes(seen: Observation, n: Mapping[str, float]) -> Diagnosis | None:
-    every, least, most = n["report_seconds"], air(n).cold - 1, air(n).hot + 1
-    day = broken_day(n).temperature
+def _report_believes(seen: Observation, days: Weather) -> Diagnosis | None:
+    every, day = days.numbers["report_seconds"], days.broken.temperature
+    least, most = days.air.cold - 1, days.air.hot + 1
     possible = [one if one is not None and least <= one <= most else None for one in day]
     for time, value in _said(seen, "/report"):
-        # A mean of no readings is left open.
-        if not _between(day, time - every - 1, time) or least <= value <= most:
+        # A mean of no readings is left open, and so it is if only some right windows are empty.
+        windows = (_between(day, time - a, time - b) for a, b in _windows(every))
+        if not all(windows) or least <= value <= most:
             continue
         said = f"The report at {_stamp(time)} said {value:g}"
         # A sum of the right readings, divided by something else, has believed nothing.
@@ -729,15 +730,15 @@ REPORTERS = _reporters(
 )
 
 
-def _judge_reports(trials: Trials) -> Diagnosis | None:
+def _judge_reports(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R6: a mean, so often, of so many seconds."""
-    return _silent(trials.plain, "/report") or _wrong_reports(trials)
+    return _silent(trials.plain, "/report") or _wrong_reports(trials, days)
 
 
-def _wrong_reports(trials: Trials) -> Diagnosis | None:
-    seen, every = trials.plain, trials.numbers["report_seconds"]
+def _wrong_reports(trials: Trials, days: Weather) -> Diagnosis | None:
+    seen, every = trials.plain, days.numbers["report_seconds"]
     reports = [(time, float(value)) for time, value in _said(seen, "/report")]
-    day, times = plain_day(trials.numbers), [time for time, _ in reports]
+    day, times = days.plain, [time for time, _ in reports]
     for before, time in pairwise([0.0, *times, max(seen.time, times[-1])]):
         gap, last = time - before, time >= seen.time
         if gap > every + 1 + _EPS or (gap < every - 1 - _EPS and not last):
@@ -771,7 +772,7 @@ def is_near(one: float, other: float) -> bool:
 # R7 and R10: commands are given when they change, and late-joining subscriptions get the last one.
 
 
-def _judge_commands(trials: Trials) -> Diagnosis | None:
+def _judge_commands(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R7: no command twice in a row."""
     for topic in ("/vent", "/pump"):
         wrong = _silent(trials.plain, topic) or _repeated(trials.plain, topic)
@@ -793,7 +794,7 @@ def _repeated(seen: Observation, topic: str) -> Diagnosis | None:
     return Diagnosis("never-switched-on", evidence, "Let the actuator work first.")
 
 
-def _judge_late_joining(trials: Trials) -> Diagnosis | None:
+def _judge_late_joining(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R10: a late-joining subscription gets the last command at once."""
     seen = trials.plain
     for topic, node in zip(("/vent", "/pump"), _LATE, strict=True):
@@ -815,7 +816,7 @@ def _judge_late_joining(trials: Trials) -> Diagnosis | None:
 # R8, R9 and R11: the work is shared out.
 
 
-def _judge_tasks(trials: Trials) -> Diagnosis | None:
+def _judge_tasks(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R8: one node for each output, and topics between them."""
     graph = trials.runs[BROKEN].graph
     outputs = {topic: _publishers(graph, topic) for topic in OUTPUTS}
@@ -839,10 +840,10 @@ def _judge_tasks(trials: Trials) -> Diagnosis | None:
             evidence = f"{node} publishes on {' and on '.join(topics)}."
             hint = "Two tasks, two nodes: then one of them can end, or be replaced, alone."
             return Diagnosis("two-tasks", evidence, hint)
-    return _shared_variable(trials, graph)
+    return _shared_variable(trials, days, graph)
 
 
-def _shared_variable(trials: Trials, graph: GraphSnapshot) -> Diagnosis | None:
+def _shared_variable(trials: Trials, days: Weather, graph: GraphSnapshot) -> Diagnosis | None:
     """Name an output that rightly depends on an input, while no topic leads there."""
     needs = (
         ("/vent", INPUTS[:1], _judge_vent),
@@ -852,7 +853,7 @@ def _shared_variable(trials: Trials, graph: GraphSnapshot) -> Diagnosis | None:
     )
     for topic, sources, judge in needs:
         for source in sources:
-            if topic not in reached(graph, source) and judge(trials) is None:
+            if topic not in reached(graph, source) and judge(trials, days) is None:
                 evidence = f"{topic} depends on {source}, and no topic or service leads there."
                 hint = "Do two nodes share a Python variable? Two processes would each have one."
                 return Diagnosis("shared-variable", evidence, hint)
@@ -876,9 +877,9 @@ def reached(graph: GraphSnapshot, source: str) -> set[str]:
     return known
 
 
-def _judge_endings(trials: Trials) -> Diagnosis | None:
+def _judge_endings(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R9: the vent goes on whichever other node ends."""
-    marks, react = lossy_day(trials.numbers).marks, trials.numbers["react_seconds"]
+    marks, react = days.lossy.marks, days.numbers["react_seconds"]
     vent = _switch(trials.runs[LOSSY], "/vent")
     for name, after in (("report", "without alarm"), ("alarm", "without pump"), ("pump", "end")):
         nodes = _publishers(trials.plain.graph, f"/{name}")
@@ -896,14 +897,14 @@ def _judge_endings(trials: Trials) -> Diagnosis | None:
     return None
 
 
-def _judge_parameters(trials: Trials) -> Diagnosis | None:
+def _judge_parameters(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R11: the limits can be set when the nodes are started."""
-    return _silent(trials.plain, "/vent", "/pump") or _kept_limits(trials)
+    return _silent(trials.plain, "/vent", "/pump") or _kept_limits(trials, days)
 
 
-def _kept_limits(trials: Trials) -> Diagnosis | None:
-    seen, react = trials.runs[OTHER], trials.numbers["react_seconds"]
-    marks = other_day(trials.numbers).marks
+def _kept_limits(trials: Trials, days: Weather) -> Diagnosis | None:
+    seen, react = trials.runs[OTHER], days.numbers["react_seconds"]
+    marks = days.other.marks
     refused = next((one for one in seen.faults if "arameter" in one.kind), None)
     if refused:
         evidence = f"With other limits, a node was not made: {refused.kind}: {refused.text}"
@@ -926,7 +927,7 @@ def _kept_limits(trials: Trials) -> Diagnosis | None:
 # From the requirements to an outcome.
 
 #: The judge of each requirement.
-JUDGES: dict[str, Callable[[Trials], Diagnosis | None]] = {
+JUDGES: dict[str, Callable[[Trials, Weather], Diagnosis | None]] = {
     "R1": _judge_vent,
     "R2": _judge_pump,
     "R3": _judge_interlock,
@@ -941,13 +942,14 @@ JUDGES: dict[str, Callable[[Trials], Diagnosis | None]] = {
 }
 
 
-def _judge_greenhouse(trials: Trials) -> Verdict:
+def _judge_greenhouse(trials: Trials, seed: int) -> Verdict:
     """Judge a greenhouse; the outcome has a part for each requirement if there is a greenhouse."""
-    requirements = matching_rubric(trials.numbers).requirements
+    rubric = matching_rubric(trials.numbers)
+    requirements, days = rubric.requirements, Weather(rubric.numbers, seed)
     early = _before_judging(trials.plain)
     if early:
         return early
-    found = {one.id: JUDGES[one.id](trials) for one in requirements}
+    found = {one.id: JUDGES[one.id](trials, days) for one in requirements}
     parts = tuple(
         Part(
             one.id, one.text, wrong is None, wrong.evidence if wrong else "", one.points,
@@ -1011,6 +1013,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "for below; in between nothing happens.",
             "Keep what was published last in a variable of the node; publish only what differs.",
         ),
+        draw=draw_weather,
         given=_given,
     ),
     Exercise(
@@ -1029,6 +1032,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Where a reading is checked is up to you: in each node, or in one that passes on what "
             "can be on topics of its own. The second is shorter.",
         ),
+        draw=draw_weather,
         given=_given,
     ),
 )

@@ -33,14 +33,14 @@ def looked_at(exercise, place):
         return [exercise.observed(node) for node in NODES]
     kind = exercise.scenario.__name__
     if kind in ("call", "_call"):
-        return [exercise.scenario(one) for one in (lambda *words: "=".join(words), None)]
+        return [exercise.observed(one) for one in (lambda *words: "=".join(words), None)]
     if exercise.id in ("01b", "06a"):
         return [TYPED]
     empty = place / "empty"
     empty.mkdir(exist_ok=True)
     shutil.copytree(FINISHED, place / "src" / "sensor_simulator", dirs_exist_ok=True)
     return [
-        exercise.scenario(one) for one in ((empty,) if exercise.id == "system" else (place, empty))
+        exercise.observed(one) for one in ((empty,) if exercise.id == "system" else (place, empty))
     ]
 
 

@@ -5,11 +5,12 @@ import pytest
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.diagnosis.packages import FLAWS
 from rosbeat.exercises import workspace_model
-from rosbeat.exercises.page_05 import ARGUMENTS, EXERCISES
+from rosbeat.exercises.page_05 import EXERCISES
 from rosbeat.exercises.scenarios import Report
 from rosbeat.workspace.catching_up import finished
 
 setup_05a, function_05b = EXERCISES
+(CALLS,) = function_05b.inputs()
 PROGRAMS = ("temperature_publisher", "temperature_subscriber")
 BOTH = {one: (f"p.{one}:main",) for one in PROGRAMS}
 
@@ -96,17 +97,17 @@ class Shy:
     ],
 )
 def test_what_is_no_function_or_gives_no_text(answer, mistake):
-    outcome = function_05b.judged(function_05b.scenario(answer))
+    outcome = function_05b.judged(function_05b.observed(answer))
     assert (outcome.status, outcome.mistake) == ("failed", mistake)
 
 
 @pytest.mark.parametrize("result", [("a", "b"), ["a", "b"], {"a": "b"}])
 def test_what_was_returned_is_shown_as_it_was(result):
-    outcome = function_05b.judged(function_05b.scenario(lambda *_: result))
+    outcome = function_05b.judged(function_05b.observed(lambda *_: result))
     assert f"gives {result!r}." in outcome.evidence
 
 
 def test_evidence_of_fewer_calls_than_were_made_is_refused():
-    assert len(ARGUMENTS) > 1
+    assert len(CALLS) > 1
     with pytest.raises(ValueError, match="zip"):
         function_05b.judged(Report('["talk = rosie.voice:main"]', "", "list"))

@@ -8,9 +8,6 @@ import pytest
 from rosbeat.exercises import page_12
 from rosbeat.exercises.model import agree
 from rosbeat.exercises.page_12 import (
-    BY_PARAMETER,
-    BY_SERVICE,
-    GOALS,
     MONITORS,
     NOT_FILLED,
     NOT_VALIDATED,
@@ -22,6 +19,10 @@ from rosbeat.exercises.page_12 import (
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import Observation
 
+#: What the page feeds.
+(BY_SERVICE,), (BY_PARAMETER,), (HEATING,) = (
+    EXERCISES[one].inputs() for one in ("12a", "12b", "12c")
+)
 #: What the models of an exercise are fed, the right one, and the suspects.
 MODELS = {
     # One after the other is a misunderstanding of two limits in one request: page 12b alone.
@@ -36,7 +37,7 @@ MODELS = {
         right_monitor,
         [NOT_FILLED, NOT_VALIDATED, *(one for one in MONITORS if one.mistake != "boundary")],
     ),
-    "12c": (GOALS, right_thermostat, THERMOSTATS),
+    "12c": (HEATING.goals, right_thermostat, THERMOSTATS),
 }
 
 #: A good value that is refused may be used or not. A monitor that uses all of them is a special
@@ -58,8 +59,10 @@ def test_the_input_tells_suspects_from_the_right_model_and_from_each_other(exerc
     assert {(one.mistake, other.mistake) for one, other in found} <= INCLUDED
 
 
-@pytest.mark.parametrize("requests", [BY_SERVICE, BY_PARAMETER])
-def test_nothing_is_asked_for_at_first_and_then_always_something(requests):
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("exercise", ["12a", "12b"])
+def test_nothing_is_asked_for_at_first_and_then_always_something(exercise, seed):
+    (requests,) = EXERCISES[exercise].inputs(seed)
     assert [bool(one.values) for one in requests] == [False] + [True] * (len(requests) - 1)
     assert all(one.before == before.after for before, one in pairwise(requests))
 
@@ -76,8 +79,24 @@ def test_a_node_that_does_nothing_fails(exercise):
     assert (outcome.status, outcome.points) == ("failed", 0)
 
 
+@pytest.mark.parametrize("seed", range(100))
+def test_a_goal_is_over_before_the_next_one_and_a_canceled_one_does_not_reach_its_target(seed):
+    """The room loses a degree in five seconds, so a right thermostat may take a bit longer."""
+    (fed,) = EXERCISES["12c"].inputs(seed)
+    assert (fed.goals != HEATING.goals) == bool(seed)
+    first, canceled, *others = fed.goals
+    last, warm_until = others[-1], first.at + first.order - fed.start
+    coldest = first.order - (last.at - warm_until) // 5
+    assert 10 < coldest < first.order
+    assert canceled.at - first.at > first.order - (fed.start - first.at // 5) + 2
+    assert canceled.cancel_after + 1 < canceled.order - first.order
+    assert all(later.at - one.at >= 2 for one, later in pairwise(others))
+    assert sum(one.is_reached for one in others) == 1
+    assert fed.seconds - last.at > last.order - coldest + 1
+
+
 def test_a_suspect_leaves_open_what_follows_from_its_mistake():
     suspect = next(one for one in THERMOSTATS if one.mistake == "left-on")
-    assert suspect.model(GOALS[0])[page_12.Work.HEATER] == ("on",)
+    assert suspect.model(HEATING.goals[0])[page_12.Work.HEATER] == ("on",)
     (suspect,) = (one for one in THERMOSTATS if one.mistake == "cancel-refused")
-    assert suspect.model(GOALS[1])[page_12.Work.HEATER] == (...,)
+    assert suspect.model(HEATING.goals[1])[page_12.Work.HEATER] == (...,)

@@ -13,6 +13,7 @@ from std_msgs.msg import Float32
 from rosbeat import Session
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises import greenhouse
+from rosbeat.exercises.draw import PAGE
 from rosbeat.exercises.evidence import from_json, to_json
 from rosbeat.exercises.greenhouse import (
     BROKEN,
@@ -154,18 +155,32 @@ DAYS = (
 )
 
 
+#: Seeds of the weather; the first one is the page's.
+SEEDS = range(20)
+EACH_SEED = pytest.mark.parametrize("seed", SEEDS)
+
+
+@EACH_SEED
 @pytest.mark.parametrize("numbers", [USUAL, OTHERS], ids=["usual", "others"])
 @pytest.mark.parametrize("make", DAYS)
-def test_both_sensors_have_a_reading_or_a_silence_for_each_second(make, numbers):
-    day = make(numbers)
+def test_both_sensors_have_a_reading_or_a_silence_for_each_second(make, numbers, seed):
+    day = make(numbers, seed)
     assert len(day.temperature) == len(day.humidity) == day.seconds - 1
     assert all(0 < at < day.seconds for at in day.marks.values())
     assert sorted(day.marks.values()) == list(day.marks.values())
 
 
+def test_days_differ_from_seed_to_seed():
+    for make in DAYS:
+        assert make(USUAL) == make(USUAL, PAGE)
+    days = [[make(USUAL, seed) for make in DAYS] for seed in SEEDS]
+    assert len({repr(one) for one in days}) == len(SEEDS)
+
+
+@EACH_SEED
 @pytest.mark.parametrize("numbers", [USUAL, OTHERS], ids=["usual", "others"])
-def test_the_vent_is_tried_on_every_side_of_both_limits_and_has_time(numbers):
-    day, limits = greenhouse.airing(numbers), (numbers["open_above"], numbers["close_below"])
+def test_the_vent_is_tried_on_every_side_of_both_limits_and_has_time(numbers, seed):
+    day, limits = greenhouse.airing(numbers, seed), (numbers["open_above"], numbers["close_below"])
     values = {value for _, _, value in day.held}
     for limit in limits:
         # A limit that no Float32 holds is met by no reading.
@@ -188,8 +203,9 @@ def test_a_broken_day_has_nonsense_and_two_silences_longer_than_a_report():
     assert len(silent) == 2 * len(both) == 2 * (2 * 10 + 1)
 
 
-def test_only_other_limits_mean_anything_on_the_last_day():
-    day, other = greenhouse.other_day(USUAL), greenhouse.other_limits(USUAL)
+@EACH_SEED
+def test_only_other_limits_mean_anything_on_the_last_day(seed):
+    day, other = greenhouse.other_day(USUAL, seed), greenhouse.other_limits(USUAL, seed)
     assert other["open_above"] < max(day.temperature) <= USUAL["open_above"]
     assert USUAL["dry_below"] < min(day.humidity) < other["dry_below"]
 
@@ -258,18 +274,27 @@ def assert_told_apart(suspects, right, fed, same):
         assert not alike or (one.mistake, one.hint) == (other.mistake, other.hint), (one, other)
 
 
-def test_the_plain_day_tells_vents_from_the_right_one_and_from_each_other():
-    fed = [held for _, _, held in held_temperatures(greenhouse.airing(USUAL), USUAL)]
+@EACH_SEED
+def test_the_plain_day_tells_vents_from_the_right_one_and_from_each_other(seed):
+    fed = [held for _, _, held in held_temperatures(greenhouse.airing(USUAL, seed), USUAL)]
     assert_told_apart(VENTS, lambda held: {0: (held.right,)}, fed, lambda one, other: one == other)
 
 
+@EACH_SEED
+def test_a_pump_that_waits_for_a_tick_is_never_right_by_chance(seed):
+    start = greenhouse.plain_day(USUAL, seed).marks["dry"]
+    for period in (5, 9):
+        assert period - start % period not in (4, 5, 6)
+
+
+@EACH_SEED
 @pytest.mark.parametrize("numbers", [USUAL, OTHERS], ids=["usual", "others"])
-def test_a_drought_outlasts_the_longest_rest_that_is_allowed(numbers):
-    day, react = greenhouse.drought(numbers), numbers["react_seconds"]
+def test_a_drought_outlasts_the_longest_rest_that_is_allowed(numbers, seed):
+    day, react = greenhouse.drought(numbers, seed), numbers["react_seconds"]
     stopped = day.marks["dry"] + react + numbers["pump_seconds"] + 1
     assert stopped + greenhouse.PATIENCE * numbers["rest_seconds"] + react + 1 < day.marks["wet"]
     dry = day.humidity[day.marks["dry"] - 1 : day.marks["wet"] - 1]
-    assert set(dry) == {numbers["dry_below"] - 10}
+    assert set(dry) == {greenhouse.air(numbers, seed).dry}
 
 
 def test_a_vent_that_remembers_nothing_gives_one_command_again_and_again():
@@ -279,8 +304,9 @@ def test_a_vent_that_remembers_nothing_gives_one_command_again_and_again():
     assert opened == {5: (False,)}
 
 
-def test_the_plain_day_tells_reports_from_the_right_one_and_from_each_other():
-    day = greenhouse.plain_day(USUAL)
+@EACH_SEED
+def test_the_plain_day_tells_reports_from_the_right_one_and_from_each_other(seed):
+    day = greenhouse.plain_day(USUAL, seed)
     fed = Reports(day, tuple(range(10, day.seconds, 10)))
     means = {at: (sum(day.temperature[at - 10 : at]) / 10,) for at in fed.times}
     assert_told_apart(REPORTERS, lambda _: means, [fed], is_near)
@@ -367,7 +393,7 @@ class Listener(Node):
 @pytest.mark.ros
 @pytest.mark.parametrize("numbers", [USUAL, {**USUAL, "open_above": 20.0, "close_below": 15.0}])
 def test_a_vent_is_run_in_the_weather_of_the_numbers_that_are_handed_over(numbers):
-    seen = observe_vent(Listener, numbers)
+    seen = observe_vent(Listener, numbers=numbers)
     fed = [one.value for one in seen.plain.samples if one.topic == "/temperature"]
     assert fed == greenhouse.airing(numbers).temperature
     assert seen.numbers == numbers
