@@ -55,7 +55,7 @@ _LEFT_OUT = "test/test_copyright.py"
 
 @dataclass(frozen=True)
 class Plan:
-    """What to build.
+    """Choose what to build.
 
     Attributes:
         names: Lessons by number, name or file; none means all.
@@ -74,7 +74,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Change:
-    """How a file on disk differs from what its source says.
+    """Describe how a file on disk differs from what its source says.
 
     Attributes:
         path: The file.

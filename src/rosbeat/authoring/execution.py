@@ -63,7 +63,7 @@ class OwnInterpreter(KernelSpecManager):
 
 @dataclass(frozen=True)
 class KernelPlace:
-    """Where a kernel's files are, and what it finds in its environment.
+    """Say where a kernel's files are, and what it finds in its environment.
 
     Attributes:
         folder: Holds the sockets, the connection file and IPython's settings.

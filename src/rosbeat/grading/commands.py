@@ -50,10 +50,10 @@ from rosbeat.grading.submissions import (
 )
 from rosbeat.grading.weights import Points, read_points, without_effect
 from rosbeat.grading.writing import write_whole
+from rosbeat.workspace.place import course_root
 
 if TYPE_CHECKING:
     from rosbeat.grading.cluster import Cluster
-from rosbeat.workspace.place import course_root
 
 #: Exit code: all is written, and something waits for a person.
 WAITS = 3
@@ -289,7 +289,7 @@ _UNSAFE = (
     "Warning: --unsafe-no-sandbox lets strangers' programs do here whatever you may do: read and\n"
     "change your files, use the network. Only limits on time and memory are left."
 )
-#: Remarks about a line that somebody wrote, or about an answer that a kernel sees otherwise.
+#: Remarks about a line that somebody wrote.
 _FOR_A_PERSON = ("manual", "roster")
 
 

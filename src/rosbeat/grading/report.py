@@ -112,7 +112,7 @@ def _learners(book: Gradebook) -> _Rows:
         (
             html('<a href="{}/{}">{}</a>', FOLDER, files[one.learner], name(one.name)),
             name(one.learner),
-            f"{number(one.points)}{'' if one.is_settled else ' ?'}",
+            "no grade" if one.excused else f"{number(one.points)}{'' if one.is_settled else ' ?'}",
             number(one.out_of),
             str(len(one.remarks) or ""),
         )
@@ -316,9 +316,10 @@ def tally_points(book: Gradebook) -> PointsTally:
     """Sort the learners into steps by their share of the points.
 
     Args:
-        book: The class; learners for whom there are no points are left out.
+        book: The class; learners without points or without a grade are left out.
     """
-    shares = [100 * one.points / one.out_of for one in book.learners if one.out_of > 0]
+    counted = [one for one in book.learners if one.out_of > 0 and not one.excused]
+    shares = [100 * one.points / one.out_of for one in counted]
     steps = Counter(int(min(max(share, 0.0), 100.0) // STEP) for share in shares)
     rows = [(f"{at} to {at + STEP - 1} %", steps[at // STEP]) for at in range(0, 100, STEP)]
     rows.append(("100 %", steps[100 // STEP]))

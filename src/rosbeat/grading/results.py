@@ -48,6 +48,8 @@ _CALLED = {
     LOOKED_AT: "looked at by you",
     HELD: "held",
 }
+#: Remarks about lines that the instructor wrote, in `manual.csv` and in the roster.
+_LINES = ("manual", "roster")
 #: Things of one kind that are named; of more, only how many there are is told.
 _MOST_NAMED = 5
 
@@ -209,9 +211,10 @@ def _lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
     exercises = {mark.exercise for mark in marks}
     learners = _many(len(gradebook.learners), "learner")
     yield f"{learners}, {_many(len(exercises), 'exercise')}: {_by_status(marks)}."
-    if gradebook.learners:
-        reached = sum(one.points for one in gradebook.learners) / len(gradebook.learners)
-        whole = max(one.out_of for one in gradebook.learners)
+    counted = [one for one in gradebook.learners if not one.excused]
+    if counted:
+        reached = sum(one.points for one in counted) / len(counted)
+        whole = max(one.out_of for one in counted)
         yield f"On average {number(round(reached, 1))} of {number(whole)} points."
     yield from _mistake_lines(marks)
     yield from _remark_lines(gradebook)
@@ -236,12 +239,12 @@ def _mistake_lines(marks: Sequence[Mark]) -> Iterator[str]:
 
 
 def _remark_lines(gradebook: Gradebook) -> Iterator[str]:
-    by_hand = [one for one in gradebook.remarks if one.about == "manual"]
+    by_hand = [one for one in gradebook.remarks if one.about in _LINES]
     for one in by_hand[:_MOST_NAMED]:
         yield f"{printable(one.path)}: {printable(one.text, 1000)}"
     if len(by_hand) > _MOST_NAMED:
         yield f"  and {len(by_hand) - _MOST_NAMED} more such lines; class.html lists them all"
-    files = [one for one in _remarks(gradebook) if one.about != "manual"]
+    files = [one for one in _remarks(gradebook) if one.about not in _LINES]
     if files:
         kinds = Counter(printable(one.about) for one in files)
         told = ", ".join(f"{times} {about}" for about, times in sorted(kinds.items()))
@@ -264,8 +267,8 @@ def _held_lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
         for one, _, exercises in cut_off(gradebook)
     ]
     if half:
-        first = _first(half, "; ")
-        yield f"Not whole or not readable, so without points for these exercises: {first}."
+        said = "Not whole or not readable, so without points for these exercises"
+        yield f"{said}: {_first(half, '; ')}."
         yield "  Ask for these files again."
 
 

@@ -16,6 +16,7 @@ import hmac
 import io
 import os
 import secrets
+import sys
 import threading
 import webbrowser
 from collections.abc import Callable, Iterable, Mapping
@@ -61,8 +62,11 @@ def review(out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> 
         GradingError: If no address on this computer is free.
     """
     with ReviewServer(Review(out, judged, write)) as server:
-        print(f"Review the answers in a browser on this computer:\n    {server.url}")
-        print("The address is secret: it opens the class. Ctrl-C ends the review.", flush=True)
+        # For a person: `--json` has standard output for itself.
+        said = f"Review the answers in a browser on this computer:\n    {server.url}"
+        print(said, file=sys.stderr)
+        said = "The address is secret: it opens the class. Ctrl-C ends the review."
+        print(said, file=sys.stderr, flush=True)
         if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
             webbrowser.open(server.url)
         with suppress(KeyboardInterrupt):
@@ -156,9 +160,8 @@ class Review:
             try:
                 self._read()
             except GradingError as error:
-                raise UnusableMarkError(
-                    f"{error.what} Nothing was written: mend the file first."
-                ) from error
+                said = f"{error.what} Nothing was written: repair the file first."
+                raise UnusableMarkError(said) from error
             if self._manual.remarks:
                 first = self._manual.remarks[0]
                 raise UnusableMarkError(

@@ -281,6 +281,7 @@ def _held(
         evidence=why,
         late=handed.late,
         file=handed.path,
+        source=answer.source,
     )
     if why == _CUT:
         return mark

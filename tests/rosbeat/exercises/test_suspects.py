@@ -68,8 +68,8 @@ TABLES = {
 DRAWN = {name: table for name, table in TABLES.items() if isinstance(table[0], str)}
 #: Seeds that are tried of each exercise; the first one is the page's.
 SEEDS = range(1_001)
-#: The same for exercises whose nodes hear several hundred messages: a draw simulates each of them.
 FEW_SEEDS = range(101)
+#: Seeds of exercises whose nodes hear several hundred messages: a draw simulates each of them.
 SLOW = {"11b": range(101), "11c": range(51), "13a": range(101), "13b": range(101)}
 
 

@@ -5,6 +5,7 @@ import csv
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -27,6 +28,7 @@ from rosbeat.grading.commands import (
 )
 from rosbeat.grading.jobs import Evidence
 from rosbeat.grading.ledger import FILE, SEED_FILE
+from rosbeat.grading.review import ReviewServer
 from small_course import PAGES, small_course
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -324,6 +326,23 @@ def test_a_manual_table_that_cannot_be_read_stops_before_anything_is_lost(
     assert files_of(tmp_path / "out") == before
 
 
+def test_a_class_can_be_reviewed_when_it_is_graded(course, workers, typed, monkeypatch):
+    served = []
+
+    def serve(server):
+        served.append(server.review.groups)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(ReviewServer, "serve_forever", serve)
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    said = typed("--review", "--json")
+    assert json.loads(said.out)["learners"] == 2
+    assert re.search(r"http://127\.0\.0\.1:\d+/[\w-]{43}/\n", said.err)
+    ((group, *_),) = served
+    assert "x = " in group.first.source
+
+
 # How it was done the last time.
 
 
@@ -581,9 +600,9 @@ def test_1_means_that_nothing_was_done_and_2_that_nothing_could_be_meant(
 
 
 def test_130_means_that_somebody_stopped_it(course, workers, tmp_path, monkeypatch, capsys):
-    def observe(self, submissions):
+    def observe(self, jobs):
         os.kill(os.getpid(), signal.SIGTERM)
-        yield from super(workers, self).observe(submissions)
+        yield from super(workers, self).observe(jobs)
 
     monkeypatch.setattr(workers, "observe", observe)
     given = ["grade", str(tmp_path / "class"), "--out", str(tmp_path / "out")]

@@ -12,7 +12,7 @@ from parsed_html import ELEMENTS, Parsed
 from reviewing import a_class_to_review
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.grading.cells import number
-from rosbeat.grading.feedback import feedback_files
+from rosbeat.grading.feedback import feedback, feedback_files
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded
 from rosbeat.grading.rendering import (
     STATUSES,
@@ -403,3 +403,17 @@ def test_every_status_has_a_look_of_its_own():
     for part in ("sign", "word", "of_class", "kind"):
         assert len({getattr(look, part) for look in STATUSES.values()}) == len(STATUSES)
     assert look_of("strange").word == "strange"
+
+
+def test_whoever_has_no_grade_is_told_so_and_is_not_counted():
+    learner = one_of_each()
+    absent = replace(
+        learner,
+        learner="absent",
+        marks=tuple(replace(one, status=MISSING, points=0.0) for one in learner.marks),
+        excused=True,
+    )
+    both = Gradebook("0.1.0", (learner, absent))
+    assert tally_points(both) == tally_points(replace(both, learners=(learner,)))
+    assert "no grade" in class_report(both)
+    assert "No grade: nothing was handed in." in feedback(absent)

@@ -247,11 +247,24 @@ def test_what_is_held_is_named_with_what_to_do():
 def test_exercises_behind_the_end_of_a_file_are_told():
     half = [mark(name, "held", file="x") for name in ("04a", "04b")]
     told = summary(book(mark(), *half), OUT)
-    assert (
-        "Not whole or not readable, so without points for these exercises: Ana (ana) 04a, 04b."
-        in told
-    )
+    said = "Not whole or not readable, so without points for these exercises"
+    assert f"{said}: Ana (ana) 04a, 04b." in told
     assert "Held for you" not in told
+
+
+def test_whoever_has_no_grade_is_not_in_the_average():
+    ana = book(mark(points=1.0, out_of=2.0)).learners[0]
+    absent = replace(ana, learner="ben", marks=(mark("03a", "missing", points=0.0),), excused=True)
+    told = summary(replace(book(), learners=(ana, absent)), OUT)
+    assert "2 learners" in told
+    assert "On average 1 of 2 points." in told
+
+
+def test_lines_of_the_roster_are_shown_as_those_by_hand_are():
+    line = Remark("roster", "roster.csv, line 2", "Nobody is called so.")
+    told = summary(replace(book(mark()), remarks=(line,)), OUT)
+    assert "roster.csv, line 2: Nobody is called so." in told
+    assert "about files" not in told
 
 
 def test_what_a_person_has_looked_at_is_not_wrong():
