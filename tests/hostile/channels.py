@@ -83,7 +83,6 @@ DEEDS = (
             "os._exit(0)",
             WRONG,
         ),
-        words="passed",
-        forges=True,
+        words="it was to last",
     ),
 )

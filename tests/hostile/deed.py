@@ -23,8 +23,7 @@ class Deed:
         passes: Whether it gets its points, as it is a right answer. What it does besides gains
             nothing.
         forges: Whether it gets points by evidence that it has forged, with a right answer's times
-            or values inside. It carries a remark for the instructor. A scenario whose inputs are
-            drawn from the class's seed closes this way.
+            or values inside. It carries a remark for the instructor.
     """
 
     name: str

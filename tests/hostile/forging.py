@@ -1,7 +1,7 @@
 """Evidence made in advance: answers that look for what observes them, and put it right.
 
-All are wrong answers. They know what a right answer does, so a solution is inside; as long as the
-inputs of a scenario are the same for everybody, what they write fits.
+All are wrong answers. What was made in advance does not fit the seed of the class; what knows the
+right answer, such as the times of each message, does: there is a solution inside.
 """
 
 from hostile.deed import WRONG, Deed, before
@@ -29,7 +29,7 @@ DEEDS = (
             "frame.f_locals['write']({'seen': frame.f_globals['to_json'](seen)})\nos._exit(0)",
             _EMPTY,
         ),
-        forges=True,
+        words="it was to last",
     ),
     Deed(
         "the recorder, by the garbage collector",
