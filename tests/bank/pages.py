@@ -44,10 +44,12 @@ def subject(exercise: str) -> str:
 def references_of(exercise: str) -> str:
     """The reference solution of an exercise that builds on its page: all code of it up to there.
 
-    Cells of that page which only show something are left out; what they define is kept.
+    Cells of that page which only show something are left out, and those that the kernel does not
+    run; what the others define is kept.
     """
     page = exercise[:2]
     known = {exercise, *(page + letter for letter in "abc" if page + letter < exercise)}
-    parts = [with_answers(c.source) for c in lesson(page).cells if c.exercise in known]
+    cells = [c for c in lesson(page).cells if c.exercise in known and c.runs]
+    parts = [with_answers(c.source) for c in cells]
     profiles = [c.source for c in lesson(page).cells if c.source.startswith("LATCHED")]
     return "\n\n\n".join([*profiles, *parts]) + "\n"
