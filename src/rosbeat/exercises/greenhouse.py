@@ -224,7 +224,7 @@ DROUGHT = "drought"
 SENSORS = ("thermometer", "hygrometer")
 WET = 95.0
 #: How far beyond a limit a reading is that is clearly beyond it.
-_BEYOND, _JUST = 4.0, 0.25
+_BEYOND, _JUST = 4.0, 1 / 256
 
 
 @dataclass
@@ -375,9 +375,13 @@ def broken_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     day.hold(n["pump_seconds"] + 3 + next(more), cold, WET, "wet")
     # Time for a second alarm that nobody wants, and for a report without a single reading.
     long = max(2 * n["silent_seconds"] + react + 2, 2 * n["report_seconds"] + 1)
+    # Then time for one report at least. It is colder than before, and so the mean shows which
+    # readings are in it.
+    back = max(react + 4, n["report_seconds"] + 2)
     for name, humidity in (("temperature", WET), ("both", None)):
         day.hold(long + next(more), None, humidity, f"{name} silent")
-        day.hold(react + 4 + next(more), cold, WET, f"{name} back")
+        cold -= 0.75
+        day.hold(back + next(more), cold, WET, f"{name} back")
     return day
 
 

@@ -364,6 +364,16 @@ _BEATS = suspects(
         "Two timers publish, each with a period of its own. Where does the other one come from?",
         lambda beat: _together(beat.right, _ticks(min(beat.done), beat.end)),
     ),
+    (
+        "wrong-rate",
+        "Several come at one moment, and none in between. One timer with a shorter period, and "
+        "one message for each tick, spreads them evenly.",
+        lambda beat: (
+            dict.fromkeys(_ticks(min(beat.done), beat.end), beat.done[min(beat.done)])
+            if beat.done[min(beat.done)] > (1,)
+            else {}
+        ),
+    ),
     ("wrong-rate", _COUNT, lambda beat: _ticks(min(beat.done), beat.end)),
 )
 

@@ -213,6 +213,11 @@ class _Walk:
         stands = self.asked is _GREENHOUSE and len(set(self.values[1:_PHASE])) == 1
         return stands and abs(second - first) > 1.0
 
+    def is_mostly_at_a_limit(self) -> bool:
+        """Return whether it is at its ends in every other reading: so wide are its steps."""
+        there = sum(one in {self.top, self.bottom} for one in self.values)
+        return self.widest > 0.5 * (self.top - self.bottom) and 2 * there > len(self.values)
+
     def wraps_round(self) -> bool:
         goals = [(now, self.bottom if is_high else self.top) for is_high, now in self.jumps]
         return bool(goals) and all(abs(now - goal) <= self.near for now, goal in goals)
@@ -330,6 +335,8 @@ _SIGNS = _signs(
      "limit instead: then the walk goes on from there.", _Walk.is_set_back),
     ("jumps", "Most steps are small, and a few are not. Which line changes the temperature, "
      "besides the one that adds a step?", lambda walk: bool(walk.jumps)),
+    ("step-too-wide", "Nearly every step leads from one limit to the other. Steps may be as wide "
+     "as {asked.step:g}, up and down.{asked.aside}", _Walk.is_mostly_at_a_limit),
     ("forgets-itself", "Each reading is drawn anew and does not know the one before. A walk goes "
      "on from where it was: add the step to the old value.",
      lambda walk: walk.widest > 0.5 * (walk.top - walk.bottom)),

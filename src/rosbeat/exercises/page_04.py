@@ -34,7 +34,7 @@ _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 Readings = Sequence[float]
 
 
-def _feed(answer: Answer, readings: Readings) -> Observation:
+def _feed(answer: Answer, readings: Sequence[float | None]) -> Observation:
     sensor = feeder("sensor", _TEMPERATURE, readings)
     return observe(answer, len(readings) + 1, others=[sensor])
 
@@ -57,26 +57,29 @@ def _state(value: float, high: float = 8.0, low: float = 2.0) -> str:
 
 FRIDGE_SUSPECTS = suspects(
     ("boundary", "Exactly 8 and exactly 2 are Fine: above 8 is Warm, below 2 is Frost.",
-     _each(partial(_state, high=7.99)), _each(partial(_state, low=2.01)),
-     _each(partial(_state, high=7.99, low=2.01))),
+     _each(partial(_state, high=7.999)), _each(partial(_state, low=2.001)),
+     _each(partial(_state, high=7.999, low=2.001))),
     ("wrong-state", "These are the monitor's limits. A fridge has limits of its own.",
      _each(partial(_state, high=26.0, low=20.0))),
     ("wrong-state", "Warm and Frost have changed places.",
      _each(lambda value: {"Warm": "Frost", "Frost": "Warm"}.get(_state(value), "Fine"))),
     ("wrong-state", "Whole degrees are too coarse: compare the reading as it comes.",
-     _each(lambda value: _state(int(value)))),
+     _each(lambda value: _state(int(value))), _each(lambda value: _state(round(value)))),
+    ("wrong-state", "It compares the rounded number. Compare the reading as it comes, and round "
+     "only what is shown.", _each(lambda value: _state(round(value, 1))),
+     _each(lambda value: _state(round(value, 2)))),
     ("wrong-state", "It is the state of the reading before. Which comes first, to keep a reading "
      "or to judge it?", lambda fed: _each(_state)([fed[0], *fed[:-1]])),
 )  # fmt: skip
 
 
 def draw_fridge(draw: Draw) -> Readings:
-    """Draw readings beyond each limit, at it, and as near to it as is told apart."""
-    borders = (7.75, 8.0, 8.015625, 7.984375, 2.25, 2.0, 1.984375, 2.015625)
+    """Draw readings beyond each limit, at it and very near to it; one is 0, one comes twice."""
+    borders = (7.75, 8.25, 1.75, 8.0, 8.00390625, 7.99609375, 2.25, 2.0, 1.99609375, 2.00390625)
     return draw.until(
         lambda: draw.shuffled(
             (
-                *(draw.number(5.0, 2.5, 7.5), draw.number(9.5, 8.5, 11.0), 12.5),
+                *(draw.number(5.0, 2.5, 7.5), draw.number(9.5, 8.5, 11.0), 12.5, 12.5, 0.0),
                 *(draw.number(100.0, 27.0, 120.0), *borders, draw.number(-18.0, -25.0, -1.0)),
             )
         ),
@@ -176,8 +179,11 @@ _LIMITS_ARE_FINE = "Publish only if the reading is above 26 or below 20; the lim
 _BOTH_COUNT = "Both above 26 and below 20 count."
 _EACH_ONE = "Each one should, whatever came before it."
 ROOM_SUSPECTS = suspects(
-    ("boundary", _LIMITS_ARE_FINE, _alerts(25.99), _alerts(low=20.01), _alerts(25.99, 20.01),
-     _alerts(25.99, -inf), _alerts(inf, 20.01)),
+    ("boundary", _LIMITS_ARE_FINE, _alerts(25.999), _alerts(low=20.001), _alerts(25.999, 20.001),
+     _alerts(25.999, -inf), _alerts(inf, 20.001)),
+    ("alert-missing", "It compares the rounded number. Compare the reading as it comes.",
+     *(lambda fed, digits=digits: _alerts()([round(one, digits) for one in fed])
+       for digits in (0, 1, 2))),
     ("alert-missing", f"Low readings got no alert. {_BOTH_COUNT}", _alerts(low=-inf)),
     ("alert-missing", f"High readings got no alert. {_BOTH_COUNT}", _alerts(high=inf)),
     ("alert-missing", f"Only the first bad reading got an alert. {_EACH_ONE}",
@@ -191,14 +197,26 @@ ROOM_SUSPECTS = suspects(
 
 
 def draw_room(draw: Draw) -> Readings:
-    """Draw readings just inside of a limit, at it, and just outside."""
+    """Draw readings just inside of a limit, at it, and just outside.
+
+    The first one is bad, one is 0, one comes twice, and one would be fine without its sign.
+    """
     return draw.until(
-        lambda: draw.shuffled(
-            (
-                *(draw.number(22.0, 21.0, 25.0), draw.number(27.5, 26.5, 29.0), 25.5, 26.0),
-                *(26.015625, draw.number(100.0, 40.0, 120.0), 28.25, 20.5, 20.0, 19.984375),
-                *(draw.number(19.75, 15.0, 19.75), draw.number(-5.0, -20.0, 10.0)),
-            )
+        lambda: (
+            draw.number(27.5, 26.5, 29.0),
+            *draw.shuffled(
+                (
+                    *(
+                        draw.number(22.0, 21.0, 25.0),
+                        25.5,
+                        26.0,
+                        0.0,
+                        draw.number(-22.0, -25.0, -21.0),
+                    ),
+                    *(26.00390625, draw.number(100.0, 40.0, 120.0), 28.25, 28.25, 20.5, 20.0),
+                    *(19.99609375, draw.number(19.75, 15.0, 19.75), draw.number(-5.0, -20.0, 10.0)),
+                )
+            ),
         ),
         lambda fed: tells_apart(fed, _alerts(), ROOM_SUSPECTS),
     )
@@ -274,16 +292,16 @@ _OF_THE_MEAN = "Find the status from the reading itself, and not from the mean."
 _NO_STATUS = f"Does the callback come to the line that publishes? {_OF_THE_MEAN}"
 
 
-def _judge_hysteresis(observation: Observation, readings: Readings) -> Verdict:
+def _judge_hysteresis(observation: Observation, seconds: Seconds) -> Verdict:
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or diagnose_unpublished(observation, _MEAN, _BOTH)
-        or _wrong_means(track(observation, _MEAN), readings)
+        or _wrong_means(track(observation, _MEAN), seconds)
         or diagnose_unpublished(observation, _STATUS, _BOTH, _NO_STATUS)
         or diagnose_words(observation, _STATUS, STATUSES)
-        or _wrong_statuses(track(observation, _STATUS), readings)
+        or _wrong_statuses(track(observation, _STATUS), seconds)
         or passed(
-            f"{len(readings)} readings, as many means, "
+            f"{len(_heard(seconds))} readings, as many means, "
             f"{len(samples_on(observation, _STATUS))} changes."
         )
     )
@@ -291,6 +309,13 @@ def _judge_hysteresis(observation: Observation, readings: Readings) -> Verdict:
 
 #: How many readings count.
 _WIDTH = 5
+#: What comes in each second from 1 s on; None where no reading comes.
+Seconds = Sequence[float | None]
+
+
+def _heard(seconds: Seconds) -> dict[int, float]:
+    """Return the readings, by the second in which each comes."""
+    return {second: value for second, value in enumerate(seconds, 1) if value is not None}
 
 
 def _means(width: int = _WIDTH, begin: Readings = (), divisor: int = 0, late: int = 0) -> Model:
@@ -303,13 +328,21 @@ def _means(width: int = _WIDTH, begin: Readings = (), divisor: int = 0, late: in
         late: How many of the newest readings are left out.
     """
 
-    def model(readings: Readings) -> Track:
-        windows = (
-            [*begin, *readings[: second - late]][-width:] for second in range(1, len(readings) + 1)
-        )
-        return numbered(sum(last) / (divisor or len(last) or 1) for last in windows)
+    def model(seconds: Seconds) -> Track:
+        found, window = {}, [*begin]
+        for second, value in _heard(seconds).items():
+            window.append(value)
+            last = window[: len(window) - late][-width:]
+            found[second] = (sum(last) / (divisor or len(last) or 1),)
+        return found
 
     return model
+
+
+def _means_of_five_seconds(seconds: Seconds) -> Track:
+    heard = _heard(seconds)
+    windows = {now: [value for at, value in heard.items() if now - 5 < at <= now] for now in heard}
+    return {now: (sum(last) / len(last),) for now, last in windows.items()}
 
 
 MEAN_SUSPECTS = suspects(
@@ -319,10 +352,12 @@ MEAN_SUSPECTS = suspects(
     ("wrong-window", "While there are fewer than five, divide by how many there are.",
      _means(divisor=5)),
     ("wrong-window", "While there are fewer than five readings, it is the mean of those that are "
-     "there.", lambda fed: {at: mean for at, mean in _means()(fed).items() if at >= _WIDTH}),
+     "there.", lambda fed: dict([*_means()(fed).items()][_WIDTH - 1 :])),
     ("wrong-window", "It is the sum. A mean is divided by how many there are.", _means(divisor=1)),
     ("wrong-window", "The newest reading is not in it. Which comes first, to keep it or to "
      "calculate?", _means(late=1)),
+    ("wrong-window", "It is the mean of the last five seconds. Count readings, not seconds: a "
+     "reading may be missing.", _means_of_five_seconds),
     *(("wrong-window", f"It is the mean of the last {width} readings. The last five count.",
        _means(width)) for width in (2, 3, 4, 6, 7, 8, 10)),
     *(("wrong-window", f"The list begins with five times {value:g}, and these are no readings. "
@@ -330,25 +365,27 @@ MEAN_SUSPECTS = suspects(
 )  # fmt: skip
 
 
-def _wrong_means(done: Track, readings: Readings) -> Diagnosis | None:
+def _wrong_means(done: Track, seconds: Seconds) -> Diagnosis | None:
+    heard = _heard(seconds)
+
     def describe(mismatch: Mismatch) -> Diagnosis:
         if len(mismatch.done) != len(mismatch.right):
             return Diagnosis(
                 "wrong-rate",
-                f"{len(readings)} readings arrived, and {sum(map(len, done.values()))} means "
+                f"{len(heard)} readings arrived, and {sum(map(len, done.values()))} means "
                 f"were published: at {mismatch.at:g} s there were {len(mismatch.done)}, and "
                 f"{len(mismatch.right)} was due.",
                 "Publish one mean for each reading, also while there are fewer than five.",
             )
-        last = [f"{value:g}" for value in readings[: round(mismatch.at)][-6:]]
+        last = [f"{value:g}" for at, value in heard.items() if at <= mismatch.at][-6:]
         return Diagnosis(
             "wrong-window",
-            f"After reading {mismatch.at:g} the mean was {mismatch.done[0]:.3f}; of the last five "
+            f"At {mismatch.at:g} s the mean was {mismatch.done[0]:.3f}; of the last five "
             f"it is {mismatch.right[0]:.3f}. The last readings were {', '.join(last)}.",
             "The sum of the last five, divided by how many they are. Print both to compare.",
         )
 
-    return diagnose(readings, done, _means()(readings), MEAN_SUSPECTS, describe)
+    return diagnose(seconds, done, _means()(seconds), MEAN_SUSPECTS, describe)
 
 
 def _next_status(
@@ -377,9 +414,9 @@ def _statuses(
         compares: Whether only a change is published.
     """
 
-    def model(readings: Readings) -> Track:
+    def model(seconds: Seconds) -> Track:
         status, found = "Normal", {}
-        for second, value in enumerate(readings, 1):
+        for second, value in _heard(seconds).items():
             new = _next_status(status, value, **(limits or {}))
             if new != status or not compares:
                 found[second] = (new,)
@@ -396,8 +433,8 @@ _NOTHING_KEEPS = (
 _ONLY_CHANGES = "Compare the new status with the old one, and publish only a change."
 #: A reading at a limit, and the limit of a node that counts it to the wrong side.
 _AT_A_LIMIT = (
-    *((26, {"high": 25.99}), (20, {"low": 20.01})),
-    *((25, {"back_high": 25.01}), (21, {"back_low": 20.99})),
+    *((26, {"high": 25.999}), (20, {"low": 20.001})),
+    *((25, {"back_high": 25.001}), (21, {"back_low": 20.999})),
 )
 
 
@@ -411,6 +448,11 @@ def _on_the_wrong_side() -> Iterator[tuple[str, str, Model]]:
         yield "boundary", hint, _statuses(limits)
 
 
+def _mean_each_second(seconds: Seconds) -> Seconds:
+    means = _means()(seconds)
+    return [means.get(second, (None,))[0] for second in range(1, len(seconds) + 1)]
+
+
 STATUS_SUSPECTS = suspects(
     ("status-repeated", _NOTHING_KEEPS, _statuses(keeps=False)),
     ("no-hysteresis", _NOTHING_KEEPS, _statuses(keeps=False, compares=False)),
@@ -419,13 +461,12 @@ STATUS_SUSPECTS = suspects(
     ("hysteresis-lost", "From Low, nothing leads back to Normal.", _statuses({"back_low": inf})),
     ("hysteresis-lost", "The two limits of the way back have changed places: 25 belongs to High, "
      "and 21 to Low.", _statuses({"back_high": 21.0, "back_low": 25.0})),
-    ("wrong-state", _OF_THE_MEAN,
-     lambda readings: _statuses()([mean for (mean,) in _means()(readings).values()])),
+    ("wrong-state", _OF_THE_MEAN, lambda seconds: _statuses()(_mean_each_second(seconds))),
 )  # fmt: skip
 
 
-def draw_hysteresis(draw: Draw) -> Readings:
-    """Draw readings at every border of a status, from both sides, and jumps across."""
+def draw_hysteresis(draw: Draw) -> Seconds:
+    """Draw readings at every border of a status, jumps across, and seconds without a reading."""
     far = draw.number
     return draw.until(
         lambda: (
@@ -433,10 +474,10 @@ def draw_hysteresis(draw: Draw) -> Readings:
             *chain.from_iterable(
                 draw.shuffled(
                     (
-                        (25.5, 20.5, 26.0, 26.015625, 25.5, 26.25, 25.0, 24.984375, 25.5),
-                        (20.0, 19.984375, 20.5, 21.0, 21.015625, 20.5),
+                        (25.5, 20.5, 26.0, None, 26.00390625, 25.5, 26.25, 25.0, 24.99609375, 25.5),
+                        (20.0, 19.99609375, 20.5, None, None, 21.0, 21.00390625, 20.5),
                         (far(41.0, 27.0, 50.0), far(-3.5, -9.0, 19.0)),
-                        (far(30.0, 27.0, 50.0), far(23.0, 22.0, 24.5)),
+                        (far(30.0, 27.0, 50.0), far(23.0, 22.0, 24.5), 0.0, 0.0, 23.5),
                         (far(19.0, -9.0, 19.5), far(25.5, 22.0, 25.5)),
                         (far(27.0, 26.5, 50.0), far(20.5, 20.5, 24.5)),
                     )
@@ -450,14 +491,14 @@ def draw_hysteresis(draw: Draw) -> Readings:
     )
 
 
-def _wrong_statuses(done: Track, readings: Readings) -> Diagnosis | None:
-    right = _statuses()(readings)
+def _wrong_statuses(done: Track, seconds: Seconds) -> Diagnosis | None:
+    heard, right = _heard(seconds), _statuses()(seconds)
 
     def describe(mismatch: Mismatch) -> Diagnosis:
         at = mismatch.at
         before = [("Normal",), *(right[second] for second in sorted(right) if second < at)][-1][0]
-        value = readings[max(0, min(len(readings), int(at)) - 1)]
-        after = f"after a reading of {value:g}" if at >= 1 else "before the first reading"
+        values = [value for second, value in heard.items() if second <= at]
+        after = f"after a reading of {values[-1]:g}" if values else "before the first reading"
         said, due = (" and ".join(one) or "nothing" for one in (mismatch.done, mismatch.right))
         evidence = (
             f"The status was {before}. At {at:g} s, {after}, {said} was published, and {due} was "
@@ -465,7 +506,7 @@ def _wrong_statuses(done: Track, readings: Readings) -> Diagnosis | None:
         )
         return _unmodelled(before, mismatch.done, mismatch.right, evidence)
 
-    return diagnose(readings, done, right, STATUS_SUSPECTS, describe)
+    return diagnose(seconds, done, right, STATUS_SUSPECTS, describe)
 
 
 def _unmodelled(before: str, done: Sequence[str], right: Sequence[str], evidence: str) -> Diagnosis:

@@ -308,6 +308,10 @@ class Tuning(NamedTuple):
     changes: tuple[tuple[int, str, float], ...]
 
 
+#: As far from a limit as two decimals do not show.
+_JUST = 1 / 256
+
+
 def draw_tuning(draw: Draw) -> Tuning:
     """Draw readings, at each limit and beside it, and limits, of which two are no whole numbers."""
     return draw.until(
@@ -320,14 +324,14 @@ def _tuning(draw: Draw) -> Tuning:
     lowest, highest = draw.whole(10, 5, 14), draw.whole(30, 29, 40)
     far, near = partial(draw.number, step=0.25), draw.number(23.0, 22.75, 24.0)
     parts = (
-        ((), (near, 26.0, 26.25, 20.0, 19.75, 25.5, 20.5, far(25.0, 24.0, 25.75))),
-        ((("high", high),), (high + 0.5, high, high + 0.25, far(21.0, 20.0, 22.0))),
-        ((("low", low),), (low - 0.5, low, near, low - 0.25)),
+        ((), (near, 26.0, 26.0 + _JUST, 20.0, 20.0 - _JUST, 25.5, far(25.0, 24.0, 25.75), 0.0)),
+        ((("high", high),), (high + 0.5, high, high + _JUST, far(21.0, 20.0, 22.0))),
+        ((("low", low),), (low - 0.5, low, near, low - _JUST)),
         (
             (("low", float(lowest)), ("high", float(highest))),
             (
-                *(far(28.0, 26.5, 28.75), far(15.0, 14.25, 19.5), float(highest), highest + 0.25),
-                *(float(lowest), lowest - 0.25),
+                *(far(28.0, 26.5, 28.75), far(15.0, 14.25, 19.5), float(highest), highest + _JUST),
+                *(float(lowest), lowest - _JUST, far(-22.0, -25.0, -20.0)),
             ),
         ),
     )

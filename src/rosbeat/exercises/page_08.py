@@ -331,15 +331,15 @@ _ROOMY = QoS("BEST_EFFORT", depth=2 * _COUNT)
 
 
 def draw_sensors(draw: Draw) -> Sensors:
-    """Draw readings: no number twice, and none follows from another.
+    """Draw readings, some of them below 0: no number twice, and none follows from another.
 
     A float32 holds each of them exactly.
     """
     numbers = range(_COUNT)
     new = tuple(20.0 + number * number % 61 / 8 for number in numbers)
-    old = tuple(40.0 + number / 8 for number in numbers)
+    old = tuple((number - 10) / 8 for number in numbers)
     if not draw.is_page:
-        drawn = [10.0 + number / 8 for number in draw.shuffled(range(400))]
+        drawn = [number / 8 for number in draw.shuffled(range(-200, 200))]
         new, old = tuple(drawn[:_COUNT]), tuple(drawn[_COUNT : 2 * _COUNT])
     return Sensors(new, old, draw.number(5.5, 2.5, 10.5, 1.0))
 
@@ -497,7 +497,8 @@ def _silences(draw: Draw) -> Silences:
 
 def _run_watchdog(answer: Answer, fed: Silences) -> Observation:
     qos = QoS(deadline_ns=round(LIMIT * NANOSECONDS))
-    readings = [(at, 21.5) for at in fed.times]
+    # What a reading says does not matter, 0 neither: in Python it counts as false.
+    readings = [(at, 0.0 if number > 2 else 21.5) for number, at in enumerate(fed.times)]
     return observe(answer, fed.end, steps=publishing(_TEMPERATURE, readings, qos))
 
 

@@ -7,7 +7,7 @@ from bisect import bisect_right, insort
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import accumulate, pairwise
+from itertools import accumulate, cycle, pairwise
 from typing import Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import Diagnosis
@@ -84,7 +84,8 @@ def _readings(draw: Draw) -> Readings:
 
 
 def _run_with_silences(answer: Answer, readings: Readings) -> Observation:
-    steps = publishing(_TEMPERATURE, [(at, 22.0) for at in readings])
+    # What a reading says does not matter, 0 neither: in Python it counts as false.
+    steps = publishing(_TEMPERATURE, zip(readings, cycle((0.0, 22.0, 22.0)), strict=False))
     return observe(answer, readings[-1] + _REST, steps=steps)
 
 
@@ -221,7 +222,7 @@ class Work(NamedTuple):
 
 
 def draw_work(draw: Draw) -> Work:
-    """Draw orders: one after another, and two while two others wait.
+    """Draw orders: one after another, two while two others wait, and one more while some wait.
 
     A test for "no order" must not take the number 0 for none. Work begins at half a second past a
     full one: so a node that counts halves is in time.
@@ -235,11 +236,11 @@ def draw_work(draw: Draw) -> Work:
 
 
 def _orders(draw: Draw) -> Work:
-    one, *others = (7, 12, 5, 9) if draw.is_page else draw.shuffled(range(1, 100))[:4]
+    one, *others = (7, 12, 5, 9, 4) if draw.is_page else draw.shuffled(range(1, 100))[:5]
     first = draw.number(2.5, 2.5, 7.5, 1.0)
     second = first + draw.whole(7, 4, 12)
     third = second + draw.one_of(2.25, 0.25, 0.75, 1.25, 1.75)
-    times = (first, second, second, third, third)
+    times = (first, second, second, third, third, second + 7.25)
     return Work(tuple(zip(times, (one, 0, *others), strict=True)), second + 19.5)
 
 
@@ -344,6 +345,20 @@ def _independent(fed: Work) -> Track:
     return _by_report([(at + fed.each, number) for at, number in fed.orders], fed)
 
 
+def _started_by_orders(fed: Work) -> Track:
+    """Return the reports of a worker that goes on only when another order comes."""
+    reports: list[tuple[float, int]] = []
+    waiting: list[int] = []
+    due = 0.0
+    for at, order in (*fed.orders, (fed.end, 0)):
+        if due and due <= at:
+            reports.append((due, waiting.pop(0)))
+            due = 0.0
+        waiting.append(order)
+        due = due or at + fed.each
+    return _by_report(reports, fed)
+
+
 def _free_running(fed: Work) -> Track:
     """Return the reports of a timer that runs from the beginning."""
     reports, waiting = [], list(fed.orders)
@@ -375,6 +390,8 @@ WORK_SUSPECTS = suspects(
      _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
     ("order-lost", f"Only the newest order is kept. {_WAITS}",
      _worker(put=lambda waiting, order: waiting.__setitem__(slice(None), [order]))),
+    ("order-lost", "The next work begins only when another order comes. When one order is done, "
+     "look whether another one waits.", _started_by_orders),
     ("order-lost", f"No order could wait. {_WAITS}", _worker(_keep(1))),
     ("order-lost", f"Only one order could wait. {_WAITS}", _worker(_keep(2))),
     ("order-lost", f"Only two orders could wait. {_WAITS}", _worker(_keep(3))),
@@ -442,6 +459,9 @@ def _first_report(mismatch: Mismatch, reports: Track, evidence: str, fed: Work) 
     numbers = [number for number, _ in reports.values()]
     if done and (done[0] not in [number for _, number in fed.orders] or done[1] < 0):
         return Diagnosis("wrong-values", evidence, "What was ordered is what gets done.")
+    before = reports.get(mismatch.at - 1)
+    if done and before and done[1] == 0 and done[0] != before[0]:
+        return Diagnosis("work-at-once", evidence, _ONE_AT_A_TIME)
     if done and numbers.count(done[0]) > 1:
         hint = "A timer calls again and again until it is stopped."
         return Diagnosis("done-twice", evidence, hint)
@@ -489,6 +509,10 @@ class Place:
 Places = tuple[Place, Place, Place]
 
 
+#: As far from a limit as two decimals do not show; a float32 holds it beside each of them.
+_JUST = 1 / 256
+
+
 def draw_places(draw: Draw) -> Places:
     """Draw places; all limits of the first one are the defaults, and one of the last."""
     return draw.until(
@@ -501,8 +525,9 @@ def _places(draw: Draw) -> Places:
     # float32 holds each of the numbers at a limit exactly.
     number = partial(draw.number, step=0.5)
     readings = (
-        *(number(22.0, 20.5, 25.0), number(27.5, 26.5, 29.0), 26.0, 26.015625, 25.5, 20.0),
-        *(19.984375, number(12.5, -5.0, 19.0), 20.5, number(55.0, 30.0, 90.0)),
+        *(number(22.0, 20.5, 25.0), number(27.5, 26.5, 29.0), 26.0, 26.0 + _JUST, 25.5, 20.0),
+        *(20.0 - _JUST, number(12.5, 1.0, 19.0), 20.5, number(55.0, 30.0, 90.0)),
+        *(0.0, number(-7.5, -9.0, -1.0)),
     )
     home = Place("", "/reading", "/status", draw.shuffled(readings))
 
@@ -515,8 +540,8 @@ def _places(draw: Draw) -> Places:
         f"/{space}/status",
         draw.shuffled(
             (
-                *(number(55.0, 51.0, 66.0), high + 2.5, high, high + 0.015625, low),
-                *(low - 0.015625, number(22.0, 20.5, 25.5), number(27.5, 26.5, 37.0)),
+                *(number(55.0, 51.0, 66.0), high + 2.5, high, high, high + _JUST, low, 0.0),
+                *(low - _JUST, number(22.0, 20.5, 25.5), number(27.5, 26.5, 37.0)),
                 *(number(65.5, 51.0, 66.0), number(30.5, 27.0, 37.0)),
             )
         ),
@@ -536,9 +561,9 @@ def _places(draw: Draw) -> Places:
         f"/{space}/{topic}",
         draw.shuffled(
             (
-                *(number(300.0, 100.0, 450.0), high + 10.5, high, 19.5, 20.0),
+                *(number(300.0, 100.0, 450.0), high + 10.5, high, 19.5, 20.0, 20.0),
                 *(number(27.5, 26.5, 37.0), number(65.5, 51.0, 66.0), number(12.0, -5.0, 19.0)),
-                *(high + 100.5, number(400.0, 100.0, 450.0)),
+                *(high + 100.5, number(400.0, 100.0, 450.0), 0.0),
             )
         ),
         LOW,

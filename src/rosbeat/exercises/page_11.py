@@ -71,7 +71,7 @@ _STATUS = ((3, "Normal"), (9.5, "Low"), (10.5, "High"), (11.5, "Normal"))
 
 
 def draw_readings(draw: Draw) -> Sequence[_Readings]:
-    """Draw recordings in which no number is the same as another by chance.
+    """Draw recordings in which no number is the same as another by chance; one comes twice.
 
     On the page, the longest gap lies at the beginning, in the middle, at the end, and beside a NaN.
     NaN stands at the beginning, in the middle and at the end. One reading is 0 whatever is drawn:
@@ -81,16 +81,18 @@ def draw_readings(draw: Draw) -> Sequence[_Readings]:
     def recording(first: float, gaps: Sequence[float], values: Sequence[float]) -> _Readings:
         longer = draw.one_of(1, 1.5, 2, 2.5, 3)
         times = accumulate((gap * longer for gap in draw.shuffled(gaps)), initial=first)
-        numbers = (
-            draw.number(value, -9.0, 40.0) if value and not isnan(value) else value
-            for value in values
-        )
+        drawn = {
+            value: draw.number(value, -9.0, 40.0)
+            for value in dict.fromkeys(values)
+            if value and not isnan(value)
+        }
+        numbers = (drawn.get(value, value) for value in values)
         return tuple(zip(times, numbers, strict=True))
 
     return draw.until(
         lambda: draw.shuffled(
             (
-                recording(3, (4.5, 1, 1.5, 1), (21.0, 21.5, 22.25, 24.0, 22.0)),
+                recording(3, (4.5, 1, 1.5, 1), (21.0, 21.5, 21.0, 24.0, 22.0)),
                 recording(1, (1, 1, 6, 1, 2.5, 1.5), (nan, 20.0, 19.5, nan, 18.25, 18.0, 20.75)),
                 recording(10, (0.5, 3.5, 1.25), (25.5, 0.0, 30.0, nan)),
                 recording(2, (0.75,), (-4.0, 2.5)),
@@ -192,6 +194,8 @@ ASKED: dict[str, tuple[Callable[[_Readings], float], tuple[Suspect, ...]]] = {
          lambda r: sum(value for _, value in r) / len(r)),
         ("wrong-share", "What is left out of the sum is left out of the count as well.",
          lambda r: sum(_numbers(r)) / len(r)),
+        ("other-mean", "A reading that comes twice counts twice, and a set holds each only once.",
+         lambda r: sum(set(_numbers(r))) / len(set(_numbers(r)))),
         ("other-mean", _PLAIN,
          lambda r: median(_numbers(r)),
          lambda r: sum(_numbers(r)),
@@ -708,9 +712,12 @@ _OFF = 2.609375
 _NEARLY = 0.6875
 
 
-def _pair(offsets: Sequence[float], seed: int, start: float = 22.0) -> tuple[Sample, ...]:
+def _pair(
+    offsets: Sequence[float], seed: int, start: float = 22.0, moves: bool = True
+) -> tuple[Sample, ...]:
     """Return two sensors: one reads what the other does, and so much more, with some noise."""
     dice, truth = Random(seed), _walk(seed, len(offsets), start)
+    truth = truth if moves else [start] * len(offsets)
     values = [a + b + dice.choice((-0.25, 0.25)) for a, b in zip(truth, offsets, strict=True)]
     return _column(truth, "/reference", first=0.5) + _column(values)
 
@@ -764,6 +771,10 @@ def draw_two(draw: Draw) -> Sequence[Recording]:
                     bags.with_nan(18, 2, topic="/temperature"),
                     bags.with_nan(20.5, topic="/reference"),
                 ),
+            ),
+            Recording(
+                "a sensor that drifts in ice water, where the reference is 0",
+                _pair(_episodes((0, lasts(12)), (_OFF, 14)), whole(3, 1, 10**6), 0.0, moves=False),
             ),
             Recording(
                 "a sensor that is wrong from the beginning, and a reference that comes late",

@@ -645,7 +645,7 @@ def _pump_believes(spans: _Spans, dry: float, react: float) -> Diagnosis | None:
 
 def _report_believes(seen: Observation, days: Weather) -> Diagnosis | None:
     every, day = days.numbers["report_seconds"], days.broken.temperature
-    least, most = days.air.cold - 1, days.air.hot + 1
+    least, most = days.air.cold - 2, days.air.hot + 1
     possible = [one if one is not None and least <= one <= most else None for one in day]
     for time, value in _said(seen, "/report"):
         # A mean of no readings is left open, and so it is if only some right windows are empty.
@@ -732,7 +732,11 @@ REPORTERS = _reporters(
 
 def _judge_reports(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R6: a mean, so often, of so many seconds."""
-    return _silent(trials.plain, "/report") or _wrong_reports(trials, days)
+    return (
+        _silent(trials.plain, "/report")
+        or _wrong_reports(trials, days)
+        or _reports_of_old_readings(trials, days)
+    )
 
 
 def _wrong_reports(trials: Trials, days: Weather) -> Diagnosis | None:
@@ -758,6 +762,33 @@ def _wrong_reports(trials: Trials, days: Weather) -> Diagnosis | None:
         otherwise = Diagnosis("wrong-window", evidence, hint)
         return name_mistake(matching(fed, done, REPORTERS, is_near), otherwise)
     return None
+
+
+def _reports_of_old_readings(trials: Trials, days: Weather) -> Diagnosis | None:
+    """Name the first report after a silence that has readings from before the silence in it."""
+    seen, every = trials.runs.get(BROKEN), days.numbers["report_seconds"]
+    for time, value in _said(seen, "/report") if seen else ():
+        begins = max((at for at in _returns(days.broken) if at <= time), default=-inf)
+        heard = [_between(days.broken.temperature, time - a, time - b) for a, b in _windows(every)]
+        # Only while fewer readings came than in as many seconds of a sensor that works.
+        if time - begins >= every - 2 or not all(heard):
+            continue
+        means = list(map(_mean, heard))
+        if not min(means) - _NEAR <= value <= max(means) + _NEAR:
+            return Diagnosis(
+                "wrong-window",
+                f"The temperature was silent until {_stamp(begins)}. The report at {_stamp(time)} "
+                f"said {float(value):.2f}; the mean of the last {every:g} s was {means[0]:.2f}.",
+                f"How many readings come in {every:g} s depends on the sensor. What tells the node "
+                "how old a reading is?",
+            )
+    return None
+
+
+def _returns(day: Day) -> list[int]:
+    """Return when the temperature came back after a silence, in seconds."""
+    pairs = enumerate(pairwise(day.temperature), 2)
+    return [at for at, (before, now) in pairs if before is None and now is not None]
 
 
 #: How far a mean may be away, because a float32 is rounded.
