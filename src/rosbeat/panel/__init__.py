@@ -1,11 +1,33 @@
-"""The instrument panel: a live session on a page, with controls.
+"""Show a live session on a page, with controls to disturb it.
 
-`ros.panel()` opens it. It looks at the session 20 times a second, whatever the nodes do, and sends
-the browser what has changed; the session records everything in the meantime.
+`ros.panel()` opens it. It is a widget on anywidget: Python here, one JavaScript and one CSS file
+beside it, nothing from the network.
 
 - `instruments` asks a session what happens and acts on it; nothing else here knows ROS;
 - `sampling` turns a session into frames, `traffic` decides when one may be sent;
-- `layout` places the graph as the pictures of `rosbeat.viz` do;
+- `layout` places the graph as the pictures of `rosbeat.viz` do, `charts` draws values;
 - `orders` understands what comes from the browser;
-- `panel` holds it together; `widget` and the two files beside it are what the browser runs.
+- `panel` holds it together; `widget` and the two files beside it are what the browser runs;
+- `still` is the picture that stands where no browser is.
+
+How it works, and why:
+
+- **It looks, the session records.** A thread looks at the session 20 times a second, whatever
+  the nodes do. A look asks the recorder for what came since the last one, which costs the same
+  for one message as for a thousand, and draws at most one point of each publisher.
+- **Frames wait for answers.** The browser acknowledges what it has received. A tab that sleeps
+  says nothing: after six frames one more is tried now and then, ever more seldom, and the first
+  frame after the sleep holds all that was missed. A browser that misses one asks for a whole
+  one.
+- **Clicks run in a thread of their own.** JupyterLab sends them to a subshell of the kernel, so
+  they count while a cell runs (`widget` says what that takes).
+- **What the panel does is real.** Its slider publishes through a node in the graph,
+  `/instrument_panel`; a fault sits between a node and its publisher, before the recording; a
+  load is a slow callback in the same executor. Closing takes all of it away.
+- **A picture where no browser is.** While pages are built and tested (`ROSBEAT_STEADY_HOME`),
+  and in a terminal, the panel is the picture of the graph and its words. In JupyterLab that
+  picture takes the widget's place when its session closes.
+
+`./environment/course test tests/browser` clicks through it in a real Chromium (`ROSBEAT_BROWSER`
+names one, `ROSBEAT_SCREENSHOTS` a folder for pictures).
 """

@@ -9,6 +9,23 @@ import matplotlib; that happens when a picture is asked for the first time (PEP 
 - `queue` shows a subscription's queue filling, emptying and dropping;
 - `crossing` shows which messages went from one process to another, and which were lost;
 - `differences` shows two runs over each other, and what only one of them has.
+
+There is one file for each kind of picture, with its words at the end. `theme` is the only place
+that names colours, `canvas` has what all pictures are made of, and `layout` places the boxes of
+a graph.
+
+- **Words first.** A picture's plain-text form is its description. Terminals print it, screen
+  readers read it as the image's `alt`, and page tests compare it, since the bytes of an image
+  depend on the version of matplotlib.
+- **Light and dark.** A figure is drawn once, in the colours for a light page. On a page it is an
+  SVG in which each colour is a variable with a second value for dark pages (`theme.DARK`). The
+  browser chooses by the `color-scheme` that JupyterLab sets with its theme. Saved files are
+  light.
+- **Why the layout is our own.** The frame around the nodes of one process must hold these nodes
+  and nothing else, notes stand on arrows, boxes have sizes, and a graph that is too wide runs
+  down. networkx places boxes in layers, but does not minimize crossings and knows no sizes;
+  grandalf has Sugiyama's layers with sizes, and no frames, and would replace about 120 lines of
+  480. Graphviz has clusters, and is a program to install.
 """
 
 from __future__ import annotations

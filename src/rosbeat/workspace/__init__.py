@@ -1,6 +1,6 @@
-"""The learner's workspace: terminals, packages, and the files that cells become. No rclpy here.
+"""Manage the learner's workspace: terminals, packages, and the files that cells become.
 
-On a page::
+Nothing here imports rclpy: what runs in a terminal is another process. On a page::
 
     from rosbeat import workspace
 
@@ -8,7 +8,47 @@ On a page::
     workspace.terminal("sensor")    # the terminal of that name
     workspace.folder()              # where the workspace lies
 
-Importing it inside IPython makes the commands `%%terminal`, `%terminal` and `%%save` known.
+Importing it inside IPython registers `%%terminal`, `%terminal` and `%%save`.
+
+- `magics`, `saving_magic`: the three commands, with their options.
+- `terminals/`: `shell` (a bash on a pseudo-terminal, and the thread that reads it), `terminal`
+  (what a page does with one), `output` (from characters to lines, and what is shown of them),
+  `refusals` (commands that are not typed), `environment`, `registry` and `reaper` (what ends all
+  processes).
+- `saving`: a text becomes a file, and the version before is kept.
+- `catching_up`: makes what earlier pages leave, where it is missing.
+- `packages`, `setup_script`: what the files of a package say.
+- `meanings`: collects the evidence that `diagnosis.terminal` explains a failed command with.
+- `place`, `graded_runs`: where the workspace is; a page that nbgrader runs.
+
+How it works, and why:
+
+- **ptyprocess, and a thread that reads.** A node that runs on must never be held up by a full
+  buffer, and pexpect reads only while somebody expects something. The prompt carries an OSC
+  escape sequence with the exit code and the folder, so the end of a command is told and never
+  guessed; bash's second prompt carries one that says that it wants more lines.
+- **Lines, not a screen.** pyte emulates a screen of a fixed width at 0.2 MB/s, where `output`
+  reads 68 MB/s on the same machine, and it would wrap long lines. A page follows only what
+  repaints one line. Programs that need a whole screen, such as `vim` and `less`, are refused by
+  name.
+- **Watching is not running.** `--until`, `--for` and the deadline end the watching, and so does
+  an interrupt of the cell. Only `--ctrl-c`, `--kill` and `--close` end a program.
+- **Remarks of the course begin with `#`**: exit codes, what they mean, and which program still
+  runs. A cell with a blank `____` is not typed, and neither is `colcon build` outside of the
+  workspace, which would crawl whatever folder the terminal is in.
+- **Nothing outlives the kernel.** Each process of a terminal has the kernel's mark in its
+  environment. A watcher (`reaper`) holds a pipe from the kernel; when that closes, for whatever
+  reason, it ends every process with the mark, daemons too.
+- **Outputs that can be compared.** Where pages are built and tested, `ROSBEAT_STEADY_HOME` names
+  an empty folder: it is the terminals' home and holds the workspace. It is shown as `/home/you`,
+  ROS prints no time stamps there, and colcon's timings read 0.00 s.
+- **Files are never lost.** `%%save` writes in one step and keeps the version before in `kept/`.
+  `catch_up` changes nothing that is there, with one exception: an empty list of entry points
+  gets its entries, and the file as it was is kept.
+- **A build script is run only if it calculates.** The literals of a `setup.py` come from its
+  syntax tree. Anything else is found by running it in a subprocess, with a deadline of 10 s, in
+  the learner's workspace, where `colcon build` runs it too. `package.xml` is read without
+  entities.
 """
 
 from __future__ import annotations
