@@ -346,7 +346,8 @@ _BEATS = suspects(
     ),
     (
         "gone-quiet",
-        "Something ends the beat. Does the callback cancel its timer, or shut ROS down?",
+        "Something ends the beat. Does the callback cancel its timer, or shut ROS down, or is a "
+        "condition never true again?",
         lambda beat: dict(list(beat.right.items())[: len(beat.done)]),
     ),
     (

@@ -183,7 +183,10 @@ ROOM_SUSPECTS = suspects(
      _alerts(25.999, -inf), _alerts(inf, 20.001)),
     ("alert-missing", "It compares the rounded number. Compare the reading as it comes.",
      *(lambda fed, digits=digits: _alerts()([round(one, digits) for one in fed])
-       for digits in (0, 1, 2))),
+       for digits in (0, 1, 2)), lambda fed: _alerts()([int(one) for one in fed])),
+    ("alert-too-many", "The readings that are fine get the alerts. Which side of your condition "
+     "are they on?", lambda fed: {at: ("alert",) for at in range(1, len(fed) + 1)
+                                  if at not in _alerts()(fed)}),
     ("alert-missing", f"Low readings got no alert. {_BOTH_COUNT}", _alerts(low=-inf)),
     ("alert-missing", f"High readings got no alert. {_BOTH_COUNT}", _alerts(high=inf)),
     ("alert-missing", f"Only the first bad reading got an alert. {_EACH_ONE}",

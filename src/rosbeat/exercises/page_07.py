@@ -334,6 +334,9 @@ def _tuning(draw: Draw) -> Tuning:
                 *(float(lowest), lowest - _JUST, far(-22.0, -25.0, -20.0)),
             ),
         ),
+        # A limit of 0 is a limit: in Python it counts as false.
+        ((("low", 0.0), ("high", 8.0)), (far(4.0, 1.0, 7.0), -1.0, 0.0, 8.0 + _JUST)),
+        ((("low", -8.0), ("high", 0.0)), (far(-4.0, -7.0, -1.0), 1.0, 0.0, -8.0 - _JUST)),
     )
     readings: list[float] = []
     changes: list[tuple[int, str, float]] = []

@@ -531,39 +531,40 @@ def _places(draw: Draw) -> Places:
     )
     home = Place("", "/reading", "/status", draw.shuffled(readings))
 
-    low, high = number(40.0, 38.0, 50.0), number(70.0, 67.0, 80.0)
-    space = draw.one_of("greenhouse", "cellar", "attic", "bathroom", "barn")
-    name, topic, unit = draw.one_of(("humidity", "humidity", "%"), ("soil", "moisture", "pct"))
-    greenhouse = Place(
+    # A limit of 0 is a limit, though Python counts it as false; and a unit calculates nothing.
+    low, high = draw.one_of(0.0, -6.5, 5.5), number(34.0, 30.0, 38.0)
+    space = draw.one_of("freezer", "cellar", "attic", "barn")
+    name, topic = draw.one_of(("frost", "frost"), ("cold", "air"))
+    freezer = Place(
         f"/{space}/{name}_monitor",
         f"/{space}/{topic}",
         f"/{space}/status",
         draw.shuffled(
             (
-                *(number(55.0, 51.0, 66.0), high + 2.5, high, high, high + _JUST, low, 0.0),
-                *(low - _JUST, number(22.0, 20.5, 25.5), number(27.5, 26.5, 37.0)),
-                *(number(65.5, 51.0, 66.0), number(30.5, 27.0, 37.0)),
+                *(number(12.0, 9.0, 19.0), high + 2.5, high, high, high + _JUST, low),
+                *(low - _JUST, number(22.0, 20.5, 25.5), number(27.5, 26.5, 29.5)),
+                *(number(15.5, 9.0, 19.0), -12.5, number(7.5, 6.0, 8.5)),
             )
         ),
         low,
         high,
-        unit,
+        "F",
         (("reading", topic),),
-        (("low", low), ("high", high), ("unit", unit)),
+        (("low", low), ("high", high), ("unit", "F")),
     )
 
-    high = number(800.0, 500.0, 1000.0)
-    space = draw.one_of("porch", "garage", "street", "garden", "roof")
-    topic, unit = draw.one_of(("light", "lx"), ("noise", "dB"), ("dust", "ug"))
-    porch = Place(
+    high = number(70.0, 67.0, 80.0)
+    space = draw.one_of("greenhouse", "garage", "street", "garden", "bathroom")
+    topic, unit = draw.one_of(("humidity", "%"), ("noise", "dB"), ("dust", "ug"))
+    greenhouse = Place(
         f"/{space}/{topic}_monitor",
         f"/{space}/reading",
         f"/{space}/{topic}",
         draw.shuffled(
             (
-                *(number(300.0, 100.0, 450.0), high + 10.5, high, 19.5, 20.0, 20.0),
-                *(number(27.5, 26.5, 37.0), number(65.5, 51.0, 66.0), number(12.0, -5.0, 19.0)),
-                *(high + 100.5, number(400.0, 100.0, 450.0), 0.0),
+                *(number(55.0, 51.0, 66.0), high + 10.5, high, 19.5, 20.0, 20.0),
+                *(number(27.5, 26.5, 37.0), number(65.5, 51.0, 66.0), number(12.0, 1.0, 19.0)),
+                *(high + 2.5, number(42.0, 40.0, 50.0), 0.0),
             )
         ),
         LOW,
@@ -572,7 +573,7 @@ def _places(draw: Draw) -> Places:
         (("status", topic),),
         (("high", high), ("unit", unit)),
     )
-    return home, greenhouse, porch
+    return home, freezer, greenhouse
 
 
 _PARAMETERS = {"low": LOW, "high": HIGH, "unit": UNIT}

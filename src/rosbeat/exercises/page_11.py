@@ -748,7 +748,10 @@ def draw_two(draw: Draw) -> Sequence[Recording]:
             Recording(
                 "a sensor that drifts",
                 _pair(_episodes((0, 35)), whole(2, 1, 10**6)),
-                (bags.drift(0.125, at=whole(14, 12, 17), topic="/temperature"),),
+                (
+                    bags.drift(0.125, at=whole(14, 12, 17), topic="/temperature"),
+                    bags.dropouts(0.4, seed=whole(5, 1, 10**6), topic="/reference"),
+                ),
             ),
             Recording(
                 "a drift that comes, goes and comes again",
@@ -756,7 +759,7 @@ def draw_two(draw: Draw) -> Sequence[Recording]:
                     _episodes(
                         *((0, lasts(12)), (_OFF, lasts(14)), (_NEARLY, lasts(14))),
                         *((_OFF, lasts(14)), (0, lasts(14)), (-_OFF, lasts(14)), (0, lasts(12))),
-                        (_OFF, 14),
+                        *((_OFF, 14), (-60, 1), (-_OFF, 5)),
                     ),
                     whole(6, 1, 10**6),
                 ),

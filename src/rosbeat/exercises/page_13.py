@@ -379,6 +379,15 @@ def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Di
             hint = "Go through your conditions in their order with this temperature."
             found = found or matching(held, {0: (done,)}, VENTS)
             return name_mistake(found, Diagnosis(UNKNOWN, evidence, hint))
+        moves = [time for time in commands if begins <= time < ends]
+        if len(moves) > 1:
+            return Diagnosis(
+                "wrong-state",
+                f"From {_stamp(begins)} on the temperature was {held.value:g}, and the vent moved "
+                f"at {' and '.join(map(_stamp, moves))}.",
+                "The second of two equal temperatures changes nothing. Which line moves the vent, "
+                "and does it look at how the vent stands?",
+            )
     return None
 
 

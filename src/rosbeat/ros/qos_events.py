@@ -67,8 +67,13 @@ def make_stretched(
     place = _PLACES.get(kind, len(args))
     given = args[place] if place < len(args) else kwargs.get("qos_profile")
     known = kind in _PLACES and isinstance(given, QoSProfile)
-    if not known or not any(limit_ns(getattr(given, name)) for name in _LIMITS):
+    if not known:
         return make(*args, **kwargs)
+    if not any(limit_ns(getattr(given, name)) for name in _LIMITS):
+        made = make(*args, **kwargs)
+        # The middleware reads a profile once; what is assigned to it afterwards changes nothing.
+        made.qos_profile = _copied(made.qos_profile)
+        return made
     longer = _stretched(given)
     if place < len(args):
         made = make(*args[:place], longer, *args[place + 1 :], **kwargs)
@@ -87,12 +92,18 @@ def as_written(infos: list[Any]) -> list[Any]:
 
 def _stretched(profile: QoSProfile) -> QoSProfile:
     """Return a copy with longer limits, for the middleware."""
-    given = {slot[1:]: getattr(profile, slot) for slot in QoSProfile.__slots__}
+    longer = {}
     for name in _LIMITS:
-        limit = limit_ns(given[name])
+        limit = limit_ns(getattr(profile, name))
         if limit:
-            given[name] = Duration(nanoseconds=STRETCH + min(limit, _MOST))
-    return QoSProfile(**given)
+            longer[name] = Duration(nanoseconds=STRETCH + min(limit, _MOST))
+    return _copied(profile, **longer)
+
+
+def _copied(profile: QoSProfile, **other: Duration) -> QoSProfile:
+    """Return a copy of a profile, with some policies replaced."""
+    given = {slot[1:]: getattr(profile, slot) for slot in QoSProfile.__slots__}
+    return QoSProfile(**given | other)
 
 
 def _shortened(profile: QoSProfile) -> QoSProfile:

@@ -262,10 +262,13 @@ _BUS = """
             self.create_timer(10.0, self.mean)
 
         def temperature(self, value):
-            self.last = [*self.last, value][-10:]
+            self.last.append((self.get_clock().now(), value))
 
         def mean(self):
-            self.say(sum(self.last) / len(self.last))
+            now = self.get_clock().now()
+            last = [value for at, value in self.last if (now - at).nanoseconds < 10e9]
+            if last:
+                self.say(sum(last) / len(last))
 
     greenhouse = [Gate, Vent, Pump, Alarm, Report]
 """

@@ -157,7 +157,7 @@ _A_GREENHOUSE = (
     _greenhouse("the median", ((_MEAN, "sorted(self.values)[len(self.values) // 2]"),),
                 "wrong-window", "R6"),
     _greenhouse("divided by ten in any case", ((_MEAN, "sum(self.values) / 10"),),
-                "wrong-window", "R5"),
+                "wrong-window", "R6"),
     _greenhouse("the mean since the start",
                 ((_EMPTY, _EMPTY.replace("        self.values = []\n", "")),),
                 "wrong-window", "R6"),

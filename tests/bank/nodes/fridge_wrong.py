@@ -112,7 +112,7 @@ ANSWERS = (
     _wrong("a name that is not there", "wrong-attribute",
             (", self.temperature_callback", ", self.callback")),
     # Pairs.
-    _either("a limit and the words", ("boundary", "wrong-state"),
+    _either("a limit and the words", ("boundary", "wrong-state", "wrong-word"),
             ("temp > 8.0", "temp >= 8.0"), ('"Frost"', '"Low"')),
     _either("topic and type", ("topic-misspelled", "type-mismatch"),
             ('Float32, "temperature"', 'String, "temprature"')),
