@@ -330,7 +330,7 @@ def plain_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     cold, pause = some.cold, n["pump_seconds"] + n["rest_seconds"]
     day.hold(2 + next(more), cold, WET, "pumping")
     still = react + 1 + next(more)
-    while seed != PAGE and _is_right_by_chance(day.seconds + still, n["pump_seconds"]):
+    while _is_right_by_chance(day.seconds + still, n["pump_seconds"]):
         still += 1
     day.hold(still, cold + 1, at_limit, "at the limit")
     day.hold(react + 1, cold + 2, limit - _JUST, "dry")

@@ -750,7 +750,7 @@ def draw_two(draw: Draw) -> Sequence[Recording]:
                 _pair(_episodes((0, 35)), whole(2, 1, 10**6)),
                 (
                     bags.drift(0.125, at=whole(14, 12, 17), topic="/temperature"),
-                    bags.dropouts(0.4, seed=whole(5, 1, 10**6), topic="/reference"),
+                    bags.dropouts(0.4, seed=whole(11, 1, 10**6), topic="/reference"),
                 ),
             ),
             Recording(

@@ -379,7 +379,8 @@ def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Di
             hint = "Go through your conditions in their order with this temperature."
             found = found or matching(held, {0: (done,)}, VENTS)
             return name_mistake(found, Diagnosis(UNKNOWN, evidence, hint))
-        moves = [time for time in commands if begins <= time < ends]
+        pairs = pairwise([(0.0, False), *_said(seen, "/vent")])
+        moves = [at for (_, before), (at, now) in pairs if before != now and begins <= at < ends]
         if len(moves) > 1:
             return Diagnosis(
                 "wrong-state",

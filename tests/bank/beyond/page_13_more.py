@@ -32,7 +32,8 @@ _DEFAULT = ("self.is_open = False", "self.is_open = True")
 
 _A_VENT = (
     _vent("open until something else is known", "wanted = self.is_open\n"
-          "wanted = msg.data > above or (wanted and msg.data >= below)" + _TELL, "", _DEFAULT),
+          "wanted = msg.data > above or (wanted and msg.data >= below)" + _TELL, "wrong-state",
+          _DEFAULT),
     _vent("match", """\
 match (msg.data > above, msg.data < below, self.is_open):
     case (True, _, False):
