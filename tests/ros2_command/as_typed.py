@@ -83,7 +83,7 @@ def demo_node(ros2, name, topic, period):
 
 def empty_domain(stack):
     """Lease a domain in which no process is left from somebody who was killed."""
-    from ros2_command.local_processes import count_participants
+    from ros2_command.discovery import count_participants
 
     from rosbeat.domains import lease_domain
 

@@ -1,4 +1,4 @@
-"""`ros2 pkg create`, for ament_python."""
+"""`ros2 pkg`: packages that are there, and new ones for ament_python."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ import shlex
 import subprocess
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from xml.etree import ElementTree
 
 from ros2_command import package_templates as templates
 from ros2_command.errors import CommandError
+from ros2_command.names import did_you_mean
 from ros2_command.package_names import (
     check_dependency,
     check_email,
@@ -22,10 +24,80 @@ from ros2_command.package_names import (
     check_text,
 )
 from ros2_command.package_templates import LICENSES, NewPackage
+from ros2_command.packages import all_packages, executables, package_prefix
+from ros2_command.registry import Verb
+
+_ROOT = re.compile(r"<package[\s>].*</package\s*>", re.DOTALL)
 
 
-def add_arguments(parser: ArgumentParser) -> None:
-    """The package's name and everything that goes into its files."""
+def _list(args: Namespace) -> None:
+    for name in all_packages():
+        print(name)
+
+
+def _add_executables(parser: ArgumentParser) -> None:
+    parser.add_argument("package_name", nargs="?", help="The package name")
+    parser.add_argument(
+        "--full-path", action="store_true", help="Show full path of each executable"
+    )
+
+
+def _executables(args: Namespace) -> None:
+    name = args.package_name
+    packages = all_packages() if name is None else {name: package_prefix(name)}
+    for package, prefix in packages.items():
+        for path in executables(prefix, package):
+            print(path if args.full_path else f"{package} {path.name}")
+
+
+def _add_prefix(parser: ArgumentParser) -> None:
+    parser.add_argument("package_name", help="The package name")
+    parser.add_argument("--share", action="store_true", help="Show share directory of the package")
+
+
+def _prefix(args: Namespace) -> None:
+    prefix = package_prefix(args.package_name, "Package not found")
+    print(prefix / "share" / args.package_name if args.share else prefix)
+
+
+def _add_xml(parser: ArgumentParser) -> None:
+    parser.add_argument("package_name", help="The package name")
+    parser.add_argument("-t", "--tag", help="The XML tag to output, e.g. 'version'")
+
+
+def _xml(args: Namespace) -> None:
+    prefix = package_prefix(args.package_name, "Package not found")
+    text, root = read_manifest(prefix / "share" / args.package_name / "package.xml")
+    if args.tag is None:
+        print(text)
+        return
+    found = [child.text or "" for child in root if child.tag == args.tag]
+    if not found:
+        raise CommandError(
+            f"Could not find tag '{args.tag}' in the manifest of '{args.package_name}'",
+            did_you_mean(args.tag, {str(child.tag) for child in root}),
+        )
+    print("\n".join(found))
+
+
+def read_manifest(path: Path) -> tuple[str, ElementTree.Element]:
+    """Return the text of the root element as it is written, and the element.
+
+    Raises:
+        CommandError: If the file is missing or is no XML.
+    """
+    try:
+        data = path.read_text(encoding="utf-8")
+        root = ElementTree.fromstring(data.encode())
+    except OSError:
+        raise CommandError("Package XML manifest not found", f"There is no {path}.") from None
+    except (ElementTree.ParseError, ValueError) as error:
+        raise CommandError(f"The manifest {path} is not valid XML: {error}") from None
+    found = _ROOT.search(data)
+    return (found[0] if found else data.strip()), root
+
+
+def _add_create(parser: ArgumentParser) -> None:
     add = parser.add_argument
     add("package_name", help="The package name")
     add("--package-format", "--package_format", type=int, default=3, choices=[2, 3],
@@ -47,8 +119,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--library-name", help="name of the empty library")
 
 
-def main(args: Namespace) -> None:
-    """Make the package, or say why not before anything is made."""
+def _create(args: Namespace) -> None:
     if args.license == "?":
         print("\n".join(["Supported licenses:", *LICENSES]))
         return
@@ -56,8 +127,9 @@ def main(args: Namespace) -> None:
     _check_place(Path(destination), name)
     if args.build_type != "ament_python":
         raise CommandError(
-            f"Build type '{args.build_type}' is left out here: this `ros2` makes Python packages.",
-            f"Try:  {_as_python_package(args)}",
+            f"Build type '{args.build_type}' is left out here: this `ros2` makes Python packages, "
+            "since ROS 2 from pip has no C++ libraries to build others with.",
+            f"Try:  {_as_python_package(args._words)}",
         )
     _announce(new := _asked_for(args), destination)
     try:
@@ -69,12 +141,16 @@ def main(args: Namespace) -> None:
         _warn_about_license(new.license)
 
 
-def _as_python_package(args: Namespace) -> str:
-    """The command that was typed, with the build type that works here."""
-    needs = ["--dependencies", *args.dependencies] if args.dependencies else []
-    node = ["--node-name", args.node_name] if args.node_name else []
-    words = ["ros2", "pkg", "create", "--build-type", "ament_python", args.package_name]
-    return shlex.join([*words, *node, *needs])
+def _as_python_package(words: Sequence[str]) -> str:
+    """Return the command as it was typed, with the build type that works here."""
+    kept, old = [], False
+    for word in words:
+        # Options may be shortened, and no other one begins with `b`.
+        if not old and not word.startswith("--b"):
+            kept.append(word)
+        old = word.startswith("--b") and "=" not in word
+    place = kept.index("create") + 1
+    return shlex.join(["ros2", *kept[:place], "--build-type", "ament_python", *kept[place:]])
 
 
 def _check_place(destination: Path, name: str) -> None:
@@ -199,3 +275,12 @@ def _warn_about_license(name: str) -> None:
         *LICENSES,
         sep="\n",
     )
+
+
+VERBS = {
+    "create": Verb(_add_create, _create),
+    "executables": Verb(_add_executables, _executables),
+    "list": Verb(lambda parser: None, _list),
+    "prefix": Verb(_add_prefix, _prefix),
+    "xml": Verb(_add_xml, _xml),
+}
