@@ -144,6 +144,9 @@ class ToldGraph(Graph):
     def _has_no_gaps(self, since):
         return True
 
+    def _processes(self):
+        return {b"one"}, {b"one"}
+
 
 def test_a_graph_is_believed_when_it_stays_the_same(monkeypatch):
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
@@ -160,6 +163,20 @@ def test_a_missing_process_is_waited_for_while_there_is_news(monkeypatch):
     assert graph.age > 39 * 0.02 + 0.3  # 40 looks, so 39 pauses
     monkeypatch.setattr("ros2_command.graph.AT_MOST", 0.1)
     assert ToldGraph([*range(1000)], False).settle().count < 1000
+
+
+def test_a_long_wait_says_for_what(monkeypatch, capsys):
+    monkeypatch.setattr("ros2_command.graph.SILENT_FOR", 0.1)
+    monkeypatch.setattr("ros2_command.graph.NO_NEWS", 0.5)
+    monkeypatch.setattr("ros2_command.graph.count_participants", lambda domain: 3)
+    ToldGraph([0], True).settle()
+    assert capsys.readouterr().err == ""
+    ToldGraph([0], False).settle()
+    error = capsys.readouterr().err
+    assert error == (
+        "Waiting for a complete answer: 2 of 3 ROS processes on this machine have not answered "
+        "yet.\n"
+    )
 
 
 def test_gaps_in_the_numbers_of_endpoints():

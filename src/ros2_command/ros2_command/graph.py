@@ -276,6 +276,8 @@ def open_graph(args: Namespace | None = None, name: str | None = None) -> Iterat
     _check_domain()
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _leave)
+    # A shell without job control starts what stands before `&` with Ctrl+C ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with _profile():
         graph = _start(args, name or f"_ros2cli_{os.getpid()}")
     try:
@@ -298,8 +300,8 @@ def _start(args: Namespace | None, name: str) -> Graph:
     sim_time = Parameter("use_sim_time", value=bool(getattr(args, "use_sim_time", False)))
     context = rclpy.Context()
     try:
-        # Python's own handling of Ctrl+C is what this command wants.
-        rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
+        # Python's own handling of Ctrl+C is what this command wants, and its words are not ROS's.
+        rclpy.init(args=[], context=context, signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node(
             name, context=context, start_parameter_services=False,
             parameter_overrides=[sim_time],

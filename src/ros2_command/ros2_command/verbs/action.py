@@ -156,8 +156,8 @@ def _follow(graph: Graph, client: Untyped, goal: Untyped, feedback: bool) -> int
     if not handle.accepted:
         print("Goal was rejected.")
         return 1
-    print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
     try:
+        print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
         outcome = _wait(graph, handle.get_result_async())
     except KeyboardInterrupt:
         print("Canceling goal...")

@@ -386,9 +386,12 @@ class Recorder:
 
         def write(data: bytes, info: dict[str, Any]) -> None:
             stamp = self._clock.now().nanoseconds if self._clock else info["received_timestamp"]
-            if stamp:  # simulated time has not begun
-                self._writer.write(connection, stamp, data)
-                self.counts[name] += 1
+            if not stamp:  # simulated time has not begun
+                return
+            self._writer.write(connection, stamp, data)
+            self.counts[name] += 1
+            if self.counts[name] == 1:
+                self.log.debug(f"The first message on '{name}' is written")
 
         self.counts[name] = 0
         offers = [one.qos_profile for one in publishers]

@@ -89,6 +89,15 @@ class RemoteParameters:
         """Return values as messages; fewer than asked for if a parameter is undeclared."""
         return list(self.call("get_parameters", names=list(names)).values)
 
+    def all_values(self) -> dict[str, Any]:
+        """Return the values of all parameters that have one, as messages, by name."""
+        names = self.names()
+        values = self.values(names)
+        if len(values) == len(names):
+            return dict(zip(names, values, strict=True))
+        # A parameter that was declared without a value spoils the answer for all of them.
+        return {name: one for name in names for one in self.values([name])}
+
     def set(self, *parameters: Untyped) -> list[Any]:
         """Set parameters, each a `rcl_interfaces/msg/Parameter`, and return what became of each."""
         return list(self.call("set_parameters", parameters=list(parameters)).results)
@@ -273,9 +282,8 @@ def _dump(args: Namespace) -> None:
 
     with open_graph(args) as graph:
         node = open_node(graph, args)
-        names = node.names()
-        values = [_dumpable(value) for value in node.values(names)]
-    parameters = nested(dict(zip(names, values, strict=True)))
+        values = node.all_values()
+    parameters = nested({name: _dumpable(value) for name, value in values.items()})
     print(
         yaml.safe_dump(
             {node.node: {"ros__parameters": parameters}},

@@ -353,8 +353,8 @@ def _hz(args: Namespace) -> None:
         clock = time.monotonic if args.wall_time else graph.clock()
 
         def count(message: Untyped, info: dict[str, Any]) -> None:
-            if wanted(message):
-                rates.arrived(clock())
+            if (now := clock()) and wanted(message):  # 0 is simulated time that has not begun
+                rates.arrived(now)
 
         subscribe(graph, args.topic_name, kind, count)
         _measure(graph, rates.report)
@@ -370,7 +370,8 @@ def _bw(args: Namespace) -> None:
         kind, clock = _known_class(graph, args.topic_name), graph.clock()
 
         def note(data: bytes, info: dict[str, Any]) -> None:
-            bandwidth.arrived(clock(), len(data))
+            if now := clock():
+                bandwidth.arrived(now, len(data))
 
         subscribe(graph, args.topic_name, kind, note, raw=True)
         print(f"Subscribed to [{args.topic_name}]")
@@ -395,7 +396,7 @@ def _delay(args: Namespace) -> None:
 
         def note(message: Untyped, info: dict[str, Any]) -> None:
             stamp = message.header.stamp
-            if now := clock.now().nanoseconds:  # 0 is simulated time that has not begun
+            if now := clock.now().nanoseconds:
                 delays.arrived(now / 1e9, stamp.sec + stamp.nanosec / 1e9)
 
         subscribe(graph, args.topic_name, kind, note)
