@@ -1,4 +1,4 @@
-"""The table in the README of `ros2_command`: each verb and option of the original, and its place here.
+"""The table in the README of `ros2_command`: each verb and option of the original, and where it is.
 
 Print it with:  python tests/ros2_command/readme_table.py
 """

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
+from collections.abc import Callable, Sequence
 from importlib import import_module
+from typing import TYPE_CHECKING
 
 from ros2_command.errors import CommandError
-from ros2_command.graph import Graph
 from ros2_command.names import absolute, did_you_mean, is_hidden
 from ros2_command.untyped import Untyped
+
+if TYPE_CHECKING:
+    from ros2_command.graph import Graph
 
 NOBODY = (
     "No node that can be seen from here has it. Is the node running? Is ROS_DOMAIN_ID the same?"
@@ -189,3 +193,35 @@ def find_node(typed: str, nodes: Sequence[str], complaint: str) -> str:
     if name not in nodes:
         raise CommandError(complaint, suggestion(name, list(nodes)))
     return name
+
+
+def wait_for_server(
+    graph: Graph, ready: Callable[[], bool], what: str, typed: str, asked: str,
+    entries: Callable[[], Entries],
+) -> None:  # fmt: skip
+    """Wait until somebody offers a service or an action; after a while say that nobody does.
+
+    Args:
+        graph: Where the client is.
+        ready: Whether a server is there.
+        what: `service` or `action`.
+        typed: Its name as typed.
+        asked: Its type, `pkg/kind/Name`.
+        entries: Tells the names and types of the graph.
+
+    Raises:
+        CommandError: If it is offered with another type.
+    """
+    graph.settle(ready)
+    if ready():
+        return
+    name = absolute(typed)
+    found = {one: types for one, types in entries() if types != [asked] or one != name}
+    if name in found:
+        others = [one for one in found[name] if one != asked]
+        raise CommandError(
+            f"The {what} '{name}' has the type {show_types(others)}, not {asked}",
+            "With another type there is never an answer.",
+        )
+    print(f"Nobody offers '{name}'. {suggestion(name, found)}", file=sys.stderr)
+    graph.spin_until(ready)

@@ -7,7 +7,16 @@ from argparse import ArgumentParser, Namespace
 
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.lookup import Entries, action_class, pick, show_entries, show_types, suggestion
+from ros2_command.lookup import (
+    Entries,
+    action_class,
+    full_type,
+    pick,
+    show_entries,
+    show_types,
+    suggestion,
+    wait_for_server,
+)
 from ros2_command.message_text import Style, to_yaml
 from ros2_command.message_values import add_value_arguments, fill, read_yaml, value_text
 from ros2_command.names import absolute, check_name
@@ -109,40 +118,17 @@ def _send_goal(args: Namespace) -> int:
     with open_graph() as graph:
         client = ActionClient(graph.node, kind, args.action_name)
         try:
-            _wait_for_server(graph, client, args)
+            print("Waiting for an action server to become available...")
+            asked = full_type(args.action_type, "action")
+            wait_for_server(
+                graph, client.server_is_ready, "action", args.action_name, asked,
+                lambda: _actions(graph),
+            )  # fmt: skip
             for stamp in stampers:
                 stamp(graph.node.get_clock().now().to_msg())
             return _follow(graph, client, goal, args.feedback)
         finally:
             client.destroy()
-
-
-def _wait_for_server(graph: Graph, client: Untyped, args: Namespace) -> None:
-    """Wait until somebody offers the action, and say so.
-
-    Raises:
-        CommandError: If it is offered with another type.
-    """
-    print("Waiting for an action server to become available...")
-    graph.settle(client.server_is_ready)
-    if client.server_is_ready():
-        return
-    name, found = absolute(args.action_name), dict(_actions(graph))
-    wrong = [one for one in found.get(name, []) if one.split("/")[::2] != _ends(args.action_type)]
-    if wrong:
-        raise CommandError(
-            f"The action '{name}' has the type {show_types(wrong)}, not {args.action_type}",
-            "A goal of another type is never accepted.",
-        )
-    found.pop(name, None)
-    print(f"Nobody offers '{name}'. {suggestion(name, found)}", file=sys.stderr)
-    graph.spin_until(client.server_is_ready)
-
-
-def _ends(type_name: str) -> list[str]:
-    """Return the package and the name of a type, in its short or its long form."""
-    parts = type_name.split("/")
-    return [parts[0], parts[-1]]
 
 
 def _follow(graph: Graph, client: Untyped, goal: Untyped, feedback: bool) -> int:

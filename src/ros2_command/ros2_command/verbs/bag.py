@@ -30,7 +30,7 @@ _LEVELS = ["debug", "info", "warn", "error", "fatal"]
 _TOPICS_ONLY = "only topics are recorded and played here, not the calls of services."
 _KEYBOARD = "nothing listens to the keyboard here. Start it when you need it, stop it with Ctrl+C."
 _OVERRIDES = "recording and playing follow the publishers' quality of service here."
-_ONE_FILE = "a recording is one file here."
+_ONE_FILE = "a recording is one plain file here, as the library `rosbags` writes it."
 _NO_EFFECT = "(here: no effect)"
 _NANOSECONDS = 1_000_000_000
 
@@ -189,22 +189,16 @@ def _add_record(parser: ArgumentParser) -> None:
         help="Use simulation time for message timestamps by subscribing to the /clock topic. "
         "Until first /clock message is received, no messages will be written to bag.")  # fmt: skip
     add("--node-name", default="rosbag2_recorder", help="Specify the recorder node name.")
-    add("--custom-data", nargs="*", default=[], metavar="KEY=VALUE",
-        help="Space-delimited list of key=value pairs for the metadata.")  # fmt: skip
-    add("--compression-mode", choices=["none", "file", "message"], default="none",
-        help="Choose mode of compression for the storage.")  # fmt: skip
-    add("--compression-format", choices=["zstd"], default="",
-        help="Choose the compression format/algorithm.")  # fmt: skip
     add("--log-level", choices=_LEVELS, default="info", help="Logging level.")
     add("--disable-keyboard-controls", action="store_true", help=_NO_EFFECT)
-    for option in ("max-cache-size", "compression-queue-size", "compression-threads",
-                   "compression-threads-priority"):  # fmt: skip
-        add(f"--{option}", type=int, help=_NO_EFFECT)
+    add("--max-cache-size", type=int, help=_NO_EFFECT)
     leave_out(parser, _TOPICS_ONLY, "--services", "--all-services", "--exclude-services")
     leave_out(parser, _KEYBOARD, "--start-paused", "--snapshot-mode")
     leave_out(parser, _OVERRIDES, "--qos-profile-overrides-path")
-    leave_out(parser, _ONE_FILE, "-b,--max-bag-size", "-d,--max-bag-duration",
-              "--storage-config-file", "--storage-preset-profile")  # fmt: skip
+    leave_out(parser, _ONE_FILE, "-b,--max-bag-size", "-d,--max-bag-duration", "--custom-data",
+              "--storage-config-file", "--storage-preset-profile", "--compression-mode",
+              "--compression-format", "--compression-queue-size", "--compression-threads",
+              "--compression-threads-priority")  # fmt: skip
 
 
 def _add_patterns(parser: ArgumentParser, word: str) -> None:
@@ -229,18 +223,13 @@ def _record(args: Namespace) -> int:
     folder = Path(args.output or datetime.now().strftime("rosbag2_%Y_%m_%d-%H_%M_%S"))
     wanted = _wanted_topics(args)
     check_node_name(args.node_name)
-    custom = [text.partition("=") for text in args.custom_data]
     if folder.exists():
         raise _error(f"Output folder '{folder}' already exists.", "Choose another:  -o NAME")
     if args.use_sim_time and args.no_discovery:
         raise _error("--use-sim-time and --no-discovery both set, but are incompatible settings.")
-    if args.compression_format and args.compression_mode == "none":
-        raise _error("Cannot specify compression format without a compression mode.")
     with open_graph(args, args.node_name) as graph:
         _set_level(graph, args.log_level)
-        with _new_bag(folder, args) as writer:
-            for key, _, value in custom:
-                writer.set_custom_data(key, value)
+        with _new_bag(folder, args.storage) as writer:
             recorder = Recorder(graph, writer, args.use_sim_time)
             with suppress(KeyboardInterrupt):  # the usual end
                 recorder.record(wanted, args)
@@ -286,17 +275,15 @@ def _wanted_topics(args: Namespace) -> Callable[[str, str], bool]:
 
 
 @contextmanager
-def _new_bag(folder: Path, args: Namespace) -> Iterator[Any]:
+def _new_bag(folder: Path, storage: str) -> Iterator[Any]:
     """Open a new recording, and complete it however the block ends.
 
     Raises:
         CommandError: If it cannot be written.
     """
-    from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+    from rosbags.rosbag2 import StoragePlugin, Writer
 
-    plugin = {"mcap": StoragePlugin.MCAP, "sqlite3": StoragePlugin.SQLITE3}[args.storage]
-    writer = Writer(folder, version=9, storage_plugin=plugin)
-    writer.set_compression(CompressionMode[args.compression_mode.upper()], CompressionFormat.ZSTD)
+    writer = Writer(folder, version=9, storage_plugin=StoragePlugin[storage.upper()])
     try:
         writer.open()
     except OSError as error:
@@ -457,13 +444,8 @@ def _add_play(parser: ArgumentParser) -> None:
         help="Publish to /clock at a specific frequency in Hz (default: 40).")  # fmt: skip
     add("-d", "--delay", type=_positive, default=0.0,
         help="Sleep duration before play (each loop), in seconds.")  # fmt: skip
-    add("--playback-duration", type=float, default=-1.0,
+    add("--playback-duration", type=float, default=float("inf"),
         help="Playback duration, in seconds of the recording.")  # fmt: skip
-    until = parser.add_mutually_exclusive_group()
-    until.add_argument("--playback-until-sec", type=float,
-                       help="Stop at this timestamp in seconds since epoch.")  # fmt: skip
-    until.add_argument("--playback-until-nsec", type=int,
-                       help="Stop at this timestamp in nanoseconds since epoch.")  # fmt: skip
     add("--start-offset", type=float, default=0.0,
         help="Start the playback this many seconds into the bag file.")  # fmt: skip
     add("--wait-for-all-acked", type=int, default=500, metavar="MS",
@@ -479,6 +461,8 @@ def _add_play(parser: ArgumentParser) -> None:
     leave_out(parser, _OVERRIDES, "--qos-profile-overrides-path")
     leave_out(parser, _ONE_FILE, "--storage-config-file")
     leave_out(parser, "use --clock HZ.", "--clock-topics", "--clock-topics-all")
+    leave_out(parser, "use --playback-duration SECONDS.", "--playback-until-sec",
+              "--playback-until-nsec")  # fmt: skip
 
 
 def _play(args: Namespace) -> int:
@@ -571,14 +555,8 @@ class Player:
         self._clock = graph.node.create_publisher(Clock, "/clock", 10) if args.clock else None
         self._next_clock = 0.0
         self._first = reader.start_time + int(args.start_offset * _NANOSECONDS)
-        ends = [reader.end_time]
-        if args.playback_duration >= 0:
-            ends.append(self._first + int(args.playback_duration * _NANOSECONDS) + 1)
-        if args.playback_until_sec is not None:
-            ends.append(int(args.playback_until_sec * _NANOSECONDS) + 1)
-        if args.playback_until_nsec is not None:
-            ends.append(args.playback_until_nsec + 1)
-        self._end = min(ends)
+        length = min(args.playback_duration * _NANOSECONDS, reader.end_time - self._first)
+        self._end = self._first + int(length) + 1
 
     def play(self) -> None:
         """Play once, from the beginning to the end that the options say."""

@@ -15,9 +15,8 @@ from ros2_command.lookup import (
     pick,
     service_class,
     show_entries,
-    show_types,
-    suggestion,
     visible,
+    wait_for_server,
 )
 from ros2_command.message_text import (
     add_style_arguments,
@@ -122,7 +121,12 @@ def _call(args: Namespace) -> None:
     stampers = fill(request, read_yaml(value_text(args.values, args.stdin)))
     with open_graph() as graph:
         client = graph.node.create_client(kind, args.service_name)
-        _wait_for_service(graph, client, args)
+        if not client.service_is_ready():
+            print("waiting for service to become available...")
+            asked = full_type(args.service_type, "srv")
+            wait_for_server(
+                graph, client.service_is_ready, "service", args.service_name, asked, graph.services
+            )
         for _ in graph.ticks(1 / (args.rate or 1)):
             for stamp in stampers:
                 stamp(graph.node.get_clock().now().to_msg())
@@ -130,30 +134,6 @@ def _call(args: Namespace) -> None:
             print(f"response:\n{ask(graph, client, request)!r}\n")
             if args.rate is None:
                 break
-
-
-def _wait_for_service(graph: Graph, client: Untyped, args: Namespace) -> None:
-    """Wait until somebody offers the service, and say so.
-
-    Raises:
-        CommandError: If it is offered with another type.
-    """
-    if client.service_is_ready():
-        return
-    print("waiting for service to become available...")
-    graph.settle(client.service_is_ready)
-    if client.service_is_ready():
-        return
-    name, asked = absolute(args.service_name), full_type(args.service_type, "srv")
-    found = {one: types for one, types in graph.services() if types != [asked] or one != name}
-    if name in found:
-        others = [one for one in found[name] if one != asked]
-        raise CommandError(
-            f"The service '{name}' has the type {show_types(others)}, not {asked}",
-            "A call with another type is never answered.",
-        )
-    print(f"Nobody offers '{name}'. {suggestion(name, found)}", file=sys.stderr)
-    graph.spin_until(client.service_is_ready)
 
 
 def ask(graph: Graph, client: Untyped, request: Untyped, seconds: float | None = None) -> Untyped:
