@@ -142,7 +142,7 @@ def _announce(new: NewPackage, destination: str) -> None:
 
 
 def _files(new: NewPackage, destination: str) -> Iterator[tuple[str, str | None]]:
-    """Paths with their content in the order of making; None is a folder."""
+    """Yield paths with their content in the order of making; None is a folder."""
     root = os.path.join(destination, new.name)
     source = os.path.join(root, new.name)
     yield root, None

@@ -50,7 +50,9 @@ def leave_out(parser: argparse.ArgumentParser, reason: str, *options: str) -> No
     """
     for names in options:
         extra: dict[str, Any] = {"action": LeftOut, "nargs": "*", "const": reason}
-        parser.add_argument(*names.split(","), **extra, help="(left out here)", metavar="...")
+        parser.add_argument(*names.split(","), **extra, help=argparse.SUPPRESS)
+    start = f"{parser.epilog}, " if parser.epilog else "Left out of this subset: "
+    parser.epilog = start + ", ".join(names.rpartition(",")[2] for names in options)
 
 
 def words_of(argv: Sequence[str]) -> tuple[str | None, str | None]:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 
 class Verb(NamedTuple):
-    """How a verb is parsed, and what it does.
+    """Say how a verb is parsed, and what it does.
 
     Each module of `ros2_command.verbs` has a mapping `VERBS` of these, by name; the key is "" where
     a command has no verbs.
@@ -30,7 +30,7 @@ class Verb(NamedTuple):
 
 @dataclass(frozen=True)
 class Command:
-    """A command of `ros2`.
+    """Describe a command of `ros2`.
 
     Attributes:
         about: One line for the list in `--help`.
