@@ -123,6 +123,9 @@ def test_completion():
     assert candidates(["topic", "e"]) == ["echo"]
     assert candidates(["topic", "echo", "--fi"]) == ["--field", "--filter"]
     assert candidates(["nosuch", ""]) == []
+    assert candidates(["bag", ""]) == ["info", "play", "record"]
+    goal = ["action", "send_goal", "/fibonacci", "test_msgs/action/F"]
+    assert candidates(goal) == ["test_msgs/action/Fibonacci"]
     assert candidates(["interface", "show", "std_srvs/srv/Tri"]) == ["std_srvs/srv/Trigger"]
 
 

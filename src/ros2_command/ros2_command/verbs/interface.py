@@ -14,8 +14,6 @@ from ros2_command.definitions import (
     show_lines,
 )
 from ros2_command.errors import CommandError, UsageError
-from ros2_command.lookup import find_type
-from ros2_command.message_text import Style, to_yaml
 from ros2_command.packages import package_prefix
 from ros2_command.registry import Verb
 
@@ -69,6 +67,9 @@ def _add_proto(parser: ArgumentParser) -> None:
 
 
 def _proto(args: Namespace) -> None:
+    from ros2_command.lookup import find_type
+    from ros2_command.message_text import Style, to_yaml
+
     interface = find_interface(args.type)
     found: Any = find_type(interface.name, interface.kind)
     if found is None:
