@@ -84,7 +84,7 @@ def test_record_all_as_sqlite(rich, tmp_path):
 @pytest.mark.ros
 def test_sigterm_leaves_a_whole_bag(rich, tmp_path):
     with recording(rich, tmp_path / "run", "--topics", "/house/number") as process:
-        assert ended(process, signal.SIGTERM)[0] == 143
+        assert ended(process, signal.SIGTERM)[0] == 0
     assert Bag(tmp_path / "run").counts["/house/number"]
 
 

@@ -1,3 +1,5 @@
+import re
+
 import pytest
 
 pytestmark = pytest.mark.ros
@@ -135,3 +137,12 @@ def test_load_for_no_node(rich, tmp_path):
     )
     words = "required: node_name, parameter_file"
     assert words in rich.error("param", "load", code=2)
+
+
+@pytest.mark.parametrize("words", [("describe", "rate"), ("delete", "rate"), ("load", "file")])
+def test_a_node_that_does_not_answer(graph, another_node, tmp_path, words):
+    (tmp_path / "file").write_text("/**: {ros__parameters: {rate: 5}}")
+    verb, what = words
+    with another_node(graph, "busy", "temperature", 0):
+        error = graph.error("param", verb, "/busy", what, cwd=tmp_path)
+    assert re.fullmatch(r"The service '/busy/\w+' did not answer in 5 seconds\n", error)

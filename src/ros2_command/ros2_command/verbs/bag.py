@@ -7,6 +7,7 @@ them. A message goes from the middleware to the file and back as the bytes that 
 from __future__ import annotations
 
 import re
+import signal
 import sys
 import time
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
@@ -229,10 +230,9 @@ def _record(args: Namespace) -> int:
         raise _error("--use-sim-time and --no-discovery both set, but are incompatible settings.")
     with open_graph(args, args.node_name) as graph:
         _set_level(graph, args.log_level)
-        with _new_bag(folder, args.storage) as writer:
+        with _new_bag(folder, args.storage) as writer, _asked_to_stop() as stopped:
             recorder = Recorder(graph, writer, args.use_sim_time)
-            with suppress(KeyboardInterrupt):  # the usual end
-                recorder.record(wanted, args)
+            recorder.record(wanted, args, stopped)
         recorder.log.info("Recording stopped")
         count = sum(recorder.counts.values())
     if not count:
@@ -294,6 +294,21 @@ def _new_bag(folder: Path, storage: str) -> Iterator[Any]:
         writer.close()
 
 
+@contextmanager
+def _asked_to_stop() -> Iterator[Callable[[], bool]]:
+    """Note Ctrl+C and other signals: an exception in the middle of a message would tear it."""
+    asked: list[int] = []
+    before = {
+        number: signal.signal(number, lambda number, frame: asked.append(number))
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    }
+    try:
+        yield lambda: bool(asked)
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
 def _set_level(graph: Graph, level: str) -> None:
     from rclpy.logging import LoggingSeverity
 
@@ -322,18 +337,19 @@ class Recorder:
         self._clock = graph.node.get_clock() if sim_time else None
         self._refused: set[str] = set()
 
-    def record(self, wanted: Callable[[str, str], bool], args: Namespace) -> None:
-        """Record for ever, and look again and again for topics that are new."""
+    def record(
+        self, wanted: Callable[[str, str], bool], args: Namespace, stopped: Callable[[], bool]
+    ) -> None:
+        """Record until it is stopped, and look again and again for topics that are new."""
         self.log.info("Listening for topics...")
-        self._graph.settle()
-        while True:
+        self._graph.settle(stopped)
+        while not stopped():
             self.seen = dict(self._graph.topics())
             for name, types in self.seen.items():
                 if name not in self.counts and self._may_be_recorded(name, types, args, wanted):
                     self._subscribe(name, types[0])
-            if args.no_discovery:
-                self._graph.spin_until(lambda: False)
-            self._graph.spin_for(max(args.polling_interval, 1) / 1000)
+            pause = None if args.no_discovery else max(args.polling_interval, 1) / 1000
+            self._graph.spin_until(stopped, pause)
 
     def _may_be_recorded(
         self, name: str, types: list[str], args: Namespace, wanted: Callable[[str, str], bool]
@@ -382,15 +398,20 @@ class Recorder:
 
         self.counts[name] = 0
         offers = [one.qos_profile for one in publishers]
-        self._graph.node.create_subscription(kind, name, write, _common(offers), raw=True)
+        profile = _profile(offers, all(one.reliability.name == "RELIABLE" for one in offers))
+        self._graph.node.create_subscription(kind, name, write, profile, raw=True)
         self.log.info(f"Subscribed to topic '{name}'")
 
 
-def _common(offers: list[Any]) -> Untyped:
-    """Return the strongest profile with which all of these publishers can be heard."""
+def _profile(offers: list[Any], reliable: bool) -> Untyped:
+    """Return a profile that goes with what the publishers of a topic offer, or have offered.
+
+    Args:
+        offers: The profile of each, of rclpy or of a recording.
+        reliable: Whether to be reliable; only those who are can be heard then.
+    """
     from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-    reliable = all(one.reliability.name == "RELIABLE" for one in offers)
     latched = bool(offers) and all(one.durability.name == "TRANSIENT_LOCAL" for one in offers)
     return QoSProfile(
         depth=max([100, *(one.depth for one in offers)]),
@@ -474,8 +495,10 @@ def _play(args: Namespace) -> int:
         publishers = {}
         for one in reader.connections:
             if _is_played(one.topic, args) and (kind := _class_of(one, graph)):
+                offers = one.ext.offered_qos_profiles
+                weak = offers and all(end.reliability.name == "BEST_EFFORT" for end in offers)
                 publishers[one.id] = graph.node.create_publisher(
-                    kind, names.get(one.topic, one.topic), _offer(one)
+                    kind, names.get(one.topic, one.topic), _profile(offers, not weak)
                 )
         if not publishers:
             known = ", ".join(reader.topics)
@@ -520,20 +543,6 @@ def _class_of(connection: Untyped, graph: Graph) -> Untyped | None:
             "installed, or its workspace is not sourced"
         )
     return found
-
-
-def _offer(connection: Untyped) -> Untyped:
-    """Return the profile that the recorded publishers had; ROS's default where they differed."""
-    from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-
-    offers = connection.ext.offered_qos_profiles
-    weak = bool(offers) and all(one.reliability.name == "BEST_EFFORT" for one in offers)
-    latched = bool(offers) and all(one.durability.name == "TRANSIENT_LOCAL" for one in offers)
-    return QoSProfile(
-        depth=max([10, *(one.depth for one in offers)]),
-        reliability=ReliabilityPolicy.BEST_EFFORT if weak else ReliabilityPolicy.RELIABLE,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
-    )
 
 
 class Player:
