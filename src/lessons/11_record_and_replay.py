@@ -402,7 +402,7 @@ check("11c", DriftWatch)
 #
 # ## Outside of the notebook
 #
-# On a full ROS 2 installation these commands do the same (the packages of this course have no `ros2 bag`):
+# In a terminal these commands do the same, in this course and on a full ROS 2 installation:
 #
 # ```bash
 # ros2 bag record -o first_run /temperature

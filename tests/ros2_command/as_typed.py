@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src" / "ros2_command"
 PROFILE = SOURCE / "ros2_command" / "data" / "fastdds.xml"
-DEMO = Path(__file__).with_name("demo_node.py")
+HERE = Path(__file__).parent
 
 
 class Ros2:
@@ -66,10 +66,10 @@ class Ros2:
 
 
 @contextmanager
-def demo_node(ros2, name, topic, period):
-    """Run `demo_node.py` in the environment of a command."""
+def demo_node(ros2, *words, file="demo_node.py"):
+    """Run `demo_node.py`, or another file, in the environment of a command."""
     process = subprocess.Popen(
-        [sys.executable, str(DEMO), name, topic, str(period)], env=ros2.environment,
+        [sys.executable, str(HERE / file), *map(str, words)], env=ros2.environment,
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
     )  # fmt: skip
     with process:
@@ -83,7 +83,7 @@ def demo_node(ros2, name, topic, period):
 
 def empty_domain(stack):
     """Lease a domain in which no process is left from somebody who was killed."""
-    from ros2_command.local_processes import count_participants
+    from ros2_command.discovery import count_participants
 
     from rosbeat.domains import lease_domain
 
@@ -95,8 +95,8 @@ def empty_domain(stack):
 
 
 @contextmanager
-def own_graph(*nodes, **environment):
-    """Run nodes, each a name, a topic and a period, in a domain that nobody else has."""
+def own_graph(*nodes, file="demo_node.py", **environment):
+    """Run nodes, each with its arguments, in a domain that nobody else has."""
     with ExitStack() as stack:
         quick = Ros2(
             ROS_DOMAIN_ID=str(empty_domain(stack)),
@@ -104,5 +104,5 @@ def own_graph(*nodes, **environment):
             **environment,
         )
         for node in nodes:
-            stack.enter_context(demo_node(quick, *node))
+            stack.enter_context(demo_node(quick, *node, file=file))
         yield quick

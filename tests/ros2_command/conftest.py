@@ -28,3 +28,10 @@ def graph():
     """In a domain where `/one` publishes on `/temperature`, and `/ns_two` on `/slow`."""
     with own_graph(("one", "temperature", 0.05), ("ns_two", "slow", 1.0)) as graph:
         yield graph
+
+
+@pytest.fixture(scope="session")
+def rich():
+    """In a domain with `rich_node.py` alone."""
+    with own_graph((), file="rich_node.py") as graph:
+        yield graph

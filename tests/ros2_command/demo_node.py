@@ -1,6 +1,7 @@
 """A node for the tests of `ros2`: name, topic, and seconds between messages as arguments.
 
-Says `ready` when it is there, and ends when its standard input does.
+With 0 seconds it is in the graph and does nothing, not even answer. Says `ready` when it is there,
+and ends when its standard input does.
 """
 
 import sys
@@ -21,7 +22,7 @@ class Demo(Node):
         self.publisher = self.create_publisher(Float32, topic, 10)
         self.subscription = self.create_subscription(Float32, f"{name}/in", self.hear, 10)
         self.service = self.create_service(SetBool, "~/enable", self.enable)
-        self.timer = self.create_timer(period, self.publish)
+        self.timer = self.create_timer(period or 1.0, self.publish)
 
     def publish(self) -> None:
         self.publisher.publish(Float32(data=25.5))
@@ -43,6 +44,8 @@ def main() -> None:
     ended = threading.Event()
     threading.Thread(target=lambda: (sys.stdin.read(), ended.set()), daemon=True).start()
     print("ready", flush=True)
+    if not float(period):
+        ended.wait()
     while not ended.is_set():
         executor.spin_once(timeout_sec=0.1)
     node.destroy_node()

@@ -1,25 +1,26 @@
 import time
 
 import pytest
-from ros2_command.candidates import candidates
 from ros2_command.definitions import nested_type
+from ros2_command.discovery import count_participants, has_gaps
 from ros2_command.errors import CommandError
 from ros2_command.graph import SAME_LOOKS, Graph
-from ros2_command.local_processes import count_participants
-from ros2_command.names import check_name, full_name, is_hidden
-from ros2_command.nearest import nearest
-from ros2_command.numbering import has_gaps
-from ros2_command.parameters import nested
+from ros2_command.names import check_name, full_name, is_hidden, nearest
+from ros2_command.rates import Bandwidth, Delays, Rates
+from ros2_command.verbs.completion import candidates
 from ros2_command.verbs.doctor import Finding, report, summarize
-from ros2_command.verbs.node.info import show
-from ros2_command.verbs.topic import bw
-from ros2_command.verbs.topic.hz import Rates
+from ros2_command.verbs.node import section
+from ros2_command.verbs.param import flat, nested
 
 
 def test_the_nearest_name():
     assert nearest("Temprature", ["/humidity", "Temperature"]) == "Temperature"
     assert nearest("temperature", ["/robot/left/arm/temperature"]) == "/robot/left/arm/temperature"
     assert nearest("xyz", ["abc"]) is None
+    assert nearest("std_msgs/msg/Nope", ["std_msgs/msg/Int8"]) is None
+    assert nearest("std_msgs/msg/Flot32", ["std_msgs/msg/Int8", "std_msgs/msg/Float32"])[-7:] == (
+        "Float32"
+    )
 
 
 def test_names():
@@ -51,23 +52,42 @@ def test_rates():
 
 
 def test_bandwidth():
-    assert bw.report([(0.0, 8)], 1.0) is None
+    bandwidth = Bandwidth(window=100)
+    bandwidth.arrived(0.0, 8)
+    assert bandwidth.report(1.0) is None
+    bandwidth.arrived(0.5, 8)
     text = "16 B/s from 2 messages\n\tMessage size mean: 8 B min: 8 B max: 8 B"
-    assert bw.report([(0.0, 8), (0.5, 8)], 1.0) == text
-    assert (
-        bw.report([(0.0, 5080), (0.5, 5080)], 1.0).splitlines()[0] == "10.16 KB/s from 2 messages"
-    )
+    assert bandwidth.report(1.0) == text
+    large = Bandwidth(window=2)
+    for now in (-1.0, 0.0, 0.5):
+        large.arrived(now, 5080)
+    assert large.report(1.0).splitlines()[0] == "10.16 KB/s from 2 messages"
+    assert large.report(-2.0) is None
+
+
+def test_delays():
+    delays = Delays(window=100)
+    delays.arrived(10.0, 1.0)  # starts the clock
+    assert delays.report() is None
+    delays.arrived(11.0, 10.9)
+    delays.arrived(12.0, 11.7)
+    text = "average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 2"
+    assert delays.report() == text
+    assert delays.report() is None
 
 
 def test_a_section_of_a_node():
     entries = [("/b", ["x/msg/B"]), ("/a", ["x/msg/A"]), ("/_c", ["x/msg/C"])]
-    assert show("Publishers", entries, False) == "  Publishers:\n    /a: x/msg/A\n    /b: x/msg/B"
-    assert show("Service Clients", [], False) == "  Service Clients:\n"
+    assert (
+        section("Publishers", entries, False) == "  Publishers:\n    /a: x/msg/A\n    /b: x/msg/B"
+    )
+    assert section("Service Clients", [], False) == "  Service Clients:\n"
 
 
 def test_dots_in_names_of_parameters():
     assert nested({"a.b": 1, "a.c": 2, "d": 3}) == {"a": {"b": 1, "c": 2}, "d": 3}
     assert nested({"a": 1, "a.b": 2}) == {"a": 1, "a.b": 2}
+    assert flat({"a": {"b": 1, "c": {"d": 2}}, "e.f": 3}) == {"a.b": 1, "a.c.d": 2, "e.f": 3}
 
 
 @pytest.mark.parametrize(
@@ -103,6 +123,9 @@ def test_completion():
     assert candidates(["topic", "e"]) == ["echo"]
     assert candidates(["topic", "echo", "--fi"]) == ["--field", "--filter"]
     assert candidates(["nosuch", ""]) == []
+    assert candidates(["bag", ""]) == ["info", "play", "record"]
+    goal = ["action", "send_goal", "/fibonacci", "test_msgs/action/F"]
+    assert candidates(goal) == ["test_msgs/action/Fibonacci"]
     assert candidates(["interface", "show", "std_srvs/srv/Tri"]) == ["std_srvs/srv/Trigger"]
 
 
@@ -124,6 +147,9 @@ class ToldGraph(Graph):
     def _has_no_gaps(self, since):
         return True
 
+    def _processes(self):
+        return {b"one"}, {b"one"}
+
 
 def test_a_graph_is_believed_when_it_stays_the_same(monkeypatch):
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
@@ -140,6 +166,20 @@ def test_a_missing_process_is_waited_for_while_there_is_news(monkeypatch):
     assert graph.age > 39 * 0.02 + 0.3  # 40 looks, so 39 pauses
     monkeypatch.setattr("ros2_command.graph.AT_MOST", 0.1)
     assert ToldGraph([*range(1000)], False).settle().count < 1000
+
+
+def test_a_long_wait_says_for_what(monkeypatch, capsys):
+    monkeypatch.setattr("ros2_command.graph.SILENT_FOR", 0.1)
+    monkeypatch.setattr("ros2_command.graph.NO_NEWS", 0.5)
+    monkeypatch.setattr("ros2_command.graph.count_participants", lambda domain: 3)
+    ToldGraph([0], True).settle()
+    assert capsys.readouterr().err == ""
+    ToldGraph([0], False).settle()
+    error = capsys.readouterr().err
+    assert error == (
+        "Waiting for a complete answer: 2 of 3 ROS processes on this machine have not answered "
+        "yet.\n"
+    )
 
 
 def test_gaps_in_the_numbers_of_endpoints():

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ros2_command.errors import CommandError
-from ros2_command.nearest import did_you_mean
-from ros2_command.packages import all_packages
+from ros2_command.names import did_you_mean
+from ros2_command.packages import all_packages, package_prefix
 
 INDEX = Path("share", "ament_index", "resource_index", "rosidl_interfaces")
 #: The kinds in the order in which they are listed, with their headings.
@@ -16,7 +16,7 @@ KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 @dataclass(frozen=True, order=True)
 class Interface:
-    """An interface.
+    """Know where an interface is defined.
 
     Attributes:
         name: `pkg/kind/Name`.
@@ -28,17 +28,17 @@ class Interface:
 
     @property
     def package(self) -> str:
-        """The package that defines it."""
+        """Return the package that defines it."""
         return self.name.split("/")[0]
 
     @property
     def kind(self) -> str:
-        """`msg`, `srv` or `action`."""
+        """Return `msg`, `srv` or `action`."""
         return self.name.split("/")[1]
 
 
 def package_interfaces(package: str, prefix: Path) -> list[Interface]:
-    """The interfaces of a package, sorted; empty if it defines none."""
+    """Return the interfaces of a package, sorted; none if it defines none."""
     index = prefix / INDEX / package
     lines = index.read_text(encoding="utf-8").split() if index.is_file() else []
     found = set()
@@ -51,7 +51,7 @@ def package_interfaces(package: str, prefix: Path) -> list[Interface]:
 
 
 def all_interfaces() -> list[Interface]:
-    """Every interface of every package, sorted by name."""
+    """Return every interface of every package, sorted by name."""
     found = [
         one
         for package, prefix in all_packages().items()
@@ -61,7 +61,7 @@ def all_interfaces() -> list[Interface]:
 
 
 def find_interface(name: str) -> Interface:
-    """One interface by its full name.
+    """Find one interface by its full name.
 
     Raises:
         CommandError: If the name has another form, or there is none; the nearest is suggested.
@@ -75,9 +75,10 @@ def find_interface(name: str) -> Interface:
             f"Did you mean '{short[0]}'?" if short else did_you_mean(name, found),
         )
     if name not in found:
-        prefix = all_packages().get(parts[0])
-        where = f"{prefix}/share/{name}.idl" if prefix else name
-        raise CommandError(f"Could not find the interface '{where}'", did_you_mean(name, found))
+        prefix = package_prefix(parts[0], "Unknown package '{}'")
+        raise CommandError(
+            f"Could not find the interface '{prefix}/share/{name}.idl'", did_you_mean(name, found)
+        )
     return found[name]
 
 
@@ -91,7 +92,7 @@ PRIMITIVES = frozenset(
 
 
 def nested_type(line: str, package: str) -> str | None:
-    """The message type of a field that is itself a message, else None.
+    """Return the message type of a field that is itself a message, else None.
 
     Args:
         line: A line of a definition.
@@ -111,7 +112,7 @@ def nested_type(line: str, package: str) -> str | None:
 
 
 def show_lines(interface: Interface, comments: str = "top") -> list[str]:
-    """The lines of a definition, with those of nested messages below their fields.
+    """Return the lines of a definition, with those of nested messages below their fields.
 
     Args:
         interface: What to show.
@@ -134,6 +135,25 @@ def _expand(
         if inner is not None:
             lines += _expand(inner, known, comments, comments == "all", level + 1)
     return lines
+
+
+def whole_definition(name: str) -> str:
+    """Return a message's definition and those of all messages in it, as a bag holds them.
+
+    Raises:
+        CommandError: If it, or one that it is made of, is not installed as a `.msg` file.
+    """
+    known = {one.name: one for one in all_interfaces()}
+    names, texts = [name], list[str]()
+    for one in names:  # grows while it is read
+        if one not in known or known[one].kind != "msg":
+            raise CommandError(f"The definition of {one} is not installed")
+        text = known[one].path.read_text(encoding="utf-8")
+        inner = [nested_type(line, known[one].package) for line in text.splitlines()]
+        names += [found for found in dict.fromkeys(inner) if found and found not in names]
+        title = f"{'=' * 80}\nMSG: {one.replace('/msg/', '/')}\n" if texts else ""
+        texts.append(title + text.rstrip("\n") + "\n")
+    return "".join(texts)
 
 
 def _without_comment(line: str) -> str:

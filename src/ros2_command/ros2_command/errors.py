@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class CommandError(Exception):
-    """What to say on stderr, and the exit code.
+    """End the command with a message on stderr and an exit code.
 
     Args:
         *lines: What happened first, then what it means or what to try.
@@ -17,4 +17,4 @@ class CommandError(Exception):
 
 
 class UsageError(Exception):
-    """An argument has a value that cannot be used; reported with the verb's usage, exit code 2."""
+    """Refuse the value of an argument, with the verb's usage and exit code 2."""

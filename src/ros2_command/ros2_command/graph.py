@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
+import sys
 import time
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from importlib.resources import as_file, files
 from typing import Any, NoReturn
 
+from ros2_command.discovery import (
+    PROCESS,
+    count_participants,
+    domain_id,
+    has_gaps,
+    only_this_machine,
+)
 from ros2_command.errors import CommandError
-from ros2_command.local_processes import count_participants, domain_id, only_this_machine
 from ros2_command.names import full_name, is_hidden
-from ros2_command.numbering import PROCESS, has_gaps
 from ros2_command.untyped import Untyped
 
 PROFILE_VARIABLE = "FASTRTPS_DEFAULT_PROFILES_FILE"
@@ -31,11 +39,13 @@ NO_NEWS = 4.0
 AT_MOST = 20.0
 #: Endpoints whose numbers are missing may be late, or were destroyed; this is how late they may be.
 GAPS_FOR = 2.0
+#: Whoever waits for longer than this is told for what.
+SILENT_FOR = 2.0
 _LOOK_EVERY = 0.02
 
 
 def add_graph_arguments(parser: ArgumentParser, daemon: bool = True) -> None:
-    """The options of verbs that ask the graph.
+    """Add the options of verbs that ask the graph.
 
     Args:
         parser: The verb's parser.
@@ -56,7 +66,7 @@ def add_graph_arguments(parser: ArgumentParser, daemon: bool = True) -> None:
 
 
 class Graph:
-    """A hidden node, and what it can see.
+    """Look at the graph as a hidden node sees it.
 
     Attributes:
         node: The rclpy node.
@@ -64,12 +74,13 @@ class Graph:
         node_name: The node's name, still known after `close`.
     """
 
-    def __init__(self, node: Untyped, context: Untyped, spin_time: float | None = None) -> None:
+    def __init__(self, node: Untyped, context: Untyped, args: Namespace | None = None) -> None:
         from rclpy.executors import SingleThreadedExecutor
 
         self.node, self.context = node, context
         self.node_name = str(node.get_name())
-        self._spin_time = spin_time
+        self._spin_time: float | None = getattr(args, "spin_time", None)
+        self._sim_time = bool(getattr(args, "use_sim_time", False))
         self._born = time.monotonic()
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(node)
@@ -82,7 +93,7 @@ class Graph:
 
     @property
     def age(self) -> float:
-        """Seconds since the node appeared."""
+        """Return the seconds since the node appeared."""
         return time.monotonic() - self._born
 
     def spin_until(self, done: Callable[[], bool], seconds: float | None = None) -> bool:
@@ -107,6 +118,30 @@ class Graph:
         """Let callbacks run for some time."""
         self.spin_until(lambda: False, seconds)
 
+    def clock(self) -> Callable[[], float]:
+        """Return what tells the time in seconds: simulated time with `-s`, else a steady clock."""
+        if not self._sim_time:
+            return time.monotonic
+        clock = self.node.get_clock()
+        return lambda: float(clock.now().nanoseconds) / 1e9
+
+    def ticks(self, period: float) -> Iterator[None]:
+        """Let callbacks run, and yield at once and then each period of the clock.
+
+        Ticks that were missed are left out, as timers of ROS do, also when simulated time jumps
+        ahead with the first message on `/clock`; where it jumps back they start anew.
+        """
+        clock = self.clock()
+        due = clock()
+        while True:
+            yield
+            due += period * max(1, math.ceil((clock() - due) / period))
+            if self._sim_time:
+                self.spin_until(partial(_is_outside, clock, due - period, due))
+                due = min(due, clock())
+            else:
+                self.spin_for(due - clock())
+
     def settle(self, enough: Callable[[], bool] = lambda: False, names_only: bool = False) -> Graph:
         """Wait until the graph can be believed, and return this object.
 
@@ -122,7 +157,7 @@ class Graph:
             time.sleep(max(0.0, self._spin_time - self.age))
             return self
         at_least = 0.0 if only_this_machine() else OTHER_MACHINES
-        last, since, same = None, self._born, 0
+        last, since, same, told = None, self._born, 0, False
         while self.age < AT_MOST and time.monotonic() - since < NO_NEWS and not enough():
             now = self._look()
             if now != last:
@@ -133,8 +168,18 @@ class Graph:
             )
             if enough_looks and self._is_complete() and (names_only or self._has_no_gaps(since)):
                 break
+            if not told and self.age > SILENT_FOR:
+                told = True
+                print(self._what_is_awaited(), file=sys.stderr)
             time.sleep(_LOOK_EVERY)
         return self
+
+    def _what_is_awaited(self) -> str:
+        seen, there = len(self._processes()[0]), count_participants(domain_id())
+        missing = f"{there - seen} of {there} ROS processes on this machine have not answered yet"
+        return (
+            f"Waiting for a complete answer: {missing if seen < there else 'news still comes in'}."
+        )
 
     def _look(self) -> object:
         topics = self.topics()
@@ -145,14 +190,12 @@ class Graph:
         return sorted(self.node.get_node_names_and_namespaces()), topics, self.services(), counts
 
     def _is_complete(self) -> bool:
-        """Whether every ROS process is seen and has told the names of its nodes.
+        """Return whether every ROS process is seen and has told the names of its nodes.
 
         A process tells of its publishers and of its subscriptions in two separate streams, each
         in order of creation, and creates one of each for this topic first.
         """
-        topic = ("ros_discovery_info", True)
-        seen = {_process(one) for one in self.node.get_publishers_info_by_topic(*topic)}
-        heard = {_process(one) for one in self.node.get_subscriptions_info_by_topic(*topic)}
+        seen, heard = self._processes()
         if seen != heard or len(seen) < count_participants(domain_id()):
             return False
         named = set()
@@ -163,8 +206,16 @@ class Graph:
                 named.add(_process(one))
         return seen <= named
 
+    def _processes(self) -> tuple[set[bytes], set[bytes]]:
+        """Return the processes whose publisher of discovery is seen, and whose subscription."""
+        topic = ("ros_discovery_info", True)
+        return (
+            {_process(one) for one in self.node.get_publishers_info_by_topic(*topic)},
+            {_process(one) for one in self.node.get_subscriptions_info_by_topic(*topic)},
+        )
+
     def _has_no_gaps(self, since: float) -> bool:
-        """Whether no endpoint is known to be missing, or was missing for too long to come."""
+        """Return whether no endpoint is missing, or was missing for too long to come."""
         return time.monotonic() - since >= GAPS_FOR or not has_gaps(
             bytes(one.endpoint_gid)
             for name, _ in self.node.get_topic_names_and_types(no_demangle=True)
@@ -176,34 +227,38 @@ class Graph:
         )
 
     def topics(self) -> list[tuple[str, list[str]]]:
-        """Every topic with its types, sorted."""
+        """Return every topic with its types, sorted."""
         return sorted(self.node.get_topic_names_and_types())
 
     def services(self) -> list[tuple[str, list[str]]]:
-        """Every service with its types, sorted."""
+        """Return every service with its types, sorted."""
         return sorted(self.node.get_service_names_and_types())
 
     def nodes(self, hidden: bool = False) -> list[str]:
-        """The full name of every node but this one, sorted."""
+        """Return the full name of every node but this one, sorted."""
         own = full_name(self.node.get_name(), self.node.get_namespace())
         names = [full_name(*one) for one in self.node.get_node_names_and_namespaces()]
         return sorted(name for name in names if name != own and (hidden or not is_hidden(name)))
 
     def publishers(self, topic: str) -> list[Any]:
-        """Every publisher on a topic."""
+        """Return every publisher on a topic."""
         return list(self.node.get_publishers_info_by_topic(topic))
 
     def subscriptions(self, topic: str) -> list[Any]:
-        """Every subscription to a topic."""
+        """Return every subscription to a topic."""
         return list(self.node.get_subscriptions_info_by_topic(topic))
 
     def others(self, endpoints: list[Any]) -> list[Any]:
-        """Those endpoints that are not this node's."""
+        """Return those endpoints that are not this node's."""
         return [one for one in endpoints if one.node_name != self.node.get_name()]
 
 
+def _is_outside(clock: Callable[[], float], begin: float, end: float) -> bool:
+    return not begin <= clock() < end
+
+
 def _process(endpoint: Untyped) -> bytes:
-    """The part of an endpoint's address that all endpoints of a process have in common."""
+    """Return the part of an endpoint's address that all endpoints of a process have in common."""
     return bytes(endpoint.endpoint_gid[PROCESS])
 
 
@@ -221,6 +276,8 @@ def open_graph(args: Namespace | None = None, name: str | None = None) -> Iterat
     _check_domain()
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _leave)
+    # A shell without job control starts what stands before `&` with Ctrl+C ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with _profile():
         graph = _start(args, name or f"_ros2cli_{os.getpid()}")
     try:
@@ -243,15 +300,15 @@ def _start(args: Namespace | None, name: str) -> Graph:
     sim_time = Parameter("use_sim_time", value=bool(getattr(args, "use_sim_time", False)))
     context = rclpy.Context()
     try:
-        # Python's own handling of Ctrl+C is what this command wants.
-        rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
+        # Python's own handling of Ctrl+C is what this command wants, and its words are not ROS's.
+        rclpy.init(args=[], context=context, signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node(
             name, context=context, start_parameter_services=False,
             parameter_overrides=[sim_time],
         )  # fmt: skip
     except RuntimeError as error:  # rclpy's RCLError is one
         raise CommandError(f"ROS could not be started: {error}") from None
-    return Graph(node, context, getattr(args, "spin_time", None))
+    return Graph(node, context, args)
 
 
 def _check_domain() -> None:

@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from typing import TYPE_CHECKING
 
 from ros2_command.errors import CommandError
-from ros2_command.graph import Graph
-from ros2_command.message_types import find_type, is_message
-from ros2_command.names import absolute, is_hidden
-from ros2_command.nearest import did_you_mean
+from ros2_command.names import absolute, did_you_mean, is_hidden
 from ros2_command.untyped import Untyped
+
+if TYPE_CHECKING:
+    from ros2_command.graph import Graph
 
 NOBODY = (
     "No node that can be seen from here has it. Is the node running? Is ROS_DOMAIN_ID the same?"
 )
+Entries = list[tuple[str, list[str]]]
+_EXAMPLES = {
+    "msg": "std_msgs/msg/Float32",
+    "srv": "std_srvs/srv/Trigger",
+    "action": "test_msgs/action/Fibonacci",
+}
 
 
-def pick(
-    typed: str, entries: Sequence[tuple[str, list[str]]], complaint: str
-) -> tuple[str, list[str]]:
-    """The entry of a name, with or without its leading slash.
+def pick(typed: str, entries: Entries, complaint: str) -> tuple[str, list[str]]:
+    """Return the entry of a name, with or without its leading slash.
 
     Args:
         typed: The name as typed.
@@ -36,34 +43,107 @@ def pick(
     return name, found[name]
 
 
+def of_type(entries: Entries, type_name: str, hidden: bool) -> list[str]:
+    """Return the names that have a type; hidden ones only if they are wanted."""
+    return [name for name, types in visible(entries, hidden) if type_name in types]
+
+
+def visible(entries: Entries, hidden: bool) -> Entries:
+    """Return the entries without those that are hidden, unless these are wanted, too."""
+    return [one for one in entries if hidden or not is_hidden(one[0])]
+
+
+def show_entries(entries: Entries, count: bool, types: bool) -> None:
+    """Print names, with their types if wanted, or only how many there are."""
+    if count:
+        print(len(entries))
+        return
+    for name, carried in entries:
+        print(f"{name} {show_types(carried)}" if types else name)
+
+
 def suggestion(name: str, names: Sequence[str] | dict[str, list[str]]) -> str:
-    """The nearest name that is not hidden, or what else could be wrong."""
+    """Return a line with the nearest name that is not hidden, or with what else could be wrong."""
     return did_you_mean(name, [one for one in names if not is_hidden(one)], NOBODY)
 
 
 def show_types(types: Sequence[str]) -> str:
-    """Types in brackets."""
+    """Return types in brackets."""
     return f"[{', '.join(types)}]"
 
 
-def message_class(name: str, graph: Graph | None = None) -> Untyped:
-    """The class of a message type.
+def find_type(name: str, kind: str) -> Untyped | None:
+    """Return the class of a type.
+
+    Args:
+        name: `pkg/msg/Name`, or `pkg/Name`.
+        kind: `msg`, `srv` or `action`, for the short form.
+
+    Returns:
+        The class, or None if there is none of that name.
+    """
+    parts = name.split("/")
+    if len(parts) == 2:
+        parts.insert(1, kind)
+    if len(parts) != 3 or not all(part.isidentifier() for part in parts):
+        return None
+    try:
+        module = import_module(f"{parts[0]}.{parts[1]}")
+    except ImportError:
+        return None
+    found = getattr(module, parts[2], None)
+    return found if isinstance(found, type) else None
+
+
+def full_type(name: str, kind: str) -> str:
+    """Return a type's name in its long form, `pkg/kind/Name`."""
+    parts = name.split("/")
+    return f"{parts[0]}/{kind}/{parts[-1]}"
+
+
+def message_class(name: str) -> Untyped:
+    """Return the class of a message type.
 
     Raises:
         CommandError: If there is none of that name.
     """
     found = find_type(name, "msg")
-    if found is None or not is_message(found):
+    if not hasattr(found, "get_fields_and_field_types"):
         raise CommandError("The passed message type is invalid", type_hint(name, "msg"))
     return found
 
 
+def service_class(name: str) -> Untyped:
+    """Return the class of a service type.
+
+    Raises:
+        CommandError: If there is none of that name, or it is not a service's.
+    """
+    found = find_type(name, "srv")
+    if found is None:
+        raise CommandError("The passed service type is invalid", type_hint(name, "srv"))
+    if not hasattr(found, "Response"):
+        raise CommandError("The passed type is not a service", type_hint(name, "srv"))
+    return found
+
+
+def action_class(name: str) -> Untyped:
+    """Return the class of an action type.
+
+    Raises:
+        CommandError: If there is none of that name.
+    """
+    found = find_type(name, "action")
+    if not hasattr(found, "Goal"):
+        raise CommandError("The passed action type is invalid", type_hint(name, "action"))
+    return found
+
+
 def type_hint(name: str, kind: str) -> str:
-    """The nearest type of a kind, or how a type is written."""
+    """Return a line with the nearest type of a kind, or with how a type is written."""
     from ros2_command.definitions import all_interfaces
 
-    example = {"msg": "std_msgs/msg/Float32", "srv": "std_srvs/srv/Trigger"}[kind]
-    how = f"A type is written like {example}."
+    how = f"A type is written like {_EXAMPLES[kind]}."
     try:
         names = [one.name for one in all_interfaces() if one.kind == kind]
     except CommandError:
@@ -72,7 +152,7 @@ def type_hint(name: str, kind: str) -> str:
 
 
 def topic_class(typed: str, type_name: str | None, graph: Graph) -> Untyped:
-    """The message class of a topic: the one that is given, or the one that the graph tells.
+    """Return the message class of a topic: the one that is given, or the one of the graph.
 
     Raises:
         CommandError: If it cannot be known, or does not exist, or nobody publishes it.
@@ -94,8 +174,7 @@ def topic_class(typed: str, type_name: str | None, graph: Graph) -> Untyped:
             )
         type_name = types[0]
     found = message_class(type_name)
-    parts = type_name.split("/")
-    full = f"{parts[0]}/msg/{parts[-1]}"
+    full = full_type(type_name, "msg")
     if types and full not in types:
         raise CommandError(
             f"The topic '{typed}' carries {show_types(types)}, not {full}",
@@ -105,7 +184,7 @@ def topic_class(typed: str, type_name: str | None, graph: Graph) -> Untyped:
 
 
 def find_node(typed: str, nodes: Sequence[str], complaint: str) -> str:
-    """The full name of a node.
+    """Return the full name of a node.
 
     Raises:
         CommandError: If there is none of that name; the nearest one is suggested.
@@ -114,3 +193,35 @@ def find_node(typed: str, nodes: Sequence[str], complaint: str) -> str:
     if name not in nodes:
         raise CommandError(complaint, suggestion(name, list(nodes)))
     return name
+
+
+def wait_for_server(
+    graph: Graph, ready: Callable[[], bool], what: str, typed: str, asked: str,
+    entries: Callable[[], Entries],
+) -> None:  # fmt: skip
+    """Wait until somebody offers a service or an action; after a while say that nobody does.
+
+    Args:
+        graph: Where the client is.
+        ready: Whether a server is there.
+        what: `service` or `action`.
+        typed: Its name as typed.
+        asked: Its type, `pkg/kind/Name`.
+        entries: Tells the names and types of the graph.
+
+    Raises:
+        CommandError: If it is offered with another type.
+    """
+    graph.settle(ready)
+    if ready():
+        return
+    name = absolute(typed)
+    found = {one: types for one, types in entries() if types != [asked] or one != name}
+    if name in found:
+        others = [one for one in found[name] if one != asked]
+        raise CommandError(
+            f"The {what} '{name}' has the type {show_types(others)}, not {asked}",
+            "With another type there is never an answer.",
+        )
+    print(f"Nobody offers '{name}'. {suggestion(name, found)}", file=sys.stderr)
+    graph.spin_until(ready)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from argparse import Namespace
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from importlib.util import find_spec
@@ -34,7 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _open_closed_streams() -> None:
-    """Python has None for a stream that was closed before it started (`ros2 pkg list >&-`)."""
+    """Replace the None that Python has for a closed stream (`ros2 pkg list >&-`)."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
@@ -88,7 +89,7 @@ def _has_folder() -> bool:
 
 
 def _quietly(code: int) -> int:
-    """Whatever is still in the buffer of stdout has no reader any more."""
+    """Drop what is still in the buffer of stdout; it has no reader any more."""
     try:
         sys.stdout.flush()
     except OSError:
@@ -101,7 +102,7 @@ def _run(argv: list[str]) -> int:
     refusal = what_is_left_out(command, verb) if command else None
     if refusal:
         raise CommandError(refusal)
-    args = build(argv).parse_args(argv)
+    args = build(argv).parse_args(argv, Namespace(_words=argv))
     if not args.use_python_default_buffering and isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)
     name, verb = args._command, getattr(args, "_verb", None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import array
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +13,7 @@ from ros2_command.untyped import Untyped
 
 @dataclass(frozen=True)
 class Style:
-    """How to show a message.
+    """Say how to show a message.
 
     Attributes:
         limit: Arrays and strings longer than this are cut; None shows all.
@@ -27,24 +28,43 @@ class Style:
     flow: bool = False
 
 
+def add_style_arguments(parser: ArgumentParser) -> None:
+    """Add the options of verbs that show messages."""
+    add = parser.add_argument
+    add("--csv", action="store_true", help="Output all recursive fields separated by commas")
+    add("-f", "--full-length", action="store_true",
+        help="Output all elements for arrays, bytes, and strings")  # fmt: skip
+    add("-l", "--truncate-length", type=int, default=128,
+        help="The length to truncate arrays, bytes, and strings to (default: 128)")  # fmt: skip
+    add("--no-arr", action="store_true", help="Don't print array fields of messages")
+    add("--no-str", action="store_true", help="Don't print string fields of messages")
+    add("--flow-style", action="store_true", help="Print collections in the flow style")
+
+
+def style_of(args: Namespace) -> Style:
+    """Return the style that the options ask for."""
+    limit = None if args.full_length else args.truncate_length
+    return Style(limit, args.no_arr, args.no_str, args.flow_style)
+
+
 def is_message_value(value: Untyped) -> bool:
-    """Whether a value is a message."""
+    """Return whether a value is a message."""
     return hasattr(value, "get_fields_and_field_types")
 
 
 def is_array(value: Untyped) -> bool:
-    """Whether a value is a sequence of values (and not a text)."""
+    """Return whether a value is a sequence of values, and not a text."""
     return isinstance(value, list | tuple | array.array) or hasattr(value, "dtype")
 
 
 def fields_of(message: Untyped) -> Iterable[tuple[str, Any, Any]]:
-    """Name, type and value of each field, in the order of the definition."""
+    """Yield name, type and value of each field, in the order of the definition."""
     for name, kind in zip(message.get_fields_and_field_types(), message.SLOT_TYPES, strict=True):
         yield name, kind, getattr(message, name)
 
 
 def to_plain(message: Untyped, style: Style) -> dict[str, Any]:
-    """A message as dictionaries, lists and plain values."""
+    """Return a message as dictionaries, lists and plain values."""
     return {name: _plain(value, kind, style) for name, kind, value in fields_of(message)}
 
 
@@ -64,7 +84,7 @@ def _plain(value: Untyped, kind: Untyped, style: Style) -> Untyped:
 
 
 class _Inline(list[Any]):
-    """A list that may be shown on one line."""
+    """Mark a list that may be shown on one line."""
 
 
 def _plain_text(value: str | bytes, style: Style) -> str:
@@ -80,7 +100,8 @@ def _array_summary(value: Untyped, kind: Untyped) -> str:
     element = _type_name(kind.value_type)
     if hasattr(kind, "size"):
         return f"<array type: {element}[{len(value)}]>"
-    return f"<sequence type: {element}, length: {len(value)}>"
+    bound = f"[{kind.maximum_size}]" if hasattr(kind, "maximum_size") else ""
+    return f"<sequence type: {element}{bound}, length: {len(value)}>"
 
 
 def _type_name(kind: Untyped) -> str:
@@ -92,7 +113,7 @@ def _type_name(kind: Untyped) -> str:
 
 
 def plain_to_yaml(value: Untyped, flow: bool = False) -> str:
-    """Dictionaries, lists and plain values as YAML that ends in a newline."""
+    """Return dictionaries, lists and plain values as YAML that ends in a newline."""
     import yaml
 
     class Dumper(yaml.SafeDumper):
@@ -112,12 +133,12 @@ def plain_to_yaml(value: Untyped, flow: bool = False) -> str:
 
 
 def to_yaml(message: Untyped, style: Style) -> str:
-    """A message as YAML that ends in a newline."""
+    """Return a message as YAML that ends in a newline."""
     return plain_to_yaml(to_plain(message, style), style.flow)
 
 
 def to_csv(message: Untyped, style: Style) -> str:
-    """All values of a message on one line."""
+    """Return all values of a message on one line."""
     return ",".join(_leaves(message, None, style))
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import array
 import sys
+from argparse import ArgumentParser
 from collections.abc import Callable
 from typing import Any
 
 from ros2_command.errors import CommandError
+from ros2_command.lookup import find_type
 from ros2_command.message_text import is_message_value
-from ros2_command.message_types import find_type
-from ros2_command.nearest import did_you_mean
+from ros2_command.names import did_you_mean
 from ros2_command.untyped import Untyped
 
 FAILED = "Failed to populate field: "
@@ -22,7 +23,7 @@ Stamper = Callable[[Any], None]
 
 
 def read_yaml(text: str) -> Untyped:
-    """The one YAML document of a text.
+    """Return the one YAML document of a text.
 
     Raises:
         CommandError: If it is broken, or there are several.
@@ -41,8 +42,20 @@ def read_yaml(text: str) -> Untyped:
         ) from None
 
 
+def add_value_arguments(parser: ArgumentParser, name: str, about: str) -> None:
+    """Add the arguments of verbs that send a message.
+
+    Args:
+        parser: The verb's parser.
+        name: Of the positional argument.
+        about: Its help.
+    """
+    parser.add_argument(name, nargs="?", help=about)
+    parser.add_argument("--stdin", action="store_true", help="Read values from standard input")
+
+
 def value_text(values: str | None, stdin: bool) -> str:
-    """The text of the values: the argument, or standard input."""
+    """Return the text of the values: the argument, or standard input."""
     return sys.stdin.read() if stdin else "{}" if values is None else values
 
 
@@ -96,7 +109,7 @@ def _fill_field(message: Untyped, name: str, kind: Untyped, value: Untyped) -> l
 
 
 def _special(message: Untyped, name: str, value: Untyped) -> list[Stamper] | None:
-    """The stampers for `auto` and `now`, or None if the value is neither."""
+    """Return the stampers for `auto` and `now`, or None if the value is neither."""
     type_name = message.get_fields_and_field_types()[name].replace("/", "/msg/")
     if value == "auto" and type_name == _HEADER:
         return [lambda now: setattr(getattr(message, name), "stamp", now)]

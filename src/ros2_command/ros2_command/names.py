@@ -1,8 +1,10 @@
-"""Names of nodes, topics and services."""
+"""Names of nodes, topics and services: which are possible, and which was probably meant."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from difflib import SequenceMatcher, get_close_matches
 
 from ros2_command.errors import CommandError
 
@@ -10,17 +12,17 @@ _PART = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
 def is_hidden(name: str) -> bool:
-    """Whether one of the parts of a name begins with an underscore."""
+    """Return whether one of the parts of a name begins with an underscore."""
     return any(part.startswith("_") for part in name.split("/"))
 
 
 def absolute(name: str) -> str:
-    """A name with its leading slash."""
+    """Return a name with its leading slash."""
     return name if name.startswith("/") else f"/{name}"
 
 
 def full_name(name: str, namespace: str) -> str:
-    """A node's name with its namespace."""
+    """Return a node's name with its namespace."""
     return f"{namespace.rstrip('/')}/{name}"
 
 
@@ -54,3 +56,37 @@ def check_node_name(name: str) -> None:
             f"'{name}' cannot be the name of a node: it may hold letters, digits and '_' only, "
             "and must not begin with a digit"
         )
+
+
+def nearest(word: str, names: Iterable[str], likeness: float = 0.6) -> str | None:
+    """Return the name most like a word, or None if nothing is like it.
+
+    Args:
+        word: What was typed.
+        names: What would have been right.
+        likeness: How like it has to be, from 0 to 1 (`difflib.SequenceMatcher.ratio`), as a whole
+            and in the part after the last `/`: a common namespace or package says nothing.
+
+    Returns:
+        One of the names. Capitals do not count; neither do the parts before the last `/` if the
+        last part is exactly right.
+    """
+    by_lower = {name.lower(): name for name in names}
+    tail = _tail(word.lower())
+    found = [
+        name for name in get_close_matches(word.lower(), by_lower, n=10, cutoff=likeness)
+        if SequenceMatcher(None, _tail(name), tail).ratio() >= likeness
+    ]  # fmt: skip
+    if not found and tail:
+        found = sorted(name for name in by_lower if _tail(name) == tail)
+    return by_lower[found[0]] if found else None
+
+
+def _tail(name: str) -> str:
+    return name.rpartition("/")[2]
+
+
+def did_you_mean(word: str, names: Iterable[str], otherwise: str = "") -> str:
+    """Return a line that suggests the nearest name, or another line if there is none."""
+    name = nearest(word, names)
+    return f"Did you mean '{name}'?" if name else otherwise

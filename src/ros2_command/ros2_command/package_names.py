@@ -24,7 +24,7 @@ _INDEX = "share/ament_index/resource_index/packages"
 
 
 def _not_importable(name: str) -> str:
-    """Why Python cannot import a module of this name, or an empty string."""
+    """Return why Python cannot import a module of this name, or an empty string."""
     if not name:
         return "it is empty"
     if "-" in name:
@@ -39,7 +39,7 @@ def _not_importable(name: str) -> str:
 
 
 def _tidy(name: str) -> str:
-    """The name as it could have been meant."""
+    """Return the name as it could have been meant."""
     tidy = re.sub(r"[^a-z0-9]+", "_", name.removesuffix(".py").lower()).strip("_")
     return tidy if tidy and not _not_importable(tidy) else ""
 
@@ -66,7 +66,7 @@ def check_package_name(name: str) -> None:
 
 
 def _comes_with_ros(name: str) -> bool:
-    """Whether this installation has a package or module of that name; workspaces do not count."""
+    """Return whether this installation, workspaces apart, has a package or module of a name."""
     if (Path(sys.prefix) / _INDEX / name).exists():
         return True
     return PathFinder.find_spec(name, [sysconfig.get_path("purelib")]) is not None

@@ -19,7 +19,7 @@ LICENSES = (
 
 @dataclass(frozen=True)
 class NewPackage:
-    """What was asked for.
+    """Hold what was asked for.
 
     Attributes:
         name: The package, and the Python package in it.
@@ -45,14 +45,14 @@ class NewPackage:
 
 
 def license_text(name: str) -> str | None:
-    """The text of a license, or None if it is not one of `LICENSES`."""
+    """Return the text of a license, or None if it is not one of `LICENSES`."""
     if name not in LICENSES:
         return None
     return (files("ros2_command") / "data" / "licenses" / name).read_text(encoding="utf-8")
 
 
 def package_xml(new: NewPackage) -> str:
-    """The manifest."""
+    """Return the manifest."""
     schema = f"http://download.ros.org/schema/package_format{new.package_format}.xsd"
     email = escape(new.email, {'"': "&quot;"})
     depends = [f"  <depend>{escape(one)}</depend>" for one in new.dependencies]
@@ -78,7 +78,9 @@ def package_xml(new: NewPackage) -> str:
 
 
 def setup_py(new: NewPackage) -> str:
-    """The build script. Texts are written as Python would show them, so quotes cannot break it.
+    """Return the build script.
+
+    Texts are written as Python would show them, so quotes cannot break it.
 
     What tests require is an extra, as in newer versions of the original. Jazzy's own writes
     `tests_require`, which draws a warning from setuptools 72 and newer.
@@ -117,13 +119,13 @@ setup(
 
 
 def setup_cfg(new: NewPackage) -> str:
-    """Where executables are installed."""
+    """Return setup.cfg, which says where executables are installed."""
     folder = f"$base/lib/{new.name}"
     return f"[develop]\nscript_dir={folder}\n[install]\ninstall_scripts={folder}\n"
 
 
 def node_py(new: NewPackage) -> str:
-    """A program that says hello."""
+    """Return a program that says hello."""
     return f"""def main():
     print('Hi from {new.name}.')
 
@@ -139,7 +141,7 @@ def _notice() -> str:
 
 
 def linter_tests() -> dict[str, str]:
-    """The three tests of a new package, by file name.
+    """Return the three tests of a new package, by file name.
 
     The original imports the linters at the top. Without a full ROS 2 they may be missing, and
     ament_copyright is on no registry at all; an import that fails would end the whole test run.

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from ros2_command.errors import CommandError
-from ros2_command.nearest import did_you_mean
+from ros2_command.names import did_you_mean
 
 INDEX = Path("share", "ament_index", "resource_index", "packages")
 SOURCE_FIRST = (
@@ -16,7 +16,7 @@ SOURCE_FIRST = (
 
 
 def prefixes() -> list[Path]:
-    """The prefixes to look in, the first one wins.
+    """Return the prefixes to look in; the first one wins.
 
     The variable is set by `source .../setup.bash`. Without it there is still the environment that
     this Python lives in, if ROS is installed there.
@@ -36,7 +36,7 @@ def prefixes() -> list[Path]:
 
 
 def all_packages() -> dict[str, Path]:
-    """The prefix of every package, by name, sorted."""
+    """Return the prefix of every package, by name, sorted."""
     found: dict[str, Path] = {}
     for prefix in prefixes():
         folder = prefix / INDEX
@@ -47,7 +47,7 @@ def all_packages() -> dict[str, Path]:
 
 
 def package_prefix(name: str, complaint: str = "Package '{}' not found") -> Path:
-    """The prefix of one package.
+    """Return the prefix of one package.
 
     Args:
         name: The package.
@@ -63,7 +63,7 @@ def package_prefix(name: str, complaint: str = "Package '{}' not found") -> Path
 
 
 def executables(prefix: Path, name: str) -> list[Path]:
-    """Every file of a package that can be run, sorted by path."""
+    """Return every file of a package that can be run, sorted by path."""
     folder = prefix / "lib" / name
     found = []
     for root, folders, files in os.walk(folder):

@@ -5,16 +5,17 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Mapping, Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
-from ros2_command.nearest import did_you_mean
+from ros2_command.errors import CommandError
+from ros2_command.names import did_you_mean
 from ros2_command.registry import COMMANDS, LEFT_OUT, WHERE_TO_GET_THE_WHOLE, load
 
 _CHOICE = re.compile(r"invalid choice: '?(?P<word>.*?)'? \(choose from (?P<names>.*)\)")
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that suggests the nearest choice."""
+    """Parse, and suggest the nearest choice where a word is none of them."""
 
     def error(self, message: str) -> NoReturn:
         """Print the usage, the message and perhaps a suggestion, and end with exit code 2."""
@@ -25,14 +26,43 @@ class Parser(argparse.ArgumentParser):
         super().error(message)
 
 
+class LeftOut(argparse.Action):
+    """Refuse an option that the full ROS 2 has and this subset has not; `const` says why."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: object,
+        option_string: str | None = None,
+    ) -> NoReturn:
+        """End with a sentence, rather than go on without what was asked for."""
+        raise CommandError(f"'{parser.prog} {option_string}' is left out here: {self.const}")
+
+
+def leave_out(parser: argparse.ArgumentParser, reason: str, *options: str) -> None:
+    """Refuse options with a sentence.
+
+    Args:
+        parser: The verb's parser.
+        reason: Why, and what to do instead.
+        options: Each option; its short form may follow after a comma.
+    """
+    for names in options:
+        extra: dict[str, Any] = {"action": LeftOut, "nargs": "*", "const": reason}
+        parser.add_argument(*names.split(","), **extra, help=argparse.SUPPRESS)
+    start = f"{parser.epilog}, " if parser.epilog else "Left out of this subset: "
+    parser.epilog = start + ", ".join(names.rpartition(",")[2] for names in options)
+
+
 def words_of(argv: Sequence[str]) -> tuple[str | None, str | None]:
-    """The first two arguments that are not options: perhaps a command and a verb."""
+    """Return the first two arguments that are not options: perhaps a command and a verb."""
     words = [word for word in argv if not word.startswith("-")]
     return (words[0] if words else None, words[1] if len(words) > 1 else None)
 
 
 def listing(entries: Mapping[str, str]) -> str:
-    """The block below `Commands:`."""
+    """Return the block below `Commands:`."""
     width = max(map(len, entries))
     return "\n".join(f"{name:<{width}}  {about}" for name, about in sorted(entries.items()))
 
@@ -52,6 +82,8 @@ def _sub(parser: Parser, call: str, entries: Mapping[str, str], dest: str) -> di
 
 def _fill_command(parser: Parser, command: str, verb: str | None) -> None:
     about = COMMANDS[command]
+    if about.left_out:
+        parser.epilog = f"Left out of this subset: {', '.join(about.left_out)}"
     if not about.verbs:
         load(command).add_arguments(parser)
         return
@@ -60,8 +92,6 @@ def _fill_command(parser: Parser, command: str, verb: str | None) -> None:
         parser.add_argument(
             name, action="store_true", help=f"Consider hidden {command}s as well"
         )  # the original has the option in both places
-    if about.left_out:
-        parser.epilog = f"Left out of this subset: {', '.join(about.left_out)}"
     verbs = _sub(parser, f"ros2 {command} <command>", about.verbs, "_verb")
     parser.set_defaults(_parser=parser)
     if verb in verbs:
@@ -70,7 +100,7 @@ def _fill_command(parser: Parser, command: str, verb: str | None) -> None:
 
 
 def build(argv: Sequence[str]) -> Parser:
-    """A parser for the whole command, with the arguments of the verb that argv names."""
+    """Make a parser for the whole command, with the arguments of the verb that argv names."""
     command, verb = words_of(argv)
     parser = Parser(
         prog="ros2",

@@ -23,7 +23,7 @@ _CHOICES = {
 
 
 def add_qos_arguments(parser: ArgumentParser, entity: str, profile: str) -> None:
-    """The options.
+    """Add the options.
 
     Args:
         parser: The verb's parser.
@@ -48,7 +48,7 @@ def add_qos_arguments(parser: ArgumentParser, entity: str, profile: str) -> None
 
 
 def asked_profile(args: Namespace, default: str) -> Untyped:
-    """The profile that the options name, as rclpy has it."""
+    """Return the profile that the options name, as rclpy has it."""
     from rclpy import qos
     from rclpy.duration import Duration
 

@@ -5,15 +5,32 @@ This module is read before anything else, so it imports nothing of ROS and none 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from types import MappingProxyType, ModuleType
+from types import MappingProxyType
+from typing import NamedTuple
+
+
+class Verb(NamedTuple):
+    """Say how a verb is parsed, and what it does.
+
+    Each module of `ros2_command.verbs` has a mapping `VERBS` of these, by name; the key is "" where
+    a command has no verbs.
+
+    Attributes:
+        add_arguments: Declares its arguments.
+        main: Does it; an exit code, where there is one, is the command's.
+    """
+
+    add_arguments: Callable[[ArgumentParser], None]
+    main: Callable[[Namespace], int | None]
 
 
 @dataclass(frozen=True)
 class Command:
-    """A command of `ros2`.
+    """Describe a command of `ros2`.
 
     Attributes:
         about: One line for the list in `--help`.
@@ -28,8 +45,26 @@ class Command:
 
 COMMANDS: Mapping[str, Command] = MappingProxyType(
     {
+        "action": Command(
+            "Various action related sub-commands",
+            {
+                "info": "Print information about an action",
+                "list": "Output a list of action names",
+                "send_goal": "Send an action goal",
+                "type": "Print a action's type",
+            },
+        ),
+        "bag": Command(
+            "Various rosbag related sub-commands",
+            {
+                "info": "Print information about a bag to the screen",
+                "play": "Play back ROS data from a bag",
+                "record": "Record ROS data to a bag",
+            },
+            left_out=("burst", "convert", "list", "reindex"),
+        ),
         "completion": Command("Output what a shell needs to complete this command"),
-        "doctor": Command("Check ROS setup and other potential issues"),
+        "doctor": Command("Check ROS setup and other potential issues", left_out=("hello",)),
         "interface": Command(
             "Show information about ROS interfaces",
             {
@@ -50,12 +85,14 @@ COMMANDS: Mapping[str, Command] = MappingProxyType(
         "param": Command(
             "Various param related sub-commands",
             {
+                "delete": "Delete parameter",
+                "describe": "Show descriptive information about declared parameters",
                 "dump": "Show all of the parameters of a node in a YAML file format",
                 "get": "Get parameter",
                 "list": "Output a list of available parameters",
+                "load": "Load parameter file for a node",
                 "set": "Set parameter",
             },
-            left_out=("delete", "describe", "load"),
         ),
         "pkg": Command(
             "Various package related sub-commands",
@@ -72,15 +109,18 @@ COMMANDS: Mapping[str, Command] = MappingProxyType(
             "Various service related sub-commands",
             {
                 "call": "Call a service",
+                "echo": "Echo a service",
+                "find": "Output a list of available services of a given type",
+                "info": "Print information about a service",
                 "list": "Output a list of available services",
                 "type": "Output a service's type",
             },
-            left_out=("echo", "find", "info"),
         ),
         "topic": Command(
             "Various topic related sub-commands",
             {
                 "bw": "Display bandwidth used by topic",
+                "delay": "Display delay of topic from timestamp in header",
                 "echo": "Output messages from a topic",
                 "find": "Output a list of available topics of a given type",
                 "hz": "Print the average publishing rate to screen",
@@ -89,16 +129,15 @@ COMMANDS: Mapping[str, Command] = MappingProxyType(
                 "pub": "Publish a message to a topic",
                 "type": "Print a topic's type",
             },
-            left_out=("delay",),
         ),
-        "wtf": Command("Use `wtf` as alias to `doctor`"),
+        "wtf": Command("Use `wtf` as alias to `doctor`", left_out=("hello",)),
     }
 )
 
 #: Commands of the full ROS 2 that are not in this subset.
 LEFT_OUT = (
-    *("action", "bag", "component", "control", "daemon", "extension_points", "extensions"),
-    *("launch", "lifecycle", "multicast", "plugin", "security", "test", "trace"),
+    *("component", "control", "daemon", "extension_points", "extensions", "launch", "lifecycle"),
+    *("multicast", "plugin", "security", "test", "trace"),
 )
 WHERE_TO_GET_THE_WHOLE = (
     "The full command comes with a full ROS 2 installation:\n"
@@ -108,14 +147,16 @@ WHERE_TO_GET_THE_WHOLE = (
 _SAME_MODULE = MappingProxyType({"wtf": "doctor"})
 
 
-def load(command: str, verb: str | None = None) -> ModuleType:
-    """Import the module of a command without verbs, or of a verb."""
-    name = _SAME_MODULE.get(command, command)
-    return import_module(".".join(["ros2_command.verbs", name, *([verb] if verb else [])]))
+def load(command: str, verb: str | None = None) -> Verb:
+    """Import a verb, or a command without verbs."""
+    module = import_module(f"ros2_command.verbs.{_SAME_MODULE.get(command, command)}")
+    found = module.VERBS[verb or ""]
+    assert isinstance(found, Verb)
+    return found
 
 
 def what_is_left_out(command: str, verb: str | None = None) -> str | None:
-    """What to say if a command or verb is one of the full ROS 2 only, else None."""
+    """Return what to say of a command or verb of the full ROS 2 only, None of another."""
     known = COMMANDS.get(command)
     if known is None and command in LEFT_OUT:
         name = command

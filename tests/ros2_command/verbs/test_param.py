@@ -1,3 +1,5 @@
+import re
+
 import pytest
 
 pytestmark = pytest.mark.ros
@@ -46,3 +48,101 @@ def test_get_set_and_dump(graph):
 )
 def test_what_is_refused(graph, words, said):
     assert said in graph.error("param", *words)
+
+
+LIMIT = """\
+Parameter name: limit
+  Type: double
+  Description: upper limit
+  Constraints:
+    Min value: 0.0
+    Max value: 100.0
+    Step: 0.5
+    Additional constraints: above low
+Parameter name: fixed
+  Type: string
+  Constraints:
+    Read only: true
+"""
+
+
+def test_describe(rich):
+    assert rich.out("param", "describe", "house/rich", "limit", "fixed") == LIMIT
+    done = rich("param", "describe", "house/rich", "limt", "fixed", code=1)
+    assert done.stdout == LIMIT[LIMIT.index("Parameter name: fixed") :]
+    assert done.stderr == "Parameter not set: limt\nDid you mean 'limit'?\n"
+
+
+def test_delete(rich):
+    assert rich.out("param", "delete", "/house/rich", "spare") == "Deleted parameter successfully\n"
+    assert "spare" not in rich.out("param", "list", "/house/rich")
+    assert rich.error("param", "delete", "/house/rich", "count") == (
+        "Deleting parameter failed: Static parameter cannot be undeclared\n"
+    )
+    assert "Did you mean 'limit'?" in rich.error("param", "delete", "/house/rich", "limt")
+
+
+FILE = """\
+/**:
+  ros__parameters:
+    count: 11
+    names: [x, '12']
+{node}:
+  ros__parameters:
+    count: 12
+    fixed: other
+/somebody/else:
+  ros__parameters:
+    limit: 1.0
+"""
+
+
+@pytest.mark.parametrize("node", ["/house/rich", "house/rich"])
+def test_load(rich, tmp_path, node):
+    path = tmp_path / "file.yaml"
+    path.write_text(FILE.format(node=node))
+    done = rich("param", "load", "house/rich", path)
+    assert done.stdout == "Set parameter count successful\nSet parameter names successful\n"
+    refused = "Set parameter fixed failed: Trying to set a read-only parameter: fixed.\n"
+    assert done.stderr == refused
+    dump = rich.out("param", "dump", "/house/rich")
+    assert "    count: 12\n    fixed: x\n    limit: 30.0\n    names:\n    - x\n    - '12'\n" in dump
+    alone = rich.out("param", "load", "/house/rich", path, "--no-use-wildcard")
+    assert alone == "Set parameter count successful\n"
+    path.write_text(dump)
+    assert "Set parameter names successful\n" in rich.out("param", "load", "/house/rich", path)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (None, "No such file or directory"),
+        ("", "is not a valid ROS parameter file"),
+        ("a: [", "is not valid YAML"),
+        ("/other: {ros__parameters: {}}", "Param file does not contain parameters for /house/rich"),
+        ("/house/rich: 5", "is not a valid ROS parameter file for node /house/rich"),
+        ("/**: {ros__parameters: {count: [1, x]}}", "cannot be the value of the parameter 'count'"),
+    ],
+)
+def test_files_that_cannot_be_loaded(rich, tmp_path, text, said):
+    path = tmp_path / "file.yaml"
+    if text is not None:
+        path.write_text(text)
+    assert said in rich.error("param", "load", "/house/rich", path)
+
+
+def test_load_for_no_node(rich, tmp_path):
+    assert rich.error("param", "load", "/house/rih", tmp_path / "file") == (
+        "Node not found\nDid you mean '/house/rich'?\n"
+    )
+    words = "required: node_name, parameter_file"
+    assert words in rich.error("param", "load", code=2)
+
+
+@pytest.mark.parametrize("words", [("describe", "rate"), ("delete", "rate"), ("load", "file")])
+def test_a_node_that_does_not_answer(graph, another_node, tmp_path, words):
+    (tmp_path / "file").write_text("/**: {ros__parameters: {rate: 5}}")
+    verb, what = words
+    with another_node(graph, "busy", "temperature", 0):
+        error = graph.error("param", verb, "/busy", what, cwd=tmp_path)
+    assert re.fullmatch(r"The service '/busy/\w+' did not answer in 5 seconds\n", error)

@@ -156,6 +156,27 @@ def test_what_cannot_work_is_refused_before_anything_is_made(ros2, tmp_path, wor
     assert sorted(tmp_path.rglob("*")) == before
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("p",), "p"),
+        (
+            ("p", "--license", "MIT", "--description", "a b", "--library-name=l"),
+            "p --license MIT --description 'a b' --library-name=l",
+        ),
+        (
+            ("p", "--build-type", "cmake", "--maintainer-name", "ada", "--dependencies", "rclpy"),
+            "p --maintainer-name ada --dependencies rclpy",
+        ),
+        (("--build=ament_cmake", "p"), "p"),
+    ],
+)
+def test_another_build_type_says_what_to_type_with_all_that_was_given(ros2, tmp_path, words, said):
+    error = ros2.error("pkg", "create", *words, cwd=tmp_path)
+    assert error.endswith(f"\nTry:  ros2 pkg create --build-type ament_python {said}\n")
+    assert not list(tmp_path.iterdir())
+
+
 def test_equal_names_of_node_and_library(ros2, tmp_path):
     words = (*CREATE, "p", "--node-name", "same", "--library-name", "same")
     assert ros2(*words, cwd=tmp_path).stderr == (
@@ -207,6 +228,7 @@ def test_what_is_not_in_the_index(ros2, prefix):
     said = ros2.error("pkg", "executables", "alhpa", **place)
     assert said == "Package 'alhpa' not found\nDid you mean 'alpha'?\n"
     assert ros2.error("pkg", "prefix", "zzz", **place).startswith("Package not found\nIf you have")
+    assert ros2.error("pkg", "xml", "zzz", **place).startswith("Package not found\n")
     assert ros2.error("pkg", "xml", "beta", **place).startswith("Package XML manifest not found\n")
 
 

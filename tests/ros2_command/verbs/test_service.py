@@ -1,3 +1,4 @@
+import re
 import signal
 
 import pytest
@@ -22,6 +23,62 @@ def test_list_and_type(graph):
     assert "/one/enable [std_srvs/srv/SetBool]\n" in graph.out("service", "list", "-t")
     assert graph.out("service", "type", "one/enable") == "std_srvs/srv/SetBool\n"
     assert "Did you mean '/one/enable'?" in graph.error("service", "type", "/one/enabl")
+
+
+def test_find_and_info(graph, rich):
+    assert graph.out("service", "find", "std_srvs/srv/SetBool") == "/ns_two/enable\n/one/enable\n"
+    assert graph.out("service", "find", "-c", "std_srvs/srv/SetBool") == "2\n"
+    assert graph.out("service", "find", "no_type") == ""
+    assert graph.out("service", "info", "/one/enable") == (
+        "Type: std_srvs/srv/SetBool\nClients count: 0\nServices count: 1\n"
+    )
+    said = "Unknown service '/one/enabl'\nDid you mean '/one/enable'?\n"
+    assert graph.error("service", "info", "/one/enabl") == said
+    hidden = ("test_msgs/action/Fibonacci_SendGoal",)
+    assert rich.out("service", "find", *hidden) == ""
+    found = rich.out("service", "find", "--include-hidden-services", *hidden)
+    assert found == "/house/fibonacci/_action/send_goal\n"
+    before_the_verb = rich.out("service", "--include-hidden-services", "list")
+    assert "/house/fibonacci/_action/send_goal\n" in before_the_verb
+
+
+ECHOED = """\
+info:
+  event_type: REQUEST_RECEIVED
+  stamp:
+    sec: <number>
+    nanosec: <number>
+  client_gid: '<array type: uint8[16]>'
+  sequence_number: <number>
+request: '<sequence type: std_srvs/srv/SetBool_Request[1], length: 1>'
+response: '<sequence type: std_srvs/srv/SetBool_Response[1], length: 0>'
+---
+"""
+
+
+def test_echo(rich):
+    with rich.running("service", "echo", "house/enable", "--no-arr") as process:
+        while rich.out("topic", "info", EVENTS).splitlines()[-1] != "Subscription count: 1":
+            pass
+        rich.out("service", "call", "/house/enable", "std_srvs/srv/SetBool")
+        lines = [process.stdout.readline() for _ in range(2 * ECHOED.count("\n"))]
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+    assert process.returncode == 2
+    text = re.sub(r"(?<=: )\d+\n", "<number>\n", "".join(lines))
+    assert text.startswith(ECHOED)
+    assert "event_type: RESPONSE_SENT" in text
+
+
+EVENTS = "/house/enable/_service_event"
+
+
+def test_echo_of_what_cannot_be_heard(rich):
+    said = "Could not determine the type for the passed service\nDid you mean '/house/enable'?\n"
+    assert rich.error("service", "echo", "/house/enabl") == said
+    assert "type is invalid" in rich.error("service", "echo", "/house/enable", "std_srvs/srv/Nope")
+    with rich.running("service", "echo", "/house/rich/get_parameters") as process:
+        assert "configure_introspection()" in process.stderr.readline()
 
 
 def test_call(graph):

@@ -1,5 +1,6 @@
 import re
 import signal
+import time
 
 import pytest
 
@@ -68,12 +69,16 @@ def test_echo(graph):
         (("/temperature", "--field", "dat"), "object has no attribute 'dat'\nDid you mean 'data'?"),
         (("/temperature", "--filter", "m.("), "is not a Python expression"),
         (("/temperature", "--filter", "m.nope"), "has no attribute 'nope'"),
-        (("/one/in", "--timeout", "0.3"), "No message came on '/one/in'"),
         (("bad name!",), "topic name 'bad name!' is invalid"),
     ],
 )
 def test_echo_of_what_cannot_be_heard(graph, words, said):
     assert said in graph.error("topic", "echo", *words)
+
+
+def test_echo_until_a_time_is_silent_if_nothing_comes(graph):
+    done = graph("topic", "echo", "/one/in", "--timeout", "0.3")
+    assert (done.stdout, done.stderr) == ("", "")
 
 
 def test_ctrl_c_ends_without_a_word(graph):
@@ -109,6 +114,68 @@ def test_rates(graph, verb, lines):
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30)
     assert process.returncode == 2
+
+
+def test_delay(rich):
+    with rich.running("topic", "delay", "/house/point") as process:
+        assert re.fullmatch(r"average delay: \d\.\d{3}\n", process.stdout.readline())
+        pattern = r"\tmin: .*s max: .*s std dev: .*s window: \d+\n"
+        assert re.fullmatch(pattern, process.stdout.readline())
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+    assert process.returncode == 2
+    error = rich.error("topic", "delay", "/house/number")
+    assert error.startswith("msg does not have header\n")
+    with rich.running("topic", "delay", "/house/poin") as process:
+        assert process.stdout.readline().startswith("WARNING: topic [/house/poin] does not appear")
+        assert "Did you mean '/house/point'?" in process.stderr.readline()
+
+
+def test_a_hidden_topic(rich):
+    done = rich("topic", "type", "/house/_hidden", code=1)
+    assert done.stdout == ""
+    assert "ros2 topic --include-hidden-topics type /house/_hidden" in done.stderr
+    out = rich.out("topic", "--include-hidden-topics", "type", "/house/_hidden")
+    assert out == "std_msgs/msg/String\n"
+    assert "/house/_hidden\n" in rich.out("topic", "--include-hidden-topics", "list")
+    assert "/house/_hidden\n" in rich.out("topic", "list", "--include-hidden-topics")
+    assert "/house/_hidden\n" not in rich.out("topic", "list")
+
+
+def test_arrays_keep_their_bound(rich):
+    shown = rich.out("topic", "echo", "--once", "--no-arr", "/house/bounded")
+    assert "bool_values: '<sequence type: boolean[3], length: 0>'\n" in shown
+    assert "defaults_values: '<sequence type: test_msgs/msg/Defaults[3], length: 0>'\n" in shown
+
+
+def test_pub_follows_simulated_time(rich):
+    """`/clock` of the node runs at double speed, so 7 messages at 1 Hz take 3 s and no more."""
+    began = time.monotonic()
+    out = rich.out("topic", "pub", "-s", "-w", "0", "-t", "7", "/x", "std_msgs/msg/Int32")
+    wall = time.monotonic() - began
+    began = time.monotonic()
+    rich.out("topic", "pub", "-w", "0", "-t", "1", "/x", "std_msgs/msg/Int32")
+    rest = time.monotonic() - began  # starting and stopping
+    assert out.count("publishing") == 7
+    assert wall - rest < 5
+
+
+@pytest.mark.parametrize(
+    ("verb", "pattern", "simulated", "wall"),
+    [("hz", r"average rate: ([\d.]+)", 10, 20), ("bw", r"(\d+) B/s from", 80, 160)],
+)
+def test_rates_follow_simulated_time(rich, verb, pattern, simulated, wall):
+    """The node publishes at 20 Hz, 8 bytes each; in simulated time that is half of it."""
+    with rich.running("topic", verb, "-s", "-w", "20", "/house/number") as process:
+        lines = (re.match(pattern, line) for line in process.stdout)
+        rates = [float(found[1]) for found, _ in zip(filter(None, lines), range(4), strict=False)]
+    assert rates[-1] < (simulated + wall) / 2
+
+
+def test_pub_repeats_that_it_waits(graph):
+    words = ("/on/in", "std_msgs/msg/Float32", "-1", "--max-wait-time-secs", "2.5")
+    out = graph.out("topic", "pub", *words, code=1)
+    assert out == 3 * "Waiting for at least 1 matching subscription(s)...\n"
 
 
 def test_pub_reaches_the_node(graph):

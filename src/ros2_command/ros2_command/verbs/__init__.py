@@ -1,1 +1,1 @@
-"""The verbs: one module each, listed in `ros2_command.registry`."""
+"""The commands: one module each, with its verbs in `VERBS`; `registry` lists them all."""

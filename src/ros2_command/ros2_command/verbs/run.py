@@ -1,25 +1,35 @@
-"""`ros2 run`."""
+"""`ros2 run`: start a package's executable; signals go in, the exit code comes out."""
 
 from __future__ import annotations
 
 import os
 import re
 import shlex
+import signal
+import subprocess
+import sys
+import time
 from argparse import REMAINDER, ArgumentParser, Namespace
+from collections.abc import Collection, Sequence
 from pathlib import Path
+from types import TracebackType
 
-from ros2_command.children import run_child
 from ros2_command.errors import CommandError
-from ros2_command.nearest import nearest
+from ros2_command.names import nearest
 from ros2_command.packages import executables, package_prefix
+from ros2_command.registry import Verb
 
 # Executables of one package are often called alike, and the other one is then not what was meant.
 _ONLY_A_SLIP = 0.85
 _QUOTED_PYTHON = re.compile(rb'#!"([^"]+)"\s*$')
+#: What somebody may send to `ros2 run` and mean for the program.
+PASSED_ON = frozenset({signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT})
+_FROM_KERNEL = 128  # SI_KERNEL: typed at a terminal, so every process in the foreground has it
+#: Seconds to wait for a signal that the whole group gets.
+_LATER = 0.2
 
 
-def add_arguments(parser: ArgumentParser) -> None:
-    """A package, one of its executables, and everything for that executable."""
+def _add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--prefix",
         help="Prefix command, which should go before the executable. "
@@ -31,8 +41,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("argv", nargs=REMAINDER, help="Pass arbitrary arguments to the executable")
 
 
-def main(args: Namespace) -> int:
-    """Start the executable, and end with its exit code."""
+def _main(args: Namespace) -> int:
     path = find_executable(args.package_name, args.executable_name)
     rest = args.argv[1:] if args.argv[:1] == ["--"] else args.argv
     try:
@@ -43,7 +52,7 @@ def main(args: Namespace) -> int:
 
 
 def startable(path: Path) -> list[str]:
-    """The words that start an executable.
+    """Return the words that start an executable.
 
     A Python in a folder with a space stands in quotes on a script's first line, as setuptools
     writes it, and Linux does not understand that.
@@ -54,7 +63,7 @@ def startable(path: Path) -> list[str]:
 
 
 def find_executable(package: str, name: str) -> Path:
-    """The one file of this name that a package offers.
+    """Return the one file of this name that a package offers.
 
     Raises:
         CommandError: If there is none or more than one.
@@ -65,11 +74,11 @@ def find_executable(package: str, name: str) -> Path:
     if len(found) > 1:
         raise CommandError("Multiple executables found:", *(f"- {path}" for path in found))
     if not found:
-        raise CommandError("No executable found", *_why_not(prefix, package, name, offered))
+        raise CommandError("No executable found", *_why_not_found(prefix, package, name, offered))
     return found[0]
 
 
-def _why_not(prefix: Path, package: str, name: str, offered: list[Path]) -> list[str]:
+def _why_not_found(prefix: Path, package: str, name: str, offered: list[Path]) -> list[str]:
     folder = prefix / "lib" / package
     unmarked = [path for path in folder.rglob(name) if path.is_file()] if folder.is_dir() else []
     if unmarked:
@@ -91,3 +100,127 @@ def _why_not(prefix: Path, package: str, name: str, offered: list[Path]) -> list
     if meant:
         return [f"Did you mean '{meant}'?", listed]
     return [listed, "A new entry point in setup.py counts after the next `colcon build`."]
+
+
+class GroupWatch:
+    """Tell a signal for the whole process group from one for this process alone.
+
+    The program is in the same group, so it has the first kind already, and a second Ctrl+C while
+    it is ending would break its good end. Linux does not say which kind a signal was; therefore a
+    small process in the group blocks them all, and what waits there was sent to the group.
+    """
+
+    def __init__(self) -> None:
+        self._read, self._write = os.pipe()
+        self._pid = os.fork()
+        if self._pid == 0:
+            os.close(self._write)
+            os.read(self._read, 1)  # ends when the parent does, however it ends
+            os._exit(0)
+
+    def has_seen(self, number: int) -> bool:
+        """Return whether the signal reached the group; says no only after a while.
+
+        The kernel hands a signal to one process of the group after the other, and on a busy machine
+        the watch may get it later than this process does.
+        """
+        deadline = time.monotonic() + _LATER
+        while not (seen := self._holds(number)) and time.monotonic() < deadline:
+            time.sleep(0.005)
+        return seen
+
+    def _holds(self, number: int) -> bool:
+        status = Path(f"/proc/{self._pid}/status").read_text()
+        masks = [line.split()[1] for line in status.splitlines() if line.startswith("ShdPnd:")]
+        return any(int(mask, 16) >> (number - 1) & 1 for mask in masks)
+
+    def __enter__(self) -> GroupWatch:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        os.close(self._write)
+        os.close(self._read)
+        os.waitpid(self._pid, 0)
+
+
+def run_child(command: Sequence[str]) -> int:
+    """Run a program with this one's input and output, and wait for it.
+
+    Returns:
+        Its exit code, or 256 minus the number of the signal that ended it.
+
+    Raises:
+        CommandError: If it cannot be started.
+    """
+    sys.stdout.flush()
+    watched = PASSED_ON | {signal.SIGCHLD}
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, watched)
+    try:
+        # The watch is there first, so that it misses no signal that the program gets.
+        with GroupWatch() as watch:
+            code = _wait(_start(command, before), watch)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    return _report(code)
+
+
+def _start(command: Sequence[str], mask: Collection[int]) -> subprocess.Popen[bytes]:
+    def unblock() -> None:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+    try:
+        # One thread only and nothing but a system call in between, so preexec_fn is safe.
+        return subprocess.Popen(list(command), preexec_fn=unblock)
+    except OSError as error:
+        raise CommandError(*_why_not_started(command[0], error)) from None
+
+
+def _why_not_started(program: str, error: OSError) -> list[str]:
+    path = Path(program)
+    if isinstance(error, FileNotFoundError) and path.is_file():
+        with path.open("rb") as file:
+            first = file.readline(200).decode("utf-8", "replace").strip()
+        return [
+            f"Failed to start {program}: its first line names a program that does not exist:",
+            f"  {first}",
+            "Build the package again, or correct that line.",
+        ]
+    if error.errno == 8:  # ENOEXEC
+        return [
+            f"Failed to start {program}: it does not say which program should run it.",
+            "Its first line should be:  #!/usr/bin/env python3",
+        ]
+    return [f"Failed to start {program}: {error.strerror}"]
+
+
+def _wait(process: subprocess.Popen[bytes], watch: GroupWatch) -> int:
+    for_the_group: set[int] = set()
+    while (code := process.poll()) is None:
+        info = signal.sigwaitinfo(PASSED_ON | {signal.SIGCHLD})
+        number = info.si_signo
+        if number == signal.SIGCHLD or info.si_code == _FROM_KERNEL:
+            continue
+        # What waits in the watch stays there, so of each signal only the first tells anything;
+        # the same one again is passed on: somebody insists.
+        if number not in for_the_group and watch.has_seen(number):
+            for_the_group.add(number)
+        else:
+            process.send_signal(number)
+    return code
+
+
+def _report(code: int) -> int:
+    if code > 0:
+        print(f"[ros2run]: Process exited with failure {code}")
+    elif code < 0:
+        print(f"[ros2run]: {signal.strsignal(-code)}")
+        return 256 + code
+    return code
+
+
+VERBS = {"": Verb(_add_arguments, _main)}

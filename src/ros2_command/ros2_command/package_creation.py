@@ -1,4 +1,4 @@
-"""`ros2 pkg create`, for ament_python."""
+"""`ros2 pkg create`, for ament_python: what was asked for, checked, and the files of it."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import re
 import shlex
 import subprocess
 import sys
-from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator
+from argparse import Namespace
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ros2_command import package_templates as templates
@@ -24,31 +24,12 @@ from ros2_command.package_names import (
 from ros2_command.package_templates import LICENSES, NewPackage
 
 
-def add_arguments(parser: ArgumentParser) -> None:
-    """The package's name and everything that goes into its files."""
-    add = parser.add_argument
-    add("package_name", help="The package name")
-    add("--package-format", "--package_format", type=int, default=3, choices=[2, 3],
-        help="The package.xml format.")  # fmt: skip
-    add("--description", default="TODO: Package description",
-        help="The description given in the package.xml")  # fmt: skip
-    add("--license", default="TODO: License declaration",
-        help="The license attached to this package; this can be an arbitrary string, but a "
-        "LICENSE file will only be generated if it is one of the supported licenses "
-        "(pass '?' to get a list)")  # fmt: skip
-    add("--destination-directory", default=os.curdir,
-        help="Directory where to create the package directory")  # fmt: skip
-    add("--build-type", default="ament_cmake", choices=["cmake", "ament_cmake", "ament_python"],
-        help="The build type to process the package with (here: ament_python)")  # fmt: skip
-    add("--dependencies", nargs="+", default=[], help="list of dependencies")
-    add("--maintainer-email", help="email address of the maintainer of this package")
-    add("--maintainer-name", help="name of the maintainer of this package")
-    add("--node-name", help="name of the empty executable")
-    add("--library-name", help="name of the empty library")
+def create(args: Namespace) -> None:
+    """Make the package that the arguments of `ros2 pkg create` ask for.
 
-
-def main(args: Namespace) -> None:
-    """Make the package, or say why not before anything is made."""
+    Raises:
+        CommandError: If it cannot be made, or could not be built; nothing is made then.
+    """
     if args.license == "?":
         print("\n".join(["Supported licenses:", *LICENSES]))
         return
@@ -56,8 +37,9 @@ def main(args: Namespace) -> None:
     _check_place(Path(destination), name)
     if args.build_type != "ament_python":
         raise CommandError(
-            f"Build type '{args.build_type}' is left out here: this `ros2` makes Python packages.",
-            f"Try:  {_as_python_package(args)}",
+            f"Build type '{args.build_type}' is left out here: this `ros2` makes Python packages, "
+            "since ROS 2 from pip has no C++ libraries to build others with.",
+            f"Try:  {_as_python_package(args._words)}",
         )
     _announce(new := _asked_for(args), destination)
     try:
@@ -69,12 +51,16 @@ def main(args: Namespace) -> None:
         _warn_about_license(new.license)
 
 
-def _as_python_package(args: Namespace) -> str:
-    """The command that was typed, with the build type that works here."""
-    needs = ["--dependencies", *args.dependencies] if args.dependencies else []
-    node = ["--node-name", args.node_name] if args.node_name else []
-    words = ["ros2", "pkg", "create", "--build-type", "ament_python", args.package_name]
-    return shlex.join([*words, *node, *needs])
+def _as_python_package(words: Sequence[str]) -> str:
+    """Return the command as it was typed, with the build type that works here."""
+    kept, old = [], False
+    for word in words:
+        # Options may be shortened, and no other one begins with `b`.
+        if not old and not word.startswith("--b"):
+            kept.append(word)
+        old = word.startswith("--b") and "=" not in word
+    place = kept.index("create") + 1
+    return shlex.join(["ros2", *kept[:place], "--build-type", "ament_python", *kept[place:]])
 
 
 def _check_place(destination: Path, name: str) -> None:
@@ -156,7 +142,7 @@ def _announce(new: NewPackage, destination: str) -> None:
 
 
 def _files(new: NewPackage, destination: str) -> Iterator[tuple[str, str | None]]:
-    """Paths with their content in the order of making; None is a folder."""
+    """Yield paths with their content in the order of making; None is a folder."""
     root = os.path.join(destination, new.name)
     source = os.path.join(root, new.name)
     yield root, None

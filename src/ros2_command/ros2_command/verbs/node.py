@@ -1,4 +1,4 @@
-"""`ros2 node info`."""
+"""`ros2 node`: which nodes there are, and what each of them does."""
 
 from __future__ import annotations
 
@@ -7,14 +7,37 @@ from argparse import ArgumentParser, Namespace
 from typing import Any
 
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
-from ros2_command.lookup import find_node
-from ros2_command.names import is_hidden
+from ros2_command.lookup import Entries, find_node, visible
+from ros2_command.registry import Verb
 
-Entries = list[tuple[str, list[str]]]
+SHARED_NAME = (
+    "WARNING: Be aware that there are nodes in the graph that share an exact name, "
+    "which can have unintended side effects."
+)
 
 
-def add_arguments(parser: ArgumentParser) -> None:
-    """A node."""
+def _add_list(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument(
+        "-a", "--all", action="store_true", help="Display all nodes even hidden ones"
+    )
+    parser.add_argument("-c", "--count-nodes", action="store_true",
+                        help="Only display the number of nodes discovered")  # fmt: skip
+
+
+def _list(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        names = graph.settle(names_only=True).nodes(hidden=args.all)
+    if args.count_nodes:
+        print(len(names))
+        return
+    if len(set(names)) < len(names):
+        print(SHARED_NAME, file=sys.stderr)
+    for name in names:
+        print(name)
+
+
+def _add_info(parser: ArgumentParser) -> None:
     add_graph_arguments(parser)
     parser.add_argument("node_name", help="Node name to request information")
     parser.add_argument(
@@ -23,8 +46,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )  # fmt: skip
 
 
-def main(args: Namespace) -> None:
-    """Print what a node publishes, subscribes to and serves."""
+def _info(args: Namespace) -> None:
     with open_graph(args) as graph:
         nodes = graph.settle().nodes(hidden=args.include_hidden)
         complaint = f"Unable to find node '{args.node_name}'"
@@ -38,15 +60,12 @@ def main(args: Namespace) -> None:
         )
     print(name)
     for title, entries in sections.items():
-        print(show(title, entries, args.include_hidden))
+        print(section(title, entries, args.include_hidden))
 
 
-def show(title: str, entries: Entries, hidden: bool) -> str:
-    """A section of the output."""
-    lines = [
-        f"    {name}: {', '.join(types)}" for name, types in sorted(entries)
-        if hidden or not is_hidden(name)
-    ]  # fmt: skip
+def section(title: str, entries: Entries, hidden: bool) -> str:
+    """Return a section of the output."""
+    lines = [f"    {name}: {', '.join(types)}" for name, types in visible(sorted(entries), hidden)]
     return "\n".join([f"  {title}:", *(lines or [""])])
 
 
@@ -66,3 +85,6 @@ def _ask(graph: Graph, full: str) -> dict[str, Entries]:
         "Action Servers": action.get_action_server_names_and_types_by_node(node, name, where),
         "Action Clients": action.get_action_client_names_and_types_by_node(node, name, where),
     }
+
+
+VERBS = {"info": Verb(_add_info, _info), "list": Verb(_add_list, _list)}

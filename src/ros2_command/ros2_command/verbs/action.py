@@ -1,0 +1,178 @@
+"""`ros2 action`: which actions there are, and sending goals."""
+
+from __future__ import annotations
+
+import sys
+from argparse import ArgumentParser, Namespace
+
+from ros2_command.errors import CommandError
+from ros2_command.graph import Graph, add_graph_arguments, open_graph
+from ros2_command.lookup import (
+    Entries,
+    action_class,
+    full_type,
+    pick,
+    show_entries,
+    show_types,
+    suggestion,
+    wait_for_server,
+)
+from ros2_command.message_text import Style, to_yaml
+from ros2_command.message_values import add_value_arguments, fill, read_yaml, value_text
+from ros2_command.names import absolute, check_name
+from ros2_command.registry import Verb
+from ros2_command.untyped import Untyped
+
+#: Words for the values of `action_msgs/msg/GoalStatus.status`.
+_STATUSES = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
+#: Seconds that a server has to say that it cancels a goal.
+_CANCEL_WITHIN = 5.0
+
+
+def _actions(graph: Graph) -> Entries:
+    from rclpy.action import get_action_names_and_types
+
+    graph.settle()
+    return sorted(get_action_names_and_types(graph.node))
+
+
+def _add_list(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument("-t", "--show-types", action="store_true",
+                        help="Additionally show the action type")  # fmt: skip
+    parser.add_argument("-c", "--count-actions", action="store_true",
+                        help="Only display the number of actions discovered")  # fmt: skip
+
+
+def _list(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        found = _actions(graph)
+    show_entries(found, args.count_actions, args.show_types)
+
+
+def _add_type(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument(
+        "action_name", help="Name of the ROS action to get type (e.g. '/fibonacci')"
+    )
+
+
+def _type(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        _, types = pick(args.action_name, _actions(graph), f"Unknown action '{args.action_name}'")
+    print("\n".join(types))
+
+
+def _add_info(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    add = parser.add_argument
+    add("action_name", help="Name of the ROS action to get info (e.g. '/fibonacci')")
+    add("-t", "--show-types", action="store_true", help="Additionally show the action type")
+    add("-c", "--count", action="store_true",
+        help="Only display the number of action clients and action servers")  # fmt: skip
+
+
+def _info(args: Namespace) -> None:
+    from rclpy import action
+
+    check_name("action", args.action_name)
+    name = absolute(args.action_name)
+    with open_graph(args) as graph:
+        known = dict(_actions(graph))
+        clients = _nodes_with(graph, name, action.get_action_client_names_and_types_by_node)
+        servers = _nodes_with(graph, name, action.get_action_server_names_and_types_by_node)
+    print(f"Action: {args.action_name}")
+    for word, nodes in (("clients", clients), ("servers", servers)):
+        print(f"Action {word}: {len(nodes)}")
+        for node, types in () if args.count else nodes:
+            print(f"    {node} {show_types(types)}" if args.show_types else f"    {node}")
+    if name not in known:  # the original is content with zeros, and so is the exit code
+        print(suggestion(name, known), file=sys.stderr)
+
+
+def _nodes_with(graph: Graph, action: str, ask: Untyped) -> Entries:
+    """Return the nodes that have a client or a server of an action, with its types."""
+    found = []
+    for node in graph.nodes():
+        namespace, _, name = node.rpartition("/")
+        types = dict(ask(graph.node, name, namespace or "/")).get(action)
+        found += [(node, types)] if types else []
+    return found
+
+
+def _add_send_goal(parser: ArgumentParser) -> None:
+    add = parser.add_argument
+    add("action_name", help="Name of the ROS action (e.g. '/fibonacci')")
+    add("action_type", help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')")
+    add_value_arguments(parser, "goal", "Goal request values in YAML format (e.g. '{order: 10}')")
+    add("-f", "--feedback", action="store_true", help="Echo feedback messages for the goal")
+
+
+def _send_goal(args: Namespace) -> int:
+    from rclpy.action import ActionClient
+
+    check_name("action", args.action_name)
+    kind = action_class(args.action_type)
+    goal = kind.Goal()
+    stampers = fill(goal, read_yaml(value_text(args.goal, args.stdin)))
+    with open_graph() as graph:
+        client = ActionClient(graph.node, kind, args.action_name)
+        try:
+            print("Waiting for an action server to become available...")
+            asked = full_type(args.action_type, "action")
+            wait_for_server(
+                graph, client.server_is_ready, "action", args.action_name, asked,
+                lambda: _actions(graph),
+            )  # fmt: skip
+            for stamp in stampers:
+                stamp(graph.node.get_clock().now().to_msg())
+            return _follow(graph, client, goal, args.feedback)
+        finally:
+            client.destroy()
+
+
+def _follow(graph: Graph, client: Untyped, goal: Untyped, feedback: bool) -> int:
+    """Send a goal and wait for its end; Ctrl+C cancels it."""
+
+    def show(message: Untyped) -> None:
+        print(f"Feedback:\n    {_yaml(message.feedback)}")
+
+    print(f"Sending goal:\n     {_yaml(goal)}")
+    handle = _wait(graph, client.send_goal_async(goal, show if feedback else None))
+    if not handle.accepted:
+        print("Goal was rejected.")
+        return 1
+    try:
+        print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+        outcome = _wait(graph, handle.get_result_async())
+    except KeyboardInterrupt:
+        print("Canceling goal...")
+        future = handle.cancel_goal_async()
+        if not graph.spin_until(future.done, _CANCEL_WITHIN):
+            raise CommandError("Failed to cancel goal: the server does not answer") from None
+        if not future.result().goals_canceling:
+            raise CommandError("Failed to cancel goal: the server refused") from None
+        print("Goal canceled.")
+        raise
+    print(f"Result:\n    {_yaml(outcome.result)}")
+    print(f"Goal finished with status: {_STATUSES[outcome.status]}")
+    return 0
+
+
+def _wait(graph: Graph, future: Untyped) -> Untyped:
+    graph.spin_until(future.done)
+    if (error := future.exception()) is not None:
+        raise CommandError(f"The action server failed: {error}")
+    return future.result()
+
+
+def _yaml(message: Untyped) -> str:
+    return to_yaml(message, Style(limit=None))
+
+
+VERBS = {
+    "info": Verb(_add_info, _info),
+    "list": Verb(_add_list, _list),
+    "send_goal": Verb(_add_send_goal, _send_goal),
+    "type": Verb(_add_type, _type),
+}

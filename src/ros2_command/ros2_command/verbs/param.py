@@ -1,0 +1,408 @@
+"""`ros2 param`: parameters of other nodes, through the services that every node offers for them."""
+
+from __future__ import annotations
+
+import re
+import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ros2_command.errors import CommandError
+from ros2_command.graph import Graph, add_graph_arguments, open_graph
+from ros2_command.lookup import find_node
+from ros2_command.names import absolute, did_you_mean
+from ros2_command.registry import Verb
+from ros2_command.untyped import Untyped
+from ros2_command.verbs.service import ask
+
+#: How long a node may take to answer, in seconds.
+PATIENCE = 5.0
+#: Words for the values of `rcl_interfaces/msg/ParameterType`, and the field that holds each.
+KINDS = (
+    ("not set", ""),
+    ("boolean", "bool_value"),
+    ("integer", "integer_value"),
+    ("double", "double_value"),
+    ("string", "string_value"),
+    ("byte array", "byte_array_value"),
+    ("boolean array", "bool_array_value"),
+    ("integer array", "integer_array_value"),
+    ("double array", "double_array_value"),
+    ("string array", "string_array_value"),
+)
+
+
+def _add_node(parser: ArgumentParser) -> None:
+    """Add the arguments of the verbs that ask one node."""
+    add_graph_arguments(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
+    _add_hidden(parser)
+    parser.add_argument(
+        "--timeout", metavar="N", type=int, default=1,
+        help="Wait for N seconds until node becomes available (default 1 seconds)",
+    )  # fmt: skip
+
+
+def _add_hidden(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well"
+    )
+
+
+def _add_name(parser: ArgumentParser) -> None:
+    _add_node(parser)
+    parser.add_argument("parameter_name", help="Name of the parameter")
+
+
+class RemoteParameters:
+    """Ask one node for its parameters.
+
+    Args:
+        graph: Where the node is.
+        node: Its full name.
+    """
+
+    def __init__(self, graph: Graph, node: str) -> None:
+        self._graph, self.node = graph, node
+
+    def call(self, service: str, **fields: Untyped) -> Untyped:
+        """Call one of the parameter services.
+
+        Raises:
+            CommandError: If the node does not offer it, or does not answer.
+        """
+        from rcl_interfaces import srv
+
+        words = "".join(word.capitalize() for word in service.split("_"))
+        kind = getattr(srv, words)
+        client = self._graph.node.create_client(kind, f"{self.node}/{service}")
+        if not self._graph.spin_until(client.service_is_ready, PATIENCE):
+            raise CommandError(f"The node '{self.node}' does not offer its parameters")
+        return ask(self._graph, client, kind.Request(**fields), PATIENCE)
+
+    def names(self, prefixes: Sequence[str] = ()) -> list[str]:
+        """Return the declared names, sorted."""
+        return sorted(self.call("list_parameters", prefixes=list(prefixes)).result.names)
+
+    def values(self, names: Sequence[str]) -> list[Any]:
+        """Return values as messages; fewer than asked for if a parameter is undeclared."""
+        return list(self.call("get_parameters", names=list(names)).values)
+
+    def all_values(self) -> dict[str, Any]:
+        """Return the values of all parameters that have one, as messages, by name."""
+        names = self.names()
+        values = self.values(names)
+        if len(values) == len(names):
+            return dict(zip(names, values, strict=True))
+        # A parameter that was declared without a value spoils the answer for all of them.
+        return {name: one for name in names for one in self.values([name])}
+
+    def set(self, *parameters: Untyped) -> list[Any]:
+        """Set parameters, each a `rcl_interfaces/msg/Parameter`, and return what became of each."""
+        return list(self.call("set_parameters", parameters=list(parameters)).results)
+
+    def hint(self, name: str) -> str:
+        """Return a line with the nearest name if a parameter is not declared, else nothing."""
+        known = self.names()
+        has = f"It has: {', '.join(known)}"
+        return "" if name in known else did_you_mean(name, known, has)
+
+
+def open_node(graph: Graph, args: Namespace) -> RemoteParameters:
+    """Return the node that the arguments name.
+
+    Raises:
+        CommandError: If it is not in the graph; the nearest name is suggested.
+    """
+    name = absolute(args.node_name)
+
+    def there() -> bool:
+        return name in graph.nodes(hidden=True)
+
+    graph.settle(there)
+    graph.spin_until(there, float(args.timeout)) if not graph.nodes() else None
+    return RemoteParameters(
+        graph, find_node(args.node_name, graph.nodes(args.include_hidden_nodes), "Node not found")
+    )
+
+
+def plain_value(value: Untyped) -> Untyped:
+    """Return the Python value of a `rcl_interfaces/msg/ParameterValue`; None if it is not set."""
+    if not value.type:
+        return None
+    plain = getattr(value, KINDS[value.type][1])
+    return list(plain) if hasattr(plain, "__len__") and not isinstance(plain, str) else plain
+
+
+def _add_get(parser: ArgumentParser) -> None:
+    _add_name(parser)
+    parser.add_argument("--hide-type", action="store_true", help="Hide the type information")
+
+
+def _get(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        node = open_node(graph, args)
+        found = node.values([args.parameter_name])
+        hint = "" if found else node.hint(args.parameter_name)
+    if not found:
+        raise CommandError("Parameter not set", hint)
+    if not found[0].type:
+        print("Parameter not set.")
+        return
+    kind, value = KINDS[found[0].type][0].capitalize(), plain_value(found[0])
+    if args.hide_type:
+        print(value)
+    elif kind.endswith(" array"):
+        print(f"{kind.removesuffix(' array')} values are: {value}")
+    else:
+        print(f"{kind} value is: {value}")
+
+
+def _add_set(parser: ArgumentParser) -> None:
+    _add_name(parser)
+    parser.add_argument("value", help="Value of the parameter")
+
+
+def _set(args: Namespace) -> None:
+    from rcl_interfaces.msg import Parameter
+
+    change = Parameter(name=args.parameter_name, value=value_message(args.value))
+    with open_graph(args) as graph:
+        node = open_node(graph, args)
+        (result,) = node.set(change)
+        hint = "" if result.successful else node.hint(args.parameter_name)
+    if not result.successful:
+        raise CommandError(f"Setting parameter failed: {result.reason}", hint)
+    print("Set parameter successful")
+
+
+def value_message(text: str) -> Untyped:
+    """Return a text, read as YAML, as a `rcl_interfaces/msg/ParameterValue`.
+
+    Raises:
+        CommandError: If it is a mapping, or a number that is too large.
+    """
+    from rclpy.parameter import get_parameter_value
+
+    try:
+        return get_parameter_value(text)
+    except (AssertionError, OverflowError, ValueError):
+        raise CommandError(
+            f"{text!r} cannot be the value of a parameter",
+            "A value is a number, a text, true, false, or a list of one of these.",
+        ) from None
+
+
+def _delete(args: Namespace) -> None:
+    from rcl_interfaces.msg import Parameter
+
+    with open_graph(args) as graph:
+        node = open_node(graph, args)
+        (result,) = node.set(Parameter(name=args.parameter_name))  # a value of no type
+        hint = "" if result.successful else node.hint(args.parameter_name)
+    if not result.successful:
+        reason = f": {result.reason}" if result.reason else ""
+        raise CommandError(f"Deleting parameter failed{reason}", hint)
+    print("Deleted parameter successfully")
+
+
+def _add_describe(parser: ArgumentParser) -> None:
+    _add_node(parser)
+    parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
+
+
+def _describe(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        node = open_node(graph, args)
+        known = node.names()
+        names = [one for one in args.parameter_names if one in known]
+        found = node.call("describe_parameters", names=names).descriptors if names else []
+    for one in found:
+        print("\n".join(_description(one)))
+    if missing := [one for one in args.parameter_names if one not in known]:
+        has = f"It has: {', '.join(known)}"
+        raise CommandError(
+            f"Parameter not set: {', '.join(missing)}", did_you_mean(missing[0], known, has)
+        )
+
+
+def _description(about: Untyped) -> list[str]:
+    ranges = [*about.floating_point_range, *about.integer_range][:1]
+    lines = [f"Parameter name: {about.name}", f"  Type: {KINDS[about.type][0]}"]
+    lines += [f"  Description: {about.description}"] if about.description else []
+    lines += ["  Constraints:"]
+    lines += ["    Read only: true"] if about.read_only else []
+    for one in ranges:
+        lines += [f"    Min value: {one.from_value}", f"    Max value: {one.to_value}"]
+        lines += [f"    Step: {one.step}"] if one.step else []
+    extra = about.additional_constraints
+    return lines + ([f"    Additional constraints: {extra}"] if extra else [])
+
+
+def _add_list(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument("node_name", nargs="?", help="Name of the ROS node")
+    _add_hidden(parser)
+    parser.add_argument("--param-prefixes", nargs="+", default=[],
+                        help="Only list parameters with the provided prefixes")  # fmt: skip
+    parser.add_argument("--param-type", action="store_true", help="Print parameter types")
+    parser.add_argument("--filter", help="Only list parameters matching the provided regex")
+
+
+def _list(args: Namespace) -> None:
+    try:
+        matches = re.compile(args.filter or "").search
+    except re.error as error:
+        raise CommandError(f"--filter {args.filter!r} is not a pattern: {error}") from None
+    with open_graph(args) as graph:
+        graph.settle()
+        for line in _lines(graph, args, lambda name: matches(name) is not None):
+            print(line)
+
+
+def _lines(graph: Graph, args: Namespace, wanted: Callable[[str], bool]) -> list[str]:
+    nodes = graph.nodes(args.include_hidden_nodes)
+    if args.node_name is not None:
+        nodes = [find_node(args.node_name, nodes, "Node not found")]
+    lines = []
+    for node in sorted(set(nodes), key=lambda name: name.rpartition("/")[2]):
+        remote = RemoteParameters(graph, node)
+        names = [name for name in remote.names(args.param_prefixes) if wanted(name)]
+        if names and args.node_name is None:
+            lines.append(f"{node}:")
+        types = remote.call("get_parameter_types", names=names).types if args.param_type else ()
+        endings = [f" (type: {KINDS[kind][0]})" for kind in types] or [""] * len(names)
+        lines += [f"  {name}{ending}" for name, ending in zip(names, endings, strict=True)]
+    return lines
+
+
+def _dump(args: Namespace) -> None:
+    import yaml
+
+    with open_graph(args) as graph:
+        node = open_node(graph, args)
+        values = node.all_values()
+    parameters = nested({name: _dumpable(value) for name, value in values.items()})
+    print(
+        yaml.safe_dump(
+            {node.node: {"ros__parameters": parameters}},
+            default_flow_style=False, allow_unicode=True,
+        )
+    )  # fmt: skip
+
+
+def _dumpable(value: Untyped) -> Untyped:
+    plain = plain_value(value)
+    is_bytes = isinstance(plain, list) and any(isinstance(one, bytes) for one in plain)
+    return b"".join(plain) if is_bytes else plain
+
+
+def nested(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return parameters with dots in their names as dictionaries in dictionaries."""
+    tree: dict[str, Any] = {}
+    for name, value in parameters.items():
+        *path, last = name.split(".")
+        place = tree
+        for part in path:
+            inner = place.setdefault(part, {})
+            if not isinstance(inner, dict):  # `a` and `a.b` are both parameters
+                place, last = tree, name
+                break
+            place = inner
+        place[last] = value
+    return tree
+
+
+def _add_load(parser: ArgumentParser) -> None:
+    _add_node(parser)
+    parser.add_argument("parameter_file", help="Parameter file")
+    parser.add_argument(
+        "--no-use-wildcard", action="store_true",
+        help="Do not load parameters in the '/**' namespace into the node",
+    )  # fmt: skip
+
+
+def _load(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        node = open_node(graph, args)
+        parameters = read_parameters(args.parameter_file, node.node, not args.no_use_wildcard)
+        results = node.set(*parameters)
+    for one, result in zip(parameters, results, strict=True):
+        reason = f": {result.reason}" if result.reason else ""
+        if result.successful:
+            print(f"Set parameter {one.name} successful{reason}")
+        else:
+            print(f"Set parameter {one.name} failed{reason}", file=sys.stderr)
+
+
+def read_parameters(path: str, node: str, wildcard: bool) -> list[Any]:
+    """Read what a parameter file has for a node, as `rcl_interfaces/msg/Parameter`.
+
+    Args:
+        path: The file.
+        node: Full name of the node.
+        wildcard: Whether the section `/**`, for all nodes, counts, too; the node's own has the
+            last word.
+
+    Raises:
+        CommandError: If the file cannot be read, or has nothing for the node.
+        OSError: If there is no such file.
+    """
+    import yaml
+
+    how = f"A file that fits can be had with:  ros2 param dump {node}"
+    try:
+        with open(path, encoding="utf-8") as file:
+            sections = yaml.safe_load(file)
+    except (yaml.YAMLError, UnicodeError) as error:
+        raise CommandError(f"{path} is not valid YAML: {error}", how) from None
+    if not isinstance(sections, dict):
+        raise CommandError(f"{path} is not a valid ROS parameter file", how)
+    # A section may be named with or without the leading slash.
+    wanted = [*(["/**"] if wildcard else []), node.removeprefix("/"), node]
+    found = [sections[one] for one in wanted if one in sections]
+    if not found:
+        raise CommandError(
+            f"Param file does not contain parameters for {node}, only for nodes: {list(sections)}",
+            how,
+        )
+    values: dict[str, Any] = {}
+    for one in found:
+        if not isinstance(one, dict) or not isinstance(one.get("ros__parameters"), dict):
+            raise CommandError(f"{path} is not a valid ROS parameter file for node {node}", how)
+        values |= flat(one["ros__parameters"])
+    return [_parameter(name, value) for name, value in values.items()]
+
+
+def flat(tree: dict[str, Any]) -> dict[str, Any]:
+    """Return dictionaries in dictionaries as parameters with dots in their names."""
+    values: dict[str, Any] = {}
+    for name, value in tree.items():
+        inner = flat(value) if isinstance(value, dict) else None
+        values |= {name: value} if inner is None else {f"{name}.{k}": v for k, v in inner.items()}
+    return values
+
+
+def _parameter(name: str, value: Untyped) -> Untyped:
+    from rclpy.parameter import Parameter
+
+    plain = [bytes([one]) for one in value] if isinstance(value, bytes) else value
+    try:
+        return Parameter(name, value=plain).to_parameter_msg()
+    except (TypeError, ValueError, AssertionError, OverflowError):
+        raise CommandError(
+            f"{value!r} cannot be the value of the parameter '{name}'",
+            "A value is a number, a text, true, false, or a list of one of these.",
+        ) from None
+
+
+VERBS = {
+    "delete": Verb(_add_name, _delete),
+    "describe": Verb(_add_describe, _describe),
+    "dump": Verb(_add_node, _dump),
+    "get": Verb(_add_get, _get),
+    "list": Verb(_add_list, _list),
+    "load": Verb(_add_load, _load),
+    "set": Verb(_add_set, _set),
+}

@@ -1,0 +1,123 @@
+"""`ros2 pkg`: packages that are there, and new ones for ament_python."""
+
+from __future__ import annotations
+
+import os
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros2_command.errors import CommandError
+from ros2_command.names import did_you_mean
+from ros2_command.packages import all_packages, executables, package_prefix
+from ros2_command.registry import Verb
+
+if TYPE_CHECKING:
+    from xml.etree import ElementTree
+
+
+def _list(args: Namespace) -> None:
+    for name in all_packages():
+        print(name)
+
+
+def _add_executables(parser: ArgumentParser) -> None:
+    parser.add_argument("package_name", nargs="?", help="The package name")
+    parser.add_argument(
+        "--full-path", action="store_true", help="Show full path of each executable"
+    )
+
+
+def _executables(args: Namespace) -> None:
+    name = args.package_name
+    packages = all_packages() if name is None else {name: package_prefix(name)}
+    for package, prefix in packages.items():
+        for path in executables(prefix, package):
+            print(path if args.full_path else f"{package} {path.name}")
+
+
+def _add_prefix(parser: ArgumentParser) -> None:
+    parser.add_argument("package_name", help="The package name")
+    parser.add_argument("--share", action="store_true", help="Show share directory of the package")
+
+
+def _prefix(args: Namespace) -> None:
+    prefix = package_prefix(args.package_name, "Package not found")
+    print(prefix / "share" / args.package_name if args.share else prefix)
+
+
+def _add_xml(parser: ArgumentParser) -> None:
+    parser.add_argument("package_name", help="The package name")
+    parser.add_argument("-t", "--tag", help="The XML tag to output, e.g. 'version'")
+
+
+def _xml(args: Namespace) -> None:
+    prefix = package_prefix(args.package_name, "Package not found")
+    text, root = read_manifest(prefix / "share" / args.package_name / "package.xml")
+    if args.tag is None:
+        print(text)
+        return
+    found = [child.text or "" for child in root if child.tag == args.tag]
+    if not found:
+        raise CommandError(
+            f"Could not find tag '{args.tag}' in the manifest of '{args.package_name}'",
+            did_you_mean(args.tag, {str(child.tag) for child in root}),
+        )
+    print("\n".join(found))
+
+
+def read_manifest(path: Path) -> tuple[str, ElementTree.Element]:
+    """Return the text of the root element as it is written, and the element.
+
+    Raises:
+        CommandError: If the file is missing or is no XML.
+    """
+    import re
+    from xml.etree import ElementTree
+
+    try:
+        data = path.read_text(encoding="utf-8")
+        root = ElementTree.fromstring(data.encode())
+    except OSError:
+        raise CommandError("Package XML manifest not found", f"There is no {path}.") from None
+    except (ElementTree.ParseError, ValueError) as error:
+        raise CommandError(f"The manifest {path} is not valid XML: {error}") from None
+    found = re.search(r"<package[\s>].*</package\s*>", data, re.DOTALL)
+    return (found[0] if found else data.strip()), root
+
+
+def _add_create(parser: ArgumentParser) -> None:
+    add = parser.add_argument
+    add("package_name", help="The package name")
+    add("--package-format", "--package_format", type=int, default=3, choices=[2, 3],
+        help="The package.xml format.")  # fmt: skip
+    add("--description", default="TODO: Package description",
+        help="The description given in the package.xml")  # fmt: skip
+    add("--license", default="TODO: License declaration",
+        help="The license attached to this package; this can be an arbitrary string, but a "
+        "LICENSE file will only be generated if it is one of the supported licenses "
+        "(pass '?' to get a list)")  # fmt: skip
+    add("--destination-directory", default=os.curdir,
+        help="Directory where to create the package directory")  # fmt: skip
+    add("--build-type", default="ament_cmake", choices=["cmake", "ament_cmake", "ament_python"],
+        help="The build type to process the package with (here: ament_python)")  # fmt: skip
+    add("--dependencies", nargs="+", default=[], help="list of dependencies")
+    add("--maintainer-email", help="email address of the maintainer of this package")
+    add("--maintainer-name", help="name of the maintainer of this package")
+    add("--node-name", help="name of the empty executable")
+    add("--library-name", help="name of the empty library")
+
+
+def _create(args: Namespace) -> None:
+    from ros2_command.package_creation import create
+
+    create(args)
+
+
+VERBS = {
+    "create": Verb(_add_create, _create),
+    "executables": Verb(_add_executables, _executables),
+    "list": Verb(lambda parser: None, _list),
+    "prefix": Verb(_add_prefix, _prefix),
+    "xml": Verb(_add_xml, _xml),
+}

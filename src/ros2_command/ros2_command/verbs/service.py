@@ -1,0 +1,204 @@
+"""`ros2 service`: what is offered, calling, and listening to calls."""
+
+from __future__ import annotations
+
+import sys
+from argparse import SUPPRESS, ArgumentParser, Namespace
+from typing import Any
+
+from ros2_command.errors import CommandError
+from ros2_command.graph import Graph, add_graph_arguments, open_graph
+from ros2_command.lookup import (
+    Entries,
+    full_type,
+    of_type,
+    pick,
+    service_class,
+    show_entries,
+    visible,
+    wait_for_server,
+)
+from ros2_command.message_text import (
+    add_style_arguments,
+    plain_to_yaml,
+    style_of,
+    to_csv,
+    to_plain,
+)
+from ros2_command.message_values import add_value_arguments, fill, read_yaml, value_text
+from ros2_command.names import absolute, check_name
+from ros2_command.qos import add_qos_arguments, asked_profile
+from ros2_command.registry import Verb
+from ros2_command.untyped import Untyped
+
+
+def _add_count_and_hidden(parser: ArgumentParser) -> None:
+    parser.add_argument("-c", "--count-services", action="store_true",
+                        help="Only display the number of services discovered")  # fmt: skip
+    # Without a default, what stands before the verb counts, too.
+    parser.add_argument(
+        "--include-hidden-services", action="store_true", default=SUPPRESS,
+        help="Consider hidden services as well",
+    )  # fmt: skip
+
+
+def _services(graph: Graph) -> Entries:
+    """Return the services of other nodes."""
+    own = f"/{graph.node_name}/"
+    return [one for one in graph.settle().services() if not one[0].startswith(own)]
+
+
+def _add_list(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument("-t", "--show-types", action="store_true",
+                        help="Additionally show the service type")  # fmt: skip
+    _add_count_and_hidden(parser)
+
+
+def _list(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        found = visible(_services(graph), args.include_hidden_services)
+    show_entries(found, args.count_services, args.show_types)
+
+
+def _add_type(parser: ArgumentParser) -> None:
+    parser.add_argument("service_name", help="Name of the ROS service to get type")
+
+
+def _type(args: Namespace) -> None:
+    with open_graph() as graph:
+        services = _services(graph)
+    _, types = pick(args.service_name, services, f"Unknown service '{args.service_name}'")
+    print("\n".join(types))
+
+
+def _add_find(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "service_type",
+        help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')",
+    )
+    _add_count_and_hidden(parser)
+
+
+def _find(args: Namespace) -> None:
+    with open_graph() as graph:
+        found = of_type(_services(graph), args.service_type, args.include_hidden_services)
+    for line in [len(found)] if args.count_services else found:
+        print(line)
+
+
+def _add_info(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument(
+        "service_name", help="Name of the ROS service to get info (e.g. '/add_two_ints')"
+    )
+
+
+def _info(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        complaint = f"Unknown service '{args.service_name}'"
+        name, types = pick(args.service_name, _services(graph), complaint)
+        clients, servers = graph.node.count_clients(name), graph.node.count_services(name)
+    print("Type:", types[0] if len(types) == 1 else types)
+    print("Clients count:", clients)
+    print("Services count:", servers)
+
+
+def _add_call(parser: ArgumentParser) -> None:
+    add = parser.add_argument
+    add("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')")
+    add("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")
+    add_value_arguments(parser, "values", "Values to fill the service request with in YAML format")
+    add("-r", "--rate", metavar="N", type=float, help="Repeat the call at a specific rate in Hz")
+
+
+def _call(args: Namespace) -> None:
+    if args.rate is not None and not args.rate > 0:
+        raise CommandError("rate must be greater than zero")
+    check_name("service", args.service_name)
+    kind = service_class(args.service_type)
+    request = kind.Request()
+    stampers = fill(request, read_yaml(value_text(args.values, args.stdin)))
+    with open_graph() as graph:
+        client = graph.node.create_client(kind, args.service_name)
+        if not client.service_is_ready():
+            print("waiting for service to become available...")
+            asked = full_type(args.service_type, "srv")
+            wait_for_server(
+                graph, client.service_is_ready, "service", args.service_name, asked, graph.services
+            )
+        for _ in graph.ticks(1 / (args.rate or 1)):
+            for stamp in stampers:
+                stamp(graph.node.get_clock().now().to_msg())
+            print(f"requester: making request: {request!r}\n")
+            print(f"response:\n{ask(graph, client, request)!r}\n")
+            if args.rate is None:
+                break
+
+
+def ask(graph: Graph, client: Untyped, request: Untyped, seconds: float | None = None) -> Untyped:
+    """Send a request, and wait for the response.
+
+    Raises:
+        CommandError: If the service fails, or does not answer in time.
+    """
+    future = client.call_async(request)
+    if not graph.spin_until(future.done, seconds):
+        raise CommandError(f"The service '{client.srv_name}' did not answer in {seconds:g} seconds")
+    if (error := future.exception()) is not None:
+        raise CommandError(f"The call of '{client.srv_name}' failed: {error}")
+    return future.result()
+
+
+def _add_echo(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument(
+        "service_name", help="Name of the ROS service to echo (e.g. '/add_two_ints')"
+    )
+    parser.add_argument("service_type", nargs="?",
+                        help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")  # fmt: skip
+    add_qos_arguments(parser, "subscribe", "services_default")
+    add_style_arguments(parser)
+
+
+def _echo(args: Namespace) -> None:
+    check_name("service", args.service_name)
+    with open_graph(args) as graph:
+        services = _services(graph)
+        complaint = "Could not determine the type for the passed service"
+        name = absolute(args.service_name)
+        if args.service_type is None:
+            name, types = pick(args.service_name, services, complaint)
+            args.service_type = types[0]
+        kind = service_class(args.service_type).Event
+        topic, style = f"{name}/_service_event", style_of(args)
+        if topic not in dict(graph.topics()):
+            print(
+                f"Nobody tells of calls to '{name}' yet. A service or a client does after "
+                "configure_introspection(). Waiting.",
+                file=sys.stderr,
+            )
+
+        def show(message: Untyped) -> None:
+            if args.csv:
+                print(to_csv(message, style))
+                return
+            plain: dict[str, Any] = to_plain(message, style)
+            plain["info"]["event_type"] = _EVENTS[message.info.event_type]
+            print(plain_to_yaml(plain, style.flow) + "---")
+
+        graph.node.create_subscription(kind, topic, show, asked_profile(args, "services_default"))
+        graph.spin_until(lambda: False)
+
+
+#: Words for the values of `service_msgs/msg/ServiceEventInfo.event_type`.
+_EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
+
+VERBS = {
+    "call": Verb(_add_call, _call),
+    "echo": Verb(_add_echo, _echo),
+    "find": Verb(_add_find, _find),
+    "info": Verb(_add_info, _info),
+    "list": Verb(_add_list, _list),
+    "type": Verb(_add_type, _type),
+}

@@ -1,0 +1,537 @@
+"""`ros2 topic`: what is in the graph, listening, publishing and measuring."""
+
+from __future__ import annotations
+
+import sys
+import time
+from argparse import SUPPRESS, ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ros2_command.errors import CommandError
+from ros2_command.graph import Graph, add_graph_arguments, open_graph
+from ros2_command.lookup import (
+    Entries,
+    message_class,
+    of_type,
+    pick,
+    show_entries,
+    show_types,
+    suggestion,
+    topic_class,
+    visible,
+)
+from ros2_command.message_text import (
+    add_style_arguments,
+    is_message_value,
+    plain_to_yaml,
+    style_of,
+    to_csv,
+    to_yaml,
+)
+from ros2_command.message_values import Stamper, add_value_arguments, fill, read_yaml, value_text
+from ros2_command.names import absolute, check_name, check_node_name, did_you_mean, is_hidden
+from ros2_command.qos import add_qos_arguments, asked_profile, follow_publishers
+from ros2_command.rates import Bandwidth, Delays, Rates
+from ros2_command.registry import Verb
+from ros2_command.untyped import Untyped
+
+
+def _add_hidden(parser: ArgumentParser) -> None:
+    # Without a default, what stands before the verb counts, too.
+    parser.add_argument(
+        "--include-hidden-topics", action="store_true", default=SUPPRESS,
+        help="Consider hidden topics as well",
+    )  # fmt: skip
+
+
+def _add_count(parser: ArgumentParser) -> None:
+    parser.add_argument("-c", "--count-topics", action="store_true",
+                        help="Only display the number of topics discovered")  # fmt: skip
+
+
+def _add_list(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument("-t", "--show-types", action="store_true",
+                        help="Additionally show the topic type")  # fmt: skip
+    _add_count(parser)
+    _add_hidden(parser)
+    parser.add_argument("-v", "--verbose", action="store_true",
+                        help="List full details about each topic")  # fmt: skip
+
+
+def _list(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        topics = visible(graph.settle().topics(), args.include_hidden_topics)
+        details = _details(graph, topics) if args.verbose else []
+    if details and not args.count_topics:
+        print("\n".join(details))
+    else:
+        show_entries(topics, args.count_topics, args.show_types)
+
+
+def _details(graph: Graph, topics: Entries) -> list[str]:
+    lines = []
+    for title, word, ask in (
+        ("Published", "publisher", graph.publishers),
+        ("Subscribed", "subscriber", graph.subscriptions),
+    ):
+        lines.append(f"{title} topics:")
+        for name, types in topics:
+            if count := len(graph.others(ask(name))):
+                ending = "" if count == 1 else "s"
+                lines.append(f" * {name} {show_types(types)} {count} {word}{ending}")
+        lines.append("")
+    return lines
+
+
+def _add_type(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')")
+
+
+def _type(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        topics = graph.settle().topics()
+    name, types = pick(args.topic_name, topics, f"Unknown topic '{args.topic_name}'")
+    if is_hidden(name) and not args.include_hidden_topics:
+        raise CommandError(
+            f"The topic '{name}' is hidden: a part of its name begins with '_'.",
+            f"Its type:  ros2 topic --include-hidden-topics type {name}",
+        )
+    print("\n".join(types))
+
+
+def _add_find(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument(
+        "topic_type",
+        help="Name of the ROS topic type to filter for (e.g. 'std_msgs/msg/String')",
+    )
+    _add_count(parser)
+    _add_hidden(parser)
+
+
+def _find(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        found = of_type(graph.settle().topics(), args.topic_type, args.include_hidden_topics)
+    for line in [len(found)] if args.count_topics else found:
+        print(line)
+
+
+def _add_info(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    parser.add_argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')")
+    parser.add_argument(
+        "-v", "--verbose", action="store_true",
+        help="Prints detailed information like the node name, node namespace, topic type, "
+        "topic type hash, topic endpoint type, GID and QoS Profile of the publishers and "
+        "subscribers to this topic",
+    )  # fmt: skip
+
+
+def _info(args: Namespace) -> None:
+    with open_graph(args) as graph:
+        topics = graph.settle().topics()
+        name, types = pick(args.topic_name, topics, f"Unknown topic '{args.topic_name}'")
+        publishers = graph.others(graph.publishers(name))
+        subscriptions = graph.others(graph.subscriptions(name))
+    end = "\n\n" if args.verbose else "\n"
+    print("Type:", types[0] if len(types) == 1 else types, end=end)
+    for word, endpoints in (("Publisher", publishers), ("Subscription", subscriptions)):
+        print(f"{word} count:", len(endpoints), end=end)
+        for one in endpoints if args.verbose else ():
+            print(one, end="\n\n")
+
+
+def subscribe(
+    graph: Graph,
+    topic: str,
+    kind: Untyped,
+    callback: Callable[[Any, dict[str, Any]], None],
+    profile: Untyped = None,
+    raw: bool = False,
+    lost: Callable[[Any], None] | None = None,
+) -> None:
+    """Subscribe to a topic.
+
+    Args:
+        graph: Where to subscribe.
+        topic: The topic as typed.
+        kind: The message class.
+        callback: Gets each message and what is known about it.
+        profile: The quality of service, that of sensor data by default.
+        raw: Whether the callback wants the bytes.
+        lost: Gets a report if messages were lost.
+    """
+    from rclpy.event_handler import SubscriptionEventCallbacks
+    from rclpy.qos import qos_profile_sensor_data
+
+    graph.node.create_subscription(
+        kind, topic, callback, profile or qos_profile_sensor_data, raw=raw,
+        event_callbacks=SubscriptionEventCallbacks(message_lost=lost),
+    )  # fmt: skip
+
+
+def compile_filter(text: str | None) -> Callable[[Any], bool]:
+    """Return a condition over the message `m`.
+
+    Raises:
+        CommandError: If the text is no Python expression, or later, if it cannot be computed.
+    """
+    if text is None:
+        return lambda message: True
+    try:
+        code = compile(text, "filter", "eval")
+    except SyntaxError as error:
+        raise CommandError(
+            f"--filter {text!r} is not a Python expression: {error.msg}",
+            "Write a condition over the message m, for example:  --filter 'm.data > 20'",
+        ) from None
+
+    def holds(message: Untyped) -> bool:
+        try:
+            return bool(eval(code, {"m": message}))
+        except Exception as error:
+            raise CommandError(f"--filter {text!r} failed: {error}") from None
+
+    return holds
+
+
+def _add_echo(parser: ArgumentParser) -> None:
+    add_graph_arguments(parser)
+    add = parser.add_argument
+    add("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
+    add("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
+    add_qos_arguments(parser, "subscribe", "sensor_data")
+    add("--field", help="Echo a selected field of a message (e.g. 'pose.pose')")
+    add_style_arguments(parser)
+    add("--no-lost-messages", action="store_true", help="Don't report when a message is lost")
+    add("--raw", action="store_true", help="Echo the raw binary representation")
+    add("--filter", metavar="FILTER", dest="filter_expr",
+        help="Python expression that selects messages (the message is 'm')")  # fmt: skip
+    add("--once", action="store_true", help="Print the first message received and then exit.")
+    add("--timeout", metavar="N", type=float, help="Set a timeout in seconds for waiting")
+    add("-i", "--include-message-info", action="store_true", help="Shows the associated info")
+
+
+def _echo(args: Namespace) -> None:
+    if args.field is not None and not args.field.strip("."):
+        raise CommandError(f"Invalid field value '{args.field}'")
+    wanted = compile_filter(args.filter_expr)
+    check_name("topic", args.topic_name)
+    name = absolute(args.topic_name)
+    with open_graph(args) as graph:
+        # For one message any publisher will do; to hear all of them, all must be known first.
+        graph.settle(lambda: args.once and bool(_publishers(graph, name)))
+        kind = topic_class(args.topic_name, args.message_type, graph)
+        publishers = _publishers(graph, name)
+        if not publishers and args.timeout is None:
+            print(f"Nobody publishes on '{args.topic_name}' yet. Waiting.", file=sys.stderr)
+        profile = asked_profile(args, "sensor_data")
+        follow_publishers(profile, args, publishers)
+        count = 0
+
+        def show(message: Untyped, info: dict[str, Any]) -> None:
+            nonlocal count
+            if not (count and args.once) and (args.raw or wanted(message)):
+                count += 1
+                sys.stdout.write(_text_of(message, info, args))
+
+        lost = None if args.no_lost_messages else _report_loss
+        subscribe(graph, args.topic_name, kind, show, profile, args.raw, lost)
+        graph.spin_until(lambda: bool(count and args.once), args.timeout)
+
+
+def _publishers(graph: Graph, name: str) -> list[Any]:
+    return graph.publishers(name) if name in dict(graph.topics()) else []
+
+
+def _report_loss(event: Untyped) -> None:
+    print(
+        f"{event.total_count_change} message(s) lost, {event.total_count} in total",
+        file=sys.stderr,
+    )
+
+
+def _text_of(message: Untyped, info: dict[str, Any], args: Namespace) -> str:
+    style, about = style_of(args), info if args.include_message_info else None
+    if args.raw:
+        return _info_yaml(about) + f"{message!r}\n---\n"
+    value = selected(message, args.field) if args.field is not None else message
+    if not is_message_value(value):
+        if about is None:
+            return f"{value}\n---\n"
+        head = "---Got new message, message info:---"
+        return f"{head}\n{about}\n---Message data:---\n{value}\n---\n"
+    if args.csv:
+        return _info_csv(about) + to_csv(value, style) + "\n"
+    return _info_yaml(about) + to_yaml(value, style) + "---\n"
+
+
+def _info_yaml(info: dict[str, Any] | None) -> str:
+    return "" if info is None else plain_to_yaml(dict(sorted(info.items()))) + "---\n"
+
+
+def _info_csv(info: dict[str, Any] | None) -> str:
+    if info is None:
+        return ""
+    names = ("source_timestamp", "received_timestamp", "publication_sequence_number",
+             "reception_sequence_number")  # fmt: skip
+    return "".join(f"{info[name]}," for name in names)
+
+
+def selected(message: Untyped, field: str) -> Untyped:
+    """Return a field of a message, or of a message in it.
+
+    Raises:
+        CommandError: If there is none of that name.
+    """
+    value = message
+    for name in field.split("."):
+        known = value.get_fields_and_field_types() if is_message_value(value) else {}
+        if name not in known:
+            raise CommandError(
+                f"Invalid field '{field}': '{type(value).__name__}' object has no attribute "
+                f"'{name}'",
+                did_you_mean(name, known, f"It has: {', '.join(known)}" if known else ""),
+            )
+        value = getattr(value, name)
+    return value
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise ArgumentTypeError("value must be a positive integer")
+    return int(text)
+
+
+def _add_measuring(parser: ArgumentParser, about: str, window: int) -> None:
+    parser.add_argument("topic_name", help=about)
+    parser.add_argument(
+        "--window", "-w", type=_positive, default=window, metavar="WINDOW",
+        help=f"window size, in # of messages, for calculating rate (default: {window})",
+    )  # fmt: skip
+    add_graph_arguments(parser, daemon=False)
+
+
+def _known_class(graph: Graph, topic: str) -> Untyped:
+    """Return the message class of a topic; if it is not there yet, say so and wait for it."""
+    check_name("topic", topic)
+    name = absolute(topic)
+
+    def there() -> bool:
+        return name in dict(graph.topics())
+
+    graph.settle(there)
+    if not there():
+        print(f"WARNING: topic [{topic}] does not appear to be published yet")
+        print(suggestion(name, dict(graph.topics())), file=sys.stderr)
+        graph.spin_until(there)
+    return topic_class(topic, None, graph)
+
+
+def _measure(graph: Graph, report: Callable[[], str | None]) -> None:
+    """Print a report each second, for ever."""
+    for _ in graph.ticks(1.0):
+        if text := report():
+            print(text)
+
+
+def _add_hz(parser: ArgumentParser) -> None:
+    _add_measuring(parser, "Name of the ROS topic to listen to (e.g. '/chatter')", 10000)
+    parser.add_argument("--filter", dest="filter_expr", metavar="EXPR",
+                        help="only measure messages matching this Python expression")  # fmt: skip
+    parser.add_argument("--wall-time", action="store_true", help="calculates rate using wall time")
+
+
+def _hz(args: Namespace) -> None:
+    wanted = compile_filter(args.filter_expr)
+    rates = Rates(args.window)
+    with open_graph(args) as graph:
+        kind = _known_class(graph, args.topic_name)
+        clock = time.monotonic if args.wall_time else graph.clock()
+
+        def count(message: Untyped, info: dict[str, Any]) -> None:
+            if (now := clock()) and wanted(message):  # 0 is simulated time that has not begun
+                rates.arrived(now)
+
+        subscribe(graph, args.topic_name, kind, count)
+        _measure(graph, rates.report)
+
+
+def _add_bw(parser: ArgumentParser) -> None:
+    _add_measuring(parser, "Topic name to monitor for bandwidth utilization", 100)
+
+
+def _bw(args: Namespace) -> None:
+    bandwidth = Bandwidth(args.window)
+    with open_graph(args) as graph:
+        kind, clock = _known_class(graph, args.topic_name), graph.clock()
+
+        def note(data: bytes, info: dict[str, Any]) -> None:
+            if now := clock():
+                bandwidth.arrived(now, len(data))
+
+        subscribe(graph, args.topic_name, kind, note, raw=True)
+        print(f"Subscribed to [{args.topic_name}]")
+        _measure(graph, lambda: bandwidth.report(clock()))
+
+
+def _add_delay(parser: ArgumentParser) -> None:
+    _add_measuring(parser, "Topic name to calculate the delay for", 10000)
+
+
+def _delay(args: Namespace) -> None:
+    delays = Delays(args.window)
+    with open_graph(args) as graph:
+        kind, clock = _known_class(graph, args.topic_name), graph.node.get_clock()
+        known = kind.get_fields_and_field_types()
+        if known.get("header") != "std_msgs/Header":
+            raise CommandError(
+                "msg does not have header",
+                f"Only a message with a std_msgs/Header knows when it was made. "
+                f"This one has: {', '.join(known) or 'no fields'}.",
+            )
+
+        def note(message: Untyped, info: dict[str, Any]) -> None:
+            stamp = message.header.stamp
+            if now := clock.now().nanoseconds:
+                delays.arrived(now / 1e9, stamp.sec + stamp.nanosec / 1e9)
+
+        subscribe(graph, args.topic_name, kind, note)
+        _measure(graph, delays.report)
+
+
+def _positive_float(text: str) -> float:
+    value = float(text)
+    if not value > 0:
+        raise ArgumentTypeError("Value must be positive")
+    return value
+
+
+def nonnegative_int(text: str) -> int:
+    """Read a whole number, zero or more, for argparse."""
+    value = int(text)
+    if value < 0:
+        raise ValueError("Value must be positive or zero")
+    return value
+
+
+def _add_pub(parser: ArgumentParser) -> None:
+    add = parser.add_argument
+    add("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')")
+    add("message_type", help="Type of the ROS message (e.g. 'std_msgs/String')")
+    add_value_arguments(parser, "values", "Values to fill the message with in YAML format")
+    add("-r", "--rate", metavar="N", type=_positive_float, default=1.0,
+        help="Publishing rate in Hz (default: 1)")  # fmt: skip
+    add("-p", "--print", metavar="N", type=int, default=1, dest="print_every",
+        help="Only print every N-th published message (default: 1)")  # fmt: skip
+    times = parser.add_mutually_exclusive_group()
+    times.add_argument("-1", "--once", action="store_true", help="Publish one message and exit")
+    times.add_argument("-t", "--times", type=nonnegative_int, default=0,
+                       help="Publish this number of times and then exit")  # fmt: skip
+    add("-w", "--wait-matching-subscriptions", type=nonnegative_int,
+        help="Wait until finding the specified number of matching subscriptions. "
+        "(default: 1 with --once or --times, else 0)")  # fmt: skip
+    add("--max-wait-time-secs", type=_positive_float,
+        help="Maximum seconds to wait for matching subscriptions")  # fmt: skip
+    add("--keep-alive", metavar="N", type=float, default=0.1,
+        help="Keep the node alive for N seconds after the last message (default: 0.1)")  # fmt: skip
+    add("-n", "--node-name", help="Name of the created publishing node")
+    add_qos_arguments(parser, "publish", "default")
+    add_graph_arguments(parser, daemon=False)
+
+
+def _pub(args: Namespace) -> None:
+    check_name("topic", args.topic_name)
+    if args.node_name is not None:
+        check_node_name(args.node_name)
+    kind = message_class(args.message_type)
+    values = read_yaml(value_text(args.values, args.stdin))
+    if not isinstance(values, dict):
+        raise CommandError("The passed value needs to be a dictionary in YAML format")
+    message = kind()
+    stampers = fill(message, values)
+    times = 1 if args.once else args.times
+    waited = args.wait_matching_subscriptions
+    needed = (1 if times else 0) if waited is None else waited
+    if args.max_wait_time_secs is not None and not needed:
+        raise CommandError(
+            "--max-wait-time-secs option is only effective with --wait-matching-subscriptions, "
+            "--once or --times"
+        )
+    with open_graph(args, args.node_name) as graph:
+        profile = asked_profile(args, "default")
+        publisher = graph.node.create_publisher(kind, args.topic_name, profile)
+        _wait_for_subscriptions(graph, publisher, args, needed)
+        _publish(graph, publisher, args, message, stampers, times)
+
+
+def _wait_for_subscriptions(graph: Graph, publisher: Untyped, args: Namespace, needed: int) -> None:
+    limit = args.max_wait_time_secs
+    end = None if limit is None else time.monotonic() + limit
+
+    def enough() -> bool:
+        return int(publisher.get_subscription_count()) >= needed
+
+    rounds = 0
+    while not enough():
+        left = None if end is None else end - time.monotonic()
+        if left is not None and left <= 0:
+            raise CommandError(
+                f"Timed out waiting for subscribers: Expected {needed} subcribers but only got "
+                f"{publisher.get_subscription_count()} subscribers",
+                *([] if rounds > _HINT_AFTER else [_why_nobody(graph, args.topic_name)]),
+            )
+        print(f"Waiting for at least {needed} matching subscription(s)...")
+        graph.spin_until(enough, 1.0 if left is None else min(1.0, left))
+        rounds += 1
+        if rounds == _HINT_AFTER and not enough():
+            print(_why_nobody(graph, args.topic_name), file=sys.stderr)
+
+
+#: Seconds after which a publisher without subscriptions says why that may be so.
+_HINT_AFTER = 3
+
+
+def _why_nobody(graph: Graph, topic: str) -> str:
+    """Return why nobody may be listening: another topic, or another type."""
+    name = absolute(topic)
+    heard = {one: types for one, types in graph.topics() if graph.others(graph.subscriptions(one))}
+    types = {one.topic_type for one in graph.others(graph.subscriptions(name))}
+    if types:
+        return f"'{name}' is subscribed to with {', '.join(sorted(types))}."
+    return f"Nobody listens to '{name}'. {suggestion(name, heard)}"
+
+
+def _publish(
+    graph: Graph, publisher: Untyped, args: Namespace, message: Untyped,
+    stampers: Sequence[Stamper], times: int,
+) -> None:  # fmt: skip
+    from rclpy.duration import Duration
+
+    print("publisher: beginning loop")
+    for count, _ in enumerate(graph.ticks(1 / args.rate), start=1):
+        for stamp in stampers:
+            stamp(graph.node.get_clock().now().to_msg())
+        if args.print_every and count % args.print_every == 0:
+            print(f"publishing #{count}: {message!r}\n")
+        publisher.publish(message)
+        if count == times:
+            break
+    publisher.wait_for_all_acked(Duration(seconds=max(0.0, args.keep_alive)))
+    time.sleep(max(0.0, args.keep_alive))
+
+
+VERBS = {
+    "bw": Verb(_add_bw, _bw),
+    "delay": Verb(_add_delay, _delay),
+    "echo": Verb(_add_echo, _echo),
+    "find": Verb(_add_find, _find),
+    "hz": Verb(_add_hz, _hz),
+    "info": Verb(_add_info, _info),
+    "list": Verb(_add_list, _list),
+    "pub": Verb(_add_pub, _pub),
+    "type": Verb(_add_type, _type),
+}
