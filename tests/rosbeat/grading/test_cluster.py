@@ -98,6 +98,30 @@ def test_same_results_as_on_one_machine_with_a_worker_killed(cluster, course_and
     assert found.count('"status": "passed"') == found.count('"status": "failed"') == 4
 
 
+@pytest.mark.ros
+def test_what_is_lost_with_its_worker_before_it_is_fetched_is_observed_again(
+    monkeypatch, eventually
+):
+    submissions = [[(n, Job("03a", "Beat", f"x = {n}"))] for n in range(2)]
+    with local(1) as own, Cluster(own.scheduler_address) as found:
+
+        def statuses():
+            return {one.status for one in found._client.futures.values()}
+
+        def all_done(futures):
+            eventually(lambda: statuses() == {"finished"}, 60)
+            return done(futures)
+
+        done = found._done
+        monkeypatch.setattr(found, "_done", all_done)
+        observing = found.observe(submissions)
+        first, _ = next(observing)
+        monkeypatch.undo()
+        os.kill(*found._client.run(os.getpid).values(), signal.SIGKILL)
+        eventually(lambda: statuses() == {"lost"}, 30)
+        assert {first, *(key for key, _ in observing)} == {0, 1}
+
+
 def prepared_processes(worker):
     children = psutil.Process(worker).children(recursive=True)
     return [one.pid for one in children if "rosbeat.grading.worker" in one.cmdline()]
