@@ -449,7 +449,7 @@ def keys(out):
         lines = (out / FILE).read_bytes().split(b"\n")[:-1]
     except FileNotFoundError:
         return []
-    return [json.loads(line)["key"] for line in lines]
+    return [json.loads(line)[1]["key"] for line in lines]
 
 
 @pytest.mark.ros
