@@ -29,8 +29,8 @@ except ImportError as error:
     raise GradingError(
         "Dask is not installed here, and --scheduler needs it.",
         "A cluster is for classes that outgrow one machine; most do not.",
-        "Install it in the folder of the course with `pip install '.[cluster]'`, or leave "
-        "--scheduler out.",
+        "Run `python -m pip install distributed` in the shell of the course, or leave --scheduler "
+        "out.",
     ) from error
 
 Key = TypeVar("Key")

@@ -227,4 +227,4 @@ def test_without_dask(monkeypatch, says):
     monkeypatch.delitem(sys.modules, module.__name__)
     with pytest.raises(GradingError) as caught:
         import_module(module.__name__)
-    says(caught.value, "Dask is not installed", "pip install '.[cluster]'")
+    says(caught.value, "Dask is not installed", "pip install distributed")
