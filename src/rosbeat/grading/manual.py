@@ -11,8 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from rosbeat.grading.cells import csv_text, number
-from rosbeat.grading.csv_table import Row, read_table
+from rosbeat.grading.csv_table import Row, csv_text, number, read_table
 from rosbeat.grading.marks import HELD, LOOKED_AT, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark, printable
 from rosbeat.grading.roster import Lookup, UnusableError

@@ -31,13 +31,13 @@ from urllib.parse import parse_qs, quote, urlsplit
 
 from rosbeat.errors import GradingError
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.cells import cell
+from rosbeat.grading.csv_table import cell, number
 from rosbeat.grading.feedback import code_of
 from rosbeat.grading.groups import Group, groups_of
 from rosbeat.grading.manual import FILE, Line, apply_manual, read_manual
 from rosbeat.grading.marks import Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark
-from rosbeat.grading.rendering import number, render
+from rosbeat.grading.rendering import render
 from rosbeat.grading.results import previous_results, summary
 from rosbeat.grading.roster import Lookup, UnusableError
 from rosbeat.grading.traces import picture
