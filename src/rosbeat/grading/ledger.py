@@ -95,7 +95,7 @@ def _trouble(path: Path, error: Exception) -> GradingError:
     return GradingError(
         f"{printable(str(path))} cannot be used: {why}.",
         "It belongs to the class, so that nothing is done twice and nothing comes out differently.",
-        "Make room, or give another folder with --out.",
+        "Make room, move away what is in its place, or give another folder with --out.",
     )
 
 
