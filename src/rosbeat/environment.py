@@ -57,9 +57,13 @@ def discovery_profile() -> str:
     """Return the settings of Fast DDS that let two processes find each other at once.
 
     Returns:
-        The file, which comes with the `ros2` command in the same checkout; nothing without it.
+        The file, which comes with the `ros2` command in the same checkout, or installed from a
+        wheel beside this package; nothing without it.
     """
-    return _in_checkout("src", "ros2_command", "ros2_command", "data", "fastdds.xml")
+    file = ("ros2_command", "data", "fastdds.xml")
+    beside = os.path.join(os.path.realpath(__file__).rsplit(os.sep, 2)[0], *file)
+    found = _in_checkout("src", "ros2_command", *file)
+    return found or (beside if os.path.exists(beside) else "")
 
 
 def defaults(prefix: str | None = None) -> dict[str, str]:

@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from statistics import median
+
+import psutil
+
+#: Where the environment's own programs are.
+PROGRAMS = Path(sys.executable).parent
+MB = 1_000_000
+#: Seconds between two looks at the memory.
+_LOOK = 0.25
 
 
 @dataclass(frozen=True)
@@ -36,6 +48,77 @@ def interleaved(ways: Mapping[str, Callable[[], None]], repeats: int) -> dict[st
             way()
             times[name].append(time.perf_counter() - begin)
     return {name: median(spans[1:]) for name, spans in times.items()}  # the first turn warms up
+
+
+@dataclass(frozen=True)
+class Use:
+    """Say what a command has used.
+
+    Attributes:
+        seconds: From its start to its end.
+        memory: Bytes at most, of the command and all processes below it together. Counted are their
+            proportional shares (PSS): a page that several of them share counts once. It is looked
+            at four times a second.
+    """
+
+    seconds: float
+    memory: int
+
+
+def use_of(command: Sequence[str | Path], folder: Path) -> Use:
+    """Run a command of the environment in a folder, and return what it has used.
+
+    Args:
+        command: Its name and what is typed behind it.
+        folder: Where it runs. What it prints goes into the file `said.txt` there.
+
+    Raises:
+        RuntimeError: If it fails.
+    """
+    path = os.pathsep.join([str(PROGRAMS), os.environ.get("PATH", "")])
+    begin = time.perf_counter()
+    with (folder / "said.txt").open("wb") as said:
+        process = subprocess.Popen(
+            [PROGRAMS / command[0], *command[1:]],
+            cwd=folder,
+            env={**os.environ, "PATH": path},
+            stdout=said,
+            stderr=said,
+        )
+        memory = _watched(process)
+    seconds = time.perf_counter() - begin
+    if process.returncode:
+        typed, told = " ".join(map(str, command)), (folder / "said.txt").read_text()
+        raise RuntimeError(f"{typed} ended with {process.returncode}:\n{told[-3000:]}")
+    return Use(seconds, memory)
+
+
+def _watched(process: subprocess.Popen[bytes]) -> int:
+    """Wait for a command, and return the bytes of memory that it had at most."""
+    most = 0
+    while True:
+        try:
+            process.wait(_LOOK)
+        except subprocess.TimeoutExpired:
+            most = max(most, _pss(process.pid))
+        else:
+            return most
+
+
+def _pss(pid: int) -> int:
+    """Return the memory of a process and of all below it; what they share is divided among them."""
+    total = 0
+    try:
+        parent = psutil.Process(pid)
+        family = [parent, *parent.children(recursive=True)]
+    except psutil.Error:
+        return 0
+    for one in family:
+        try:
+            total += one.memory_full_info().pss
+        except (psutil.Error, OSError):
+            continue  # it has just ended
+    return total
 
 
 def table(rows: list[Row]) -> str:

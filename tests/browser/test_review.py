@@ -106,7 +106,7 @@ def test_points_that_are_none_are_told_beside_what_was_typed(page, out):
     page.goto(f"{page.url}group/0")
     page.get_by_label("Points, of 2").fill("7")
     page.get_by_role("button", name="Save and go on").click()
-    assert "write a number from 0 to 2" in page.get_by_role("alert").inner_text()
+    assert "Write a number from 0 to 2" in page.get_by_role("alert").inner_text()
     assert page.get_by_label("Points, of 2").input_value() == "7"
     assert ("0002", "Learner 2", "04a", "7", "") not in lines(out)
 

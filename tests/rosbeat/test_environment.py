@@ -126,13 +126,28 @@ def test_memory_is_taken_from_no_profile_but_the_courses(environ, wanted):
     assert environ.get(FROM_PROFILE) == wanted
 
 
-def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
-    alone = tmp_path / "site-packages" / "rosbeat" / "environment.py"
+def installed_in(folder):
+    """The module as a wheel installs it, without a checkout around it."""
+    alone = folder / "rosbeat" / "environment.py"
     alone.parent.mkdir(parents=True)
     shutil.copy(MODULE, alone)
     spec = importlib.util.spec_from_file_location("alone", alone)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
+    return module
+
+
+def test_wheels_bring_the_discovery_profile(tmp_path):
+    profile = tmp_path / "site-packages" / "ros2_command" / "data" / "fastdds.xml"
+    profile.parent.mkdir(parents=True)
+    profile.touch()
+    module = installed_in(tmp_path / "site-packages")
+    assert module.discovery_profile() == module.defaults(PREFIX)[PROFILE] == str(profile)
+    assert module.defaults(PREFIX)[FROM_PROFILE] == "1"
+
+
+def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
+    module = installed_in(tmp_path / "site-packages")
     assert module.discovery_profile() == ""
     assert set(environment.defaults(PREFIX)) - set(module.defaults(PREFIX)) == {
         PROFILE,

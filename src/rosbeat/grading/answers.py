@@ -37,8 +37,7 @@ class Answer:
 
     Attributes:
         exercise: The exercise's id.
-        job: What has to be observed; None if nothing has to be.
-        touched: Whether its cell is another text than on the course's page.
+        job: What has to be observed; None if its cell is as it is on the course's page, or lost.
         repairs: What was done to find and to run the answer, a sentence each.
         remarks: What an instructor should know of it, a sentence each; see `remarks_on`.
         cut: Whether the file breaks off before its cell.
@@ -47,7 +46,6 @@ class Answer:
 
     exercise: str
     job: Job | None
-    touched: bool = True
     repairs: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
     cut: bool = False
@@ -84,7 +82,7 @@ def _answer(
     source = "\n\n".join(found.source for _, found in parts)
     repairs = tuple(dict.fromkeys(said for _, found in parts for said in found.repairs))
     if all(found.source.strip() in ("", one.blank.strip()) for one, found in parts):
-        return Answer(wanted.exercise, None, touched=False, repairs=repairs, source=source)
+        return Answer(wanted.exercise, None, repairs=repairs, source=source)
     base = Job(
         *(wanted.exercise, subject_of(page, wanted.exercise), parts[-1][1].source),
         imports=imports_of(page),
@@ -101,7 +99,7 @@ def _answer(
     job = replace(base, answer=texts[-1], parts=tuple(texts[:-1]), earlier=earlier)
     said = dict.fromkeys(said for _, some in run for said in some)
     remarks = _remarks(page, texts, earlier, base.imports)
-    return Answer(wanted.exercise, job, True, (*repairs, *said), remarks, source=source)
+    return Answer(wanted.exercise, job, (*repairs, *said), remarks, source=source)
 
 
 def _given(exercise: str, seed: int) -> str:

@@ -29,8 +29,8 @@ except ImportError as error:
     raise GradingError(
         "Dask is not installed here, and --scheduler needs it.",
         "A cluster is for classes that outgrow one machine; most do not.",
-        "Install it in the folder of the course with `pip install '.[cluster]'`, or leave "
-        "--scheduler out.",
+        "Run `python -m pip install distributed` in the shell of the course, or leave --scheduler "
+        "out.",
     ) from error
 
 Key = TypeVar("Key")
@@ -154,10 +154,10 @@ class Cluster:
                 if not running:
                     return
                 for future in self._done(list(running)):
-                    one = running.pop(future)
-                    yield from zip(
-                        [key for key, _ in one], self._found(future, len(one)), strict=True
-                    )
+                    found = self._found(future, len(running[future]))
+                    if found:
+                        keys = [key for key, _ in running.pop(future)]
+                        yield from zip(keys, found, strict=True)
         except (OSError, CancelledError, distributed.client.ClosedClientError) as error:
             raise self._gone(error) from error
         finally:
@@ -205,21 +205,28 @@ class Cluster:
             try:
                 with self._client.as_current():
                     found = distributed.wait(futures, timeout=_LOOK, return_when="FIRST_COMPLETED")
-                return set(found.done)
+                # Dask counts among these what was finished, and was lost with its worker before it
+                # was fetched. Another worker is at it again.
+                return {one for one in found.done if one.status != "lost"}
             except distributed.TimeoutError as error:
                 if not self._client.nthreads():
                     raise self._nobody() from error
 
     def _found(self, future: Any, number: int) -> list[Evidence]:  # noqa: ANN401 - Dask's future
-        if future.status == "finished":
-            found = future.result()
-            if isinstance(found, str):
-                raise GradingError(*json.loads(found))
-            return [read_evidence(line) for line in found]
-        error = future.exception() if future.status == "error" else None
-        if isinstance(error, distributed.KilledWorker):
+        """Fetch the evidence of a submission; none if it is lost just now, and made again."""
+        try:
+            found = future.result(timeout=_LOOK)
+        except distributed.TimeoutError:
+            return []
+        except distributed.KilledWorker:
             return [Evidence(LOST)] * number
-        raise self._gone(error)
+        except (OSError, CancelledError, distributed.client.ClosedClientError):
+            raise
+        except Exception as error:
+            raise self._gone(error) from error
+        if isinstance(found, str):
+            raise GradingError(*json.loads(found))
+        return [read_evidence(line) for line in found]
 
     def _nobody(self) -> GradingError:
         return GradingError(

@@ -50,6 +50,7 @@ from rosbeat.grading.submissions import (
 )
 from rosbeat.grading.weights import Points, read_points, without_effect
 from rosbeat.grading.writing import write_whole
+from rosbeat.viz.words import count
 from rosbeat.workspace.place import course_root
 
 if TYPE_CHECKING:
@@ -251,15 +252,11 @@ def _total(found: Collection, pages: Sequence[CoursePage], remarks: int) -> str:
     counts = Counter(page.page for one in found.submissions for page in one.pages)
     there = sum(counts[page] for page in asked)
     nobody = sum(not one.pages for one in found.submissions)
-    parts = [f"{_many(len(found.submissions), 'learner')}, {_many(there, 'page')}"]
-    parts += [f"{_many(nobody, 'learner')} without any page"] if nobody else []
+    parts = [f"{count(len(found.submissions), 'learner')}, {count(there, 'page')}"]
+    parts += [f"{count(nobody, 'learner')} without any page"] if nobody else []
     others = sum(counts.values()) - there
-    parts += [f"{_many(others, 'page')} that you did not ask for"] if others else []
-    return f"{', '.join(parts)}, {_many(remarks, 'remark')}."
-
-
-def _many(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
+    parts += [f"{count(others, 'page')} that you did not ask for"] if others else []
+    return f"{', '.join(parts)}, {count(remarks, 'remark')}."
 
 
 def _as_json(found: Collection) -> str:
@@ -368,10 +365,10 @@ def _require_consistent(options: argparse.Namespace) -> None:
 
 
 def _judged(found: Collection, plan: Plan, options: argparse.Namespace) -> Gradebook:
-    with _goes_on() as count, Ledger(options.out / LEDGER) as ledger, progress_bar() as tell:
+    with _goes_on() as note, Ledger(options.out / LEDGER) as ledger, progress_bar() as tell:
 
         def told(done: int, total: int) -> None:
-            count(done, total)
+            note(done, total)
             tell(done, total)
 
         return grade(found, plan, ledger, _observer(options), told)
@@ -382,11 +379,11 @@ def _goes_on() -> Iterator[Callable[[int, int], None]]:
     """Say what is kept if somebody stops the judging; yields what is told how far it is."""
     far = [0, 0]
 
-    def count(done: int, total: int) -> None:
+    def note(done: int, total: int) -> None:
         far[:] = done, total
 
     try:
-        yield count
+        yield note
     except KeyboardInterrupt:
         kept = f"{far[0] or 'None'} of {far[1]} answers are judged and kept"
         raise StoppedError(

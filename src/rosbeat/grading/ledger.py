@@ -1,8 +1,9 @@
 """Keep what has been judged already, so that nothing is observed twice.
 
 A line of JSON for each answer, added and brought to the disk as soon as it is judged: whoever pulls
-the plug loses the answers that were being observed, and no others. An answer is known by all that
-decides about it: its job, and the version of the course.
+the plug loses the answers that were being observed, and no others. Each line has a digest of
+itself, so a line that is damaged is not believed, and its answer is judged again. An answer is
+known by all that decides about it: its job, and the version of the course.
 """
 
 from __future__ import annotations
@@ -25,6 +26,8 @@ FILE = "judged.jsonl"
 #: Where the seed of a class is kept, in the folder of results.
 SEED_FILE = "seed"
 _BITS = 63
+#: Characters of the digest that each line of the file has.
+_DIGEST = 16
 _PACKAGE = Path(__file__).resolve().parents[1]
 _SOURCES = ("*.py", "*.json", "*.txt", "*.bash")
 
@@ -92,7 +95,7 @@ def _trouble(path: Path, error: Exception) -> GradingError:
     return GradingError(
         f"{printable(str(path))} cannot be used: {why}.",
         "It belongs to the class, so that nothing is done twice and nothing comes out differently.",
-        "Make room, or give another folder with --out.",
+        "Make room, move away what is in its place, or give another folder with --out.",
     )
 
 
@@ -156,7 +159,7 @@ class Ledger:
             return
         line = write(outcome, {"key": key, **({"trace": trace} if trace else {})})
         try:
-            self._file.write(line.encode("ascii") + b"\n")
+            self._file.write(_with_digest(line.encode("ascii")))
             self._file.flush()
             os.fdatasync(self._file.fileno())
         except OSError as error:
@@ -172,9 +175,26 @@ class Ledger:
 
     def _take(self, line: bytes) -> None:
         try:
-            body: Any = json.loads(line)
+            body: Any = json.loads(_without_digest(line))
             key, trace = body.pop("key"), body.pop("trace", "")
             self._traces[str(key)] = trace if isinstance(trace, str) else ""
             self._known[str(key)] = record(Outcome, body, "outcome")
         except (ValueError, KeyError, AttributeError, TypeError, RecursionError, RecordError):
-            return  # half a line, or one of an older version: it is judged again
+            return  # damaged, or of an older version: it is judged again
+
+
+def _with_digest(body: bytes) -> bytes:
+    """Return a line of the file: a list of JSON with a digest and the outcome."""
+    return b'["%s", %s]\n' % (sha256(body).hexdigest()[:_DIGEST].encode(), body)
+
+
+def _without_digest(line: bytes) -> bytes:
+    """Return the outcome of a line, without its newline.
+
+    Raises:
+        ValueError: If the line is not as it was written.
+    """
+    body = line[len('["", ') + _DIGEST : -len("]")]
+    if _with_digest(body) != line + b"\n":
+        raise ValueError("the line is damaged")
+    return body

@@ -11,8 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from rosbeat.grading.cells import csv_text, number
-from rosbeat.grading.csv_table import Row, read_table
+from rosbeat.grading.csv_table import Row, csv_text, number, read_table
 from rosbeat.grading.marks import HELD, LOOKED_AT, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark, printable
 from rosbeat.grading.roster import Lookup, UnusableError
@@ -168,7 +167,7 @@ def _mark(graded: Graded, exercise: str) -> Mark:
 
 def _read(line: Line, mark: Mark | None, remarks: list[Remark]) -> _Given:
     try:
-        points = _points(line.points, mark) if line.points else None
+        points = points_by_hand(line.points, mark) if line.points else None
     except UnusableError as error:
         said = f"{error} The points stay as they were judged. {error.to_try}"
         remarks.append(_remark(line.number, said))
@@ -176,7 +175,16 @@ def _read(line: Line, mark: Mark | None, remarks: list[Remark]) -> _Given:
     return _Given(points, line.comment)
 
 
-def _points(text: str, mark: Mark | None) -> float:
+def points_by_hand(text: str, mark: Mark | None) -> float:
+    """Return points that a person has written for an exercise.
+
+    Args:
+        text: What was written.
+        mark: The exercise; None if none was named.
+
+    Raises:
+        UnusableError: If it is no number of points that the exercise can have.
+    """
     shown = printable(text, 40)
     if mark is None:
         raise UnusableError(

@@ -20,6 +20,7 @@ from markupsafe import Markup
 from rosbeat.exercises.cards import LOOKS, clipped
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import PAGES
+from rosbeat.grading.csv_table import number
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Mark
 from rosbeat.grading.remarks import printable
 from rosbeat.viz.words import count
@@ -160,11 +161,6 @@ def prose(text: str) -> Markup:
     if not text.strip():
         return Markup()
     return html('<p class="said" dir="auto">{}</p>', text)
-
-
-def number(value: float) -> str:
-    """Return points as short as possible, such as `1.5`."""
-    return f"{value:.10g}"
 
 
 def points_of(points: float, out_of: float) -> str:

@@ -16,6 +16,7 @@ from markupsafe import Markup
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.exercises.exercise import FAILED
 from rosbeat.grading.answers import NOT_THERE, PART_NOT_THERE
+from rosbeat.grading.csv_table import number
 from rosbeat.grading.feedback import FOLDER, feedback_files
 from rosbeat.grading.groups import groups_of
 from rosbeat.grading.marks import HELD, MISSING, Gradebook, Graded, Mark
@@ -25,7 +26,6 @@ from rosbeat.grading.rendering import (
     html,
     most,
     name,
-    number,
     render,
     segments_of,
 )

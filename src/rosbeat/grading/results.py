@@ -19,7 +19,7 @@ from typing import Any
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import GradingError, RecordError
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.grading.cells import number
+from rosbeat.grading.csv_table import number
 from rosbeat.grading.feedback import FOLDER as FEEDBACK
 from rosbeat.grading.feedback import FeedbackZips, feedback, feedback_files
 from rosbeat.grading.manual import FILE as MANUAL
@@ -30,6 +30,7 @@ from rosbeat.grading.report import class_report, cut_off, held
 from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
 from rosbeat.grading.writing import write_whole
 from rosbeat.record_json import parse, record, refusal, write
+from rosbeat.viz.words import count, sentence_case
 
 RESULTS = "results.json"
 FORMAT = "rosbeat results"
@@ -209,8 +210,9 @@ def summary(gradebook: Gradebook, out: Path) -> str:
 def _lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
     marks = [mark for one in gradebook.learners for mark in one.marks]
     exercises = {mark.exercise for mark in marks}
-    learners = _many(len(gradebook.learners), "learner")
-    yield f"{learners}, {_many(len(exercises), 'exercise')}: {_by_status(marks)}."
+    learners = count(len(gradebook.learners), "learner")
+    said = f"{learners}, {count(len(exercises), 'exercise')}: {_by_status(marks)}."
+    yield sentence_case(said)
     counted = [one for one in gradebook.learners if not one.excused]
     if counted:
         reached = sum(one.points for one in counted) / len(counted)
@@ -248,7 +250,7 @@ def _remark_lines(gradebook: Gradebook) -> Iterator[str]:
     if files:
         kinds = Counter(printable(one.about) for one in files)
         told = ", ".join(f"{times} {about}" for about, times in sorted(kinds.items()))
-        yield f"{_many(len(files), 'remark')} about files: {told}."
+        yield f"{count(len(files), 'remark')} about files: {told}."
 
 
 def _remarks(gradebook: Gradebook) -> list[Remark]:
@@ -275,7 +277,3 @@ def _held_lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
 def _first(names: Sequence[str], between: str = ", ") -> str:
     more = f"{between}and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
     return between.join(names[:_MOST_NAMED]) + more
-
-
-def _many(number_of: int, what: str) -> str:
-    return f"{number_of} {what}" if number_of == 1 else f"{number_of} {what}s"

@@ -31,13 +31,13 @@ from urllib.parse import parse_qs, quote, urlsplit
 
 from rosbeat.errors import GradingError
 from rosbeat.exercises.registry import EXERCISES
-from rosbeat.grading.cells import cell
+from rosbeat.grading.csv_table import cell, number
 from rosbeat.grading.feedback import code_of
 from rosbeat.grading.groups import Group, groups_of
-from rosbeat.grading.manual import FILE, Line, apply_manual, read_manual
+from rosbeat.grading.manual import FILE, Line, apply_manual, points_by_hand, read_manual
 from rosbeat.grading.marks import Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark
-from rosbeat.grading.rendering import number, render
+from rosbeat.grading.rendering import render
 from rosbeat.grading.results import previous_results, summary
 from rosbeat.grading.roster import Lookup, UnusableError
 from rosbeat.grading.traces import picture
@@ -71,10 +71,6 @@ def review(out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> 
             webbrowser.open(server.url)
         with suppress(KeyboardInterrupt):
             server.serve_forever()
-
-
-class UnusableMarkError(ValueError):
-    """Say why points or a comment cannot be taken, in a sentence for the page."""
 
 
 @dataclass(frozen=True)
@@ -148,25 +144,25 @@ class Review:
             given: What is given; answers without points and comment are as they were judged again.
 
         Raises:
-            UnusableMarkError: If the points are none, nobody is chosen, or the file cannot be read.
+            UnusableError: If the points are none, nobody is chosen, or the file cannot be read.
             GradingError: If the file cannot be written.
         """
         chosen = (one for place, (one, _) in enumerate(group.members) if place in given.members)
         members = {one.learner: one for one in chosen}
         if not members:
-            raise UnusableMarkError("No answer is chosen: tick at least one.")
-        _require_points(given.points, group.first.out_of)
+            raise UnusableError("No answer is chosen.", "Tick at least one.")
+        if given.points:
+            points_by_hand(given.points, group.first)
         with self._lock:
             try:
                 self._read()
             except GradingError as error:
-                said = f"{error.what} Nothing was written: repair the file first."
-                raise UnusableMarkError(said) from error
+                said = f"{error.what} Nothing was written."
+                raise UnusableError(said, "Repair the file first.") from error
             if self._manual.remarks:
                 first = self._manual.remarks[0]
-                raise UnusableMarkError(
-                    f"{first.path}: {first.text} Nothing was written: mend this line first."
-                )
+                said = f"{first.path}: {first.text} Nothing was written."
+                raise UnusableError(said, "Mend this line first.")
             self._write_manual(group.exercise, members, given)
             self._read()
             self.is_written = False
@@ -211,19 +207,6 @@ class Review:
             self._read()
             self._write(self._book)
             self.is_written, self.said = True, summary(self._book, self.out)
-
-
-def _require_points(text: str, out_of: float) -> None:
-    if not text:
-        return
-    try:
-        points = float(text.replace(",", "."))
-    except ValueError:
-        points = -1.0
-    if not 0 <= points <= out_of:  # which no NaN is
-        raise UnusableMarkError(
-            f"{text[:40]!r} are no points: write a number from 0 to {number(out_of)}, or nothing."
-        )
 
 
 def _row(line: Line, name: str) -> tuple[str, ...]:
@@ -390,9 +373,9 @@ class _Handler(BaseHTTPRequestHandler):
         given = Given(frozenset(members), points, comment)
         try:
             review.give(review.groups[place], given)
-        except UnusableMarkError as error:
+        except UnusableError as error:
             nonce = secrets.token_urlsafe(16)
-            page = group_page(review, root, nonce, place, str(error), given)
+            page = group_page(review, root, nonce, place, f"{error} {error.to_try}", given)
             self._send(page, nonce, HTTPStatus.UNPROCESSABLE_ENTITY)
             return
         step = int("next" in form and place + 1 < len(review.groups))

@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.cells import cell
-from rosbeat.grading.csv_table import Row, read_table
+from rosbeat.grading.csv_table import Row, cell, read_table
 from rosbeat.grading.deadlines import read_extension
 from rosbeat.grading.remarks import Remark, printable
 from rosbeat.grading.submissions import Collection, Submission

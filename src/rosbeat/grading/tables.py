@@ -20,7 +20,7 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 from rosbeat.errors import GradingError
-from rosbeat.grading.cells import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number
+from rosbeat.grading.csv_table import FORMULA_SIGNS, MOST_OF_A_CELL, csv_text, number
 from rosbeat.grading.feedback import told_to
 from rosbeat.grading.marks import HELD, Gradebook, Graded, Mark
 from rosbeat.grading.remarks import Remark, printable

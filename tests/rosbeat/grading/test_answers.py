@@ -43,7 +43,7 @@ def answers(pages):
 
 def test_an_answer_becomes_a_job(answers):
     (one,) = answers(text=page(source=DONE))
-    assert (one.exercise, one.touched, one.remarks, one.repairs) == ("03a", True, (), ())
+    assert (one.exercise, one.remarks, one.repairs) == ("03a", (), ())
     assert (one.job.answer, one.job.subject, one.job.replay) == (DONE, "Beat", ())
     assert json.loads(one.job.given) == EXERCISES["03a"].given()
 
@@ -51,12 +51,12 @@ def test_an_answer_becomes_a_job(answers):
 @pytest.mark.parametrize("source", [BLANK, f"\n{BLANK}\n", "", "  \n"])
 def test_what_nobody_has_touched_is_not_observed(answers, source):
     (one,) = answers(text=page(source=source))
-    assert (one.job, one.touched, one.remarks) == (None, False, ())
+    assert (one.job, one.remarks) == (None, ())
 
 
 def test_a_page_without_the_cell_says_so(answers):
     (one,) = answers(cell("a = 1"))
-    assert (one.job, one.touched) == (None, False)
+    assert one.job is None
     assert "not on the page" in " ".join(one.repairs)
 
 
@@ -184,7 +184,7 @@ def test_the_whole_course_has_a_job_for_each_exercise(course):
 def test_a_blank_page_of_the_course_has_no_job(course):
     for page_of_course in course.values():
         found = answers_on(page_of_course, page_of_course.cells)
-        assert {(one.job, one.touched, one.repairs) for one in found} <= {(None, False, ())}
+        assert {(one.job, one.repairs) for one in found} <= {(None, ())}
 
 
 def test_an_exercise_of_several_cells_is_one_answer(course):

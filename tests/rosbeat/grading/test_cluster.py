@@ -3,7 +3,9 @@
 import logging
 import os
 import signal
+import subprocess
 import sys
+from contextlib import contextmanager
 from importlib import import_module
 
 import psutil
@@ -84,18 +86,86 @@ def on_the_cluster(cluster, killed):
     return observe
 
 
-@pytest.mark.ros
-def test_same_results_as_on_one_machine_with_a_worker_killed(cluster, course_and_class, tmp_path):
+@pytest.fixture(scope="module")
+def expected(course_and_class, tmp_path_factory):
+    """What one machine gives."""
+
     def on_this_machine(jobs):
         with Pool(2) as pool:
             yield from pool.observe(jobs)
 
+    return results(course_and_class, tmp_path_factory.mktemp("here"), on_this_machine)
+
+
+@pytest.mark.ros
+def test_same_results_as_on_one_machine_with_a_worker_killed(
+    cluster, course_and_class, expected, tmp_path
+):
     killed = []
-    expected = results(course_and_class, tmp_path / "here", on_this_machine)
     found = results(course_and_class, tmp_path / "there", on_the_cluster(cluster, killed))
     assert killed
     assert found == expected
     assert found.count('"status": "passed"') == found.count('"status": "failed"') == 4
+
+
+@contextmanager
+def worker_of(cluster):
+    """A worker that nobody starts again."""
+    options = ("--no-nanny", "--no-dashboard", "--nthreads", "1")
+    command = [sys.executable, "-m", "distributed.cli.dask_worker", cluster.scheduler_address]
+    with subprocess.Popen([*command, *options], stderr=subprocess.DEVNULL) as process:
+        yield process
+        process.kill()
+
+
+@pytest.mark.ros
+@pytest.mark.timeout(300)
+def test_all_workers_killed_and_the_next_run_goes_on_with_another(
+    course_and_class, expected, tmp_path, monkeypatch, says
+):
+    monkeypatch.setattr(module, "_LOOK", 1.0)
+
+    def observed(own, jobs, and_then):
+        with Cluster(own.scheduler_address, patience=90) as found:
+            for result in found.observe(jobs):
+                and_then()
+                yield result
+
+    with local(0) as own:
+        with worker_of(own) as worker, pytest.raises(GradingError) as caught:
+            results(course_and_class, tmp_path, lambda jobs: observed(own, jobs, worker.kill))
+        says(caught.value, "no worker", "stays graded")
+        with Ledger(tmp_path / FILE) as ledger:
+            assert len(ledger) > 0
+        with worker_of(own):
+            found = results(
+                course_and_class, tmp_path, lambda jobs: observed(own, jobs, lambda: None)
+            )
+    assert found == expected
+
+
+@pytest.mark.ros
+def test_what_is_lost_with_its_worker_before_it_is_fetched_is_observed_again(
+    monkeypatch, eventually
+):
+    submissions = [[(n, Job("03a", "Beat", f"x = {n}"))] for n in range(2)]
+    with local(1) as own, Cluster(own.scheduler_address) as found:
+
+        def statuses():
+            return {one.status for one in found._client.futures.values()}
+
+        def all_done(futures):
+            eventually(lambda: statuses() == {"finished"}, 60)
+            return done(futures)
+
+        done = found._done
+        monkeypatch.setattr(found, "_done", all_done)
+        observing = found.observe(submissions)
+        first, _ = next(observing)
+        monkeypatch.undo()
+        os.kill(*found._client.run(os.getpid).values(), signal.SIGKILL)
+        eventually(lambda: statuses() == {"lost"}, 30)
+        assert {first, *(key for key, _ in observing)} == {0, 1}
 
 
 def prepared_processes(worker):
@@ -157,4 +227,4 @@ def test_without_dask(monkeypatch, says):
     monkeypatch.delitem(sys.modules, module.__name__)
     with pytest.raises(GradingError) as caught:
         import_module(module.__name__)
-    says(caught.value, "Dask is not installed", "pip install '.[cluster]'")
+    says(caught.value, "Dask is not installed", "pip install distributed")

@@ -149,7 +149,7 @@ def submissions(tmp_path):
 def test_a_class_is_collected(course, told, submissions):
     said = told("collect", submissions)
     assert said.splitlines()[0].split() == ["learner", "name", "03", "04", "remarks"]
-    assert "2 learners, 3 pages, 0 remarks." in said
+    assert "2 learners, 3 pages, no remarks." in said
 
 
 def test_only_some_pages_are_collected(course, told, submissions):
@@ -169,7 +169,7 @@ def test_who_handed_in_nothing_is_told_with_a_roster(course, told, submissions, 
     (tmp_path / "roster.txt").write_text("ben\nana\nzoe\n")
     said = told("collect", submissions, "--roster", tmp_path / "roster.txt")
     assert said.splitlines()[3].split() == ["zoe", "-", "-"]
-    assert "3 learners, 3 pages, 1 learner without any page, 0 remarks." in said
+    assert "3 learners, 3 pages, 1 learner without any page, no remarks." in said
 
 
 def test_what_is_half_or_cannot_be_read_is_told(course, told, submissions):
@@ -449,7 +449,7 @@ def keys(out):
         lines = (out / FILE).read_bytes().split(b"\n")[:-1]
     except FileNotFoundError:
         return []
-    return [json.loads(line)["key"] for line in lines]
+    return [json.loads(line)[1]["key"] for line in lines]
 
 
 @pytest.mark.ros

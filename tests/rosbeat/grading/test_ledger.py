@@ -59,11 +59,38 @@ def test_half_a_line_at_the_end_costs_that_line_only(path):
     assert kept(path) == {"a": OUTCOME, "c": OUTCOME}
 
 
+def damaged(data):
+    """What may become of a file: cut at any place, one bit of any byte turned, a piece missing."""
+    for place in range(len(data)):
+        yield data[:place]
+        yield data[place:]
+        yield data[:place] + bytes([data[place] ^ 1 << place % 8]) + data[place + 1 :]
+        yield data[:place] + data[place + 1 + place % 99 :]
+
+
+def test_nothing_damaged_is_taken_for_an_outcome(path):
+    known = {"a": OUTCOME, "b": replace(OUTCOME, points=2)}
+    with Ledger(path) as ledger:
+        for key, outcome in known.items():
+            ledger.add(key, outcome, trace=f"trace of {key}")
+    whole, lost = path.read_bytes(), 0
+    for data in damaged(whole):
+        path.write_bytes(data)
+        with Ledger(path) as ledger:
+            for key, outcome in known.items():
+                found = ledger.get(key), ledger.trace(key)
+                assert found in ((outcome, f"trace of {key}"), (None, "")), data
+                lost += found[0] is None
+            assert len(ledger) <= len(known)
+    assert lost > len(whole)
+
+
 @pytest.mark.parametrize(
     "line",
     [b"", b"[]", b"[1]", b'["key"]', b"5", b"null", b'"key"', b"{}", b'{"key": "a"}', b"\xff\0",
-     b"{" * 100_000, b"[" * 100_000, b'{"key": 5, "exercise": "03a"}'],
-    ids=range(13),
+     b"{" * 100_000, b"[" * 100_000, b'{"key": 5, "exercise": "03a"}',
+     module._with_digest(b"[" * 100_000)[:-1], module._with_digest(b'{"key": "b"}')[:-1]],
+    ids=range(15),
 )  # fmt: skip
 def test_lines_of_another_version_are_left_out(path, line):
     with Ledger(path) as ledger:

@@ -11,7 +11,7 @@ from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
 from parsed_html import ELEMENTS, Parsed
 from reviewing import a_class_to_review
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
-from rosbeat.grading.cells import number
+from rosbeat.grading.csv_table import number
 from rosbeat.grading.feedback import feedback, feedback_files
 from rosbeat.grading.marks import HELD, LOOKED_AT, MISSING, Gradebook, Graded
 from rosbeat.grading.rendering import (

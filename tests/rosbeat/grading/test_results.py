@@ -284,7 +284,7 @@ def test_remarks_about_files_are_counted_and_lines_by_hand_are_shown():
 
 
 def test_a_class_of_nobody_has_a_summary():
-    assert summary(Gradebook("0.1.0", ()), OUT).startswith("0 learners, 0 exercises: nothing")
+    assert summary(Gradebook("0.1.0", ()), OUT).startswith("No learners, no exercises: nothing")
 
 
 @pytest.mark.parametrize("size", [1, 30, 300])

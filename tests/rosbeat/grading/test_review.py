@@ -191,7 +191,7 @@ def test_points_that_are_none_are_refused_and_what_was_typed_stays(server, out, 
     form = {"member": [0], "points": points, "comment": "<i>kept</i>"}
     status, _, page = asked(server, "group/0", form)
     assert status == 422
-    assert "write a number from 0 to 2, or nothing" in page
+    assert "Write a number from 0 to 2, or nothing" in page
     assert "\n&lt;i&gt;kept&lt;/i&gt;</textarea>" in page
     assert (out / "manual.csv").read_bytes() == before
 
@@ -200,7 +200,7 @@ def test_nothing_is_given_to_nobody(server):
     for member in ([], ["7"], ["x"], ["-1"], ["9" * 5_000]):
         status, _, page = asked(server, "group/0", {"member": member, "points": "1"})
         assert status == 422
-        assert "tick at least one" in page
+        assert "Tick at least one" in page
 
 
 def test_a_file_that_cannot_be_read_whole_is_not_written(server, out):

@@ -6,7 +6,7 @@ import pytest
 
 from grading_files import PAGE_03
 from rosbeat.errors import GradingError
-from rosbeat.grading.cells import cell
+from rosbeat.grading.csv_table import cell
 from rosbeat.grading.deadlines import read_due
 from rosbeat.grading.marks import Graded
 from rosbeat.grading.roster import Lookup, Person, UnusableError, read_roster, with_roster

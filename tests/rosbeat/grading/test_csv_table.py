@@ -6,7 +6,7 @@ import io
 import pytest
 
 from graded_classes import HOSTILE
-from rosbeat.grading.cells import MOST_OF_A_CELL, cell, csv_text, number
+from rosbeat.grading.csv_table import MOST_OF_A_CELL, cell, csv_text, number
 
 
 @pytest.mark.parametrize(
