@@ -334,6 +334,7 @@ _OF_PAGES = (
     Mistake("alarm-at-start", "an alarm for the very first reading"),
     Mistake("one-direction", "a difference noticed in one direction only"),
     Mistake("other-reading", "compared with another reading than asked for"),
+    Mistake("zero-is-false", "0 taken for nothing"),
     Mistake("never-reset", "a memory that is never reset"),
     Mistake("nearly-equal", "nearly equal taken for equal"),
     Mistake("too-few-pairs", "a mean of too few pairs"),

@@ -243,6 +243,8 @@ def status_of(value: float, low: float, high: float) -> str:
     return "High" if value > high else "Low" if value < low else "Normal"
 
 
+#: What is wrong with `if value:` as a test for whether there is a value.
+ZERO_IS_FALSE = "In Python 0 is false: to ask whether there is something, ask `is not None`."
 #: The words that `status_of` returns.
 STATUSES = ("High", "Low", "Normal")
 

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import accumulate, pairwise
+from itertools import accumulate, groupby, pairwise
 from typing import Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
@@ -331,8 +331,9 @@ _ROOMY = QoS("BEST_EFFORT", depth=2 * _COUNT)
 
 
 def draw_sensors(draw: Draw) -> Sensors:
-    """Draw readings, some of them below 0: no number twice, and none follows from another.
+    """Draw readings, some of them below 0, of which none follows from another.
 
+    No number comes twice, except that once both sensors read the same at the same moment.
     A float32 holds each of them exactly.
     """
     numbers = range(_COUNT)
@@ -341,7 +342,7 @@ def draw_sensors(draw: Draw) -> Sensors:
     if not draw.is_page:
         drawn = [number / 8 for number in draw.shuffled(range(-200, 200))]
         new, old = tuple(drawn[:_COUNT]), tuple(drawn[_COUNT : 2 * _COUNT])
-    return Sensors(new, old, draw.number(5.5, 2.5, 10.5, 1.0))
+    return Sensors(new, (*old[:1], new[1], *old[2:]), draw.number(5.5, 2.5, 10.5, 1.0))
 
 
 def _run_archive(answer: Answer, fed: Sensors) -> Observation:
@@ -353,6 +354,23 @@ def _run_archive(answer: Answer, fed: Sensors) -> Observation:
     ]
     steps = [Pause(fed.leaves), Resume(fed.returns)]
     return observe(answer, _COUNT + 1.0, others=sensors, steps=steps)
+
+
+def _copies(kept: Sequence[float], fed: Sensors) -> Track:
+    """Return the copies of each reading; those of equal readings are shared out in turns."""
+    counts, found = Counter(kept), {}
+    for one, value in fed.readings().items():
+        turns = [key for key, other in fed.readings().items() if other == value]
+        times = len(range(turns.index(one), counts[value], len(turns)))
+        if times:
+            found[one] = (value,) * times
+    return found
+
+
+def _without_repetitions(fed: Sensors) -> Track:
+    """Return what an archive keeps that takes equal readings in a row for one."""
+    values = [value for _, value in sorted(fed.readings().items())]
+    return _copies([value for value, _ in groupby(values)], fed)
 
 
 def _archive(fed: Sensors, qos: QoS | Sequence[QoS], most: int = 99) -> Track:
@@ -376,6 +394,7 @@ _QUEUE = (
     "How many readings come while it is away, from all sensors together? They all wait in one "
     "queue."
 )
+_EQUAL = "Two sensors may read the same: each reading counts, and equal ones are two readings."
 _TWICE = "One subscription is enough, if it asks for no more than the poorest sensor offers."
 _WAITS = "A lifespan throws away what has waited longer. How long may a reading have to wait?"
 _READING_POLICIES = (
@@ -390,7 +409,10 @@ _READING_POLICIES = (
 def archive_suspects(fed: Sensors, asks: Sequence[QoS]) -> list[Suspect]:
     """Return what the policies of an archive's subscriptions may have done."""
     if len(asks) == 1:
-        return _suspects_by_policy(_READING_POLICIES, _archive, fed, _ROOMY, asks[0])
+        return [
+            *_suspects_by_policy(_READING_POLICIES, _archive, fed, _ROOMY, asks[0]),
+            Suspect("change-missing", _EQUAL, _without_repetitions),
+        ]
     return [
         Suspect("heard-twice", _TWICE, partial(_archive, qos=asks)),
         Suspect("queue-too-short", _QUEUE, partial(_archive, qos=asks, most=1)),
@@ -421,13 +443,13 @@ def _diagnose_archive(observation: Observation, fed: Sensors) -> Diagnosis | Non
             f"{strange:g} is in the archive, and no sensor has published it.",
             "Each reading goes into the archive as it is.",
         )
-    counts = Counter(kept)
+    done = _copies(kept, fed)
     asks = [end.qos for end in _ends(observation, _READING, "subscription")]
 
     def describe(mismatch: Mismatch) -> Diagnosis:
         (at, node), times = mismatch.at, len(mismatch.done)
         found = f"in the archive {times} times" if times else "not in the archive"
-        missed = sum(not counts[value] for value in readings.values())
+        missed = len(readings) - len(done)
         evidence = (
             f"The reading {readings[at, node]:g}, which {node} published at {at:g} s, is {found}, "
             f"and should be there once. {missed} of {len(readings)} readings are missing there; "
@@ -436,7 +458,6 @@ def _diagnose_archive(observation: Observation, fed: Sensors) -> Diagnosis | Non
         )
         return Diagnosis("wrong-values", evidence, "Publish each reading once, when it comes.")
 
-    done = {one: (value,) * counts[value] for one, value in readings.items()}
     wrong = diagnose(fed, done, _archive(fed, _ROOMY), archive_suspects(fed, asks), describe)
     return wrong or _diagnose_order(kept, fed)
 

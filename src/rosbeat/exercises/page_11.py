@@ -24,6 +24,7 @@ from rosbeat.diagnosis.wires import Wire, diagnose_unheard, diagnose_unpublished
 from rosbeat.exercises.draw import Draw
 from rosbeat.exercises.exercise import Exercise, Verdict, before_judging, passed
 from rosbeat.exercises.model import (
+    ZERO_IS_FALSE,
     Mismatch,
     Model,
     Suspect,
@@ -616,8 +617,9 @@ def _watch_one(
         limit: What a difference must be above to be a jump.
         at_limit: Whether the limit itself is a jump.
         signs: Of which differences it notices jumps.
-        compares: With which reading: the one `before`, the `first`, the last `good` one, or with
-            `itself`, because it is kept too early.
+        compares: With which reading: the one `before`, the `first`, the last `good` one, with
+            `itself`, because it is kept too early, or with the one before unless that is 0 (`not
+            zero`).
         equal: How many equal readings are a hang.
         nearly: How far readings that it takes for equal may be apart.
         says: When it tells of a hang, a key of `_SAYS`.
@@ -638,7 +640,7 @@ def _watch_one(
             continue
         if compares == "itself":
             last = base = value
-        off = 0.0 if base is None else value - base
+        off = 0.0 if base is None or (compares == "not zero" and base == 0) else value - base
         far = abs(off) > limit or (at_limit and abs(off) == limit)
         jumps = far and (off > 0) - (off < 0) in signs
         hangs = alone and last is None
@@ -650,7 +652,7 @@ def _watch_one(
             hangs = _SAYS[says](row, equal, told)
             told = told or hangs
         last = value
-        if base is None or compares == "before" or (compares == "good" and not jumps):
+        if base is None or compares in ("before", "not zero") or (compares == "good" and not jumps):
             base = value
         if jumps or hangs:
             said[one.time_ns] = ("jump" if jumps else "stuck",)
@@ -682,6 +684,8 @@ SICK_SUSPECTS = variants(_watch_one, (
     ("other-limits", _JUMP, *({"limit": one} for one in (0.5, 1, 2, 3, 4, 6, 7, 8, 10, 15))),
     ("one-direction", _BOTH, {"signs": (-1,)}, {"signs": (1,)}),
     ("other-reading", _MEMORY, *({"compares": one} for one in ("first", "good", "itself"))),
+    ("zero-is-false", f"A reading of 0 counts as none. {ZERO_IS_FALSE}",
+     {"compares": "not zero"}),
     ("counted-wrong", _COUNT, *({"equal": one} for one in (4, 6, 3, 2, 7, 10))),
     ("status-repeated", _AGAIN, *({"says": one} for one in ("always", "every fifth", "anew"))),
     ("never-reset", _MOVED, {"jump_resets": False}, {"resets": False}, {"tells_again": False}),
@@ -806,7 +810,8 @@ def _differences(
     Args:
         heard: The readings of both sensors.
         partner: The reference of a temperature: the `newest` one; the `next` one in the order in
-            which both came; each that comes `after` it; or the newest one that is a `number`.
+            which both came; each that comes `after` it; the newest one that is a `number`; or the
+            newest one, unless that is 0 (`not zero`).
         start: The reference before the first one; None if it waits for one.
     """
     references = [] if start is None else [start]
@@ -820,6 +825,8 @@ def _differences(
             mine.clear()
         mine.append(float(one.value))
         if not references or not temperatures:
+            continue
+        if partner == "not zero" and references[0] == 0:
             continue
         if partner == "next":
             yield one.time_ns, temperatures.pop(0) - references.pop(0)
@@ -903,6 +910,8 @@ TWO_SUSPECTS = variants(_watch_two, (
     ("never-reset", _BACK, {"says": "never again"}),
     ("other-limits", _LIMIT, *({"limit": one} for one in _LIMITS)),
     ("nan-left-out", _NEWEST, {"partner": "number"}),
+    ("zero-is-false", f"A reference of 0 counts as none. {ZERO_IS_FALSE}",
+     {"partner": "not zero"}),
     ("pairs-mixed-up", _LISTS, {"partner": "next"}),
     ("pairs-mixed-up", _WHEN, {"partner": "after"}),
     ("wrong-window", _WINDOW,

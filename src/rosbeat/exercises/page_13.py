@@ -603,8 +603,11 @@ def _no_alarm(
         return Diagnosis("wrong-word", evidence, hint)
     evidence = f"'{wanted}' was due from {_stamp(due)} to {_stamp(late)}, and did not come."
     hint = "No message comes to say that there is no message. What else can wake the node?"
+    both = any(due - _EPS <= time <= late + _EPS and other in text for time, text in alarms)
     if words[1] == "back":
         hint = "The first message after a silence says that the sensor is back."
+    elif both:
+        hint = "Both sensors are silent. Does the node look at each of them, and remember each?"
     return Diagnosis("alert-missing", evidence, hint)
 
 
