@@ -7,19 +7,19 @@ decides about it: its job, and the version of the course.
 
 from __future__ import annotations
 
-import json
 import os
 import secrets
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from types import TracebackType
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 from rosbeat.errors import GradingError, RecordError
 from rosbeat.grading.jobs import Job, to_line
 from rosbeat.grading.remarks import printable
-from rosbeat.record_json import record, write
 from rosbeat.records import Outcome
+from rosbeat.records_json import from_json, to_json
 
 FILE = "judged.jsonl"
 #: Where the seed of a class is kept, in the folder of results.
@@ -96,6 +96,14 @@ def _trouble(path: Path, error: Exception) -> GradingError:
     )
 
 
+@dataclass(frozen=True)
+class _Entry:
+    """Hold what stands before an outcome in its line."""
+
+    key: str
+    trace: str = ""
+
+
 class Ledger:
     """Keep outcomes by key, in a file; usable in a `with` block.
 
@@ -154,9 +162,9 @@ class Ledger:
         self._known[key], self._traces[key] = outcome, trace
         if not stays:
             return
-        line = write(outcome, {"key": key, **({"trace": trace} if trace else {})})
+        line = to_json(outcome, {"key": key, **({"trace": trace} if trace else {})})
         try:
-            self._file.write(line.encode("ascii") + b"\n")
+            self._file.write(line.encode() + b"\n")
             self._file.flush()
             os.fdatasync(self._file.fileno())
         except OSError as error:
@@ -172,9 +180,8 @@ class Ledger:
 
     def _take(self, line: bytes) -> None:
         try:
-            body: Any = json.loads(line)
-            key, trace = body.pop("key"), body.pop("trace", "")
-            self._traces[str(key)] = trace if isinstance(trace, str) else ""
-            self._known[str(key)] = record(Outcome, body, "outcome")
-        except (ValueError, KeyError, AttributeError, TypeError, RecursionError, RecordError):
+            entry = from_json(_Entry, line, "line")
+            self._known[entry.key] = from_json(Outcome, line, "outcome")
+            self._traces[entry.key] = entry.trace
+        except RecordError:
             return  # half a line, or one of an older version: it is judged again

@@ -396,8 +396,7 @@ def test_what_is_written_is_read_on_one_line():
     for value, read in ((JOB, read_job), (SEEN, read_evidence)):
         line = to_line(value)
         assert read(line) == value
-        assert line.isascii()
-        assert "\n" not in line
+        assert b"\n" not in line.encode()
 
 
 def test_equal_jobs_give_equal_lines_and_others_give_others():
@@ -416,8 +415,8 @@ def test_equal_jobs_give_equal_lines_and_others_give_others():
 @pytest.mark.parametrize(
     "line",
     ["", "half a {", "[]", "null", "5", "{}", '{"exercise": "03a"}', "[" * 100_000,
-     json.dumps({"how": "ended", "more": 1}), to_line(JOB)[:-5], to_line(SEEN)[:-5]],
-    ids=range(11),
+     to_line(JOB)[:-5], to_line(SEEN)[:-5]],
+    ids=range(10),
 )  # fmt: skip
 def test_anything_else_is_refused(read, line, says):
     with pytest.raises(GradingError) as caught:
