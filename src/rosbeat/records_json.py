@@ -43,6 +43,8 @@ def to_json(
         indent: Spaces for each level, in ASCII; None is one line without blanks.
     """
     document = {**head, **_fields_of(value)} if head else value
+    if indent is not None:
+        return json.dumps(as_data(document), indent=indent)
     try:
         text = msgspec.json.encode(document, enc_hook=_plain).decode()
     except UnicodeEncodeError:  # half of a surrogate pair
@@ -155,7 +157,7 @@ def from_json(kind: type[_Record], text: str | bytes, what: str) -> _Record:
 
 
 def _read(kind: type[_Record], text: str) -> _Record:
-    is_old = "$" in text and '{"$' in text
+    is_old = "$" in text and '{"$' in text  # the first look costs next to nothing
     try:
         if not is_old:
             return msgspec.json.decode(text, type=kind, dec_hook=_made)

@@ -7,15 +7,13 @@ an answer can be judged elsewhere, and later.
 
 from __future__ import annotations
 
+from rosbeat import records_json
 from rosbeat.exercises.page_01 import FolderMaking
 from rosbeat.exercises.page_11 import BagReports, Replays
 from rosbeat.exercises.page_13 import Trials
 from rosbeat.exercises.scenarios import Report, TypedIn, Value, Workspace
 from rosbeat.exercises.system import SystemRun
 from rosbeat.records import Observation, ProgramRun
-from rosbeat.records_json import from_json as record_from_json
-from rosbeat.records_json import read_head, refusal
-from rosbeat.records_json import to_json as record_to_json
 
 FORMAT = "rosbeat evidence"
 #: Raised by one whenever a field is taken away or given another meaning; not for a new one with a
@@ -46,8 +44,8 @@ def to_json(seen: Value) -> str:
     """
     kind = type(seen).__name__
     if KINDS.get(kind) is not type(seen):
-        raise refusal(f"There is no evidence of the kind {kind}.", _known())
-    return record_to_json(seen, {"format": FORMAT, "version": VERSION, "kind": kind})
+        raise records_json.refusal(f"There is no evidence of the kind {kind}.", _known())
+    return records_json.to_json(seen, {"format": FORMAT, "version": VERSION, "kind": kind})
 
 
 def from_json(text: str) -> Value:
@@ -57,10 +55,10 @@ def from_json(text: str) -> Value:
         RecordError: If it is not JSON, of another format, version or kind, or if any field is
             missing or of another type.
     """
-    kind = read_head(text, "evidence", FORMAT, VERSION).kind
+    kind = records_json.read_head(text, "evidence", FORMAT, VERSION).kind
     if kind not in KINDS:
-        raise refusal(f"Its kind is {kind!r}.", _known())
-    return record_from_json(KINDS[kind], text, kind)
+        raise records_json.refusal(f"Its kind is {kind!r}.", _known())
+    return records_json.from_json(KINDS[kind], text, kind)
 
 
 def _known() -> str:
