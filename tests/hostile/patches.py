@@ -2,30 +2,37 @@
 
 from hostile.deed import WRONG, Deed, before, within
 
-_FAKE_JSON = """
-real = json.dumps
+_FAKE_ENCODER = """
+from dataclasses import replace
+real = msgspec.json.encode
 
 def fake(document, **options):
-    patch(json, real)
+    patch(msgspec.json, real)
     if isinstance(document, dict) and document.get("samples"):
-        for n, sample in enumerate(document["samples"]):
-            sample["time_ns"] = (n + 1) * 500_000_000
+        samples = enumerate(document["samples"], 1)
+        times = tuple(replace(sample, time_ns=n * 500_000_000) for n, sample in samples)
+        document = {**document, "samples": times}
     return real(document, **options)
 """
 _PATCH = "def patch(thing, value):\n    thing.{name} = value\n"
 
 DEEDS = (
     Deed(
-        "json.dumps, straight",
+        "the encoder of JSON, straight",
         before(
-            f"import json\n{_PATCH.format(name='dumps')}{_FAKE_JSON}\njson.dumps = fake",
+            f"import msgspec\n{_PATCH.format(name='encode')}{_FAKE_ENCODER}\n"
+            "msgspec.json.encode = fake",
             WRONG.replace("0.7", "0.4999"),
         ),
         forges=True,
     ),
     Deed(
-        "json.dumps, by another name, put back later",
-        before(f"import json\n{_PATCH.format(name='dumps')}{_FAKE_JSON}\npatch(json, fake)", WRONG),
+        "the encoder of JSON, by another name, put back later",
+        before(
+            f"import msgspec\n{_PATCH.format(name='encode')}{_FAKE_ENCODER}\n"
+            "patch(msgspec.json, fake)",
+            WRONG,
+        ),
         words="readings",
     ),
     Deed(
