@@ -24,6 +24,8 @@ import msgspec
 from rosbeat.errors import RecordError
 from rosbeat.records import Observation
 
+#: Not looked up when a record is written: an answer that is observed may change these modules.
+_encode, _dumps = msgspec.json.encode, json.dumps
 _Record = TypeVar("_Record")
 #: What stands before the fields of an observation in its digest.
 _OBSERVATION = {"format": "rosbeat observation", "version": 3}
@@ -44,13 +46,13 @@ def to_json(
     """
     document = {**head, **_fields_of(value)} if head else value
     if indent is not None:
-        return json.dumps(as_data(document), indent=indent)
+        return _dumps(as_data(document), indent=indent)
     try:
-        text = msgspec.json.encode(document, enc_hook=_plain).decode()
+        text = _encode(document, enc_hook=_plain).decode()
     except UnicodeEncodeError:  # half of a surrogate pair
         text = "null"
     # msgspec writes null for NaN and infinity, too.
-    return text if "null" not in text else json.dumps(as_data(document), separators=(",", ":"))
+    return text if "null" not in text else _dumps(as_data(document), separators=(",", ":"))
 
 
 def as_data(value: object) -> Any:  # noqa: ANN401 - dicts, lists and texts
@@ -67,7 +69,7 @@ def digest(observation: Observation) -> str:
     for place, name in later:
         if not place[name]:
             del place[name]
-    text = json.dumps(document, sort_keys=True, separators=(",", ":"))
+    text = _dumps(document, sort_keys=True, separators=(",", ":"))
     return sha256(text.encode("ascii")).hexdigest()
 
 

@@ -2,36 +2,37 @@
 
 from hostile.deed import WRONG, Deed, before, within
 
-_FAKE_ENCODER = """
-from dataclasses import replace
-real = msgspec.json.encode
+_FAKE_JSON = """
+real = json.dumps
 
 def fake(document, **options):
-    patch(msgspec.json, real)
+    patch(json, real)
     if isinstance(document, dict) and document.get("samples"):
-        samples = enumerate(document["samples"], 1)
-        times = tuple(replace(sample, time_ns=n * 500_000_000) for n, sample in samples)
-        document = {**document, "samples": times}
+        for n, sample in enumerate(document["samples"]):
+            sample["time_ns"] = (n + 1) * 500_000_000
     return real(document, **options)
 """
 _PATCH = "def patch(thing, value):\n    thing.{name} = value\n"
 
 DEEDS = (
     Deed(
-        "the encoder of JSON, straight",
+        "json.dumps, straight",
         before(
-            f"import msgspec\n{_PATCH.format(name='encode')}{_FAKE_ENCODER}\n"
-            "msgspec.json.encode = fake",
+            f"import json\n{_PATCH.format(name='dumps')}{_FAKE_JSON}\njson.dumps = fake",
             WRONG.replace("0.7", "0.4999"),
         ),
-        forges=True,
+        words="readings",
     ),
     Deed(
-        "the encoder of JSON, by another name, put back later",
+        "json.dumps, by another name, put back later",
+        before(f"import json\n{_PATCH.format(name='dumps')}{_FAKE_JSON}\npatch(json, fake)", WRONG),
+        words="readings",
+    ),
+    Deed(
+        "msgspec's encoder",
         before(
-            f"import msgspec\n{_PATCH.format(name='encode')}{_FAKE_ENCODER}\n"
-            "patch(msgspec.json, fake)",
-            WRONG,
+            "import msgspec\nmsgspec.json.encode = lambda *_, **__: b'{}'",
+            WRONG.replace("0.7", "0.4999"),
         ),
         words="readings",
     ),
