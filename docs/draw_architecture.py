@@ -38,9 +38,7 @@ ROOMS = {
 }
 #: Modules beside the rooms, and the room that each of them is drawn as.
 PART_OF = {
-    "record_json": "records",
-    "record_columns": "records",
-    "observations": "records",
+    "records_json": "records",
     "comparisons": "records",
     "check_command": "cli",
     "explain_command": "cli",

@@ -39,7 +39,7 @@ def answer(job):
         print('{"how": "en', end="", flush=True)
         os._exit(0)
     if word in ("nonsense", "forged"):
-        return {"nonsense": "Hello?", "forged": '{"how": "ended"}'}[word]
+        return {"nonsense": "Hello?", "forged": '{"seen": "ended"}'}[word]
     return to_line(Evidence("ended", seen=job.answer))
 
 

@@ -7,11 +7,10 @@ the outcomes are those that Jupyter shows. Nothing is written to the page or to 
 from __future__ import annotations
 
 import asyncio
-import json
 import logging
 import warnings
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +23,7 @@ from rosbeat.authoring.execution import KernelPlace, kernel_place
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises.cards import MIME, OPEN, RIGHT, WRONG
 from rosbeat.exercises.exercise import PASSED
+from rosbeat.records_json import to_json
 
 #: Seconds for one cell; an endless loop is interrupted then, and the next cell runs.
 SECONDS = 120.0
@@ -72,7 +72,7 @@ def run(pages: Sequence[Path], as_json: bool = False) -> int:
         if not as_json:
             print("\n".join(_lines(path, checked)), flush=True)
     if as_json:
-        print(json.dumps([asdict(one) for one in found], indent=1))
+        print(to_json(found, indent=1))
     return 0 if all(one.status == PASSED for one in found) else _FAILED
 
 

@@ -17,10 +17,6 @@ from typing import Any
 
 NANOSECONDS = 1_000_000_000
 
-#: Metadata of a field that JSON omits while it is empty. A field that is added later has it, so
-#: that older files can still be read and digests stay the same.
-OMIT_EMPTY = {"omit_empty": True}
-
 #: Topics that every node brings along; pictures and lists leave them out unless asked.
 INFRASTRUCTURE_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
 #: What the topics and services that an action is made of have in their names.
@@ -216,7 +212,7 @@ class QoS:
     depth: int = 10
     deadline_ns: int = 0
     lifespan_ns: int = 0
-    policy_alone: str = field(default="", metadata=OMIT_EMPTY)
+    policy_alone: str = ""
 
 
 @dataclass(frozen=True)
@@ -274,7 +270,7 @@ class GraphSnapshot:
     nodes: tuple[str, ...] = ()
     endpoints: tuple[Endpoint, ...] = ()
     timers: tuple[TimerRecord, ...] = ()
-    processes: tuple[tuple[str, ...], ...] = field(default=(), metadata=OMIT_EMPTY)
+    processes: tuple[tuple[str, ...], ...] = ()
 
     def topics(self, infrastructure: bool = False) -> tuple[str, ...]:
         """Names of the topics, sorted; with `infrastructure` also what nodes and actions bring."""
@@ -334,7 +330,7 @@ class Observation(Timed):
     subject: str = ""
     printed: int = 0
     replies: tuple[Reply, ...] = ()
-    waits: tuple[WaitRecord, ...] = field(default=(), metadata=OMIT_EMPTY)
+    waits: tuple[WaitRecord, ...] = ()
 
 
 @dataclass(frozen=True)

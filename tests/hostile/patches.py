@@ -21,11 +21,19 @@ DEEDS = (
             f"import json\n{_PATCH.format(name='dumps')}{_FAKE_JSON}\njson.dumps = fake",
             WRONG.replace("0.7", "0.4999"),
         ),
-        forges=True,
+        words="readings",
     ),
     Deed(
         "json.dumps, by another name, put back later",
         before(f"import json\n{_PATCH.format(name='dumps')}{_FAKE_JSON}\npatch(json, fake)", WRONG),
+        words="readings",
+    ),
+    Deed(
+        "msgspec's encoder",
+        before(
+            "import msgspec\nmsgspec.json.encode = lambda *_, **__: b'{}'",
+            WRONG.replace("0.7", "0.4999"),
+        ),
         words="readings",
     ),
     Deed(

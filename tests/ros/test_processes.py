@@ -14,7 +14,7 @@ from std_srvs.srv import Trigger
 
 from rosbeat import Session
 from rosbeat.errors import NodeConstructionError, SessionError
-from rosbeat.observations import digest
+from rosbeat.records_json import digest
 
 pytestmark = pytest.mark.ros
 

@@ -21,8 +21,8 @@ from std_msgs.msg import Int32
 from limited import TOPIC, Heart, Nurse, by_the_wall, quality, virtually
 from nodes import Listener, Talker
 from rosbeat import Session
-from rosbeat.observations import digest
 from rosbeat.records import NANOSECONDS, QoS
+from rosbeat.records_json import digest
 from rosbeat.ros.qos_events import (
     STRETCH,
     as_written,

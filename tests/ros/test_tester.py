@@ -6,8 +6,8 @@ from rclpy.node import Node
 
 from action_nodes import Heater
 from nodes import Server
-from rosbeat.observations import from_json, to_json
-from rosbeat.records import Reply
+from rosbeat.records import Observation, Reply
+from rosbeat.records_json import from_json, to_json
 from rosbeat.ros.scenario import Call, SendGoal, SetParameters, observe
 
 pytestmark = pytest.mark.ros
@@ -39,7 +39,7 @@ def test_a_goal_with_feedback_and_result():
     ]
     assert seen.replies[0].data == {"accepted": True}
     assert seen.replies[-1].data == {"status": "SUCCEEDED", "sequence": [1, 2]}
-    assert from_json(to_json(seen)) == seen
+    assert from_json(Observation, to_json(seen), "it") == seen
 
 
 def test_a_goal_is_canceled_after_a_while():

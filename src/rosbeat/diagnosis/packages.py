@@ -9,13 +9,12 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from pathlib import Path
 
 from rosbeat.diagnosis.mistakes import Diagnosis
-from rosbeat.records import OMIT_EMPTY
 
 #: The `problem` of a build script that can be read and never calls `setup`.
 NO_CALL = "it does not call setup()"
@@ -133,7 +132,7 @@ class SetupScript:
     packages: tuple[str, ...] | None = None
     excluded: tuple[str, ...] = ()
     about: tuple[tuple[str, str], ...] = ()
-    left_out: tuple[str, ...] = field(default=(), metadata=OMIT_EMPTY)
+    left_out: tuple[str, ...] = ()
 
     def installs(self, package: str) -> bool:
         """Return whether a Python package is installed, as far as that is known.

@@ -1,23 +1,23 @@
 """Evidence as text: whatever a scenario hands to a judge, written as JSON and read back.
 
 The text is an object with `format`, `version`, `kind` and the fields of that kind, nested as they
-are in the dataclass; see `rosbeat.record_json` for numbers that JSON does not have. Nothing of a
-learner's is run when it is read, so an answer can be judged elsewhere, and later.
+are in the dataclass; see `rosbeat.records_json`. Nothing of a learner's is run when it is read, so
+an answer can be judged elsewhere, and later.
 """
 
 from __future__ import annotations
 
+from rosbeat import records_json
 from rosbeat.exercises.page_01 import FolderMaking
 from rosbeat.exercises.page_11 import BagReports, Replays
 from rosbeat.exercises.page_13 import Trials
 from rosbeat.exercises.scenarios import Report, TypedIn, Value, Workspace
 from rosbeat.exercises.system import SystemRun
-from rosbeat.record_json import parse, record, refusal, write
 from rosbeat.records import Observation, ProgramRun
 
 FORMAT = "rosbeat evidence"
-#: Raised by one whenever a field is added, taken away or given another meaning; not for a field
-#: that is omitted while it is empty (`records.OMIT_EMPTY`).
+#: Raised by one whenever a field is taken away or given another meaning; not for a new one with a
+#: default.
 VERSION = 5
 KINDS: dict[str, type] = {
     kind.__name__: kind
@@ -44,9 +44,8 @@ def to_json(seen: Value) -> str:
     """
     kind = type(seen).__name__
     if KINDS.get(kind) is not type(seen):
-        raise refusal(f"There is no evidence of the kind {kind}.", _known())
-    head = {"format": FORMAT, "version": VERSION, "kind": kind}
-    return write(seen, head, columns=True)
+        raise records_json.refusal(f"There is no evidence of the kind {kind}.", _known())
+    return records_json.to_json(seen, {"format": FORMAT, "version": VERSION, "kind": kind})
 
 
 def from_json(text: str) -> Value:
@@ -54,13 +53,12 @@ def from_json(text: str) -> Value:
 
     Raises:
         RecordError: If it is not JSON, of another format, version or kind, or if any field is
-            missing, unknown or of another type.
+            missing or of another type.
     """
-    body = parse(text, "evidence", FORMAT, VERSION)
-    kind = body.pop("kind", None)
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise refusal(f"Its kind is {kind!r}.", _known())
-    return record(KINDS[kind], body, kind)
+    kind = records_json.read_head(text, "evidence", FORMAT, VERSION).kind
+    if kind not in KINDS:
+        raise records_json.refusal(f"Its kind is {kind!r}.", _known())
+    return records_json.from_json(KINDS[kind], text, kind)
 
 
 def _known() -> str:

@@ -6,7 +6,6 @@ weather of every trial follows from the numbers in that file, and from a seed.
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -23,7 +22,7 @@ from rosbeat.exercises.cards import words
 from rosbeat.exercises.draw import PAGE, Draw
 from rosbeat.exercises.model import as_float32
 from rosbeat.exercises.scenarios import station
-from rosbeat.record_json import record
+from rosbeat.records_json import from_json
 
 # What is required.
 
@@ -130,12 +129,10 @@ def parse_rubric(text: str, name: str) -> Rubric:
         ExerciseError: If it is no rubric that a check could use.
     """
     try:
-        found: Rubric = record(Rubric, json.loads(text), "it")
+        found = from_json(Rubric, text, "rubric")
     except RecordError as error:
         said = error.what.partition(". ")[2]  # behind what it says of every record
-        raise _refused(name, f"{said} {error.means}".rstrip(".")) from None
-    except (ValueError, RecursionError) as error:
-        raise _refused(name, f"it is not JSON, {error}") from None
+        raise _refused(name, said.rstrip(".")) from None
     wrong = [*_numbers(found.numbers), *_rows(found.requirements)]
     wrong = wrong or [*_spans(found.numbers), *_texts(found)]
     if wrong:

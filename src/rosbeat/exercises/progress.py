@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
+
+from msgspec import Meta
 
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import RecordError
@@ -17,6 +18,7 @@ from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.registry import PAGES, Page
 from rosbeat.records import Outcome
+from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.place import steady_home, workspace_parent
 from rosbeat.workspace.saving import only_writer, write
 
@@ -25,6 +27,9 @@ if TYPE_CHECKING:
 
 
 # How far somebody is with one exercise, as plain data.
+
+#: A number that is not below 0, also if somebody has edited the file.
+_Number = Annotated[int, Meta(ge=0)]
 
 
 @dataclass(frozen=True)
@@ -45,9 +50,9 @@ class Standing:
 
     outcome: str = NOT_ATTEMPTED
     passed: bool = False
-    points: int = 0
-    attempts: int = 0
-    hints: int = 0
+    points: _Number = 0
+    attempts: _Number = 0
+    hints: _Number = 0
     answer: bool = False
     mistake: str = ""
     lead: str = ""
@@ -75,47 +80,24 @@ class Standing:
             lead=outcome.hint if outcome.mistake in MISTAKES else "",
         )
 
-    def as_dict(self) -> dict[str, Any]:
-        """Return the standing as it is written into a file."""
-        return asdict(self)
-
-
-def parse_standing(data: object) -> Standing:
-    """Read a standing back; what a later version added is left out.
-
-    Args:
-        data: What `as_dict` gave, from a file that anybody may have edited.
-
-    Raises:
-        RecordError: If it is not such a thing.
-    """
-    if not isinstance(data, dict):
-        raise _not_a_standing(data)
-    start = Standing()
-    known = {key: data[key] for key in start.as_dict() if key in data}
-    for key, value in known.items():
-        kind = type(getattr(start, key))
-        if type(value) is not kind or (kind is int and value < 0):
-            raise _not_a_standing(f"{key}: {value!r}")
-    return Standing(**known)
-
-
-def _not_a_standing(found: object) -> RecordError:
-    return RecordError(
-        f"This says nothing about an exercise: {str(found)[:100]}.",
-        "The file of your progress holds something that the course did not write.",
-        "Run the check again.",
-    )
-
 
 # The file that remembers how far somebody is, beside the workspace.
 
-FOLDER, NAME, VERSION = ".rosbeat", "progress.json", 1
+FOLDER, NAME = ".rosbeat", "progress.json"
+VERSION: Final = 1
 SETTING = "ROSBEAT_PROGRESS_IN"
 #: Neither git nor colcon looks into the folder.
 _IGNORED = {".gitignore": b"*\n", "COLCON_IGNORE": b""}
 
 Standings = Mapping[str, Standing]
+
+
+@dataclass(frozen=True)
+class _Content:
+    """Hold what is in the file. What a later version adds to a standing is passed over."""
+
+    version: Literal[1]
+    exercises: dict[str, Standing]
 
 
 class ProgressFile:
@@ -136,7 +118,7 @@ class ProgressFile:
         if self._unsaved is not None:
             return self._unsaved
         try:
-            return _parse(self.path.read_bytes())
+            return self._read()
         except (OSError, RecordError):
             return MappingProxyType({})
 
@@ -166,14 +148,18 @@ class ProgressFile:
     def _written(self, exercise: str, edit: Callable[[Standing], Standing]) -> Standing:
         before = {**self._sound_content(), **(self._unsaved or {})}
         after = edit(before.get(exercise, Standing()))
-        write(self.path, _text({**before, exercise: after}))
+        standings = dict(sorted({**before, exercise: after}.items()))
+        write(self.path, f"{to_json(_Content(VERSION, standings), indent=1)}\n".encode())
         self._unsaved = None
         return after
+
+    def _read(self) -> Standings:
+        return from_json(_Content, self.path.read_bytes(), "progress").exercises
 
     def _sound_content(self) -> Standings:
         """Return what the file holds; if that is damaged, it is put aside."""
         try:
-            return _parse(self.path.read_bytes())
+            return self._read()
         except FileNotFoundError:
             return {}
         except RecordError:
@@ -211,33 +197,6 @@ def progress_file() -> ProgressFile:
 def _at(folder: Path) -> ProgressFile:
     # One for each folder, so that what is wrong with it is said once in a kernel.
     return ProgressFile(folder)
-
-
-def _parse(content: bytes) -> Standings:
-    try:
-        data = json.loads(content)
-    except (ValueError, RecursionError) as error:
-        raise _unreadable(str(error)) from None
-    if not isinstance(data, dict) or data.get("version") != VERSION:
-        raise _unreadable(f"it is not version {VERSION}")
-    found = data.get("exercises")
-    if not isinstance(found, dict):
-        raise _unreadable("it names no exercises")
-    return {name: parse_standing(one) for name, one in found.items()}
-
-
-def _text(standings: Standings) -> bytes:
-    found = {name: one.as_dict() for name, one in sorted(standings.items())}
-    whole = {"version": VERSION, "exercises": found}
-    return (json.dumps(whole, indent=1) + "\n").encode()
-
-
-def _unreadable(why: str) -> RecordError:
-    return RecordError(
-        f"The file of your progress cannot be read: {why}.",
-        "Something else than the course has written it, or another version of the course.",
-        "Run a check: it keeps this file under another name and begins a new one.",
-    )
 
 
 def _free_name(path: Path) -> Path:
@@ -305,7 +264,7 @@ def as_text() -> str:
 
 def as_json() -> str:
     """Return the same as JSON."""
-    return json.dumps(as_data(progress_file().standings()), indent=1)
+    return to_json(as_data(progress_file().standings()), indent=1)
 
 
 def as_data(standings: Standings) -> dict[str, Any]:
@@ -319,7 +278,7 @@ def as_data(standings: Standings) -> dict[str, Any]:
             **{"exercise": one.id, "page": page.number, "title": one.title, "out_of": one.points},
             **{
                 "status": _standing_of(one, standings).status,
-                **_standing_of(one, standings).as_dict(),
+                **asdict(_standing_of(one, standings)),
             },
         }
         for page in PAGES

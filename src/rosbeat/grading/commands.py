@@ -7,13 +7,12 @@ done, 2 misuse, 3 all is written and something waits for a person, 130 stopped.
 from __future__ import annotations
 
 import argparse
-import json
 import shlex
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,7 +21,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from rosbeat.errors import CommandError, GradingError, StoppedError
+from rosbeat.errors import CommandError, GradingError, RecordError, StoppedError
 from rosbeat.grading.course_pages import CoursePage, course_pages
 from rosbeat.grading.deadlines import mark_late, read_due, read_late_rule
 from rosbeat.grading.jobs import Evidence, Job
@@ -50,6 +49,7 @@ from rosbeat.grading.submissions import (
 )
 from rosbeat.grading.weights import Points, read_points, without_effect
 from rosbeat.grading.writing import write_whole
+from rosbeat.records_json import from_json, to_json
 from rosbeat.viz.words import count
 from rosbeat.workspace.place import course_root
 
@@ -264,12 +264,12 @@ def _as_json(found: Collection) -> str:
         {
             **{"learner": one.learner, "name": one.name, "system": one.system},
             **{"pages": [_page(page) for page in one.pages]},
-            **{"remarks": [asdict(remark) for remark in one.remarks]},
+            "remarks": one.remarks,
         }
         for one in found.submissions
     ]
-    remarks = [asdict(remark) for remark in found.remarks]
-    return json.dumps({"version": _VERSION, "learners": learners, "remarks": remarks}, indent=1)
+    said = {"version": _VERSION, "learners": learners, "remarks": found.remarks}
+    return to_json(said, indent=1)
 
 
 def _page(page: HandedIn) -> dict[str, Any]:
@@ -437,10 +437,10 @@ def _summary_json(gradebook: Gradebook, out: Path, code: int) -> str:
         "average": round(sum(graded) / len(graded), 2) if graded else None,
         "marks": dict(sorted(Counter(mark.status for _, mark in marks).items())),
         "held": held,
-        "lines": [asdict(one) for one in gradebook.remarks if one.about in _FOR_A_PERSON],
+        "lines": [one for one in gradebook.remarks if one.about in _FOR_A_PERSON],
         "files": dict(sorted(Counter(one.about for one in remarks).items())),
     }
-    return json.dumps(said, indent=1)
+    return to_json(said, indent=1)
 
 
 # How a class was graded the last time, so that an option that was left out is noticed.
@@ -448,6 +448,13 @@ def _summary_json(gradebook: Gradebook, out: Path, code: int) -> str:
 LAST_RUN = "last_run.json"
 #: Options by their names without hyphens; what was left out is not among them.
 Typed = Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class _LastRun:
+    """Hold how a class was graded."""
+
+    options: dict[str, str]
 
 
 def _deciding(options: argparse.Namespace, pages: Iterable[CoursePage]) -> dict[str, str]:
@@ -471,8 +478,8 @@ def note_options(out: Path, typed: Typed) -> None:
     Raises:
         GradingError: If it cannot be written.
     """
-    said = json.dumps({"options": dict(typed)}, indent=1, sort_keys=True)
-    write_whole(out / LAST_RUN, f"{said}\n")
+    run = _LastRun(dict(sorted(typed.items())))
+    write_whole(out / LAST_RUN, f"{to_json(run, indent=1)}\n")
 
 
 def changes(out: Path, typed: Typed) -> str:
@@ -486,11 +493,10 @@ def changes(out: Path, typed: Typed) -> str:
         The line; empty if all is the same or there was no last time.
     """
     try:
-        said = json.loads((out / LAST_RUN).read_text(encoding="utf-8"))
-        before = {str(name): str(value) for name, value in said["options"].items()}
+        before = from_json(_LastRun, (out / LAST_RUN).read_bytes(), "options").options
     except FileNotFoundError:
         return ""
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+    except (OSError, RecordError):
         place = printable(str(out / LAST_RUN), 1000)
         return f"{place} cannot be read, so it is not known how you graded the last time."
     differ = [name for name in sorted({*before, *typed}) if before.get(name) != typed.get(name)]

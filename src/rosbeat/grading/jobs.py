@@ -5,16 +5,17 @@ Nothing of a judge goes in: no expected value, no solution, no other submission.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
-from typing import Any
+from dataclasses import dataclass, field
+from typing import TypeVar
 
-from rosbeat.errors import GradingError
+from rosbeat.errors import GradingError, RecordError
+from rosbeat.records_json import from_json, to_json
 
 #: How a run may end besides what `sandbox.Ending` says: the process that watched it is gone; what
 #: came out of it is nothing that the course has written.
 LOST, FORGED = "lost", "forged"
+_Line = TypeVar("_Line")
 
 
 @dataclass(frozen=True)
@@ -80,7 +81,7 @@ class Evidence:
 
 def to_line(value: Job | Evidence) -> str:
     """Return a job, or evidence, as one line of JSON; equal values give equal lines."""
-    return json.dumps(asdict(value), sort_keys=True)
+    return to_json(value)
 
 
 def read_job(line: str) -> Job:
@@ -89,8 +90,7 @@ def read_job(line: str) -> Job:
     Raises:
         GradingError: If the line is not one.
     """
-    found: Job = _made(Job, line)
-    return found
+    return _read(Job, line)
 
 
 def read_evidence(line: str) -> Evidence:
@@ -99,27 +99,15 @@ def read_evidence(line: str) -> Evidence:
     Raises:
         GradingError: If the line is none.
     """
-    found: Evidence = _made(Evidence, line)
-    return found
+    return _read(Evidence, line)
 
 
-def _made(kind: Any, line: str) -> Any:  # noqa: ANN401 - one of the two above
+def _read(kind: type[_Line], line: str) -> _Line:
     try:
-        said = json.loads(line)
-    except (ValueError, RecursionError) as error:
-        raise _refused(str(error)) from error
-    if not isinstance(said, dict) or set(said) != {one.name for one in fields(kind)}:
-        raise _refused("it has other fields")
-    return kind(**{name: _value(one) for name, one in said.items()})
-
-
-def _value(value: Any) -> Any:  # noqa: ANN401 - any field
-    return tuple(value) if isinstance(value, list) else value
-
-
-def _refused(why: str) -> GradingError:
-    return GradingError(
-        f"A line between two processes of the grader cannot be read: {why}.",
-        "One of them was stopped while it wrote, or is of another version.",
-        "Run the command again; what is graded already stays graded.",
-    )
+        return from_json(kind, line, "line")
+    except RecordError as error:
+        raise GradingError(
+            "A line between two processes of the grader cannot be read.",
+            "One of them was stopped while it wrote, or is of another version.",
+            "Run the command again; what is graded already stays graded.",
+        ) from error

@@ -8,19 +8,19 @@ known by all that decides about it: its job, and the version of the course.
 
 from __future__ import annotations
 
-import json
 import os
 import secrets
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from types import TracebackType
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 from rosbeat.errors import GradingError, RecordError
 from rosbeat.grading.jobs import Job, to_line
 from rosbeat.grading.remarks import printable
-from rosbeat.record_json import record, write
 from rosbeat.records import Outcome
+from rosbeat.records_json import from_json, to_json
 
 FILE = "judged.jsonl"
 #: Where the seed of a class is kept, in the folder of results.
@@ -99,6 +99,14 @@ def _trouble(path: Path, error: Exception) -> GradingError:
     )
 
 
+@dataclass(frozen=True)
+class _Entry:
+    """Hold what stands before an outcome in its line."""
+
+    key: str
+    trace: str = ""
+
+
 class Ledger:
     """Keep outcomes by key, in a file; usable in a `with` block.
 
@@ -157,9 +165,9 @@ class Ledger:
         self._known[key], self._traces[key] = outcome, trace
         if not stays:
             return
-        line = write(outcome, {"key": key, **({"trace": trace} if trace else {})})
+        line = to_json(outcome, {"key": key, **({"trace": trace} if trace else {})})
         try:
-            self._file.write(_with_digest(line.encode("ascii")))
+            self._file.write(_with_digest(line.encode()))
             self._file.flush()
             os.fdatasync(self._file.fileno())
         except OSError as error:
@@ -175,11 +183,11 @@ class Ledger:
 
     def _take(self, line: bytes) -> None:
         try:
-            body: Any = json.loads(_without_digest(line))
-            key, trace = body.pop("key"), body.pop("trace", "")
-            self._traces[str(key)] = trace if isinstance(trace, str) else ""
-            self._known[str(key)] = record(Outcome, body, "outcome")
-        except (ValueError, KeyError, AttributeError, TypeError, RecursionError, RecordError):
+            body = _without_digest(line)
+            entry = from_json(_Entry, body, "line")
+            self._known[entry.key] = from_json(Outcome, body, "outcome")
+            self._traces[entry.key] = entry.trace
+        except (ValueError, RecordError):
             return  # damaged, or of an older version: it is judged again
 
 

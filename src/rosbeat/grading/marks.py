@@ -5,11 +5,11 @@ Plain data, made from outcomes. Every file that `rosbeat grade` writes is made f
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from rosbeat.grading.remarks import Remark
 from rosbeat.grading.submissions import Collection, HandedIn, Submission
-from rosbeat.records import OMIT_EMPTY, Part
+from rosbeat.records import Part
 
 #: The status of an exercise besides those of an outcome: its page was not handed in; it has no
 #: points yet, because a person has to look at it or its file cannot be read; a person has looked at
@@ -67,8 +67,8 @@ class Mark:
     seconds: float = 0.0
     answer: str = ""
     file: str = ""
-    source: str = field(default="", metadata=OMIT_EMPTY)
-    trace: str = field(default="", metadata=OMIT_EMPTY)
+    source: str = ""
+    trace: str = ""
 
     @property
     def waits_for_its_file(self) -> bool:
@@ -98,7 +98,7 @@ class Graded:
     remarks: tuple[Remark, ...] = ()
     comment: str = ""
     excused: bool = False
-    files: tuple[tuple[str, str], ...] = field(default=(), metadata=OMIT_EMPTY)
+    files: tuple[tuple[str, str], ...] = ()
 
     @property
     def called(self) -> str:
@@ -155,7 +155,7 @@ class Gradebook:
     course: str
     learners: tuple[Graded, ...]
     remarks: tuple[Remark, ...] = ()
-    solutions: tuple[Solution, ...] = field(default=(), metadata=OMIT_EMPTY)
+    solutions: tuple[Solution, ...] = ()
 
 
 # What the files say about the marks of their answers.

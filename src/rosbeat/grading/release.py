@@ -17,8 +17,9 @@ from dataclasses import dataclass
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path, PurePosixPath
+from typing import Final, Literal
 
-from rosbeat.errors import GradingError
+from rosbeat.errors import GradingError, RecordError
 from rosbeat.exercises.exercise import BLANK
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.course_pages import CoursePage, course_pages
@@ -27,14 +28,23 @@ from rosbeat.grading.remarks import printable
 from rosbeat.grading.submissions import MARKER
 from rosbeat.grading.weights import Points, read_points
 from rosbeat.grading.writing import write_whole
+from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.catching_up import NODES, PACKAGE
 
-_FORMAT = 1
+_FORMAT: Final = 1
 POINTS = "points.csv"
 WORKFLOW = ".github/workflows/check.yml"
 
 #: For each file, the digests of all its versions that were released.
 History = dict[str, list[str]]
+
+
+@dataclass(frozen=True)
+class _Marker:
+    """Hold what marks a folder as a release."""
+
+    files: History
+    format: Literal[1]
 
 
 @dataclass(frozen=True)
@@ -122,16 +132,10 @@ def _refusal(target: Path, what: str, means: str) -> GradingError:
 
 def _read_marker(path: Path) -> History | None:
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        if found["format"] != _FORMAT:
-            return None
-        return {
-            str(name): [str(one) for one in digests]
-            for name, digests in found["files"].items()
-            if is_inside(str(name))
-        }
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        found = from_json(_Marker, path.read_bytes(), "release")
+    except (OSError, RecordError):
         return None
+    return {name: digests for name, digests in found.files.items() if is_inside(name)}
 
 
 def is_inside(name: str) -> bool:
@@ -215,8 +219,8 @@ def _remove(target: Path, name: str) -> bool:
 
 
 def _write_marker(target: Path, history: History) -> None:
-    text = json.dumps({"format": _FORMAT, "files": history}, indent=1, sort_keys=True)
-    write_whole(target / MARKER, f"{text}\n")
+    marker = _Marker(dict(sorted(history.items())), _FORMAT)
+    write_whole(target / MARKER, f"{to_json(marker, indent=1)}\n")
 
 
 # What is in it.

@@ -11,8 +11,6 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import fields, replace
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -29,15 +27,16 @@ from rosbeat.grading.remarks import Remark, printable
 from rosbeat.grading.report import class_report, cut_off, held
 from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
 from rosbeat.grading.writing import write_whole
-from rosbeat.record_json import parse, record, refusal, write
+from rosbeat.records_json import as_data, from_json, read_head
 from rosbeat.viz.words import count, sentence_case
 
 RESULTS = "results.json"
 FORMAT = "rosbeat results"
 #: Raised by one whenever a field is added, taken away or given another meaning.
 VERSION = 3
-#: Fields of a mark that differ from run to run.
-UNSTEADY = ("seconds",)
+#: Fields that are left out: those that differ from run to run, the texts of answers, and what they
+#: did.
+LEFT_OUT = {"mark": ("seconds", "source", "trace"), "learner": ("files",), "class": ("solutions",)}
 _POINTS = ("points", "out_of", "judged")
 _DIGITS = 6
 #: Statuses in the order in which they are told, and what they are called.
@@ -139,59 +138,35 @@ def to_results(gradebook: Gradebook) -> str:
     Args:
         gradebook: A class.
     """
-    document = json.loads(write(_kept(gradebook), {"format": FORMAT, "version": VERSION}))
-    document["learners"].sort(key=lambda graded: graded["learner"])
-    for mark in _marks(document):
-        for name in UNSTEADY:
-            del mark[name]
-        for name in _POINTS:  # 2 and 2.0 are one number, and so are 0 and -0
-            mark[name] = round(float(mark[name]), _DIGITS) + 0.0
+    document = {"format": FORMAT, "version": VERSION, **as_data(gradebook)}
+    _leave_out(document, "class")
+    document["learners"] = sorted(document["learners"], key=lambda graded: graded["learner"])
+    for graded in document["learners"]:
+        _leave_out(graded, "learner")
+        for mark in graded["marks"]:
+            _leave_out(mark, "mark")
+            for name in _POINTS:  # 2 and 2.0 are one number, and so are 0 and -0
+                mark[name] = round(float(mark[name]), _DIGITS) + 0.0
     return json.dumps(document, indent=1, allow_nan=False) + "\n"
 
 
-def _kept(gradebook: Gradebook) -> Gradebook:
-    """Return what is written: without the texts of answers and what they did."""
-    learners = [
-        replace(
-            one, files=(), marks=tuple(replace(mark, source="", trace="") for mark in one.marks)
-        )
-        for one in gradebook.learners
-    ]
-    return replace(gradebook, learners=tuple(learners), solutions=())
+def _leave_out(document: dict[str, Any], kind: str) -> None:
+    for name in LEFT_OUT[kind]:
+        del document[name]
 
 
 def from_results(text: str) -> Gradebook:
-    """Read what `to_results` wrote; what it leaves out is 0.
+    """Read what `to_results` wrote; what it leaves out is empty.
 
     Args:
         text: The file.
 
     Raises:
-        RecordError: If it is not JSON, of another format or version, or if any field is missing,
-            unknown or of another type.
+        RecordError: If it is not JSON, of another format or version, or if any field is missing or
+            of another type.
     """
-    body = parse(text, "file of results", FORMAT, VERSION)
-    usual = {one.name: one.default for one in fields(Mark) if one.name in UNSTEADY}
-    try:
-        for mark in _marks(body):
-            mark.update(usual, **{name: _float(mark[name]) for name in _POINTS})
-    except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
-        means = f"The marks of a learner are not what they should be: {error}."
-        raise refusal("It is no list of marks.", means) from error
-    gradebook: Gradebook = record(Gradebook, body, "results")
-    return gradebook
-
-
-def _marks(document: dict[str, Any]) -> list[dict[str, Any]]:
-    return [mark for graded in document["learners"] for mark in graded["marks"]]
-
-
-def _float(value: Any) -> Any:  # noqa: ANN401 - unchecked: the next reader complains
-    if type(value) is not int and type(value) is not float:
-        return value
-    if not isfinite(value):
-        raise ValueError("there are endless points")
-    return float(value)
+    read_head(text, "file of results", FORMAT, VERSION)
+    return from_json(Gradebook, text, "results")
 
 
 # What a terminal is told.

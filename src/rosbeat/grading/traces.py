@@ -20,8 +20,8 @@ from markupsafe import Markup
 
 from rosbeat.errors import RecordError
 from rosbeat.exercises.scenarios import Report, TypedIn
-from rosbeat.record_json import record, write
 from rosbeat.records import Observation, ProgramRun, Sample
+from rosbeat.records_json import from_json, to_json
 from rosbeat.viz.words import count, rounded, sentence_case
 
 #: What a lane shows: what the node was sent, what it published, what it logged.
@@ -70,7 +70,7 @@ class Trace:
 
 
 def trace_of(seen: Any) -> str:  # noqa: ANN401 - any kind of evidence
-    """Return the trace of an answer as JSON in ASCII; empty if there is nothing to show.
+    """Return the trace of an answer as JSON; empty if there is nothing to show.
 
     Evidence that somebody has forged may hold numbers that are none of ROS; it has no trace.
 
@@ -81,17 +81,16 @@ def trace_of(seen: Any) -> str:  # noqa: ANN401 - any kind of evidence
         trace = _trace(seen)
     except (ValueError, TypeError, OverflowError, RecursionError):
         return ""
-    return write(trace, {}) if trace.lanes or trace.text else ""
+    return to_json(trace) if trace.lanes or trace.text else ""
 
 
 @lru_cache(maxsize=64)  # of published solutions, which each page shows
 def read_trace(text: str) -> Trace | None:
     """Return what `trace_of` wrote; None if the text is empty or is none."""
     try:
-        found: Trace = record(Trace, json.loads(text), "trace")
-    except (ValueError, RecursionError, RecordError):
+        return from_json(Trace, text, "trace")
+    except RecordError:
         return None
-    return found
 
 
 def _trace(seen: Any) -> Trace:  # noqa: ANN401 - any kind of evidence

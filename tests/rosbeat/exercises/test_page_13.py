@@ -104,7 +104,7 @@ def test_a_requirement_may_be_left_out_if_the_points_are_given_to_others():
     ("text", "said"),
     [
         ("{", ["not JSON"]),
-        ("[]", ["numbers, requirements"]),
+        ("[]", ["`array` at `rubric`"]),
         ('{"numbers": [], "requirements": {}}', ["numbers"]),
         (changed(lambda data: data["numbers"].pop("open_above")), ["`open_above` is missing"]),
         (number("hue", 3), ["no number `hue`"]),
