@@ -42,7 +42,7 @@ _SEND_GOAL = "/_action/send_goal"
 
 
 class ActionEnd:
-    """One action server or client of a node; `options` are the arguments of its constructor."""
+    """Hold one action server or client of a node, with the `options` of its constructor."""
 
     def __init__(
         self,

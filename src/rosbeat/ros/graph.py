@@ -126,7 +126,7 @@ _numbers = count(1)  # only makes names differ
 
 
 class HiddenNode(Unwatched, Node):
-    """Takes part in a domain without services and log topic, hidden as `ros2`'s own nodes are."""
+    """Join a domain without services or log topic, hidden like the nodes of `ros2` commands."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(
@@ -139,9 +139,9 @@ class HiddenNode(Unwatched, Node):
 
 
 class GraphObserver(HiddenNode):
-    """Asks the middleware for the graph of a domain, the nodes of other processes included.
+    """Query the middleware for the graph of a domain, including the nodes of other processes.
 
-    Discovery begins when it is made, so a session keeps one from its beginning on.
+    Discovery starts on construction, so a session creates its observer at the beginning.
     """
 
     def __init__(self, context: Context) -> None:
@@ -385,7 +385,7 @@ _UNKNOWN_PUBLISHER = "?"
 
 
 class PublicationLog:
-    """Notes when a publisher of the session published each of its messages."""
+    """Record when a publisher of the session published each of its messages."""
 
     def __init__(self, publisher: Any) -> None:  # noqa: ANN401 - rclpy is untyped
         self._begins, self._ends = begins, ends = array("q"), array("q")
@@ -411,7 +411,7 @@ class PublicationLog:
 
 
 class ExternalMessages:
-    """Records the messages that come from other processes."""
+    """Record the messages that come from other processes."""
 
     def __init__(self, observer: GraphObserver, recorder: Recorder, now: Callable[[], int]) -> None:
         self._observer, self._recorder, self._now = observer, recorder, now

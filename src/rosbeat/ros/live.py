@@ -34,18 +34,18 @@ _INTERRUPT_TIMEOUT = 0.1
 
 
 class BrokenOff(BaseException):
-    """Thrown into a callback that does not return although Interrupt or an end was asked for."""
+    """Signal to a callback that does not return that it has been asked to end."""
 
     def __str__(self) -> str:
         return "it did not return, so it was broken off"
 
 
 class LiveExecutor(SingleThreadedExecutor):
-    """rclpy's own single-threaded executor, supervised.
+    """Run rclpy's own single-threaded executor under supervision.
 
     rclpy re-raises what a callback raises, which would end the thread and silence every node. Here
-    the session is told, the node that raised is taken out, and the others go on. `current` is the
-    node whose callback is running, and `task` its task.
+    the session is notified and the node that raised is removed, and the other nodes continue.
+    `current` is the node whose callback is running, and `task` its task.
     """
 
     def __init__(self, context: Context, world: World) -> None:

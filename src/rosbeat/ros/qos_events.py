@@ -163,10 +163,10 @@ class _Requested(QoSRequestedDeadlineMissedInfo):
 
 
 class Deadline:
-    """The deadline of one publisher or subscription.
+    """Track the deadline of one publisher or subscription.
 
     Attributes:
-        entry: What its callback is to the executor.
+        entry: The executor's entry for its callback.
         due: When it will be missed next, in nanoseconds; None before the first message.
     """
 
@@ -205,7 +205,7 @@ class Deadline:
 
 
 class Deadlines(list[Deadline]):
-    """The deadlines of a session, which are few: each has a callback of a learner's."""
+    """Hold the deadlines of a session: few, because each needs a callback in a learner's code."""
 
     def next_due(self) -> int | None:
         """Return when the next one passes, in nanoseconds; None if none will."""
@@ -237,7 +237,7 @@ class Deadlines(list[Deadline]):
 
 
 class Limits:
-    """The deadlines and lifespans of one session."""
+    """Count the missed deadlines and apply the lifespans of one session."""
 
     def __init__(self, home: World) -> None:
         self._home, self._thread = home, get_ident()

@@ -104,10 +104,10 @@ def plain(value: Any) -> Any:  # noqa: ANN401 - a field may hold anything a mess
 
 
 class Memory:
-    """Copies messages of one type and gives them back.
+    """Copy messages of one type, and restore them.
 
-    `take` makes the copy, which is small and immutable. The bytes of a serialized message are a
-    copy, too.
+    `take` makes the copy, which is small and immutable: a tuple of fields, or the bytes of the
+    serialized message.
     """
 
     def __init__(self, message_type: type) -> None:
@@ -137,7 +137,7 @@ class Memory:
 
 @dataclass(frozen=True)
 class Channel:
-    """Where messages come from: one publisher of one node; see `Sample` for the fields."""
+    """Identify the source of messages: one publisher of one node; see `Sample` for the fields."""
 
     number: int
     topic: str
@@ -147,7 +147,7 @@ class Channel:
 
 @dataclass(frozen=True)
 class CallbackLabel:
-    """What all runs of one callback have in common; see `CallbackRecord` for the fields."""
+    """Hold what all runs of one callback have in common; see `CallbackRecord` for the fields."""
 
     number: int
     node: str
@@ -314,16 +314,16 @@ _AT_ONCE = Duration()._duration_handle
 
 
 class PublisherTap:
-    """Listens to one publisher.
+    """Listen to one publisher.
 
     Args:
-        publisher: The publisher; its `publish` is replaced by one that also tells `heard`.
+        publisher: The publisher; its `publish` is wrapped so that it also notifies `heard`.
         memory: Copies its messages.
         heard: Called with the copy after each message that was really published.
 
     Attributes:
-        count: How many messages were published.
-        lifespan_ns: How long it stores a message; 0 without a limit.
+        count: Number of published messages.
+        lifespan_ns: How long the publisher stores a message; 0 without a limit.
     """
 
     def __init__(self, publisher: Publisher, memory: Memory, heard: Callable[[Any], None]) -> None:

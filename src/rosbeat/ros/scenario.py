@@ -163,12 +163,12 @@ _STATUS = {
 
 
 class Steps:
-    """Carries out steps, given in any order, at their times.
+    """Carry out steps, given in any order, at their times.
 
     Attributes:
         subject: Full name of the learner's node.
-        records: A callback record of the kind `step` for each step that was done.
-        replies: What services, actions and parameters answered.
+        records: A callback record of the kind `step` for each completed step.
+        replies: Replies of services, actions and parameters.
     """
 
     def __init__(self, session: Session, steps: Iterable[Step]) -> None:

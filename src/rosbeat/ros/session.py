@@ -44,9 +44,9 @@ spinning.install()
 
 
 class Session:
-    """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
+    """Run ROS nodes inside a page, in virtual time or live, and record what they do.
 
-    The page's own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
+    The pages' own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
     """
 
     def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:

@@ -37,12 +37,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Waiting:
-    """A coroutine or task that has not ended.
+    """Hold a coroutine or task that has not ended.
 
     Attributes:
-        process: Where it runs; None for one that was created outside of all nodes.
-        state: The node that began it, if one did.
-        name: What it is called in an error.
+        process: The process in which it runs; None if it was created outside of all nodes.
+        state: The node that began it, if there is one.
+        name: Its name in errors.
         entry: The entity whose callback it is; its callback group is occupied until it ends.
     """
 
@@ -54,19 +54,19 @@ class Waiting:
 
     @property
     def ended(self) -> bool:
-        """Whether it has returned, raised or been canceled."""
+        """Return whether it has returned, raised or been canceled."""
         return bool(self.task.done() or self.task.cancelled())
 
     @property
     def abandoned(self) -> bool:
-        """Whether the node that began it has ended."""
+        """Return whether the node that began it has ended."""
         return self.state is not None and self.state.ended and not self.task.executing()
 
     @property
     def rests(self) -> bool:
-        """Whether it cannot go on now: its node is paused, or its process is busy.
+        """Return whether it cannot continue now, because its node is paused or its process is busy.
 
-        rclpy looks at its tasks again when it has handled all that its last look found ready.
+        rclpy visits its tasks again when it has handled everything that its last wait found ready.
         """
         if self.task.executing() or (self.state is not None and not self.state.spinning):
             return True
@@ -83,9 +83,9 @@ class Waiting:
 
 
 class Coroutines:
-    """The coroutines of one executor that have not ended, in the order in which they began.
+    """Hold the coroutines of one executor that have not ended, in the order in which they began.
 
-    Of each process the newest goes on first, as in rclpy (`_wait_for_ready_callbacks`).
+    The newest coroutine of each process continues first, as in rclpy (`_wait_for_ready_callbacks`).
     """
 
     def __init__(self, executor: Executor) -> None:
@@ -152,11 +152,11 @@ NOT_OF_CALLBACKS = (KeyboardInterrupt, GreenletExit, DeadlinePassed)
 
 
 class WaitSetExecutor(SingleThreadedExecutor):
-    """rclpy's executor, asked only for what cannot be taken directly.
+    """Ask rclpy's executor only for entities that cannot be taken directly.
 
-    One pass costs about a millisecond. It is made for nodes that have guard conditions or waitables
-    (actions, say), and once for all nodes after entities were made or destroyed: publishers and
-    subscriptions tell of a QoS that does not fit by waitables too, but only then.
+    One pass costs about a millisecond. A pass runs for nodes with guard conditions or waitables
+    (such as actions), and once for all nodes after entities were created or destroyed: publishers
+    and subscriptions report incompatible QoS through waitables too, but only then.
     """
 
     current: Any

@@ -46,20 +46,21 @@ from rosbeat.ros.wait_set import waitable_label, waitable_name
 
 
 class World:
-    """Everything behind a `Session`.
+    """Hold the internal state of a `Session`.
 
-    The hooks of `recording` and `actions` tell it of new nodes and entities, and the executors ask
-    it for nodes. It never refers to the `Session`, so that a session nobody holds any more is
-    closed at once.
+    The hooks of `recording` and `actions` notify it of new nodes and entities, and the executors
+    query it for nodes. It never refers to the `Session`, so that a session is closed as soon as
+    nothing else refers to it.
 
     Attributes:
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
-        graph_observer: Sees the other processes; None in a private domain, where there are none.
-        external_messages: Records what comes from outside; None in a private domain.
-        start: How the node that is being made is started.
-        makers: What the session was handed to make each node, and how it was started.
-        next_number: Returns the place of a new entity in the order of creation.
+        graph_observer: Observes the other processes; None in a private domain, where there are
+            none.
+        external_messages: Records messages from other processes; None in a private domain.
+        start: How the node that is being created is started.
+        makers: The factory of each node, and how the node was started.
+        next_number: Returns the position of a new entity in the order of creation.
     """
 
     def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
