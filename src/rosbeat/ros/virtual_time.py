@@ -146,7 +146,11 @@ class ChainGuard:
         self._firings = self._followers = self._wakes = 0
 
     def timer_fires(self, entry: Entry) -> None:
-        """Begin a chain at a timer; raise an EndlessChainError if its period is zero."""
+        """Begin a chain at a timer.
+
+        Raises:
+            EndlessChainError: If the timer keeps firing at one instant, because its period is zero.
+        """
         self.depth = self._followers = 0
         self._firings += 1
         if self._firings > MOST_FIRINGS:
@@ -179,9 +183,12 @@ class ChainGuard:
             )
 
     def inspect(self, entry: Entry) -> None:
-        """Raise an EndlessChainError if a callback's chain is longer or wider than any that ends.
+        """Check the length and width of a callback's chain.
 
-        It is asked only more than `SUSPICIOUS` steps after a timer.
+        This is called only more than `SUSPICIOUS` steps after a timer.
+
+        Raises:
+            EndlessChainError: If the chain is longer or wider than any that ends.
         """
         self._followers += 1
         if max(self.depth, self._followers) > LONGEST_CHAIN - _TRAIL:

@@ -257,7 +257,11 @@ class World:
         note(f"{state.name} called rclpy.shutdown() and stops; the other nodes go on.")
 
     def refuse_in_callback(self, call: str) -> None:
-        """Raise a SessionError for what would run the simulation, if a node calls it."""
+        """Refuse a call that runs the simulation, if a node makes it.
+
+        Raises:
+            SessionError: If the caller is a callback.
+        """
         running = self.virtual.running and get_ident() == self.virtual.thread
         if running or (self.live is not None and self.live.is_this_thread()):
             raise SessionError(
@@ -413,7 +417,11 @@ class World:
         return bool(done())
 
     def go_live(self) -> None:
-        """Run the nodes against the wall clock; raise a SessionError if a callback waits."""
+        """Run the nodes against the wall clock.
+
+        Raises:
+            SessionError: If a callback still waits in virtual time.
+        """
         waiting = self.virtual.suspended
         if waiting:
             raise SessionError(
@@ -652,7 +660,11 @@ def find(world: World, node: Node | str) -> NodeState:
 
 
 def full_topic(call: str, topic: Any) -> str:  # noqa: ANN401 - unchecked input
-    """Return the full name of a topic; raise a SessionError if ROS does not allow it."""
+    """Return the full name of a topic.
+
+    Raises:
+        SessionError: If the name is not a string, or ROS does not allow it.
+    """
     name = "/" + check_name(call, topic).lstrip("/")
     try:
         validate_full_topic_name(name)
