@@ -68,7 +68,7 @@ def drift(
     return fault(
         f"drift of {rate:g} a second {_words(at, None)}",
         topic,
-        lambda samples: [changed(one, field, lambda x, one=one: x + off(one)) for one in samples],  # type: ignore[misc]
+        lambda samples: [changed(one, field, lambda x, one=one: x + off(one)) for one in samples],  # type: ignore[misc]  # mypy sees no type for `one=one`
     )
 
 
@@ -164,7 +164,7 @@ def spikes(
         dice = _dice(seed, samples)
         for one in samples:
             hit, off = dice.random() < share, dice.choice((-size, size))
-            yield changed(one, field, lambda x, off=off: x + off) if hit else one  # type: ignore[misc]
+            yield changed(one, field, lambda x, off=off: x + off) if hit else one  # type: ignore[misc]  # nor for `off=off`
 
     return fault(
         f"spikes of {size:g} in {share:.0%} of the messages",
@@ -238,7 +238,7 @@ def _check(
 ) -> None:
     least, most = -inf if low is None else low, inf if high is None else high
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if number and isfinite(value) and least <= value <= most:  # type: ignore[arg-type, operator]
+    if number and isfinite(value) and least <= value <= most:  # type: ignore[arg-type, operator]  # `number` says that it is one
         return
     reach = f"a number from 0 to {high:g}" if high is not None else "a number from 0 up"
     wanted = "a finite number" if low is None else reach

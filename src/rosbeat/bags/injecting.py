@@ -76,7 +76,7 @@ def inject(
     if isinstance(source, (list, tuple)):
         samples: tuple[Sample, ...] = tuple(source)
     else:
-        samples = observed(source).samples  # type: ignore[arg-type]
+        samples = observed(source).samples  # type: ignore[arg-type]  # `observed` refuses others
     for one in faults:
         if not callable(one):
             raise refusals.no_fault(one)
