@@ -15,7 +15,7 @@ from rosbeat.ros.faults import asking
 
 if TYPE_CHECKING:
     from rosbeat.ros.processes import Process
-    from rosbeat.ros.recording import CallbackLabel, PublisherTap
+    from rosbeat.ros.recording import CallbackLabel, Message, PublisherTap
     from rosbeat.ros.virtual_time import VirtualTimeExecutor
 
 
@@ -126,6 +126,7 @@ def take_message(entry: Entry, _: object) -> Work | None:
 def message_work(entry: Entry, taken: tuple[Any, ...]) -> Work:
     """Return the callback of a subscription, and its arguments for a message and its info."""
     subscription = entry.entity
+    # rclpy looks once at what a callback takes, and keeps the answer in this attribute.
     only = subscription._callback_type is _MESSAGE_ONLY
     return subscription.callback, taken[:1] if only else taken
 
@@ -141,17 +142,17 @@ def take_request(entry: Entry, executor: VirtualTimeExecutor) -> Work | None:
     return serve, (entry, request, header, executor)
 
 
-async def _serve_later(entry: Entry, *asked: Any) -> None:  # noqa: ANN401
+async def _serve_later(entry: Entry, *asked: Any) -> None:  # noqa: ANN401 - see `_answer`
     response = await entry.entity.callback(asked[0], entry.entity.srv_type.Response())
     _answer(entry, response, *asked[1:])
 
 
-def _serve(entry: Entry, *asked: Any) -> None:  # noqa: ANN401
+def _serve(entry: Entry, *asked: Any) -> None:  # noqa: ANN401 - see `_answer`
     response = entry.entity.callback(asked[0], entry.entity.srv_type.Response())
     _answer(entry, response, *asked[1:])
 
 
-def _answer(entry: Entry, response: Any, header: Any, executor: VirtualTimeExecutor) -> None:  # noqa: ANN401
+def _answer(entry: Entry, response: Message, header: Any, executor: VirtualTimeExecutor) -> None:  # noqa: ANN401 - filled in C
     with asking("send_response", response):
         entry.entity.send_response(response, header)
     executor.happened("client", entry.name, entry.state)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from math import inf, isfinite
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
@@ -37,7 +37,7 @@ _LONGEST = 1e9
 # Checks.
 
 
-def check_whole(name: str, value: Any, low: int, high: int, example: str = "") -> None:  # noqa: ANN401
+def check_whole(name: str, value: object, low: int, high: int, example: str = "") -> None:
     """Check that a value is a whole number from `low` to `high`.
 
     Raises:
@@ -52,7 +52,7 @@ def check_whole(name: str, value: Any, low: int, high: int, example: str = "") -
     )
 
 
-def check_name(call: str, value: Any) -> str:  # noqa: ANN401
+def check_name(call: str, value: object) -> str:
     """Return a value that is a string.
 
     Raises:
@@ -82,7 +82,7 @@ def check_end(time_ns: int) -> int:
     )
 
 
-def duration_ns(seconds: Any, what: str = "run(seconds=...)") -> int:  # noqa: ANN401
+def duration_ns(seconds: object, what: str = "run(seconds=...)") -> int:
     """Convert seconds to whole nanoseconds.
 
     Args:

@@ -17,7 +17,7 @@ from rclpy.timer import Timer
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.launch import Maker, build_in
-from rosbeat.ros.recording import message_class
+from rosbeat.ros.recording import Message, message_class
 from rosbeat.ros.world import World, state_of
 
 #: The name of the node through which the panel publishes.
@@ -107,12 +107,12 @@ class TopicFault:
             publisher.publish = publish
         self._originals.clear()
 
-    def _publish(self, send: Callable[[Any], None], msg: Any) -> None:  # noqa: ANN401
+    def _publish(self, send: Callable[[Message], None], msg: Message) -> None:
         if self.kind == "dropout" and self._random.uniform(0, 100) < self.amount:
             return
         send(self._changed(msg))
 
-    def _changed(self, msg: Any) -> Any:  # noqa: ANN401
+    def _changed(self, msg: Message) -> Message:
         value = getattr(msg, "data", None)
         if not isinstance(value, float):  # bytes, or what rclpy refuses in its own words
             return msg

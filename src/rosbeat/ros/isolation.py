@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from functools import partial
 from io import TextIOBase
 from pathlib import Path
-from types import FrameType, TracebackType
+from types import FrameType, ModuleType, TracebackType
 from typing import Any, NoReturn
 from weakref import WeakSet
 
@@ -363,7 +363,7 @@ def _set_environment(before: dict[str, str]) -> None:
         os.environ.update(before)
 
 
-def _names(owner: Any, names: tuple[str, ...]) -> Callable[[], object]:  # noqa: ANN401
+def _names(owner: ModuleType | type, names: tuple[str, ...]) -> Callable[[], object]:
     """Return a function that restores the names of a module or class."""
     # `_` is the last result of a cell, for IPython's own use.
     before = {name: vars(owner)[name] for name in names or vars(owner) if name != "_"}

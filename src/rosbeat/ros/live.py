@@ -25,6 +25,7 @@ from rclpy.task import Future, Task
 from rosbeat.ros.entities import Entry, take_message
 
 if TYPE_CHECKING:
+    from rosbeat.ros.recording import Entity
     from rosbeat.ros.world import World
 
 #: Seconds that a callback may still take when live mode ends; then it is broken off.
@@ -130,7 +131,7 @@ class LiveExecutor(SingleThreadedExecutor):
             except (ConditionReachedException, ShutdownException, ExternalShutdownException):
                 return
 
-    def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
+    def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
         self._world.callback_ran(entity, node)
         return super()._make_handler(entity, node, take)
 

@@ -11,12 +11,15 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from greenlet import greenlet
 
 from rosbeat.ros.entities import Entry, NodeState
 from rosbeat.ros.recording import CallbackLabel
+
+if TYPE_CHECKING:
+    from rosbeat.ros.simulated_program import SimulatedProgram
 
 #: The order in which rclpy's executor takes what is ready in a node (`_wait_for_ready_callbacks`).
 _RANK = {"event": 0, "timer": 1, "subscription": 2, "client": 3, "service": 4}
@@ -50,7 +53,7 @@ class Process:
         due: How many of its timers are due at this instant and have not run yet.
     """
 
-    def __init__(self, threads: int = 1, program: Any = None) -> None:  # noqa: ANN401
+    def __init__(self, threads: int = 1, program: SimulatedProgram | None = None) -> None:
         self.threads, self.program = threads, program
         self.states: list[NodeState] = []
         self.spins: list[Spin] = [] if program else [Spin()]

@@ -178,7 +178,7 @@ class Session:
                 self._world.makers[node] = Maker(maker, start)
         return made
 
-    def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401
+    def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401 - unchecked input
         """Start a program: a Python file with a function `main`, run unchanged in virtual time.
 
         It is a process of its own, as one that `ros2 run` starts: with a default context, command

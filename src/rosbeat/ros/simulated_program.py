@@ -63,7 +63,7 @@ class SimulatedProgram:
         SessionError: If `target` is neither a file nor a function.
     """
 
-    def __init__(self, world: World, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401
+    def __init__(self, world: World, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
         self._target = _checked(target)
         self.name = target.__name__ if callable(target) else self._target.stem
         self.returncode: int | None = None
@@ -158,7 +158,7 @@ class SimulatedProgram:
         utilities.Context = self._new_context
         utilities.g_default_context = self._context
         sys.argv = self.argv
-        signal.signal = self._set_handler  # type: ignore[assignment]
+        signal.signal = self._set_handler  # type: ignore[assignment]  # `leave` puts it back
         if isinstance(self._target, Path):
             sys.path.insert(0, str(self._root))
             self._hidden = {one: sys.modules.pop(one) for one in self._names if one in sys.modules}
@@ -212,7 +212,7 @@ class SimulatedProgram:
     def _new_context(self) -> ProgramContext:
         return ProgramContext(self._world, self)
 
-    def _set_handler(self, number: int, handler: Any) -> Any:  # noqa: ANN401
+    def _set_handler(self, number: int, handler: Any) -> Any:  # noqa: ANN401 - as `signal.signal`
         """Do what `signal.signal` does, for this program only."""
         before = self._handlers.get(number, signal.SIG_DFL)
         self._handlers[number] = handler

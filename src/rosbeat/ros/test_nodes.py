@@ -266,7 +266,7 @@ def observe_greenhouse() -> tuple[Observation, dict[str, Any]]:
         parameters = {
             f"{node.get_fully_qualified_name()} {name}": one.value
             for node in session.nodes
-            for name, one in node._parameters.items()
+            for name, one in node.get_parameters_by_prefix("").items()
             if name not in ("use_sim_time", "start_type_description_service")
         }
         return session.observation(), parameters

@@ -282,7 +282,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     # What rclpy calls.
 
-    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:  # noqa: ANN401
+    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:  # noqa: ANN401 - rclpy's own signature
         """Run a callback or coroutine as soon as what is running has ended."""
         task = Task(callback, args, kwargs, executor=self)
         self._coroutines.add_task(task, callback, self.current)
@@ -547,6 +547,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def start_main(self, main: Callable[[], None], process: Process) -> None:
         """Begin another greenlet, for the `main` of a program, as soon as virtual time goes on."""
+        program = process.program
+        assert program is not None
 
         def run() -> None:
             self.current = call = Call(process)
@@ -555,7 +557,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             finally:
                 self._forget_call(call)
                 self.current = None
-                process.program.callback_ended()  # it may have been a signal handler
+                program.callback_ended()  # it may have been a signal handler
                 if not call.broken:  # else whoever has ended it goes on
                     getcurrent().parent = self._next_driver()
 

@@ -30,6 +30,7 @@ from rosbeat.ros.processes import Call, Process
 from rosbeat.ros.qos_events import event_name, topic_of
 
 if TYPE_CHECKING:
+    from rosbeat.ros.recording import Entity
     from rosbeat.ros.world import World
 
 # Callbacks that wait by themselves: `async def` callbacks and tasks.
@@ -75,6 +76,7 @@ class Waiting:
 
     def place(self) -> object:
         """Return what it awaits, innermost: another object each time it has got further."""
+        # A task has no public name for its coroutine.
         inner, deeper = None, self.task._handler
         while deeper is not None:  # a coroutine, a generator, or neither
             inner, deeper = deeper, getattr(deeper, "cr_await", None)
@@ -213,11 +215,11 @@ class WaitSetExecutor(SingleThreadedExecutor):
         # rclpy would take what was interrupted for running, for ever.
         self._tasks[:] = [parts for parts in self._tasks if not parts[0].executing()]
 
-    def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
+    def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
         self._host.callback_ran(entity, node)
         return super()._make_handler(entity, node, take)
 
-    def _handle(self, handler: Task, entity: Any, node: Node) -> None:  # noqa: ANN401
+    def _handle(self, handler: Task, entity: Entity, node: Node) -> None:
         state = self._host.state_of(node)
         if state is None:
             return
@@ -259,7 +261,7 @@ def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
     return getattr(callback, "__name__", type(callback).__name__)
 
 
-def waitable_label(entity: Any, node: Node) -> tuple[str, str, str]:  # noqa: ANN401
+def waitable_label(entity: Entity, node: Node) -> tuple[str, str, str]:
     """Return kind, name and source with which a run of its callback is recorded."""
     if isinstance(entity, EventHandler):
         source = f"{event_name(entity)} of {topic_of(entity, node)}"
