@@ -27,14 +27,14 @@ INTERRUPTED = 130
 
 @dataclass(frozen=True)
 class Command:
-    """A subcommand.
+    """Describe a subcommand.
 
     Attributes:
-        name: What is typed.
+        name: Name on the command line.
         help: One line for `rosbeat --help`.
-        arguments: Declares the subcommand's arguments on its parser.
-        run: Does the work and returns the exit code; imports what it needs when it is called, so
-            that every other subcommand starts quickly.
+        arguments: Function that declares the subcommand's arguments on its parser.
+        run: Function that does the work and returns the exit code. It imports its dependencies when
+            it is called, so that every other subcommand starts quickly.
     """
 
     name: str

@@ -20,10 +20,10 @@ MISSING, EXTRA, VALUE = "missing", "extra", "value"
 
 @runtime_checkable
 class Observer(Protocol):
-    """Anything that can say what it has observed, such as a session or a bag."""
+    """Define the interface of objects with an observation, such as a session or a bag."""
 
     def observation(self) -> Observation:
-        """What was observed so far."""
+        """Return what has been observed so far."""
         ...
 
 
@@ -33,14 +33,14 @@ Run = Observation | Observer | Sequence[Sample]
 
 @dataclass(frozen=True)
 class Difference(Timed):
-    """One place in which two runs differ.
+    """Describe one difference between two runs.
 
     Attributes:
-        time_ns: When, in nanoseconds of the first run; of the second for what is extra.
+        time_ns: Time in the first run, or in the second for an extra message, in nanoseconds.
         kind: `missing`, `extra` or `value`.
-        amount: How far two values are apart, in units of the value; infinite if one is infinite,
-            NaN if that cannot be said, as of texts, of NaN and of lists of different lengths; 0 for
-            other kinds.
+        amount: Distance between two values, in units of the value; infinite if one is infinite; NaN
+            if it is undefined, as for strings, NaN and lists of different lengths; 0 for other
+            kinds.
     """
 
     time_ns: int
@@ -50,14 +50,14 @@ class Difference(Timed):
 
 @dataclass(frozen=True, repr=False)
 class Comparison:
-    """Two runs side by side, on one topic; at the end of a cell it shows itself in words.
+    """Compare the messages of two runs on one topic; a cell displays the result as text.
 
     Attributes:
         topic: Full name of the topic.
-        names: What the two runs are called.
-        pairs: Messages that both have, from the first run and from the second.
-        missing: Messages that only the first run has.
-        extra: Messages that only the second run has.
+        names: Names of the two runs.
+        pairs: Messages that are in both runs, from the first run and from the second.
+        missing: Messages that are only in the first run.
+        extra: Messages that are only in the second run.
     """
 
     topic: str
@@ -71,12 +71,12 @@ class Comparison:
 
     @property
     def counts(self) -> tuple[int, int]:
-        """How many messages the two runs have."""
+        """Return the number of messages in each of the two runs."""
         return len(self.pairs) + len(self.missing), len(self.pairs) + len(self.extra)
 
     @property
     def differences(self) -> tuple[Difference, ...]:
-        """Every difference, in order of time."""
+        """Return all differences, in order of time."""
         apart = ((one.time_ns, distance(one.data, other.data)) for one, other in self.pairs)
         found = [Difference(at, VALUE, amount) for at, amount in apart if amount != 0]
         found += [Difference(one.time_ns, MISSING) for one in self.missing]
@@ -85,17 +85,17 @@ class Comparison:
 
     @property
     def is_same(self) -> bool:
-        """Whether both runs have the same messages at the same times."""
+        """Return whether both runs have the same messages at the same times."""
         return not self.differences
 
     @property
     def first(self) -> Difference | None:
-        """The first difference; None if there is none."""
+        """Return the first difference; None if there is none."""
         return next(iter(self.differences), None)
 
     @property
     def largest(self) -> Difference | None:
-        """The largest difference of two values that can be measured, the first of its size."""
+        """Return the first of the largest measurable value differences; None if there is none."""
         found = (one for one in self.differences if one.kind == VALUE and not isnan(one.amount))
         return max(found, key=lambda one: one.amount, default=None)
 
@@ -133,9 +133,9 @@ def compare(
 
 
 def distance(one: Any, other: Any) -> float:  # noqa: ANN401 - whatever a message may hold
-    """How far two values are apart: their largest difference, 0 if they are the same.
+    """Return the largest difference between two values, 0 if they are the same.
 
-    NaN and NaN are the same. What differs and cannot be measured is NaN apart.
+    NaN equals NaN here. The distance of values that differ and cannot be subtracted is NaN.
     """
     if isinstance(one, Mapping) and isinstance(other, Mapping) and one.keys() == other.keys():
         return _largest(distance(one[name], other[name]) for name in one)

@@ -26,7 +26,7 @@ PRIVATE_IDS = range(51, 102)
 
 @dataclass
 class DomainLease:
-    """A private domain id, held until `release` or the end of the process.
+    """Hold a private domain id until `release` is called or the process ends.
 
     Attributes:
         domain_id: The id.

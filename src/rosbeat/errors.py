@@ -34,11 +34,11 @@ from collections.abc import Sequence
 
 
 class RosbeatError(Exception):
-    """An error that a person reads: what happened, what it means here, what to try.
+    """Report an error in three parts: what happened, what it means here, what to try.
 
     Args:
-        what: What happened, one sentence.
-        means: What that means in this place.
+        what: What happened, in one sentence.
+        means: What that means here.
         to_try: What to do about it.
     """
 
@@ -66,84 +66,84 @@ class RosbeatError(Exception):
 
 
 class SessionError(RosbeatError):
-    """A session was asked for something it cannot do."""
+    """Signal that a session cannot do what it was asked to do."""
 
 
 class DeadlockError(SessionError):
-    """Callbacks wait for something that can never come."""
+    """Signal that callbacks wait for something that can never happen."""
 
 
 class NodeClassError(SessionError):
-    """What was added to a session is not a node, nor something that makes one."""
+    """Signal that an object added to a session is neither a node nor a factory for nodes."""
 
 
 class NoSystemError(NodeClassError):
-    """What should be a list of nodes is none."""
+    """Signal that an object is not a list of nodes."""
 
 
 class NodeConstructionError(SessionError):
-    """A node's own constructor raised; the original exception is the cause."""
+    """Signal that a node's constructor raised; the original exception is the cause."""
 
 
 class DurationError(SessionError):
-    """A time span is negative, not finite, or not a number."""
+    """Signal that a duration is negative, infinite or not a number."""
 
 
 class UnknownTopicError(SessionError):
-    """Nothing was published on the topic that was asked for."""
+    """Signal that nothing was published on the requested topic."""
 
 
 class EndlessChainError(SessionError):
-    """Callbacks cause one another without end while no time passes."""
+    """Signal that callbacks trigger each other endlessly while no time passes."""
 
 
 class DomainsExhaustedError(SessionError):
-    """Every private ROS domain id of this machine is taken."""
+    """Signal that every private ROS domain id of this machine is in use."""
 
 
 class NoSessionError(SessionError):
-    """A node was made on a page while no session was open and ROS was not started otherwise."""
+    """Signal that a page created a node without an open session or an initialized ROS context."""
 
 
 class ClosedSessionError(SessionError):
-    """The session has been closed, so its ROS context no longer exists."""
+    """Signal that the session is closed, so its ROS context no longer exists."""
 
 
 class PictureError(RosbeatError):
-    """A picture cannot be drawn from what it was given."""
+    """Signal that a picture cannot be drawn from the given data."""
 
 
 class ExerciseError(RosbeatError):
-    """A check was asked for an exercise that does not exist."""
+    """Signal that an exercise, scenario or patient does not exist, or has invalid arguments."""
 
 
 class WorkspaceError(RosbeatError):
-    """Something in the learner's workspace is not as it is needed."""
+    """Signal that the learner's workspace is not in the required state."""
 
 
 class TerminalError(RosbeatError):
-    """A terminal of a page was asked for something that it cannot do."""
+    """Signal that a terminal of a page cannot do what it was asked to do."""
 
 
 class LessonError(RosbeatError):
-    """A lesson source breaks a rule of the builder."""
+    """Signal that a lesson source breaks a rule of the builder."""
 
 
 class BagError(RosbeatError):
-    """A recording cannot be written, read, replayed or compared."""
+    """Signal that a recording cannot be written, read, replayed or compared."""
 
 
 class GradingError(RosbeatError):
-    """Submissions cannot be collected, graded or reported."""
+    """Signal that submissions cannot be collected, graded or reported."""
 
 
 class RecordError(RosbeatError):
-    """Saved data does not follow the schema of the records."""
+    """Signal that saved data does not follow the schema of the records."""
 
 
 class CommandError(RosbeatError):
-    """The command line was used in a way it does not know."""
+    """Signal that the command line was used incorrectly."""
 
 
 class StoppedError(RosbeatError):
-    """A person has stopped a command; what was done until then stays."""
+    """Signal that somebody stopped a command; what it had finished by then is kept."""

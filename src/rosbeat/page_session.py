@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Session(session.Session):
-    """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
+    """Run ROS nodes inside a page, in virtual time or live, and record what they do.
 
     ::
 
@@ -32,18 +32,19 @@ class Session(session.Session):
     milliseconds and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes
     run against the wall clock, and other processes in the same domain can talk to them.
 
-    It ends with its `with` block, with `close()`, when nothing refers to it or with the kernel, and
-    leaves nothing behind. While it is open, a node without a context belongs to the last session.
+    A session closes at the end of its `with` block, on `close()`, when it is garbage-collected, or
+    when the kernel ends, and releases all its resources. A node that is created without a context
+    belongs to the session that was opened last.
 
     Args:
         seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
             global generator. The same seed gives the same run.
-        domain_id: The ROS domain to join, 0 to 101; the session then sees the nodes of other
-            processes there, too. By default it has a domain to itself, and neither another session
-            nor a terminal hears it.
+        domain_id: The ROS domain to join, 0 to 101; the session then also discovers the nodes of
+            other processes in that domain. By default each session has a private domain, which no
+            other session or terminal can reach.
 
     Raises:
-        SessionError: If the seed or the domain id is not a whole number in its range.
+        SessionError: If the seed or the domain id is not an integer in its range.
         DomainsExhaustedError: If no private domain id is left on this machine.
     """
 

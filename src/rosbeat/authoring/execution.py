@@ -48,9 +48,9 @@ _DROPPED = ("PYTEST_CURRENT_TEST", "PYTHONSTARTUP", "PYTHONINSPECT", "FORCE_COLO
 
 
 class OwnInterpreter(KernelSpecManager):
-    """Answers every kernel name with the running interpreter.
+    """Resolve every kernel name to the running interpreter.
 
-    A `python3` kernel that somebody registered for another installation would otherwise come first.
+    Otherwise a `python3` kernel that is registered for another installation would take precedence.
     """
 
     def get_kernel_spec(self, kernel_name: str) -> KernelSpec:

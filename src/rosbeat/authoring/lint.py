@@ -48,12 +48,12 @@ _EVERYBODYS = {"def__init__(self):"}
 
 
 class Place(NamedTuple):
-    """A place that breaks a rule.
+    """Describe a position in a lesson that breaks a rule.
 
     Attributes:
-        line: The line in the lesson source, counted from 1.
-        what: What is wrong.
-        to_try: What to do about it.
+        line: Line in the lesson source, counted from 1.
+        what: Description of the violation.
+        to_try: How to fix it.
     """
 
     line: int
@@ -63,14 +63,14 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True, order=True)
 class Finding:
-    """A place in a file, and the rule that it breaks.
+    """Describe a violation: the position in a file, and the rule that is broken.
 
     Attributes:
         file: The lesson source.
-        line: The line in it, counted from 1.
-        lint: The rule's name.
-        what: What is wrong.
-        to_try: What to do about it.
+        line: Line in the file, counted from 1.
+        lint: Name of the rule.
+        what: Description of the violation.
+        to_try: How to fix it.
     """
 
     file: str
@@ -86,10 +86,10 @@ class Finding:
 
 @dataclass(frozen=True)
 class Desk:
-    """One lesson, with everything a rule may look at.
+    """Hold one lesson together with the context that a rule may need.
 
     Attributes:
-        course: The folders that links lead into.
+        course: The folders that links may point into.
         lessons: All lessons of the course.
         lesson: The lesson to check.
     """

@@ -55,13 +55,13 @@ _NEARLY = re.compile(r"^\s*#\s*-{2,}\s*(answer|blank|end)\b", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Header:
-    """The four facts at the top of a lesson.
+    """Hold the metadata at the top of a lesson.
 
     Attributes:
-        title: The page's title, beginning with a verb.
-        minutes: How long a learner needs.
+        title: Title of the page, beginning with a verb.
+        minutes: Time that a learner needs, in minutes.
         needs: Numbers of the pages to read first, such as ``("00", "03")``.
-        summary: One sentence for lists of pages.
+        summary: One-sentence description for lists of pages.
     """
 
     title: str
@@ -72,19 +72,19 @@ class Header:
 
 @dataclass(frozen=True)
 class SourceCell:
-    """One cell of a lesson source, answer markers included.
+    """Hold one cell of a lesson source, including its answer markers.
 
     Attributes:
-        id: The cell's id, the same in both trees.
+        id: Cell id, the same in both trees.
         kind: ``"code"`` or ``"markdown"``.
         source: The text, with answers, blanks and their markers.
-        line: The line of the source file on which the text begins.
-        exercise: The id of the exercise that is solved here, such as ``"03a"``.
-        check: The id of the exercise that is checked here.
+        line: Line of the source file on which the text begins.
+        exercise: Id of the exercise that is solved here, such as ``"03a"``.
+        check: Id of the exercise that is checked here.
         only: ``"notebook"`` or ``"solution"`` if the cell appears in one tree only.
-        tags: Jupyter's cell tags.
-        predict: Whether a prediction is made here, which is compared with what the cell does.
-        magic: The IPython magic that stands above the text on the page, or an empty text.
+        tags: Jupyter cell tags.
+        predict: Whether the learner predicts here what the cell will do.
+        magic: IPython magic that precedes the text on the page, or an empty string.
     """
 
     id: str
@@ -121,12 +121,12 @@ class SourceCell:
 
 @dataclass(frozen=True)
 class Lesson:
-    """A lesson source, read.
+    """Hold a parsed lesson source.
 
     Attributes:
         path: The source file.
-        header: What the lesson says about itself.
-        cells: Its cells, in order.
+        header: The metadata at the top of the lesson.
+        cells: The cells, in order.
     """
 
     path: Path
@@ -146,12 +146,12 @@ class Lesson:
 
 @dataclass(frozen=True)
 class Block:
-    """An answer and its blank.
+    """Hold an answer and the blank that replaces it.
 
     Attributes:
-        line: The line of the cell, counted from 0, of the marker that opens the block.
-        answer: The lines of the answer, as they stand.
-        blank: The lines of the blank, uncommented, at the same indentation.
+        line: Line within the cell, counted from 0, of the marker that opens the block.
+        answer: Lines of the answer, unchanged.
+        blank: Lines of the blank, uncommented, at the same indentation.
     """
 
     line: int
@@ -164,10 +164,10 @@ class Block:
 
 @dataclass(frozen=True)
 class Course:
-    """A checkout of the course.
+    """Represent a checkout of the course.
 
     Attributes:
-        root: The folder that holds ``src``, ``notebooks`` and ``solutions``.
+        root: The folder that contains ``src``, ``notebooks`` and ``solutions``.
     """
 
     root: Path

@@ -18,7 +18,7 @@ from rosbeat.records import (
 
 
 class Bag:
-    """A rosbag2 bag: a folder with messages and what is known of them, or one file of data.
+    """Read a rosbag2 bag: a folder with messages and metadata, or a single data file.
 
     ::
 
@@ -26,17 +26,17 @@ class Bag:
         print(bag)
         bag.messages("temperature")
 
-    What a session recorded has the session's virtual time. In any other recording the time of the
-    first message counts as 0.
+    Times in a recording of a session are in the session's virtual time. In any other recording,
+    time 0 is the time of the first message.
 
     Args:
         folder: The bag's folder, or a single file that ends in `.mcap` or `.db3`.
 
     Attributes:
-        folder: Where it is.
+        folder: Path of the bag.
 
     Raises:
-        BagError: If there is no bag, or it is damaged.
+        BagError: If there is no bag at that path, or it is damaged.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -51,49 +51,50 @@ class Bag:
 
     @property
     def storage(self) -> str:
-        """How the messages are stored: `mcap` or `sqlite3`."""
+        """Return the storage format: `mcap` or `sqlite3`."""
         return self._contents.storage
 
     @property
     def topics(self) -> tuple[str, ...]:
-        """Full names of the topics, in the order in which they were recorded."""
+        """Return the full names of the topics, in the order in which they were recorded."""
         return tuple(one.name for one in self._contents.topics)
 
     @property
     def types(self) -> dict[str, str]:
-        """The message type of each topic."""
+        """Return the message type of each topic."""
         return {one.name: one.type_name for one in self._contents.topics}
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many messages there are on each topic."""
+        """Return the number of messages on each topic."""
         return {one.name: one.count for one in self._contents.topics}
 
     @property
     def qos(self) -> dict[str, tuple[QoS, ...]]:
-        """The quality of service that the publishers of each topic offered, if it was recorded."""
+        """Return the QoS that the publishers of each topic offered, as far as it was recorded."""
         return {one.name: one.qos for one in self._contents.topics}
 
     @property
     def start(self) -> float:
-        """When the first message was published, in seconds of the clock that stamped it."""
+        """Return when the first message was published, in seconds of the clock that stamped it."""
         return self._contents.first_ns / NANOSECONDS
 
     @property
     def duration(self) -> float:
-        """Seconds from the first message to the last."""
+        """Return the time from the first message to the last, in seconds."""
         return self._contents.duration_ns / NANOSECONDS
 
     @property
     def seconds(self) -> float:
-        """How long to run a session that replays it, in seconds.
+        """Return how long to run a session that replays the bag, in seconds.
 
-        That is as long as the session ran which was recorded, else as long as the recording lasts.
+        This is how long the recorded session ran, or the duration of the recording if that is
+        unknown.
         """
         return self._length_ns / NANOSECONDS
 
     def messages(self, topic: str) -> tuple[Sample, ...]:
-        """The messages on a topic, in order.
+        """Return the messages on a topic, in order.
 
         Args:
             topic: The topic's name; `temperature` and `/temperature` are the same.
@@ -107,7 +108,7 @@ class Bag:
         return reading.samples(self.folder, self._contents, [name])
 
     def observation(self) -> Observation:
-        """All messages, and what is known of the publishers, as pictures and checks take it.
+        """Return all messages and what is known about the publishers, for pictures and checks.
 
         Raises:
             BagError: If the bag is damaged.

@@ -11,7 +11,7 @@ _STORAGES = {"mcap": "MCAP", "sqlite3": "SQLite"}
 
 
 def describe(name: str, found: Contents) -> str:
-    """A recording in a few lines."""
+    """Return a summary of a recording in a few lines of text."""
     total = sum(one.count for one in found.topics)
     head = (
         f"Recording {name}, stored as {_STORAGES[found.storage]}: {_count(total, 'message')} on "

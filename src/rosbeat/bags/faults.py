@@ -23,12 +23,12 @@ Span = tuple[float, float]
 def stuck(
     at: float = 0, seconds: float | None = None, *, topic: str | None = None
 ) -> InjectedFault:
-    """A sensor that hangs: from `at` on, it says again and again what it said last.
+    """Simulate a sensor that hangs: from `at` on, it repeats its last reading.
 
     Args:
-        at: When it begins, in seconds.
-        seconds: How long it lasts; None for ever.
-        topic: The topic that it concerns; all by default, each by itself.
+        at: When the fault begins, in seconds.
+        seconds: How long the fault lasts; None for the rest of the recording.
+        topic: The affected topic; by default all topics, each separately.
 
     Raises:
         BagError: If a time is not a number from 0 up.
@@ -48,16 +48,16 @@ def stuck(
 def drift(
     rate: float, *, at: float = 0, topic: str | None = None, field: str | None = None
 ) -> InjectedFault:
-    """A sensor that wanders off: from `at` on, its values are wrong by more and more.
+    """Simulate a sensor that drifts: from `at` on, the error of its readings grows steadily.
 
     Args:
-        rate: By how much more each second, in units of the value.
-        at: When it begins, in seconds.
-        topic: The topic that it concerns; all by default.
-        field: Which number of a message, with dots for nested ones; None for its only one.
+        rate: Growth of the error per second, in units of the value.
+        at: When the fault begins, in seconds.
+        topic: The affected topic; by default all topics.
+        field: The affected number in a message, nested fields with dots; None if there is only one.
 
     Raises:
-        BagError: If `rate` is not a finite number, or `at` not a number from 0 up.
+        BagError: If `rate` is not a finite number, or `at` is not a number from 0 up.
     """
     _check("drift", "rate", rate, low=None)
     begin, _ = _window("drift", at, None)
@@ -68,7 +68,7 @@ def drift(
     return fault(
         f"drift of {rate:g} a second {_words(at, None)}",
         topic,
-        lambda samples: [changed(one, field, lambda x, one=one: x + off(one)) for one in samples],  # type: ignore[misc]
+        lambda samples: [changed(one, field, lambda x, one=one: x + off(one)) for one in samples],  # type: ignore[misc]  # mypy sees no type for `one=one`
     )
 
 
@@ -79,13 +79,13 @@ def dropouts(
     seed: int = 0,
     topic: str | None = None,
 ) -> InjectedFault:
-    """A bad line: some messages never arrive.
+    """Simulate an unreliable connection: some messages never arrive.
 
     Args:
-        share: How likely each message is lost, from 0 to 1.
-        spans: Times in which all are lost, each from when to when, in seconds.
+        share: Probability that a message is lost, from 0 to 1.
+        spans: Periods in which all messages are lost, each as (begin, end) in seconds.
         seed: Seed of the random numbers.
-        topic: The topic that it concerns; all by default.
+        topic: The affected topic; by default all topics.
 
     Raises:
         BagError: If `share` is not from 0 to 1, or a span is not a pair of ascending times.
@@ -110,13 +110,14 @@ def with_nan(
     topic: str | None = None,
     field: str | None = None,
 ) -> InjectedFault:
-    """A sensor that fails openly: its value is NaN, "not a number".
+    """Simulate a sensor that reports its failure: its value is NaN, "not a number".
 
     Args:
-        at: When it begins, in seconds.
-        seconds: How long it lasts; 0 for one message, the first one from `at` on; None for ever.
-        topic: The topic that it concerns; all by default.
-        field: Which number of a message, with dots for nested ones; None for its only one.
+        at: When the fault begins, in seconds.
+        seconds: How long the fault lasts; 0 for only the first message from `at` on; None for the
+            rest of the recording.
+        topic: The affected topic; by default all topics.
+        field: The affected number in a message, nested fields with dots; None if there is only one.
 
     Raises:
         BagError: If a time is not a number from 0 up.
@@ -144,14 +145,14 @@ def spikes(
     topic: str | None = None,
     field: str | None = None,
 ) -> InjectedFault:
-    """A disturbed line: now and then a value is far off, upwards or downwards.
+    """Simulate interference: now and then a value is far too high or too low.
 
     Args:
-        share: How likely each message is disturbed, from 0 to 1.
-        size: By how much, in units of the value.
+        share: Probability that a message is affected, from 0 to 1.
+        size: Size of the error, in units of the value.
         seed: Seed of the random numbers.
-        topic: The topic that it concerns; all by default.
-        field: Which number of a message, with dots for nested ones; None for its only one.
+        topic: The affected topic; by default all topics.
+        field: The affected number in a message, nested fields with dots; None if there is only one.
 
     Raises:
         BagError: If `share` is not from 0 to 1, or `size` is not a finite number.
@@ -163,7 +164,7 @@ def spikes(
         dice = _dice(seed, samples)
         for one in samples:
             hit, off = dice.random() < share, dice.choice((-size, size))
-            yield changed(one, field, lambda x, off=off: x + off) if hit else one  # type: ignore[misc]
+            yield changed(one, field, lambda x, off=off: x + off) if hit else one  # type: ignore[misc]  # nor for `off=off`
 
     return fault(
         f"spikes of {size:g} in {share:.0%} of the messages",
@@ -175,15 +176,15 @@ def spikes(
 def delayed(
     seconds: float, *, jitter: float = 0, seed: int = 0, topic: str | None = None
 ) -> InjectedFault:
-    """A slow line: every message comes later, maybe each by another time.
+    """Simulate a slow connection: every message arrives late, optionally with jitter.
 
     Messages may overtake each other, as they may on a network.
 
     Args:
-        seconds: How much later at least.
-        jitter: How much more at most, drawn for each message, in seconds.
+        seconds: Minimum delay, in seconds.
+        jitter: Maximum additional delay, drawn for each message, in seconds.
         seed: Seed of the random numbers.
-        topic: The topic that it concerns; all by default.
+        topic: The affected topic; by default all topics.
 
     Raises:
         BagError: If a time is not a number from 0 up.
@@ -237,7 +238,7 @@ def _check(
 ) -> None:
     least, most = -inf if low is None else low, inf if high is None else high
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if number and isfinite(value) and least <= value <= most:  # type: ignore[arg-type, operator]
+    if number and isfinite(value) and least <= value <= most:  # type: ignore[arg-type, operator]  # `number` says that it is one
         return
     reach = f"a number from 0 to {high:g}" if high is not None else "a number from 0 up"
     wanted = "a finite number" if low is None else reach

@@ -17,14 +17,14 @@ Change = Callable[[Sequence[Sample]], Sequence[Sample]]
 
 @dataclass(frozen=True, repr=False)
 class InjectedFault:
-    """A fault of a sensor or of the line to it: messages in, messages with the fault out.
+    """Represent a fault of a sensor or of its connection, as a function from messages to messages.
 
-    It has no memory: the same messages give the same result.
+    The function is pure: the same messages always give the same result.
 
     Attributes:
-        words: What goes wrong, such as `stuck from 20 s on`.
-        topic: Full name of the only topic that it concerns; empty for all.
-        change: What it does to the messages of one topic.
+        words: Short description, such as `stuck from 20 s on`.
+        topic: Full name of the only affected topic; empty for all topics.
+        change: The function that is applied to the messages of one topic.
     """
 
     words: str
@@ -76,7 +76,7 @@ def inject(
     if isinstance(source, (list, tuple)):
         samples: tuple[Sample, ...] = tuple(source)
     else:
-        samples = observed(source).samples  # type: ignore[arg-type]
+        samples = observed(source).samples  # type: ignore[arg-type]  # `observed` refuses others
     for one in faults:
         if not callable(one):
             raise refusals.no_fault(one)

@@ -18,11 +18,11 @@ _LENGTH, _SEED, _NODES = "rosbeat.session_ns", "rosbeat.seed", "rosbeat.publishe
 
 @dataclass(frozen=True)
 class Notes:
-    """The notes in a bag.
+    """Hold the notes that rosbeat adds to a bag.
 
     Attributes:
         length_ns: How long the session had run, in nanoseconds.
-        seed: Seed of its random numbers.
+        seed: Seed of the session's random numbers.
         publishers: Full names of the nodes that published, for each topic.
     """
 
@@ -32,7 +32,7 @@ class Notes:
 
 
 def notes_of(seen: Observation, topics: Iterable[str]) -> dict[str, Any]:
-    """What to note of an observation."""
+    """Return the notes on an observation, as the `custom_data` of a bag."""
     nodes = {topic: dict.fromkeys(end.node for end in seen.graph.on(topic, "publisher"))
              for topic in topics}  # fmt: skip
     for one in seen.samples:
@@ -43,7 +43,7 @@ def notes_of(seen: Observation, topics: Iterable[str]) -> dict[str, Any]:
 
 
 def notes_in(custom: Mapping[str, str] | None) -> Notes | None:
-    """The notes in a bag's metadata, or None if they are not ours or not whole."""
+    """Return the notes in a bag's metadata, or None if there are none or they are incomplete."""
     try:
         length, seed, nodes = (json.loads((custom or {})[key]) for key in (_LENGTH, _SEED, _NODES))
         publishers = {str(topic): tuple(map(str, names)) for topic, names in nodes.items()}

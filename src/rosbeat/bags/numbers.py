@@ -11,15 +11,16 @@ from rosbeat.records import Sample
 
 
 def changed(sample: Sample, field: str | None, change: Callable[[float], float]) -> Sample:
-    """The message with one number changed; a whole number stays whole.
+    """Return a copy of a message with one number changed; an integer stays an integer.
 
     Args:
-        sample: The message; it stays as it is.
-        field: Which number, nested ones with dots, such as `linear.x`; None if there is only one.
-        change: The new number for the old one.
+        sample: The message, which is not modified.
+        field: Name of the number, nested fields with dots, such as `linear.x`; None if there is
+            only one.
+        change: Function from the old number to the new one.
 
     Raises:
-        BagError: If there is no such number, or several, or NaN is to become a whole number.
+        BagError: If there is no such number, or several, or NaN would replace an integer.
     """
     path = _path(sample, field)
     return replace(sample, data=_put(sample, sample.data, path.split("."), change))

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from operator import index
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from rosbags.interfaces import Nodetype
 from rosbags.typesys.store import Typestore
 
+#: A value of a field, or a message of one of the library's classes.
+_Value: TypeAlias = Any
+#: The library's description of a field: a kind, and the details of that kind.
+_Holds: TypeAlias = Any
 # What ROS puts into a message without fields, since C has no empty structures.
 _FILLER = "structure_needs_at_least_one_member"
 # A byte has no sign in ROS, and is bytes of length one in rclpy: a list in plain data. The library
@@ -43,7 +47,7 @@ def from_wire(store: Typestore, type_name: str, wire: bytes) -> dict[str, Any]:
     return _plain(store, type_name, message)
 
 
-def _fields(store: Typestore, type_name: str) -> Iterator[tuple[str, str, Any]]:
+def _fields(store: Typestore, type_name: str) -> Iterator[tuple[str, str, _Holds]]:
     """Each field: its name, the name of its attribute, and what it holds."""
     entries = store.get_msgdef(type_name).fields
     for (name, holds), (attribute, _) in zip(store.fielddefs[type_name][1], entries, strict=True):
@@ -53,7 +57,7 @@ def _fields(store: Typestore, type_name: str) -> Iterator[tuple[str, str, Any]]:
 # To messages.
 
 
-def _message(store: Typestore, type_name: str, data: Any) -> Any:  # noqa: ANN401
+def _message(store: Typestore, type_name: str, data: _Value) -> _Value:
     if not isinstance(data, Mapping):
         raise TypeError(f"a {type_name} has fields, and {data!r} has none")
     values: dict[str, Any] = {}
@@ -70,7 +74,7 @@ def _message(store: Typestore, type_name: str, data: Any) -> Any:  # noqa: ANN40
     return store.types[type_name](**values)
 
 
-def _value(store: Typestore, holds: Any, value: Any) -> Any:  # noqa: ANN401
+def _value(store: Typestore, holds: _Holds, value: _Value) -> _Value:
     kind, detail = holds
     if kind == Nodetype.BASE:
         return _scalar(detail[0], value)
@@ -86,7 +90,7 @@ def _value(store: Typestore, holds: Any, value: Any) -> Any:  # noqa: ANN401
         return np.array(items, dtype=_NUMPY.get(inner[1][0], inner[1][0]))
 
 
-def _scalar(base: str, value: Any) -> Any:  # noqa: ANN401
+def _scalar(base: str, value: _Value) -> _Value:
     if base == "byte":
         (value,) = value
         if index(value) not in range(256):
@@ -103,7 +107,7 @@ def _scalar(base: str, value: Any) -> Any:  # noqa: ANN401
 # To plain data.
 
 
-def _plain(store: Typestore, type_name: str, message: Any) -> dict[str, Any]:  # noqa: ANN401
+def _plain(store: Typestore, type_name: str, message: _Value) -> dict[str, Any]:
     return {
         name: _data(store, holds, getattr(message, attribute))
         for name, attribute, holds in _fields(store, type_name)
@@ -111,7 +115,7 @@ def _plain(store: Typestore, type_name: str, message: Any) -> dict[str, Any]:  #
     }
 
 
-def _data(store: Typestore, holds: Any, value: Any) -> Any:  # noqa: ANN401
+def _data(store: Typestore, holds: _Holds, value: _Value) -> _Value:
     kind, detail = holds
     if kind == Nodetype.BASE:
         return [value % 256] if detail[0] == "byte" else value

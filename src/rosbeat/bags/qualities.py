@@ -20,7 +20,7 @@ _YEARS = 60 * 365 * 24 * 3600
 
 
 def stored(qos: QoS) -> Qos:
-    """Quality of service as a bag stores it; what the records do not have is ROS's default."""
+    """Convert QoS to the form in which a bag stores it; other policies have the ROS default."""
     return Qos(
         QosHistory[qos.history],
         qos.depth,
@@ -35,7 +35,7 @@ def stored(qos: QoS) -> Qos:
 
 
 def read(qos: Qos) -> QoS:
-    """Quality of service as a bag stores it, as a record."""
+    """Convert QoS from the form in which a bag stores it to a record."""
     return QoS(
         qos.reliability.name,
         qos.durability.name,

@@ -25,14 +25,14 @@ _COMMANDS = frozenset("?#%")
 
 @dataclass(frozen=True)
 class Topic:
-    """One topic of a recording.
+    """Describe one topic of a recording.
 
     Attributes:
         name: Full name.
         type_name: The message type.
-        count: How many messages there are.
-        qos: What its publishers offered, one each, as far as it was recorded.
-        nodes: Who published, as far as it was recorded.
+        count: Number of messages.
+        qos: QoS offered by each publisher, as far as it was recorded.
+        nodes: Full names of the nodes that published, as far as they were recorded.
     """
 
     name: str
@@ -44,14 +44,14 @@ class Topic:
 
 @dataclass(frozen=True)
 class Contents:
-    """What a recording says of itself.
+    """Hold the metadata of a recording.
 
     Attributes:
         storage: `mcap` or `sqlite3`.
-        topics: Its topics, in the order in which they were recorded.
-        first_ns: Stamp of the first message in nanoseconds, 0 without messages.
-        duration_ns: From the first message to the last, in nanoseconds.
-        notes: What a session noted; None if somebody else made the recording.
+        topics: The topics, in the order in which they were recorded.
+        first_ns: Stamp of the first message in nanoseconds; 0 without messages.
+        duration_ns: Time from the first message to the last, in nanoseconds.
+        notes: Notes of a session; None if the recording was not made by rosbeat.
     """
 
     storage: str
@@ -62,7 +62,7 @@ class Contents:
 
     @property
     def origin_ns(self) -> int:
-        """The stamp that counts as time 0: the session's beginning, else the first message."""
+        """Return the stamp that counts as time 0: the session's start, else the first message."""
         return 0 if self.notes else self.first_ns
 
 

@@ -11,7 +11,7 @@ from rosbeat.records import Sample
 
 
 def exists_already(folder: Path) -> BagError:
-    """The place of a new recording is taken."""
+    """Return the error for a new recording whose target already exists."""
     return BagError(
         f"There is something at {folder} already.",
         "A new recording does not overwrite an older one, nor anything else.",
@@ -20,7 +20,7 @@ def exists_already(folder: Path) -> BagError:
 
 
 def unknown_storage(storage: object) -> BagError:
-    """A storage that rosbag2 does not have here."""
+    """Return the error for a storage format that is not supported here."""
     return BagError(
         f"A recording cannot be stored as {storage!r}.",
         "Two storages are known: MCAP, which is the default of ROS 2, and SQLite.",
@@ -29,7 +29,7 @@ def unknown_storage(storage: object) -> BagError:
 
 
 def unknown_type(name: str) -> BagError:
-    """Nobody knows what a message type looks like."""
+    """Return the error for a message type whose definition cannot be found."""
     return BagError(
         f"The message type {name} is not known here.",
         "It is not part of ROS 2, and no package that defines it is installed, so nobody can say "
@@ -40,7 +40,7 @@ def unknown_type(name: str) -> BagError:
 
 
 def unknown_topic(topic: str, known: Iterable[str]) -> BagError:
-    """A topic that the recording does not have."""
+    """Return the error for a topic that is not in the recording."""
     names = sorted(known)
     near = get_close_matches(f"/{topic.lstrip('/')}", names, n=1)
     return BagError(
@@ -51,7 +51,7 @@ def unknown_topic(topic: str, known: Iterable[str]) -> BagError:
 
 
 def not_a_name(topic: object) -> BagError:
-    """A topic that is not a text."""
+    """Return the error for a topic name that is not a string."""
     return BagError(
         f"{topic!r} is not the name of a topic, but of type {type(topic).__name__}.",
         "A recording is asked by name, and a name is a text.",
@@ -60,7 +60,7 @@ def not_a_name(topic: object) -> BagError:
 
 
 def two_types(topic: str, types: Iterable[str]) -> BagError:
-    """A topic with more than one type."""
+    """Return the error for a topic with messages of more than one type."""
     return BagError(
         f"Messages of two types are on {topic}: {' and '.join(types)}.",
         "In a recording a topic has one type, as it should have in a running system.",
@@ -69,7 +69,7 @@ def two_types(topic: str, types: Iterable[str]) -> BagError:
 
 
 def no_observation(source: object) -> BagError:
-    """Something that has observed nothing."""
+    """Return the error for an object that is not a run."""
     return BagError(
         f"{type(source).__name__!r} is not a run.",
         "It takes a session, what a session observed, or a recording.",
@@ -78,7 +78,7 @@ def no_observation(source: object) -> BagError:
 
 
 def does_not_fit(topic: str, type_name: str, number: int, error: Exception) -> BagError:
-    """A message that its type cannot hold."""
+    """Return the error for a message with a value that its type cannot hold."""
     return BagError(
         f"Message {number} on {topic} is not a {type_name}: {error}.",
         "Every message on a topic has the fields of its type, each with a value that it can hold.",
@@ -87,7 +87,7 @@ def does_not_fit(topic: str, type_name: str, number: int, error: Exception) -> B
 
 
 def not_written(folder: Path, error: Exception) -> BagError:
-    """The computer refused to write."""
+    """Return the error for a recording that could not be written."""
     return BagError(
         f"The recording could not be written to {folder}: {_words(error)}.",
         "Nothing that was there before has changed.",
@@ -96,7 +96,7 @@ def not_written(folder: Path, error: Exception) -> BagError:
 
 
 def not_there(folder: Path) -> BagError:
-    """Nothing is at that place."""
+    """Return the error for a path with no recording."""
     return BagError(
         f"There is no recording at {folder}.",
         "A recording is a folder with a file metadata.yaml and the data beside it, or one file "
@@ -106,7 +106,7 @@ def not_there(folder: Path) -> BagError:
 
 
 def damaged(folder: Path, error: Exception) -> BagError:
-    """What is there is no recording, or not a whole one."""
+    """Return the error for a recording that is damaged, incomplete or of an unknown kind."""
     return BagError(
         f"The recording at {folder} cannot be read: {_words(error)}.",
         "It is damaged, incomplete, or of a kind that is not known here. Nothing was changed.",
@@ -115,7 +115,7 @@ def damaged(folder: Path, error: Exception) -> BagError:
 
 
 def no_place(folder: object) -> BagError:
-    """Something that names no folder."""
+    """Return the error for an object that is not the name of a folder."""
     return BagError(
         f"{folder!r} is not the name of a folder.",
         "A recording is a folder, which a text names, or a `Path`.",
@@ -124,7 +124,7 @@ def no_place(folder: object) -> BagError:
 
 
 def no_fault(found: object) -> BagError:
-    """Something that cannot be injected."""
+    """Return the error for an object that is not a fault."""
     return BagError(
         f"{found!r} is not a fault.",
         "A fault is a function from messages to messages.",
@@ -133,7 +133,7 @@ def no_fault(found: object) -> BagError:
 
 
 def bad_argument(call: str, what: str, wanted: str) -> BagError:
-    """A fault that cannot be."""
+    """Return the error for a fault with an invalid argument."""
     return BagError(
         f"{call} was given {what}.",
         f"It takes {wanted}.",
@@ -142,7 +142,7 @@ def bad_argument(call: str, what: str, wanted: str) -> BagError:
 
 
 def no_such_number(sample: Sample, field: str | None, numbers: Iterable[str]) -> BagError:
-    """A fault of a number, for a message that has no such number, or several."""
+    """Return the error for a fault whose field is missing or ambiguous in a message."""
     names = ", ".join(map(repr, numbers))
     where = f"the field {field!r}" if field else "one number"
     return BagError(
@@ -155,7 +155,7 @@ def no_such_number(sample: Sample, field: str | None, numbers: Iterable[str]) ->
 
 
 def whole_numbers_only(sample: Sample) -> BagError:
-    """NaN for a whole number."""
+    """Return the error for NaN in a message that holds integers."""
     return BagError(
         f"Messages on {sample.topic} hold whole numbers, and NaN is not one.",
         f"NaN ('not a number') is a value of floating-point types only, and a {sample.type_name} "
@@ -165,7 +165,7 @@ def whole_numbers_only(sample: Sample) -> BagError:
 
 
 def no_number(speed: object) -> BagError:
-    """A speed that is none."""
+    """Return the error for an invalid replay speed."""
     return BagError(
         f"speed={speed!r} cannot be used.",
         "It is a number above 0: 2 replays twice as fast, 0.5 half as fast.",

@@ -25,7 +25,7 @@ def replay(
     faults: Iterable[Change] = (),
     name: str = "replay",
 ) -> NodeFactory:
-    """A node that publishes a recording again, each message at the time at which it was recorded.
+    """Return a factory for a node that replays a recording, each message at its recorded time.
 
     ::
 
@@ -36,15 +36,16 @@ def replay(
             ros.run(bag.seconds)
 
     Times count from the moment at which the node is added. In virtual time every run is the same.
-    Messages of one node at one instant are published together, as one callback does; those of
-    several nodes one after the other, each with all that follows from it.
+    Messages that one node published at the same instant are published together, as in one callback.
+    Messages of several nodes at the same instant are published one after the other, each followed
+    by everything that it triggers.
 
     Args:
-        source: A bag, a session, or what it observed.
-        speed: How many times as fast; `ros.run(bag.seconds / speed)` then runs all of it.
+        source: A bag, a session, or an observation.
+        speed: Factor by which to speed up; `ros.run(bag.seconds / speed)` then runs all of it.
         topics: Names of the topics to publish on; all by default.
         remap: New names for topics: `{"temperature": "old/temperature"}`.
-        faults: Faults to inject, one after the other; their times are those of the recording.
+        faults: Faults to inject, in order; their times are those of the recording.
         name: The node's name.
 
     Returns:

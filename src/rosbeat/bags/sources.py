@@ -12,10 +12,10 @@ from rosbeat.records import INFRASTRUCTURE_TOPICS, Observation, Sample
 
 @runtime_checkable
 class Observer(Protocol):
-    """Anything that can say what it has observed, such as a session or a bag."""
+    """Define the interface of objects with an observation, such as a session or a bag."""
 
     def observation(self) -> Observation:
-        """What was observed so far."""
+        """Return what has been observed so far."""
         ...
 
 
@@ -24,10 +24,10 @@ Run = Observation | Observer
 
 
 def observed(source: Run) -> Observation:
-    """The observation itself, or the one of a session or a bag.
+    """Return an observation as it is, or the observation of a session or a bag.
 
     Raises:
-        BagError: If it is none of these.
+        BagError: If `source` is none of these.
     """
     if isinstance(source, Observation):
         return source
@@ -37,10 +37,10 @@ def observed(source: Run) -> Observation:
 
 
 def full_name(topic: object) -> str:
-    """A topic's full name; a missing leading slash is forgiven.
+    """Return a topic's full name, adding a missing leading slash.
 
     Raises:
-        BagError: If it is not a text.
+        BagError: If the topic is not a string.
     """
     if not isinstance(topic, str):
         raise refusals.not_a_name(topic)
@@ -48,11 +48,11 @@ def full_name(topic: object) -> str:
 
 
 def types_of(seen: Observation, topics: str | Iterable[str] | None = None) -> dict[str, str]:
-    """The topics that are meant, each with its type, in order of publisher, then of message.
+    """Return the type of each selected topic, ordered by publisher, then by message.
 
     Args:
-        seen: What was observed.
-        topics: Names, or None for all but those that every node brings along.
+        seen: The observation.
+        topics: Names, or None for all topics except those that every node has.
 
     Raises:
         BagError: If a topic was not observed, or had messages of two types.
@@ -74,13 +74,13 @@ def types_of(seen: Observation, topics: str | Iterable[str] | None = None) -> di
 
 
 def chosen(seen: Observation, types: Iterable[str]) -> list[Sample]:
-    """The messages on some topics, in order."""
+    """Return the messages on the given topics, in order."""
     names = set(types)
     return [one for one in seen.samples if one.topic in names]
 
 
 def place(folder: object) -> Path:
-    """Where a recording is or shall be.
+    """Return the path of a recording, which need not exist yet.
 
     Raises:
         BagError: If it is not the name of a folder.

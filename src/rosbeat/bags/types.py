@@ -26,13 +26,13 @@ from rosbeat.bags import refusals
 
 
 def installed_types(names: Iterable[str]) -> Typestore:
-    """The types that nodes on this computer use.
+    """Return the definitions of message types that nodes on this computer use.
 
     Args:
-        names: Types that are needed, such as `std_msgs/msg/Float32`.
+        names: Required types, such as `std_msgs/msg/Float32`.
 
     Raises:
-        BagError: If one of them is neither part of ROS 2 nor installed.
+        BagError: If a type is neither part of ROS 2 nor installed.
     """
     store = get_typestore(Stores.ROS2_JAZZY)
     for name in names:
@@ -41,10 +41,11 @@ def installed_types(names: Iterable[str]) -> Typestore:
 
 
 def recorded_types(connections: Iterable[Connection]) -> Typestore:
-    """The types as a bag defines them; what it does not define, as ROS 2 Jazzy does.
+    """Return message types as a bag defines them, or as ROS 2 Jazzy does if the bag does not.
 
     Raises:
-        TypesysError: If a definition cannot be understood, or two of them contradict each other.
+        BagError: If a type is defined neither in the bag nor in ROS 2 nor by an installed package.
+        TypesysError: If a definition is invalid, or two definitions contradict each other.
     """
     store, undefined = get_typestore(Stores.EMPTY), []
     for one in connections:

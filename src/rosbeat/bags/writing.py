@@ -98,10 +98,10 @@ def _fill(writer: Writer, store: Typestore, seen: Observation, types: dict[str, 
 
 
 def wires(store: Typestore, samples: Iterable[Sample]) -> list[bytes]:
-    """Messages as bytes.
+    """Return messages in serialized form.
 
     Raises:
-        BagError: If one of them does not fit its type; it says which.
+        BagError: If a message does not fit its type; the error says which one.
     """
     counts: dict[str, int] = {}
     made = []

@@ -19,13 +19,13 @@ SILENT, HEARD, PAIR = "silent", "heard", "pair"
 
 @dataclass(frozen=True)
 class Case:
-    """A kind of patient.
+    """Describe a kind of patient.
 
     Attributes:
-        name: What it is called in tests.
+        name: Name in tests.
         level: `SILENT`, `HEARD` or `PAIR`.
-        faults: Its faults, one after the other, each with the roles at which it may be.
-        complaint: What the owner says, without the cause, by the role of the (first) fault.
+        faults: The faults in order, each with the roles of the nodes that it may affect.
+        complaint: Returns what the owner says, without the cause, for the role of the first fault.
         house: Draws the healthy system.
     """
 
@@ -49,12 +49,12 @@ class Case:
 
 @dataclass(frozen=True)
 class Ill:
-    """A system with a fault or two.
+    """Describe a system with one or two faults.
 
     Attributes:
-        case: The name of its case.
+        case: Name of its case.
         plan: The system.
-        truths: What is the matter with it.
+        truths: The correct diagnoses.
         complaint: What its owner says.
     """
 

@@ -25,15 +25,15 @@ from rosbeat.records import (
 
 @dataclass(frozen=True)
 class Member:
-    """A node of a patient.
+    """Describe a node of a patient.
 
     Attributes:
-        node: Its full name.
-        started: When it said that it had started, in seconds.
+        node: Full name of the node.
+        started: When the node logged that it had started, in seconds.
         callbacks: How often callbacks of its timers and subscriptions ran.
         ticks: How often its timers fired.
-        due: How often they should have fired.
-        spun: Whether anybody runs its callbacks.
+        due: How often its timers should have fired.
+        spun: Whether an executor runs its callbacks.
     """
 
     node: str
@@ -46,17 +46,17 @@ class Member:
 
 @dataclass(frozen=True)
 class Talk:
-    """What one node has published on one topic.
+    """Summarize what one node published on one topic.
 
     Attributes:
         node: Full name of the node.
         topic: Full name of the topic.
-        count: How many messages.
-        first: When the first one was, in seconds; -1 if there was none.
-        last: When the last one was, in seconds; -1 if there was none.
-        gap: The usual time between two moments at which it publishes, in seconds; 0 if unknown.
-        values: The numbers that it published, each once, sorted; empty if they are no numbers.
-        texts: The texts that it published, each once, sorted; empty if they are no texts.
+        count: Number of messages.
+        first: Time of the first message, in seconds; -1 if there was none.
+        last: Time of the last message, in seconds; -1 if there was none.
+        gap: Median time between two moments at which it publishes, in seconds; 0 if unknown.
+        values: Distinct published numbers, sorted; empty if the messages are no numbers.
+        texts: Distinct published strings, sorted; empty if the messages are no strings.
     """
 
     node: str
@@ -71,16 +71,15 @@ class Talk:
 
 @dataclass(frozen=True)
 class Hearing:
-    """What one node has heard on one topic.
+    """Summarize what one node received on one topic.
 
     Attributes:
         node: Full name of the node.
         topic: Full name of the topic.
         count: How often its callback ran for this topic.
-        sent: How many messages were published there while it was subscribed, by publishers that it
-            is connected to.
-        before: How many had been published before.
-        last: When its callback ran last, in seconds; -1 if never.
+        sent: Number of messages that connected publishers sent while the node was subscribed.
+        before: Number of messages that they had sent before.
+        last: Time of the last callback, in seconds; -1 if it never ran.
     """
 
     node: str
@@ -93,18 +92,18 @@ class Hearing:
 
 @dataclass(frozen=True)
 class Chart:
-    """A patient on paper.
+    """Hold everything that the instruments show of a patient.
 
     Attributes:
         number: Number of the patient.
         seconds: How long the system has run.
-        orders: What the owner ordered.
-        members: Its nodes, in order of creation.
-        ends: Its publishers and subscriptions, in order of creation.
-        talks: What was published, by publisher.
-        hearings: What was heard, by subscription.
+        orders: The owner's specification.
+        members: The nodes, in order of creation.
+        ends: The publishers and subscriptions, in order of creation.
+        talks: Summary of the published messages, by publisher.
+        hearings: Summary of the received messages, by subscription.
         faults: Exceptions that ended a node.
-        truths: What is the matter with it.
+        truths: The correct diagnoses.
     """
 
     number: int
@@ -119,20 +118,20 @@ class Chart:
 
     @property
     def nodes(self) -> tuple[str, ...]:
-        """Full names of the nodes."""
+        """Return the full names of the nodes."""
         return tuple(one.node for one in self.members)
 
     @property
     def topics(self) -> tuple[str, ...]:
-        """Full names of the topics, sorted."""
+        """Return the full names of the topics, sorted."""
         return tuple(sorted({end.name for end in self.ends}))
 
     def hears(self, node: str) -> tuple[Hearing, ...]:
-        """What a node has heard."""
+        """Return what a node has received, by topic."""
         return tuple(one for one in self.hearings if one.node == node)
 
     def at(self, place: str) -> tuple[Endpoint, ...]:
-        """The endpoints of a node, or on a topic."""
+        """Return the endpoints of a node or on a topic."""
         return tuple(end for end in self.ends if place in (end.node, end.name))
 
 

@@ -30,7 +30,7 @@ Fault = Callable[[Plan, str, Random], tuple[Plan, Truth]]
 
 
 def misspelled(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """A letter is wrong in the name of the topic that a node uses."""
+    """Misspell the name of the topic that a node uses."""
     part = plan.the(role)
     wrong = _twisted(_topic(part), rng)
     new = _with_topic(part, wrong)
@@ -58,9 +58,9 @@ def _twisted(name: str, rng: Random) -> str:
 
 
 def namespaced(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """A node is started in a namespace, or its code names one, and the others know nothing of it.
+    """Move a node's topic into a namespace that the other nodes do not use.
 
-    Its topic is another one from then on.
+    Either the node is started in the namespace, or its code names it.
     """
     part, where = plan.the(role), rng.choice(("north", "hall_2", "test", "upstairs"))
     topic = f"{where}/{_topic(part)}"
@@ -81,7 +81,7 @@ def _renamed(plan: Plan, old: str, new: str) -> Plan:
 
 
 def unfit(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """The quality of service of a node does not fit that of the other side."""
+    """Make the QoS of a node incompatible with that of the other side."""
     part = plan.the(role)
     if role == SENSOR:
         qos = QoS(reliability="BEST_EFFORT")
@@ -94,7 +94,7 @@ def unfit(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
 
 
 def ended(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """An exception leaves a callback and ends its node."""
+    """Make a callback of a node raise, which ends the node."""
     part = plan.the(role)
     how: dict[str, dict[str, Any]] = {
         SENSOR: {"calibrated": rng.randrange(15, 40)},
@@ -115,20 +115,20 @@ def _from_normal(plan: Plan) -> Plan:
 
 
 def mute(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """A node works and has a publisher, and never comes as far as `publish`."""
+    """Keep a node from ever reaching its call of `publish`."""
     part = plan.the(role)
     new = plan.having(part.doing(mute=True), part)
     return new, Truth("never-published", (part.path, full(part.speaks)))
 
 
 def unspun(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """A node is made, and nobody runs its callbacks."""
+    """Create a node without spinning it."""
     part = plan.the(role)
     return plan.having(replace(part, handed_over=False), part), Truth("not-spun", (part.path,))
 
 
 def late(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """The node that should hear the rule starts when the rule has been told already."""
+    """Start the node that displays the rule after the rule has been published."""
     part = plan.parts[-1]
     new = replace(part, joins=float(rng.randrange(5, 25)))
     places = (full(part.listens), part.path, plan.the(TEACHER).path)
@@ -136,7 +136,7 @@ def late(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
 
 
 def quiet(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """A node stops publishing after a while, and runs on."""
+    """Make a node stop publishing after a while, although it keeps running."""
     part = plan.the(role)
     new = plan.having(part.doing(stops_after=rng.randrange(18, 32)), part)
     return new, Truth("gone-quiet", (part.path, full(part.speaks)))

@@ -13,7 +13,7 @@ from rosbeat.records import QoS
 
 
 def two_sources(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """A second sensor, which nobody ordered, publishes on the same topic."""
+    """Add a second sensor, which nobody ordered, on the same topic."""
     part = plan.the(SENSOR)
     name = part.name.partition("_")[0] + rng.choice(("_spare", "_old_sensor", "_test_sensor"))
     phase = (int(part.options.get("phase", 0)) + rng.randrange(15, 25)) % 60
@@ -22,14 +22,14 @@ def two_sources(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
 
 
 def wrong_unit(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """The sensor publishes its readings in another unit."""
+    """Make the sensor publish its readings in another unit."""
     part = plan.the(SENSOR)
     new = plan.having(part.doing(unit=rng.choice(("Fahrenheit", "Kelvin"))), part)
     return new, Truth("wrong-unit", (part.path, full(part.speaks)))
 
 
 def short_queue(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """The queue of a listener is shorter than what comes at once."""
+    """Make a subscription's queue shorter than a burst of messages."""
     part = plan.the(role)
     depth = rng.randrange(1, plan.orders.burst - 1)
     new = plan.having(part.doing(qos=QoS(depth=depth)), part)
@@ -37,28 +37,28 @@ def short_queue(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
 
 
 def other_topic(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """A node is started with a remapping that leads it to the humidity."""
+    """Remap a node's subscription to the humidity topic."""
     part, humid = plan.the(role), plan.parts[-1].speaks
     new = plan.having(replace(part, remappings={part.listens: humid}), part)
     return new, Truth("wrong-topic", (part.path, full(humid)))
 
 
 def unclamped(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """Nothing holds the sensor's readings within its limits."""
+    """Make the sensor publish readings without clamping them to its limits."""
     part = plan.the(SENSOR)
     new = plan.having(part.doing(clamp="none"), part)
     return new, Truth("no-clamp", (part.path, full(part.speaks)))
 
 
 def clamped_first(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """The sensor holds its reading within the limits, and then takes a step."""
+    """Make the sensor clamp its reading to the limits before it adds the last step."""
     part = plan.the(SENSOR)
     new = plan.having(part.doing(clamp="first"), part)
     return new, Truth("clamped-too-early", (part.path, full(part.speaks)))
 
 
 def other_rate(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """The sensor's timer has another period."""
+    """Give the sensor's timer another period."""
     part = plan.the(SENSOR)
     period = plan.orders.period * rng.choice((0.5, 0.25, 2.0))
     new = plan.having(part.doing(period=period), part)
@@ -66,7 +66,7 @@ def other_rate(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
 
 
 def at_the_limit(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """The guard counts a limit itself to the wrong side."""
+    """Make the guard classify a reading that is exactly at a limit incorrectly."""
     part = plan.the(GUARD)
     option = rng.choice(("high_too", "low_too"))
     new = plan.having(part.doing(**{option: True}), part)
@@ -74,7 +74,7 @@ def at_the_limit(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
 
 
 def stuck(plan: Plan, role: str, rng: Random) -> tuple[Plan, Truth]:
-    """The sensor says the same number for ever."""
+    """Make the sensor publish the same number forever."""
     part, orders = plan.the(SENSOR), plan.orders
     value = rng.randrange(int(orders.low) + 1, int(orders.high)) + 0.5
     new = plan.having(part.doing(stuck=value), part)

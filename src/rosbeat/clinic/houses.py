@@ -82,12 +82,12 @@ def house(rng: Random, place: str, *, burst: int = 1) -> Plan:
 
 
 def ordered(plan: Plan) -> Plan:
-    """The plan, with what its nodes do now as what the owner ordered."""
+    """Return the plan with its current wiring as the owner's specification."""
     return replace(plan, orders=replace(plan.orders, wiring=wiring(plan)))
 
 
 def wiring(plan: Plan) -> tuple[Wiring, ...]:
-    """Who publishes and who listens where, by what stands in the nodes' code."""
+    """Return the publishers and subscriptions that the nodes' code creates."""
     found = []
     for part in plan.parts:
         if part.speaks:
@@ -99,7 +99,7 @@ def wiring(plan: Plan) -> tuple[Wiring, ...]:
 
 
 def with_humidity(plan: Plan) -> Plan:
-    """The same house with a second sensor, which measures how humid the air is."""
+    """Return the house with a second sensor, which measures the humidity of the air."""
     name = plan.the(SENSOR).name.partition("_")[0]
     extra = Part(
         SENSOR,
@@ -111,7 +111,7 @@ def with_humidity(plan: Plan) -> Plan:
 
 
 def with_teacher(plan: Plan) -> Plan:
-    """The same house with a node that tells the rule once, and a second display that shows it."""
+    """Return the house with a node that publishes the rule once, and a display that shows it."""
     name = plan.the(SENSOR).name.partition("_")[0]
     new = plan.also(Part(TEACHER, f"{name}_rules", speaks=f"{name}_rule"))
     return ordered(new.also(Part(DISPLAY, f"{name}_plate", listens=f"{name}_rule")))

@@ -15,5 +15,5 @@ KNOWN = (
 
 
 def names() -> dict[str, str]:
-    """Every diagnosis that may be given, with what it means; more than ever occur."""
+    """Return the meaning of every diagnosis by its id, including diagnoses that never occur."""
     return {name: mistake(name).title for name in KNOWN}

@@ -21,11 +21,11 @@ _UNITS: dict[str, Callable[[float], float]] = {
 
 
 def maker(part: Part, orders: Orders) -> Callable[[], Node]:
-    """A function that makes the node of a part.
+    """Return a factory for the node of a part.
 
     Args:
         part: The part.
-        orders: What the owner ordered, such as limits.
+        orders: The owner's specification, such as limits.
     """
     kind = _ROLES[part.role]
     return lambda: kind(part, orders)
@@ -48,7 +48,7 @@ class _Member(Node):
 
 
 class Sensor(_Member):
-    """Publishes a reading, or a burst of them, whenever its timer fires."""
+    """Publish one reading or a burst of readings whenever the timer fires."""
 
     def __init__(self, part: Part, orders: Orders) -> None:
         super().__init__(part, orders)
@@ -89,7 +89,7 @@ class Sensor(_Member):
 
 
 class Guard(_Member):
-    """Listens to readings and publishes a status for each."""
+    """Publish a status for each reading that arrives."""
 
     def __init__(self, part: Part, orders: Orders) -> None:
         super().__init__(part, orders)
@@ -118,7 +118,7 @@ class Guard(_Member):
 
 
 class Display(_Member):
-    """Shows every status: it logs it."""
+    """Log every status."""
 
     def __init__(self, part: Part, orders: Orders) -> None:
         super().__init__(part, orders)
@@ -130,7 +130,7 @@ class Display(_Member):
 
 
 class Diary(_Member):
-    """Writes every reading down: it logs it."""
+    """Log every reading."""
 
     def __init__(self, part: Part, orders: Orders) -> None:
         super().__init__(part, orders)
@@ -145,7 +145,7 @@ class Diary(_Member):
 
 
 class Teacher(_Member):
-    """Publishes a rule once, soon after the start, and is silent then."""
+    """Publish a rule once, soon after the start."""
 
     def __init__(self, part: Part, orders: Orders) -> None:
         super().__init__(part, orders)
@@ -153,7 +153,7 @@ class Teacher(_Member):
         self.timer = self.create_timer(1.0, self.tell_rule)
 
     def tell_rule(self) -> None:
-        """Say from where to where all is normal."""
+        """Publish the range of normal readings."""
         self.publisher.publish(String(data=f"{self._orders.low:g} to {self._orders.high:g}"))
         self.timer.cancel()
 

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 
 class Patient:
-    """One system of the ward; shows itself at the end of a cell.
+    """Represent one system of the ward, which displays itself at the end of a cell.
 
     Args:
-        number: Its number in the ward.
-        ill: The system, its fault and its owner's words.
-        seed: Seed of its session.
+        number: Number of the patient in the ward.
+        ill: The system, its faults and its owner's complaint.
+        seed: Seed of the patient's session.
     """
 
     def __init__(self, number: int, ill: Ill, seed: int) -> None:
@@ -34,19 +34,19 @@ class Patient:
 
     @property
     def complaint(self) -> str:
-        """What the owner says; never the cause."""
+        """Return what the owner says, which never names the cause."""
         return self._ill.complaint
 
     @property
     def orders(self) -> str:
-        """How the system should be, in the owner's words."""
+        """Return the owner's specification of the system, in words."""
         return "\n".join(_orders(self._ill.plan))
 
     @cached_property
     def ros(self) -> Session:
-        """The session in which the system runs: it has run for a minute, and can be run on.
+        """Return the session of the system, which has run for a minute and can run on.
 
-        It opens when it is first asked for, and ends with the patient, or with `ros.close()`.
+        The session opens on first access, and closes with the patient or with `ros.close()`.
         """
         return _running(self._ill.plan, self._seed)
 

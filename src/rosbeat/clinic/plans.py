@@ -20,13 +20,13 @@ FLOAT, STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
 
 @dataclass(frozen=True)
 class Wiring:
-    """A connection as the owner ordered it.
+    """Describe a connection that the owner ordered.
 
     Attributes:
         node: Full name of the node.
         kind: `publisher` or `subscription`.
         topic: Full name of the topic.
-        once: Whether it is to publish a single message, soon after its start.
+        once: Whether to publish a single message, soon after the start.
     """
 
     node: str
@@ -37,17 +37,17 @@ class Wiring:
 
 @dataclass(frozen=True)
 class Orders:
-    """What the owner ordered: the system as it should be.
+    """Hold the owner's specification of the system.
 
     Attributes:
         topic: The topic of the readings.
-        low: Below this a reading is `Low`.
-        high: Above this a reading is `High`.
-        least: The least that the sensor may say.
-        most: The most that the sensor may say.
-        period: Seconds from one time that it measures to the next.
-        burst: How many readings it publishes each time.
-        wiring: Who is to publish and to listen where.
+        low: Lower limit; a reading below it is `Low`.
+        high: Upper limit; a reading above it is `High`.
+        least: Smallest reading that the sensor may publish.
+        most: Largest reading that the sensor may publish.
+        period: Time between two measurements, in seconds.
+        burst: Number of readings that the sensor publishes each time.
+        wiring: The required publishers and subscriptions.
     """
 
     topic: str
@@ -62,18 +62,18 @@ class Orders:
 
 @dataclass(frozen=True)
 class Part:
-    """One node of a plan.
+    """Describe one node of a plan.
 
     Attributes:
-        role: What it does; see `nodes.py`.
-        name: Its name, without slash.
-        listens: The topic that its code subscribes to; empty if it does not.
-        speaks: The topic that its code publishes on; empty if it does not.
-        namespace: The namespace in which it is started.
-        remappings: New names of topics with which it is started.
-        joins: Seconds after the beginning at which it is added.
-        handed_over: Whether anybody runs its callbacks.
-        options: How its code differs from others of its role.
+        role: Role of the node; see `nodes.py`.
+        name: Name of the node, without namespace or slash.
+        listens: Topic that its code subscribes to; empty if there is none.
+        speaks: Topic that its code publishes on; empty if there is none.
+        namespace: Namespace in which it is started.
+        remappings: Topic remappings with which it is started.
+        joins: Seconds after the start of the session at which it is added.
+        handed_over: Whether an executor runs its callbacks.
+        options: Differences between its code and that of other nodes of the same role.
     """
 
     role: str
@@ -88,24 +88,24 @@ class Part:
 
     @property
     def path(self) -> str:
-        """Its full name."""
+        """Return the node's full name."""
         return f"/{self.namespace}/{self.name}" if self.namespace else f"/{self.name}"
 
     def doing(self, **options: Any) -> Part:  # noqa: ANN401 - an option is of any type
-        """The same node with other options."""
+        """Return a copy of the node with other options."""
         return replace(self, options={**self.options, **options})
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A system.
+    """Describe a system.
 
     Attributes:
-        place: Where it stands, such as `the greenhouse`.
-        owner: What the owner calls the things that are measured, such as `temperature`.
-        orders: What the owner ordered.
-        parts: Its nodes, in the order in which they are added.
-        seconds: How long it has run when the doctor comes.
+        place: Where the system is, such as `the greenhouse`.
+        owner: The owner's word for the measured quantity, such as `temperature`.
+        orders: The owner's specification.
+        parts: The nodes, in the order in which they are added.
+        seconds: How long the system has run when the learner first sees it.
     """
 
     place: str
@@ -115,26 +115,26 @@ class Plan:
     seconds: float = 60.0
 
     def the(self, role: str) -> Part:
-        """The first node of a role."""
+        """Return the first node with a role."""
         return next(part for part in self.parts if part.role == role)
 
     def having(self, new: Part, instead_of: Part) -> Plan:
-        """The same system with one node changed."""
+        """Return a copy of the system with one node replaced."""
         parts = tuple(new if part is instead_of else part for part in self.parts)
         return replace(self, parts=parts)
 
     def also(self, new: Part) -> Plan:
-        """The same system with a node more."""
+        """Return a copy of the system with one more node."""
         return replace(self, parts=(*self.parts, new))
 
 
 @dataclass(frozen=True)
 class Truth:
-    """What is the matter, and where.
+    """Hold a correct diagnosis.
 
     Attributes:
         mistake: Id of the mistake.
-        places: Full names of nodes and topics, each of which is a true answer to "where".
+        places: Full names of nodes and topics, each of which is a correct answer to "where".
     """
 
     mistake: str
@@ -142,5 +142,5 @@ class Truth:
 
 
 def full(name: str) -> str:
-    """A name with its slash, as ROS prints it."""
+    """Return a name with its leading slash, as ROS prints it."""
     return "/" + name.strip().lstrip("/")

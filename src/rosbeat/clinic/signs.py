@@ -25,14 +25,14 @@ _SIGNS: dict[str, tuple[Find, Against]] = {
 
 
 def found(chart: Chart) -> tuple[Truth, ...]:
-    """Every fault that shows in a chart."""
+    """Return every fault that shows in a chart."""
     return tuple(
         Truth(name, places) for name, (find, _) in _SIGNS.items() for places in find(chart)
     )
 
 
 def against(chart: Chart, mistake: str, place: str) -> str:
-    """What speaks against a diagnosis, as the end of a sentence.
+    """Return the evidence against a diagnosis, as the end of a sentence.
 
     Args:
         chart: The patient.

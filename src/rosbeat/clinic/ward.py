@@ -16,16 +16,16 @@ _BEDS = ((SILENT, 4), (HEARD, 4), (PAIR, 3))
 
 
 class Ward:
-    """A clinic for broken systems. The same seed is the same ward, always.
+    """Draw a ward of patients, which are broken systems; the same seed always draws the same ward.
 
     Patients 1 to 4 have one fault, and something is silent. Patients 5 to 8 have one fault, and
     nothing is silent. Patients 9 to 11 have two faults.
 
     Args:
-        seed: Draws which fault each patient has, and all names and numbers.
+        seed: Seed for the faults of each patient, and for all names and numbers.
 
     Raises:
-        ExerciseError: If the seed is not a whole number from 0 up.
+        ExerciseError: If the seed is not an integer from 0 to 2**32 - 1.
     """
 
     def __init__(self, seed: int = 7) -> None:
@@ -45,10 +45,10 @@ class Ward:
         return "\n".join([f"Ward {self.seed}, {len(self)} patients", *places])
 
     def patient(self, number: int) -> Patient:
-        """One patient, whose session is a new one.
+        """Return one patient, with a new session.
 
         Args:
-            number: Its number, from 1.
+            number: Number of the patient, from 1.
 
         Raises:
             ExerciseError: If there is no such patient.
@@ -56,7 +56,10 @@ class Ward:
         return Patient(number, self._at(number), self.seed)
 
     def chart(self, number: int) -> Chart:
-        """What the instruments show of a patient, as plain data, with what is the matter.
+        """Return the chart of one patient, including the correct diagnoses.
+
+        Args:
+            number: Number of the patient, from 1.
 
         Raises:
             ExerciseError: If there is no such patient.

@@ -61,13 +61,13 @@ def meaning_of(fault: Fault) -> Meaning | None:
 
 
 def diagnose_fault(fault: Fault) -> Diagnosis | None:
-    """Name the mistake that an exception comes from.
+    """Return the mistake that caused an exception.
 
     Args:
         fault: The exception.
 
     Returns:
-        The mistake with the learner's own line as evidence; None if it is not a known one.
+        The mistake, with the learner's own line as evidence; None if it is not a known one.
     """
     meaning = meaning_of(fault)
     return None if meaning is None else diagnosed(fault, meaning)

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Mistake:
-    """Name a kind of mistake.
+    """Identify a kind of mistake.
 
     Attributes:
-        id: Its name in records and tests, such as `topic-misspelled`.
-        title: Its name for people, a few words in lower case.
-        row: Its number in the table of thirty, or 0.
+        id: Id in records and tests, such as `topic-misspelled`.
+        title: Short description for people, a few words in lower case.
+        row: Row in the table of thirty mistakes, or 0.
     """
 
     id: str

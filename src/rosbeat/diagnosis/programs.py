@@ -47,13 +47,13 @@ class _Frame:
 
 
 def diagnose_output(text: str) -> Diagnosis | None:
-    """Name the mistake that a program's output shows.
+    """Return the mistake that a program's output shows.
 
     Args:
-        text: What it printed, both streams in one.
+        text: The program's output, stdout and stderr combined.
 
     Returns:
-        The mistake, with the learner's line as evidence; None if none is known for sure.
+        The mistake, with the learner's line as evidence; None if no mistake is certain.
     """
     meaning = meaning_of_output(text)
     if meaning is None:

@@ -67,12 +67,12 @@ class Condition:
 
 @dataclass(frozen=True)
 class Former:
-    """Name a node that has published on the topic and is no longer there.
+    """Describe a node that has published on the topic and no longer exists.
 
     Attributes:
-        node: Full name of the node; `?` if it was in another process and is not known.
-        count: How many messages it published.
-        last_ns: When the last one was, in nanoseconds since the session began.
+        node: Full name of the node; `?` if it was in another process and is unknown.
+        count: Number of messages that it published.
+        last_ns: Time of its last message, in nanoseconds since the session began.
     """
 
     node: str
@@ -99,13 +99,13 @@ class OtherDomain:
 
 @dataclass(frozen=True)
 class StaleBuild:
-    """Name a program of the workspace that names the topic, and was edited since the last build.
+    """Describe a program of the workspace that uses the topic and was edited since the last build.
 
     Attributes:
-        package: The package.
-        executable: What `ros2 run` starts.
-        module: The file that was edited, relative to the package.
-        built: Whether it was ever built.
+        package: Name of the package.
+        executable: Name of the executable, as for `ros2 run`.
+        module: The edited file, relative to the package.
+        built: Whether the package was ever built.
     """
 
     package: str

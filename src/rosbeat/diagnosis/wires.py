@@ -19,7 +19,7 @@ from rosbeat.records import ACTION_PART, INFRASTRUCTURE_TOPICS, Endpoint, Fault,
 
 @dataclass(frozen=True)
 class Wire:
-    """Name a topic and its type.
+    """Identify a topic by name and type.
 
     Attributes:
         topic: Full name.
@@ -126,10 +126,10 @@ def _published(observation: Observation) -> dict[str, int]:
 
 
 def why_raised(observation: Observation, fault: Fault) -> Diagnosis | None:
-    """Name the mistake behind an exception; of two types on a topic, say both.
+    """Return the mistake behind an exception; for a topic with two types, name both.
 
     Args:
-        observation: What was seen, with the nodes beside the one that raised.
+        observation: The observation, which includes the nodes beside the one that raised.
         fault: The exception.
     """
     found, call = diagnose_fault(fault), fault.asked

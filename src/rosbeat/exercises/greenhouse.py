@@ -260,7 +260,7 @@ class Day:
 
 @dataclass(frozen=True)
 class Air:
-    """Name the readings that the trials are made of.
+    """Hold the readings that the trials are made of.
 
     Attributes:
         hot: Clearly above the limit at which the vent opens.

@@ -252,7 +252,7 @@ STATUSES = ("High", "Low", "Normal")
 def diagnose_words(
     observation: Observation, wire: Wire, words: Collection[str]
 ) -> Diagnosis | None:
-    """Name the first text on a topic that is none of the words that are asked for."""
+    """Find the first string on a topic that is not one of the expected words."""
     for sample in samples_on(observation, wire):
         if sample.value not in words:
             evidence = f"At {sample.time:g} s, {sample.value!r} was published on {wire.topic}."
@@ -280,11 +280,11 @@ def spelling(found: str, words: Iterable[str]) -> str:
 
 
 def explain_subscription(wire: Wire, fault: Fault) -> Diagnosis | None:
-    """Name the mistake of a node that subscribes, and fails, where it is to publish.
+    """Diagnose a node that should publish, and fails because it subscribes instead.
 
     Args:
-        wire: Where it is to publish.
-        fault: What was raised.
+        wire: The topic that it should publish on.
+        fault: The exception.
     """
     topic = re.escape(wire.topic.rpartition("/")[2])
     is_here = re.search(rf"[\"'/]{topic}[\"']", fault.code)
@@ -382,11 +382,11 @@ _BEATS = suspects(
 
 
 def diagnose_wait(observation: Observation, evidence: str, least: float = 0.0) -> Diagnosis | None:
-    """Name a callback of the node that waits; waits are recorded, so this needs no model.
+    """Find a callback of the node that waits; waits are recorded, so this needs no model.
 
     Args:
-        observation: What was seen.
-        evidence: What has come of the wait.
+        observation: The observation of the node.
+        evidence: What the wait led to, as the evidence of the diagnosis.
         least: The shortest wait that matters, in seconds.
     """
     for one in observation.waits:

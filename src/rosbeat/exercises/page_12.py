@@ -270,7 +270,7 @@ def _observe_requests(
 
 
 class Reaction(IntEnum):
-    """Name what a monitor does about a request, in the order in which it is judged."""
+    """List the reactions of a monitor to a request, in the order in which they are judged."""
 
     ACCEPTED = 0
     STATUSES = 1
@@ -644,7 +644,7 @@ def observe_heating(answer: Answer, fed: Heating) -> Observation:
 
 
 class Work(IntEnum):
-    """Name what a thermostat does about a goal, in the order in which it is judged."""
+    """List the reactions of a thermostat to a goal, in the order in which they are judged."""
 
     DECISION = 0
     SWITCHED_ON = 1

@@ -223,7 +223,7 @@ def progress() -> Picture:
 
 
 def heading(page: Page) -> str:
-    """The page's number and title.
+    """Return the page's number and title.
 
     Args:
         page: The page.

@@ -276,14 +276,14 @@ def look_at_terminal(answer: Answer, root: Path, about: str = "") -> TypedIn:
 def meaning_of(
     command: str, output: str, code: int, folder: Path, root: Path
 ) -> CommandMeaning | None:
-    """Name the mistake behind a command's outcome, if it is one of the known ones.
+    """Return the mistake behind a command's outcome, or None if it is not a known one.
 
     Args:
-        command: What was typed.
-        output: What the terminal showed.
+        command: The command line.
+        output: The output in the terminal.
         code: The exit code.
-        folder: The folder in which the terminal was.
-        root: The workspace; its files are looked at, and nothing is run.
+        folder: The current folder of the terminal.
+        root: The workspace; its files are read, and nothing is run.
     """
     found = recognise(command, output, code, folder, root)
     return CommandMeaning(found.mistake, found.evidence, found.hint) if found else None

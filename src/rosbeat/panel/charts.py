@@ -34,14 +34,14 @@ class Arrival:
 
 
 class Chart:
-    """One topic of the panel.
+    """Collect the recent messages on one topic for the panel.
 
     Attributes:
-        total: Messages since the session began.
-        text: The newest message, in words.
-        field: Which field is drawn, empty if it is the only one.
-        since: Messages of each node since the last frame.
-        was_busy: Whether the browser was told last that messages come.
+        total: Number of messages since the session began.
+        text: The newest message, as text.
+        field: Name of the field that is drawn; empty if it is the only one.
+        since: Number of messages of each node since the last frame.
+        was_busy: Whether the last frame told the browser that messages arrive.
     """
 
     def __init__(self) -> None:
@@ -66,7 +66,7 @@ class Chart:
             self._added += 1
 
     def rate(self, now: float) -> float:
-        """Messages a second, lately.
+        """Return the recent message rate, in messages per second.
 
         Args:
             now: Seconds since the session began.
@@ -78,11 +78,11 @@ class Chart:
         return (self.total - before) / (now - begin) if now > begin else 0.0
 
     def news(self, now: float, whole: bool) -> dict[str, Any]:
-        """What the browser needs to know of it, as JSON has it; then it counts as known.
+        """Return what the browser does not know yet, as JSON-compatible data, and mark it as known.
 
         Args:
             now: Seconds since the session began.
-            whole: Everything, and not only what is new.
+            whole: Whether to return everything rather than only what is new.
         """
         count = len(self._points) if whole else min(self._added - self._sent, len(self._points))
         points = list(self._points)[len(self._points) - count :]

@@ -26,14 +26,14 @@ _FRESH = 1.0
 
 
 class SessionInstruments:
-    """Shows a session to the panel and acts on it. Every method may be called from any thread.
+    """Connect the panel to a session: show its state and act on it.
 
-    Names of nodes and topics are full names. The methods that change something raise `RosbeatError`
-    if they cannot.
+    Every method may be called from any thread. Names of nodes and topics are full names. The
+    methods that change something raise `RosbeatError` if they cannot.
 
     Args:
-        world: The session; the panel must not hold the `Session` itself, which ends when nothing
-            else does.
+        world: The session's world. The panel must not hold a reference to the `Session` itself,
+            which closes when nothing else refers to it.
     """
 
     def __init__(self, world: World) -> None:

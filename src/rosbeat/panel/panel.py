@@ -25,23 +25,23 @@ _PATIENCE = 2.0
 
 
 def next_look(last: float, now: float) -> float:
-    """When to look again: looks that were missed are not made up for.
+    """Return when to sample the session again; missed samples are skipped.
 
     Args:
-        last: When the look before was due, in seconds on a clock that never goes back.
-        now: Its reading now.
+        last: When the previous sample was due, in seconds of a monotonic clock.
+        now: The clock's current reading.
     """
     return max(last + PERIOD, now)
 
 
 class Panel:
-    """Shows what a session does, as it does it; shows itself at the end of a cell.
+    """Show live what a session does; a cell displays the panel.
 
-    Opened with `ros.panel()`. It looks at the session in a thread of its own, so it goes on while a
-    cell runs.
+    Open it with `ros.panel()`. It samples the session in its own thread, so it keeps updating while
+    a cell runs.
 
     Args:
-        instruments: The session.
+        instruments: The session's instruments.
     """
 
     def __init__(self, instruments: SessionInstruments) -> None:

@@ -36,13 +36,13 @@ class News:
 
 
 class Sampler:
-    """Looks at a session and remembers what is to be drawn.
+    """Sample a session, and buffer what the panel draws.
 
-    Nothing here slows the session down or loses any of its records: a look reads what has been
-    recorded since the look before, and draws at most one point of each publisher.
+    Sampling neither slows the session down nor affects its records: each sample reads what was
+    recorded since the previous one, and keeps at most one point per publisher.
 
     Args:
-        instruments: The session.
+        instruments: The session's instruments.
     """
 
     def __init__(self, instruments: SessionInstruments) -> None:
@@ -76,10 +76,10 @@ class Sampler:
         }
 
     def frame(self, whole: bool) -> dict[str, Any]:
-        """What the browser does not know yet.
+        """Return what the browser does not know yet, as JSON-compatible data.
 
         Args:
-            whole: Everything, for a browser that knows nothing.
+            whole: Whether to return everything, for a browser that has no state yet.
         """
         now = self._instruments.now_ns() / NANOSECONDS
         told = {name: chart for name, chart in self._charts.items() if self._is_told(name, whole)}

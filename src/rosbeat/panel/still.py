@@ -15,13 +15,13 @@ _HEADING = "The instrument panel of this session."
 
 
 def is_for_a_browser() -> bool:
-    """Whether there may be a browser that can show a widget."""
+    """Return whether a browser may be attached that can show a widget."""
     shell = get_ipython()
     return getattr(shell, "kernel", None) is not None and not os.environ.get(_STEADY)
 
 
 def still(graph: GraphSnapshot) -> dict[str, str]:
-    """The graph as a MIME bundle: the same for the same nodes, at any time."""
+    """Return the graph as a MIME bundle, which depends only on the graph."""
     from rosbeat.viz.graphs import graph as draw  # matplotlib takes a while to load
 
     if not any(graph.nodes):
@@ -31,6 +31,6 @@ def still(graph: GraphSnapshot) -> dict[str, str]:
 
 
 def with_view(bundle: dict[str, str], model_id: str) -> dict[str, Any]:
-    """The bundle with the widget's live view in front."""
+    """Return the bundle with the widget's live view added."""
     view = {"version_major": 2, "version_minor": 0, "model_id": model_id}
     return {"application/vnd.jupyter.widget-view+json": view, **bundle}

@@ -9,14 +9,15 @@ FIRST_WAIT, LONGEST_WAIT = 0.5, 30.0
 
 
 class Traffic:
-    """Counts the frames that are on their way.
+    """Limit the number of frames in flight.
 
-    Without it, a browser that sleeps or a connection that is slow would collect frames in some
-    queue, hours of them. With it the frames that would wait are skipped. An answer may also be late
-    because the kernel is busy with a cell and cannot hear it; then a frame is tried now and then.
+    Without a limit, a sleeping browser or a slow connection would let frames pile up in a queue for
+    hours; with it, surplus frames are skipped. An acknowledgment may also be late because the
+    kernel is busy with a cell and cannot receive it, so a frame is sent from time to time all the
+    same.
 
     Attributes:
-        asked: Whether the browser wants a whole frame: it has just opened, or missed one.
+        asked: Whether the browser needs a whole frame, because it was just opened or missed one.
         number: Number of the last frame, from 1.
     """
 
@@ -29,10 +30,10 @@ class Traffic:
         self._is_watched = False
 
     def may_send(self, now: float) -> bool:
-        """Whether a frame may go out.
+        """Return whether a frame may be sent.
 
         Args:
-            now: Seconds on a clock that never goes back.
+            now: Seconds of a monotonic clock.
         """
         if not self._is_watched:
             return False
@@ -47,11 +48,11 @@ class Traffic:
         return self.number
 
     def ask(self) -> None:
-        """The browser wants a whole frame now."""
+        """Note that the browser wants a whole frame now."""
         self._is_watched = self.asked = True
         self.heard(self.number)
 
     def heard(self, number: int) -> None:
-        """The browser has got the frame of this number."""
+        """Note that the browser has received the frame with this number."""
         if self._heard <= number <= self.number:
             self._heard, self._wait = number, FIRST_WAIT

@@ -13,10 +13,10 @@ _HERE = Path(__file__).parent
 
 
 class PanelWidget(AnyWidget):
-    """Draws the frames that it is sent, and sends back what is clicked.
+    """Send frames to the browser, which draws them, and receive what is clicked there.
 
     Args:
-        heard: Called with each message from the browser, in whichever thread the kernel has.
+        heard: Called with each message from the browser, in whichever thread the kernel uses.
     """
 
     _esm = Unicode((_HERE / "panel.js").read_text(encoding="utf-8")).tag(sync=True)

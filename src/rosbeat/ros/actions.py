@@ -2,6 +2,7 @@
 
 rclpy makes an action of three services and two topics inside of one waitable, where the hooks of
 `recording` do not see them. So the constructors of `ActionServer` and `ActionClient` are wrapped.
+So are methods that rclpy keeps to itself, since it has no public place for any of this.
 An action of a session's node runs virtual time in calls that would wait, gives its goals the same
 ids in every run, and shows an exception in its work as any other.
 """
@@ -17,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.action import ActionClient, ActionServer
 from rclpy.action.server import ServerGoalHandle
 from rclpy.executors import await_or_execute
+from rclpy.task import Future
 from unique_identifier_msgs.msg import UUID
 
 from rosbeat.errors import SessionError
@@ -24,7 +26,7 @@ from rosbeat.records import Endpoint
 from rosbeat.ros.entities import NodeState, callback_name
 from rosbeat.ros.faults import asking
 from rosbeat.ros.graph import qos_of
-from rosbeat.ros.recording import type_name, watcher_of
+from rosbeat.ros.recording import Entity, Message, type_name, watcher_of
 
 if TYPE_CHECKING:
     from rosbeat.ros.world import World
@@ -42,7 +44,7 @@ _SEND_GOAL = "/_action/send_goal"
 
 
 class ActionEnd:
-    """One action server or client of a node; `options` are the arguments of its constructor."""
+    """Hold one action server or client of a node, with the `options` of its constructor."""
 
     def __init__(
         self,
@@ -84,6 +86,7 @@ class ActionEnd:
     # A server.
 
     def _prepare_server(self) -> None:
+        # Each accepted goal goes through this method, and its exceptions end there.
         server, work = self.entity, self.entity._execute_goal
 
         async def execute(callback: Callable[..., Any], goal: ServerGoalHandle) -> None:
@@ -102,11 +105,12 @@ class ActionEnd:
     def _noting(self, callback: Callable[..., Any]) -> Callable[..., Any]:
         """Return a callback that records an exception, which rclpy would only log."""
 
-        async def noted(goal: ServerGoalHandle) -> Any:  # noqa: ANN401
+        async def noted(goal: ServerGoalHandle) -> Message:
             try:
                 return await await_or_execute(callback, goal)
             except Exception as error:
                 self._world.work_raised(self._state, callback_name(callback), error)
+                # With the logger that rclpy itself would have used.
                 self.entity._logger.error(f"Error raised in execute callback: {error}")
                 return self.entity.action_type.Result()
 
@@ -120,6 +124,7 @@ class ActionEnd:
 
     def _prepare_client(self) -> None:
         client = self.entity
+        # All the random numbers of a client are drawn here; its calls that wait end in the others.
         self._chance = client._generate_random_uuid
         client._generate_random_uuid = self._next_id
         client.send_goal = self._send_goal
@@ -143,9 +148,10 @@ class ActionEnd:
 
     def _send_goal(self, goal: Any, **options: Any) -> Any:  # noqa: ANN401 - rclpy's own signature
         handle = self._result("send_goal", self.entity.send_goal_async(goal, **options))
+        # The `_get_result` of `_prepare_client`, which `handle.get_result` calls.
         return None if handle is None else self.entity._get_result(handle)
 
-    def _result(self, method: str, future: Any) -> Any:  # noqa: ANN401
+    def _result(self, method: str, future: Future) -> Message:
         reason = f"an answer from the action {self.name}"
         if not self._world.wait(f"client.{method}", reason, future.done, None, self.entity):
             raise SessionError(
@@ -164,7 +170,7 @@ class ActionEnd:
         return bool(client.server_is_ready())
 
 
-def action_of(entity: Any, state: NodeState) -> ActionEnd | None:  # noqa: ANN401
+def action_of(entity: Entity, state: NodeState) -> ActionEnd | None:
     """Return the action server or client that an entity of rclpy's is, or None."""
     return next((end for end in state.actions if end.entity is entity), None)
 
@@ -176,7 +182,7 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
     order = signature(original)
 
     @wraps(original)
-    def init(entity: Any, *given: Any, **named: Any) -> None:  # noqa: ANN401
+    def init(entity: Entity, *given: Any, **named: Any) -> None:  # noqa: ANN401 - passed on
         with asking(f"{type(entity).__name__}.__init__", *given, **named):
             original(entity, *given, **named)
         options = order.bind(entity, *given, **named)
@@ -195,8 +201,9 @@ def _watch(original: Callable[..., None], kind: str) -> Callable[..., None]:
 
 def _publishing(original: Callable[..., None], topic: str) -> Callable[..., None]:
     @wraps(original)
-    def publish(goal: ServerGoalHandle, *given: Any) -> None:  # noqa: ANN401
+    def publish(goal: ServerGoalHandle, *given: Message) -> None:
         original(goal, *given)
+        # A goal handle knows its server, and has no public name for it.
         end = getattr(goal._action_server, "_rosbeat_end", None)
         if end is not None:
             end.published(topic)
@@ -209,6 +216,7 @@ def _install() -> None:
     ActionClient.__init__ = _watch(ActionClient.__init__, CLIENT)
     goal = ServerGoalHandle
     goal.publish_feedback = _publishing(goal.publish_feedback, "feedback")
+    # Every change of a goal's state, after which its server publishes the status.
     goal._update_state = _publishing(goal._update_state, "status")
 
 

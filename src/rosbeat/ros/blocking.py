@@ -29,11 +29,11 @@ _TOO_LONG = 2**63 / 1e9
 
 
 class VirtualWaits:
-    """The functions that stand in the places of those that wait, for one session.
+    """Replace blocking functions such as `time.sleep` by versions that wait in virtual time.
 
     Args:
         virtual: The session's executor.
-        entry_of: Returns what the session knows of a subscription.
+        entry_of: Returns the session's entry for a subscription.
     """
 
     def __init__(

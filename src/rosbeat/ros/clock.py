@@ -16,12 +16,12 @@ _POINT = rclpy_implementation.rcl_time_point_t
 
 
 class SessionClock(ROSClock):
-    """The ROS clock of a node, which only its session moves.
+    """Give a node a ROS clock that only its session moves.
 
-    Each node has one of its own, because rcl visits all timers of a clock whenever it moves
-    (`rcl_set_ros_time_override`): one clock for 10,000 timers made each step cost 0.2 ms. It moves
-    when somebody looks at it and before a timer of it fires, so no node can read a time that
-    another has already left.
+    Each node has its own clock, because rcl visits all timers of a clock whenever the clock moves
+    (`rcl_set_ros_time_override`): one shared clock for 10,000 timers made each step cost 0.2 ms.
+    The clock moves when it is read and before one of its timers fires, so no node can read a time
+    that another node has already passed.
 
     rclpy's time source would set a node's clock from the parameter `use_sim_time` and from
     `/clock` messages; both calls are accepted and change nothing.

@@ -66,7 +66,7 @@ def _three_parts(what: str, fault: Fault, means: str, to_try: str) -> str:
 
 
 class Console:
-    """Prints log lines as they come, up to a limit for each call of `run`."""
+    """Print log lines as they come, up to a limit for each call of `run`."""
 
     def __init__(self) -> None:
         self.begin()

@@ -29,17 +29,18 @@ SESSION_ARGUMENTS = ["--ros-args", "--disable-stdout-logs", "--disable-external-
 
 
 class SessionContext(Context):
-    """A context whose nodes are watched.
+    """Watch the nodes that are created in this context.
 
-    A learner's node calls `super().__init__("name")` without a context, so it lands in rclpy's
-    default context. While a session is open its context is that default.
+    A learner's node calls `super().__init__("name")` without a context, so it is created in rclpy's
+    default context. While a session is open, its context is the default.
 
     Args:
-        watcher: What is told of every node and entity made in this context.
+        watcher: Observer that is notified of every node and entity created in this context.
         domain_id: The ROS domain to join.
 
     Attributes:
-        watcher: As above; None when the session has ended, so that the context keeps nothing alive.
+        watcher: The observer; None when the session has ended, so that the context keeps nothing
+            alive.
     """
 
     def __init__(self, watcher: Watcher, domain_id: int) -> None:
@@ -99,19 +100,19 @@ class SessionContext(Context):
 
 
 class ProgramContext(Context):
-    """The default context of a program that a session plays; see `simulated_program`.
+    """Act as the default context of a program that a session runs; see `simulated_program`.
 
-    It is a real one, so that `init`, `ok` and `shutdown` do and say what they do in a process of
-    its own. The program's nodes are made in the session's context.
+    It is a real context, so that `init`, `ok` and `shutdown` behave as they do in a separate
+    process. The program's nodes are created in the session's context.
 
     Args:
-        world: The session.
-        program: The program; told of a shutdown.
+        world: The session's world.
+        program: The program, which is notified of a shutdown.
 
     Attributes:
-        watcher: The session.
-        program: As above.
-        home: The context in which nodes are made.
+        watcher: The session's world.
+        program: The program.
+        home: The context in which nodes are created.
     """
 
     def __init__(self, world: World, program: SimulatedProgram) -> None:
@@ -162,15 +163,15 @@ def show_briefly(interrupt: KeyboardInterrupt, text: str) -> None:
 
 
 class Interrupts:
-    """Remembers, within a `with` block, that Interrupt was pressed.
+    """Record whether the kernel was interrupted during a `with` block.
 
-    Python raises `KeyboardInterrupt` wherever it is, and that may be a line of Python that rclpy's
-    C code has called, to convert a message say. Then something else comes out of C: measured, one
-    interrupt in ten became `RuntimeError: Unable to convert call argument`. Whoever catches an
-    exception in the block can ask here what it really was.
+    Python raises `KeyboardInterrupt` wherever it is, and that may be in Python code that rclpy's C
+    code has called, for example to convert a message. The C code then raises another exception: in
+    a measurement, one interrupt in ten became `RuntimeError: Unable to convert call argument`. Code
+    that catches an exception in the block can ask here whether an interrupt caused it.
 
     Attributes:
-        pressed: Whether Interrupt was pressed in this block.
+        pressed: Whether the kernel was interrupted in this block.
     """
 
     def __init__(self) -> None:

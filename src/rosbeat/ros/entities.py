@@ -15,7 +15,7 @@ from rosbeat.ros.faults import asking
 
 if TYPE_CHECKING:
     from rosbeat.ros.processes import Process
-    from rosbeat.ros.recording import CallbackLabel, PublisherTap
+    from rosbeat.ros.recording import CallbackLabel, Message, PublisherTap
     from rosbeat.ros.virtual_time import VirtualTimeExecutor
 
 
@@ -33,19 +33,19 @@ def callback_name(callback: Any) -> str:  # noqa: ANN401 - a callback may be any
 
 @dataclass(eq=False)
 class NodeState:
-    """One node of a session.
+    """Hold the state of one node of a session.
 
     Attributes:
         number: Order of creation.
         name: Full name.
-        spinning: Whether its callbacks are run: it was added, has no fault and is not paused.
-        born_ns: When it was made, in nanoseconds since the session began.
+        spinning: Whether its callbacks run: it was added, has no fault and is not paused.
+        born_ns: When it was created, in nanoseconds since the session began.
         open: Whether its callbacks can run at once: it spins, and nothing in its process waits.
         paused: Whether the session was told to pause it.
-        ended: Whether it raised in a callback or asked for shutdown; it does not come back.
-        logger: The logger handed to its code, made at the first call of `get_logger`.
+        ended: Whether it raised in a callback or requested a shutdown; this is permanent.
+        logger: The logger for its code, created at the first call of `get_logger`.
         entries: Its timers, subscriptions, servers and clients, in order of creation.
-        taps: What listens to its publishers, in order of creation.
+        taps: The taps on its publishers, in order of creation.
         actions: Its action servers and clients, in order of creation; see `actions`.
     """
 
@@ -66,20 +66,21 @@ class NodeState:
 
 @dataclass(eq=False, slots=True)
 class Entry:
-    """One timer, subscription, server or client, and what the executor needs of it.
+    """Hold one timer, subscription, server or client, with the data that the executor needs.
 
     Attributes:
         number: Order of creation over the whole session.
-        kind: `timer`, `wall timer` (on another clock than the session's: it fires in live mode
+        kind: `timer`, `wall timer` (on a clock other than the session's: it fires in live mode
             only), `subscription`, `service`, `client` or `event`.
-        entity: rclpy's object; its entities share no base class.
+        entity: The rclpy object; rclpy's entities share no base class.
         name: Full topic or service name; empty for a timer.
-        label: What its runs are recorded as.
-        take: Takes one thing that has arrived; a timer has none. See `TAKERS`.
-        handle: The entity's, which is a property and so takes a call to get; None for an event.
+        label: The label under which its runs are recorded.
+        take: Takes one item that has arrived; a timer has none. See `TAKERS`.
+        handle: The entity's handle, cached because the property is slow; None for an event.
         calls: How often its callback has run.
-        born: Of a subscription: how many messages had been recorded when it was made.
-        deadline: Where the agenda keeps a timer, in nanoseconds; None if it waits elsewhere.
+        born: Of a subscription: how many messages had been recorded when it was created.
+        deadline: Position of a timer in the agenda, in nanoseconds; None if the agenda has set it
+            aside.
     """
 
     number: int
@@ -125,6 +126,7 @@ def take_message(entry: Entry, _: object) -> Work | None:
 def message_work(entry: Entry, taken: tuple[Any, ...]) -> Work:
     """Return the callback of a subscription, and its arguments for a message and its info."""
     subscription = entry.entity
+    # rclpy looks once at what a callback takes, and keeps the answer in this attribute.
     only = subscription._callback_type is _MESSAGE_ONLY
     return subscription.callback, taken[:1] if only else taken
 
@@ -140,17 +142,17 @@ def take_request(entry: Entry, executor: VirtualTimeExecutor) -> Work | None:
     return serve, (entry, request, header, executor)
 
 
-async def _serve_later(entry: Entry, *asked: Any) -> None:  # noqa: ANN401
+async def _serve_later(entry: Entry, *asked: Any) -> None:  # noqa: ANN401 - see `_answer`
     response = await entry.entity.callback(asked[0], entry.entity.srv_type.Response())
     _answer(entry, response, *asked[1:])
 
 
-def _serve(entry: Entry, *asked: Any) -> None:  # noqa: ANN401
+def _serve(entry: Entry, *asked: Any) -> None:  # noqa: ANN401 - see `_answer`
     response = entry.entity.callback(asked[0], entry.entity.srv_type.Response())
     _answer(entry, response, *asked[1:])
 
 
-def _answer(entry: Entry, response: Any, header: Any, executor: VirtualTimeExecutor) -> None:  # noqa: ANN401
+def _answer(entry: Entry, response: Message, header: Any, executor: VirtualTimeExecutor) -> None:  # noqa: ANN401 - filled in C
     with asking("send_response", response):
         entry.entity.send_response(response, header)
     executor.happened("client", entry.name, entry.state)

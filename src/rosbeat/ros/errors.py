@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from math import inf, isfinite
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
@@ -37,8 +37,12 @@ _LONGEST = 1e9
 # Checks.
 
 
-def check_whole(name: str, value: Any, low: int, high: int, example: str = "") -> None:  # noqa: ANN401
-    """Raise a SessionError for anything but a whole number from `low` to `high`."""
+def check_whole(name: str, value: object, low: int, high: int, example: str = "") -> None:
+    """Check that a value is a whole number from `low` to `high`.
+
+    Raises:
+        SessionError: If it is anything else.
+    """
     if isinstance(value, int) and not isinstance(value, bool) and low <= value <= high:
         return
     raise SessionError(
@@ -48,8 +52,12 @@ def check_whole(name: str, value: Any, low: int, high: int, example: str = "") -
     )
 
 
-def check_name(call: str, value: Any) -> str:  # noqa: ANN401
-    """Raise a SessionError for anything but a text."""
+def check_name(call: str, value: object) -> str:
+    """Return a value that is a string.
+
+    Raises:
+        SessionError: If it is anything else.
+    """
     if isinstance(value, str):
         return value
     raise SessionError(
@@ -60,7 +68,11 @@ def check_name(call: str, value: Any) -> str:  # noqa: ANN401
 
 
 def check_end(time_ns: int) -> int:
-    """Raise a DurationError for a time that ROS cannot express in a signed 64-bit number."""
+    """Return a time in nanoseconds that fits into a signed 64-bit number, as ROS requires.
+
+    Raises:
+        DurationError: If it does not fit.
+    """
     if time_ns < 2**63:
         return time_ns
     raise DurationError(
@@ -70,8 +82,16 @@ def check_end(time_ns: int) -> int:
     )
 
 
-def duration_ns(seconds: Any, what: str = "run(seconds=...)") -> int:  # noqa: ANN401
-    """Convert seconds to whole nanoseconds; raise a DurationError unless they are 0 to 1e9."""
+def duration_ns(seconds: object, what: str = "run(seconds=...)") -> int:
+    """Convert seconds to whole nanoseconds.
+
+    Args:
+        seconds: A number from 0 to 1e9.
+        what: The call that was given the number, for the error.
+
+    Raises:
+        DurationError: If it is not such a number.
+    """
     if not isinstance(seconds, Real) or isinstance(seconds, bool):
         problem = f"{seconds!r}, which is of type {type(seconds).__name__}."
     else:

@@ -80,7 +80,7 @@ _NOTE = "_rosbeat_asked"
 
 
 @contextmanager
-def asking(method: str, *given: Any, **named: Any) -> Iterator[None]:  # noqa: ANN401
+def asking(method: str, *given: object, **named: object) -> Iterator[None]:
     """Note a call on the exception that it raises; the innermost call counts."""
     try:
         yield
@@ -101,7 +101,7 @@ def failed_call(method: str, given: tuple[Any, ...], named: dict[str, Any]) -> F
     return FailedCall(method, tuple(map(_described, given)), words)
 
 
-def _described(one: Any) -> Argument:  # noqa: ANN401
+def _described(one: object) -> Argument:
     if isinstance(one, type):
         kind = "message_type" if is_message_class(one) else "type"
         return Argument(kind, one.__name__)

@@ -19,6 +19,7 @@ from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
@@ -35,7 +36,7 @@ from rosbeat.ros.context import show_briefly
 from rosbeat.ros.entities import NodeState, full_name
 from rosbeat.ros.errors import nearest
 from rosbeat.ros.qos_events import fit, limit_ns
-from rosbeat.ros.recording import Channel, Memory, Recorder, Unwatched, type_name
+from rosbeat.ros.recording import Channel, Memory, Message, Recorder, Unwatched, type_name
 
 if TYPE_CHECKING:
     from rosbeat.ros.world import World
@@ -126,7 +127,7 @@ _numbers = count(1)  # only makes names differ
 
 
 class HiddenNode(Unwatched, Node):
-    """Takes part in a domain without services and log topic, hidden as `ros2`'s own nodes are."""
+    """Join a domain without services or log topic, hidden like the nodes of `ros2` commands."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(
@@ -139,9 +140,9 @@ class HiddenNode(Unwatched, Node):
 
 
 class GraphObserver(HiddenNode):
-    """Asks the middleware for the graph of a domain, the nodes of other processes included.
+    """Query the middleware for the graph of a domain, including the nodes of other processes.
 
-    Discovery begins when it is made, so a session keeps one from its beginning on.
+    Discovery starts on construction, so a session creates its observer at the beginning.
     """
 
     def __init__(self, context: Context) -> None:
@@ -385,7 +386,7 @@ _UNKNOWN_PUBLISHER = "?"
 
 
 class PublicationLog:
-    """Notes when a publisher of the session published each of its messages."""
+    """Record when a publisher of the session published each of its messages."""
 
     def __init__(self, publisher: Any) -> None:  # noqa: ANN401 - rclpy is untyped
         self._begins, self._ends = begins, ends = array("q"), array("q")
@@ -411,7 +412,7 @@ class PublicationLog:
 
 
 class ExternalMessages:
-    """Records the messages that come from other processes."""
+    """Record the messages that come from other processes."""
 
     def __init__(self, observer: GraphObserver, recorder: Recorder, now: Callable[[], int]) -> None:
         self._observer, self._recorder, self._now = observer, recorder, now
@@ -421,7 +422,7 @@ class ExternalMessages:
         self._last: dict[str, Channel] = {}
         self._memories: dict[str, Memory] = {}
 
-    def watch_publisher(self, publisher: Any) -> None:  # noqa: ANN401
+    def watch_publisher(self, publisher: Publisher) -> None:
         """Recognize what this publisher of the session sends."""
         self._own[publisher.topic_name].append(PublicationLog(publisher))
 
@@ -442,7 +443,7 @@ class ExternalMessages:
         number, sent = info["publication_sequence_number"], info["source_timestamp"]
         return any(own.has(number, sent) for own in self._own[topic])
 
-    def _record(self, topic: str, message: Any, info: dict[str, int]) -> None:  # noqa: ANN401
+    def _record(self, topic: str, message: Message, info: dict[str, int]) -> None:
         if self.is_own(topic, info):
             return
         key = topic, info["publication_sequence_number"], info["source_timestamp"]
@@ -476,14 +477,15 @@ def _with_message_info(
 ) -> Callable[..., Any]:
     """Return a callback that is given each message's info, and calls `arrived` first."""
     original = subscription.callback
+    # rclpy looks once at what a callback takes, and keeps the answer in this attribute.
     wants_info = subscription._callback_type is Subscription.CallbackType.WithMessageInfo
 
-    def call(message: Any, info: dict[str, int]) -> Any:  # noqa: ANN401
+    def call(message: Message, info: dict[str, int]) -> Any:  # noqa: ANN401 - the learner's callback's result
         arrived(message, info)
         return original(message, info) if wants_info else original(message)
 
     # Executors await what a coroutine function returns, and nothing else.
-    async def call_later(message: Any, info: dict[str, int]) -> Any:  # noqa: ANN401
+    async def call_later(message: Message, info: dict[str, int]) -> Any:  # noqa: ANN401 - the same
         coroutine: Coroutine[Any, Any, Any] = call(message, info)
         return await coroutine
 

@@ -17,7 +17,7 @@ from rclpy.timer import Timer
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.launch import Maker, build_in
-from rosbeat.ros.recording import message_class
+from rosbeat.ros.recording import Message, message_class
 from rosbeat.ros.world import World, state_of
 
 #: The name of the node through which the panel publishes.
@@ -25,9 +25,10 @@ INJECTOR = "instrument_panel"
 
 
 class Injector(Node):
-    """Publishes numbers on topics, once or every second, and runs a slow callback if asked to.
+    """Publish numbers on topics, once or every second, and run a slow callback on request.
 
-    It is in the graph like any node, since a subscriber does hear it.
+    The injector appears in the graph like any other node, because subscriptions do receive its
+    messages.
     """
 
     def __init__(self, context: Context) -> None:
@@ -74,14 +75,15 @@ class Injector(Node):
 
 
 class TopicFault:
-    """Loses or changes what nodes publish on one topic.
+    """Drop or change what nodes publish on one topic.
 
-    It sits between a node and its publisher, before the recording: what is recorded is what really
-    went out.
+    The fault applies between a node and its publisher, before recording, so the recording contains
+    what was really sent.
 
     Attributes:
         kind: `none`, `dropout`, `nan` or `offset`.
-        amount: Of a dropout the share that is lost, in percent; of an offset what is added.
+        amount: Of a dropout, the share of lost messages in percent; of an offset, the number to
+            add.
     """
 
     def __init__(self, topic: str) -> None:
@@ -105,12 +107,12 @@ class TopicFault:
             publisher.publish = publish
         self._originals.clear()
 
-    def _publish(self, send: Callable[[Any], None], msg: Any) -> None:  # noqa: ANN401
+    def _publish(self, send: Callable[[Message], None], msg: Message) -> None:
         if self.kind == "dropout" and self._random.uniform(0, 100) < self.amount:
             return
         send(self._changed(msg))
 
-    def _changed(self, msg: Any) -> Any:  # noqa: ANN401
+    def _changed(self, msg: Message) -> Message:
         value = getattr(msg, "data", None)
         if not isinstance(value, float):  # bytes, or what rclpy refuses in its own words
             return msg

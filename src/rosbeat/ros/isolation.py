@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from functools import partial
 from io import TextIOBase
 from pathlib import Path
-from types import FrameType, TracebackType
+from types import FrameType, ModuleType, TracebackType
 from typing import Any, NoReturn
 from weakref import WeakSet
 
@@ -49,27 +49,27 @@ _OURS = (_ROSBEAT, str(Path(rclpy.__file__).parent))
 
 
 class DeadlinePassed(BaseException):
-    """Raised in code that still runs when its time is up."""
+    """Signal, in code that still runs, that its time is up."""
 
     def __str__(self) -> str:
         return "the time is up"
 
 
 class Deadline:
-    """Ends a block of code in time: `with Deadline(1.0) as deadline: ...`.
+    """End a block of code after a time limit: `with Deadline(1.0) as deadline: ...`.
 
     When the time is up, the handler of `SIGALRM` raises `DeadlinePassed` in the middle of an
     endless loop, a wait or a sleep. Code that catches everything (`while True: try: ... except:
     pass`) gets the next exception while it handles the last one, or between two rounds of its loop:
-    from the second one on, the timer is set to a few microseconds, another number each time. Code
-    that catches an Interrupt ends soon after it.
+    from the second exception on, the timer is set to a few microseconds, a different number each
+    time. Code that catches an Interrupt ends soon after it.
 
-    Python handles signals in the main thread only, so in another thread nothing ends. Neither a
-    deadline nor Interrupt ends a long call of C, such as `sum(range(10**12))`.
+    Python handles signals in the main thread only, so a deadline has no effect in another thread.
+    Neither a deadline nor Interrupt ends a long call of C code, such as `sum(range(10**12))`.
 
     Args:
-        seconds: How long the block may take, in seconds of wall time; `passed` says if it took
-            longer.
+        seconds: Time limit for the block, in seconds of wall time; `passed` tells whether the block
+            took longer.
         noting: Called once, at the moment when the time is up.
     """
 
@@ -237,16 +237,16 @@ _RESERVED: dict[str, Callable[..., Any]] = {
 
 @dataclass
 class Count:
-    """How many characters were printed, on both streams, by code that is not rosbeat's own."""
+    """Count the characters that code other than rosbeat's own printed, on both streams."""
 
     characters: int = 0
 
 
 class Sink(TextIOBase):
-    """A stream that counts what is written and forgets it.
+    """Count what is written to the stream, and discard it.
 
-    What threads print that were there before goes to the `real` stream: they are none of the
-    learner's node.
+    Output of threads that already existed goes to the `real` stream, because they do not belong to
+    the learner's node.
     """
 
     encoding = "utf-8"
@@ -363,7 +363,7 @@ def _set_environment(before: dict[str, str]) -> None:
         os.environ.update(before)
 
 
-def _names(owner: Any, names: tuple[str, ...]) -> Callable[[], object]:  # noqa: ANN401
+def _names(owner: ModuleType | type, names: tuple[str, ...]) -> Callable[[], object]:
     """Return a function that restores the names of a module or class."""
     # `_` is the last result of a cell, for IPython's own use.
     before = {name: vars(owner)[name] for name in names or vars(owner) if name != "_"}

@@ -32,7 +32,7 @@ _SIM_TIME = "use_sim_time"
 
 
 class Start(TypedDict, total=False):
-    """The keyword arguments of `Session.add`; see `Launch`."""
+    """Hold the keyword arguments of `Session.add`; see `Launch`."""
 
     name: str | None
     namespace: str | None
@@ -42,10 +42,10 @@ class Start(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Launch:
-    """How a node is started.
+    """Describe how a node is started.
 
-    `remappings` has new names of topics and services by those in its code. An empty `name` keeps
-    the node's own.
+    `remappings` maps the topic and service names in the node's code to new names. If `name` is
+    empty, the node keeps its own name.
     """
 
     name: str = ""
@@ -74,7 +74,7 @@ class Launch:
 
 @dataclass(frozen=True)
 class Maker:
-    """A node class or a function that returns a node, and how the node is started."""
+    """Hold a node class or a function that returns a node, and how the node is started."""
 
     make: Callable[[], Any]
     start: Launch = Launch()

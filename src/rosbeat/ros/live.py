@@ -25,6 +25,7 @@ from rclpy.task import Future, Task
 from rosbeat.ros.entities import Entry, take_message
 
 if TYPE_CHECKING:
+    from rosbeat.ros.recording import Entity
     from rosbeat.ros.world import World
 
 #: Seconds that a callback may still take when live mode ends; then it is broken off.
@@ -34,18 +35,18 @@ _INTERRUPT_TIMEOUT = 0.1
 
 
 class BrokenOff(BaseException):
-    """Thrown into a callback that does not return although Interrupt or an end was asked for."""
+    """Signal to a callback that does not return that it has been asked to end."""
 
     def __str__(self) -> str:
         return "it did not return, so it was broken off"
 
 
 class LiveExecutor(SingleThreadedExecutor):
-    """rclpy's own single-threaded executor, supervised.
+    """Run rclpy's own single-threaded executor under supervision.
 
     rclpy re-raises what a callback raises, which would end the thread and silence every node. Here
-    the session is told, the node that raised is taken out, and the others go on. `current` is the
-    node whose callback is running, and `task` its task.
+    the session is notified and the node that raised is removed, and the other nodes continue.
+    `current` is the node whose callback is running, and `task` its task.
     """
 
     def __init__(self, context: Context, world: World) -> None:
@@ -130,7 +131,7 @@ class LiveExecutor(SingleThreadedExecutor):
             except (ConditionReachedException, ShutdownException, ExternalShutdownException):
                 return
 
-    def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
+    def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
         self._world.callback_ran(entity, node)
         return super()._make_handler(entity, node, take)
 

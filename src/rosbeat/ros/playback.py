@@ -18,7 +18,7 @@ NodeFactory = Callable[[], Node]
 
 
 class PlayedTopic(NamedTuple):
-    """A topic to publish on: its full name, its type and the QoS to offer."""
+    """Describe a topic to publish on: its full name, its type and the QoS to offer."""
 
     topic: str
     type_name: str
@@ -26,9 +26,10 @@ class PlayedTopic(NamedTuple):
 
 
 class PlayedStep(NamedTuple):
-    """What to publish in one callback, in nanoseconds after the node was made.
+    """Describe what to publish in one callback.
 
-    `messages` has pairs of topic, counted from 0, and serialized message.
+    `time_ns` counts from the creation of the node. `messages` holds pairs of a topic's index and a
+    serialized message.
     """
 
     time_ns: int

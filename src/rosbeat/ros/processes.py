@@ -11,12 +11,15 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from greenlet import greenlet
 
 from rosbeat.ros.entities import Entry, NodeState
 from rosbeat.ros.recording import CallbackLabel
+
+if TYPE_CHECKING:
+    from rosbeat.ros.simulated_program import SimulatedProgram
 
 #: The order in which rclpy's executor takes what is ready in a node (`_wait_for_ready_callbacks`).
 _RANK = {"event": 0, "timer": 1, "subscription": 2, "client": 3, "service": 4}
@@ -24,10 +27,10 @@ _RANK = {"event": 0, "timer": 1, "subscription": 2, "client": 3, "service": 4}
 
 @dataclass(eq=False, slots=True)
 class Spin:
-    """One call of a `spin` function: while it lasts, callbacks of its process run.
+    """Represent one call of a `spin` function, during which callbacks of its process run.
 
     It spins `states`, or all nodes of the process, and `left` more callbacks may begin, or any
-    number.
+    number if it is None.
     """
 
     states: Collection[NodeState] | None = None
@@ -35,22 +38,22 @@ class Spin:
 
 
 class Process:
-    """A simulated operating-system process: nodes, and the one executor that runs their callbacks.
+    """Simulate an operating-system process: nodes, and the one executor that runs their callbacks.
 
     Args:
         threads: 1 for rclpy's `SingleThreadedExecutor`, more for a `MultiThreadedExecutor`.
-        program: The program that runs in it; without one its nodes are spun from the beginning,
-            as the `main` of most programs does.
+        program: The program that runs in the process; without one its nodes spin from the
+            beginning, as in the `main` of most programs.
 
     Attributes:
-        spins: The calls of `spin` that are open, the innermost last. Callbacks run only meanwhile.
-        calls: Callbacks that have begun and wait for something, in the order in which they began.
-        pending: What is ready and could not run at once: timers that are due, and entities whose
-            queues may hold something.
-        due: How many of its timers are due at this instant and have not had their turn.
+        spins: The active calls of `spin`, innermost last. Callbacks run only during such a call.
+        calls: Callbacks that have begun and are waiting, in the order in which they began.
+        pending: Entities that are ready but could not run at once: timers that are due, and
+            entities whose queues may hold something.
+        due: How many of its timers are due at this instant and have not run yet.
     """
 
-    def __init__(self, threads: int = 1, program: Any = None) -> None:  # noqa: ANN401
+    def __init__(self, threads: int = 1, program: SimulatedProgram | None = None) -> None:
         self.threads, self.program = threads, program
         self.states: list[NodeState] = []
         self.spins: list[Spin] = [] if program else [Spin()]
@@ -137,16 +140,16 @@ def _place(entry: Entry) -> tuple[int, int, int]:
 
 @dataclass(eq=False, slots=True)
 class Call:
-    """Code of a node that is at work: a callback, a constructor, or the `main` of a program.
+    """Represent running code of a node: a callback, a constructor, or the `main` of a program.
 
     Attributes:
         state: The node whose callback it is; None for a constructor or a `main`.
-        entry: The entity whose callback it is, if it is one's.
-        began_ns: When it began to wait for the first time; -1 if it never has.
+        entry: The entity whose callback it is, if there is one.
+        began_ns: When it first began to wait, in nanoseconds; -1 if it never has.
         spinning: Whether it waits in a `spin`, so that its thread runs other callbacks.
-        wait: What it waits for now.
+        wait: The current wait, if there is one.
         holds_group: Whether it occupies its callback group.
-        broken: How often it was told to end, from outside; it must not wait again.
+        broken: How often it was told to end from outside; above 0, it must not wait again.
     """
 
     process: Process
@@ -161,13 +164,13 @@ class Call:
 
     @property
     def node(self) -> str:
-        """Full name of the node whose code it is, or of the first node of its process."""
+        """Return the full name of the node whose code runs, or of the first node of its process."""
         states = self.process.states
         return self.state.name if self.state else states[0].name if states else ""
 
     @property
     def name(self) -> str:
-        """Name of the function, such as `publish_temperature`."""
+        """Return the name of the function, such as `publish_temperature`."""
         if self.label is not None:
             return self.label.name
         return "main" if self.process.program else "__init__"
@@ -175,17 +178,17 @@ class Call:
 
 @dataclass(eq=False, slots=True)
 class Wait:
-    """What a call waits for.
+    """Describe the condition that a call waits for.
 
     Attributes:
-        thread: The greenlet that goes on when the wait is over.
-        reason: What for, in words: `sleep`, or `an answer from /add`.
-        began_ns: Since when, in nanoseconds of virtual time.
-        until_ns: Until when at most; None without a limit.
-        met: Returns whether it has come true; None if only time or `end_wait` ends it.
+        thread: The greenlet that resumes when the wait is over.
+        reason: Short description of the condition: `sleep`, or `an answer from /add`.
+        began_ns: When the wait began, in nanoseconds of virtual time.
+        until_ns: When the wait times out; None without a limit.
+        met: Returns whether the condition holds; None if only time or `end_wait` ends the wait.
         needs: The entity of the same process whose callback has to run first, if there is one.
-        error: What is raised in the call when it goes on.
-        reported: Whether it was reported as a deadlock.
+        error: The exception to raise in the call when it resumes.
+        reported: Whether the wait was reported as a deadlock.
     """
 
     call: Call | None

@@ -65,12 +65,12 @@ def private_domain() -> Iterator[int]:
 
 
 class Program:
-    """Runs a program in a `with` block, and kills its process group at the end.
+    """Run a program in a `with` block, and kill its process group at the end.
 
     Its `name` in the record is by default the last word of the command.
 
     Raises:
-        OSError: If it cannot be started.
+        OSError: If the program cannot be started.
     """
 
     def __init__(
@@ -150,7 +150,7 @@ def domain_probe(domain_id: int, topic: str) -> Iterator[DomainProbe]:
 
 
 class DomainProbe:
-    """Publishes and receives `Float32` messages; see `domain_probe`."""
+    """Publish and receive `Float32` messages; see `domain_probe`."""
 
     def __init__(self, session: Session, topic: str) -> None:
         self._session = session

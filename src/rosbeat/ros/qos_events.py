@@ -18,13 +18,14 @@ from rclpy.event_handler import (
 )
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rclpy.qos import HistoryPolicy, QoSCompatibility, QoSProfile, qos_check_compatible
 
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS
 from rosbeat.ros.entities import Entry, NodeState, Work, callback_name, message_work
 
 if TYPE_CHECKING:
-    from rosbeat.ros.recording import PublisherTap
+    from rosbeat.ros.recording import Entity, PublisherTap
     from rosbeat.ros.world import World
 
 # The middleware counts deadlines and lifespans by the wall clock, and in virtual time a minute
@@ -174,16 +175,16 @@ class _Requested(QoSRequestedDeadlineMissedInfo):
 
 
 class Deadline:
-    """The deadline of one publisher or subscription.
+    """Track the deadline of one publisher or subscription.
 
     Attributes:
-        entry: What its callback is to the executor.
+        entry: The executor's entry for its callback.
         due: When it will be missed next, in nanoseconds; None before the first message.
     """
 
     entry: Entry
 
-    def __init__(self, handler: EventHandler, endpoint: Any, period_ns: int) -> None:  # noqa: ANN401
+    def __init__(self, handler: EventHandler, endpoint: Entity, period_ns: int) -> None:
         self.endpoint, self._callback = endpoint.handle, handler.callback
         self._info = _Offered if "PUBLISHER" in handler.event_type.name else _Requested
         self._period = period_ns
@@ -216,7 +217,7 @@ class Deadline:
 
 
 class Deadlines(list[Deadline]):
-    """The deadlines of a session, which are few: each has a callback of a learner's."""
+    """Hold the deadlines of a session: few, because each needs a callback in a learner's code."""
 
     def next_due(self) -> int | None:
         """Return when the next one passes, in nanoseconds; None if none will."""
@@ -248,7 +249,7 @@ class Deadlines(list[Deadline]):
 
 
 class Limits:
-    """The deadlines and lifespans of one session."""
+    """Count the missed deadlines and apply the lifespans of one session."""
 
     def __init__(self, home: World) -> None:
         self._home, self._thread = home, get_ident()
@@ -259,7 +260,7 @@ class Limits:
         self._sent: dict[str, list[tuple[int, int, PublisherTap]]] = {}
         self._noted: set[PublisherTap] = set()
 
-    def publisher_made(self, state: NodeState, publisher: Any, tap: PublisherTap) -> None:  # noqa: ANN401
+    def publisher_made(self, state: NodeState, publisher: Publisher, tap: PublisherTap) -> None:
         """Count what a new publisher offers, and let those that wait for messages hear it."""
         heard = self._deadline_of(state, publisher)
         if heard is not None:
@@ -293,7 +294,7 @@ class Limits:
         if stored:
             heard()
 
-    def _deadline_of(self, state: NodeState, endpoint: Any) -> Callable[[], None] | None:  # noqa: ANN401
+    def _deadline_of(self, state: NodeState, endpoint: Entity) -> Callable[[], None] | None:
         """Begin to count; return what is to be called at each message, or None if nobody asked."""
         period = limit_ns(endpoint.qos_profile.deadline)
         found = [one for one in endpoint.event_handlers if event_name(one) == "deadline"]

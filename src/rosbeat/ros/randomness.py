@@ -53,7 +53,7 @@ def _straighten() -> None:
 
 
 class SeededRandom:
-    """The random state of one session; NumPy takes its seed modulo 2**32."""
+    """Hold the random state of one session; NumPy takes its seed modulo 2**32."""
 
     def __init__(self, seed: int) -> None:
         self._seed = seed

@@ -47,6 +47,11 @@ from rosbeat.ros.qos_events import as_written, fit, is_alive, limit_ns, make_str
 if TYPE_CHECKING:
     from rosbeat.ros.world import World
 
+#: What rclpy hands over without a base class or types: the messages, requests, responses, goals and
+#: results of generated classes, and the entities of a node, such as publishers, timers and clients.
+Message: TypeAlias = Any
+Entity: TypeAlias = Any
+
 # Messages as plain data.
 #
 # A node may change a message object after publishing it, so what is recorded must be a copy. Of a
@@ -104,20 +109,20 @@ def plain(value: Any) -> Any:  # noqa: ANN401 - a field may hold anything a mess
 
 
 class Memory:
-    """Copies messages of one type and gives them back.
+    """Copy messages of one type, and restore them.
 
-    `take` makes the copy, which is small and immutable. The bytes of a serialized message are a
-    copy, too.
+    `take` makes the copy, which is small and immutable: a tuple of fields, or the bytes of the
+    serialized message.
     """
 
     def __init__(self, message_type: type) -> None:
         self._type, self.type_name = message_type, type_name(message_type)
-        fields = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]
+        fields = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]  # every message class has it
         flat = bool(fields) and _ARRIVING.keys() >= set(fields.values())
         self._fields = [(name, _ARRIVING[kind]) for name, kind in fields.items() if flat]
         self.take: Callable[[Any], Any] = attrgetter(*fields) if flat else serialize_message
 
-    def plain(self, copy: Any) -> dict[str, Any]:  # noqa: ANN401
+    def plain(self, copy: Any) -> dict[str, Any]:  # noqa: ANN401 - what `take` makes
         """Return the copied message as plain data, with the rounding that the wire does."""
         if isinstance(copy, bytes):
             data: dict[str, Any] = plain(deserialize_message(copy, self._type))
@@ -137,7 +142,7 @@ class Memory:
 
 @dataclass(frozen=True)
 class Channel:
-    """Where messages come from: one publisher of one node; see `Sample` for the fields."""
+    """Identify the source of messages: one publisher of one node; see `Sample` for the fields."""
 
     number: int
     topic: str
@@ -147,7 +152,7 @@ class Channel:
 
 @dataclass(frozen=True)
 class CallbackLabel:
-    """What all runs of one callback have in common; see `CallbackRecord` for the fields."""
+    """Hold what all runs of one callback have in common; see `CallbackRecord` for the fields."""
 
     number: int
     node: str
@@ -191,7 +196,7 @@ class Recorder:
         made = CallbackLabel(len(self._labels), node, kind, name, source)
         return self._labels.setdefault((node, kind, name, source), made)
 
-    def add_sample(self, channel: int, time_ns: int, copy: Any) -> None:  # noqa: ANN401
+    def add_sample(self, channel: int, time_ns: int, copy: Any) -> None:  # noqa: ANN401 - what `Memory.take` makes
         """Record a message that was published on the channel of this number."""
         self._sample_times.append(time_ns)
         self._sample_channels.append(channel)
@@ -310,20 +315,21 @@ def _classes_of(module: ModuleType) -> tuple[type, ...]:
 # is neither that nor transient-local. A test tries all combinations.
 _ASK_FOR_STORED = {DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.BEST_AVAILABLE}
 _ASK_AGAIN = {ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_AVAILABLE}
+#: For a call of rclpy's C code, which takes the handle of a duration.
 _AT_ONCE = Duration()._duration_handle
 
 
 class PublisherTap:
-    """Listens to one publisher.
+    """Listen to one publisher.
 
     Args:
-        publisher: The publisher; its `publish` is replaced by one that also tells `heard`.
+        publisher: The publisher; its `publish` is wrapped so that it also notifies `heard`.
         memory: Copies its messages.
         heard: Called with the copy after each message that was really published.
 
     Attributes:
-        count: How many messages were published.
-        lifespan_ns: How long it stores a message; 0 without a limit.
+        count: Number of published messages.
+        lifespan_ns: How long the publisher stores a message; 0 without a limit.
     """
 
     def __init__(self, publisher: Publisher, memory: Memory, heard: Callable[[Any], None]) -> None:
@@ -432,7 +438,7 @@ class SessionLogger(RcutilsLogger):
         child.logger_sublogger_namepair = None
         return made
 
-    def log(self, message: str, severity: LoggingSeverity, **options: Any) -> bool:  # noqa: ANN401
+    def log(self, message: str, severity: LoggingSeverity, **options: Any) -> bool:  # noqa: ANN401 - passed on
         """Log a line, as rclpy does; return whether it was logged."""
         frame = sys._getframe(1)
         while frame.f_back and frame.f_code.co_filename in _OWN_FILES:
@@ -491,7 +497,7 @@ def watcher_of(node: Node) -> Watcher | None:
 
 def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
     @wraps(original)
-    def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401
+    def init(node: Node, *args: Any, **kwargs: Any) -> None:  # noqa: ANN401 - passed on
         context: Any = kwargs.get("context") or get_default_context()
         watcher = getattr(context, "watcher", None)
         name = kwargs.get("node_name", args[0] if args else None)
@@ -534,7 +540,7 @@ def in_kernel() -> bool:
 
 def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]:
     @wraps(original)
-    def create(node: Node, *args: Any, **kwargs: Any) -> Any:  # noqa: ANN401
+    def create(node: Node, *args: Any, **kwargs: Any) -> Entity:  # noqa: ANN401 - passed on
         watcher = watcher_of(node)
         with asking(original.__name__, *args, **kwargs):
             if watcher is None:
@@ -563,6 +569,7 @@ def _refuse_a_message(call: str, kind: object) -> None:
 
 
 def _install() -> None:
+    # The two public methods that list publishers and subscriptions both ask `_get_info_by_topic`.
     destroy, get_logger, infos = Node.destroy_node, Node.get_logger, Node._get_info_by_topic
 
     @wraps(destroy)
@@ -573,12 +580,12 @@ def _install() -> None:
         destroy(node)
 
     @wraps(get_logger)
-    def watched_logger(node: Node) -> Any:  # noqa: ANN401
+    def watched_logger(node: Node) -> RcutilsLogger:
         watcher = watcher_of(node)
         return get_logger(node) if watcher is None else watcher.logger_of(node, get_logger(node))
 
     @wraps(infos)
-    def watched_infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401
+    def watched_infos(node: Node, *args: Any, **kwargs: Any) -> list[Any]:  # noqa: ANN401 - passed on
         told = infos(node, *args, **kwargs)
         return told if watcher_of(node) is None else as_written(told)
 

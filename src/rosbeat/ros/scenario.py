@@ -27,6 +27,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.action import ActionClient
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.task import Future
 
 from rosbeat.errors import NodeClassError, NodeConstructionError, NoSystemError, RosbeatError
 from rosbeat.records import (
@@ -163,12 +164,12 @@ _STATUS = {
 
 
 class Steps:
-    """Carries out steps, given in any order, at their times.
+    """Carry out steps, given in any order, at their times.
 
     Attributes:
         subject: Full name of the learner's node.
-        records: A callback record of the kind `step` for each step that was done.
-        replies: What services, actions and parameters answered.
+        records: A callback record of the kind `step` for each completed step.
+        replies: Replies of services, actions and parameters.
     """
 
     def __init__(self, session: Session, steps: Iterable[Step]) -> None:
@@ -240,7 +241,7 @@ class Steps:
     def _send_goal(self, step: SendGoal, client: Any) -> None:  # noqa: ANN401 - of any action
         reply = self._replier(f"/{step.action.lstrip('/')}")
 
-        def accepted_or_rejected(future: Any) -> None:  # noqa: ANN401
+        def accepted_or_rejected(future: Future) -> None:
             goal = future.result()
             reply("goal", {"accepted": goal.accepted})
             if goal.accepted:
@@ -249,6 +250,7 @@ class Steps:
                     lambda future: reply("result", _result(future.result()))
                 )
 
+        # An action client has no public name for its type.
         goal = client._action_type.Goal(**step.goal)
         sent = client.send_goal_async(goal, lambda heard: reply("feedback", plain(heard.feedback)))
         sent.add_done_callback(accepted_or_rejected)
@@ -397,7 +399,7 @@ class _Run:
         no time: the run begins when the nodes are there.
         """
         self._constructing = True
-        self._world.node_begins = lambda *_: None  # type: ignore[method-assign]
+        self._world.node_begins = lambda *_: None  # type: ignore[method-assign]  # undone below
         self._world.virtual.constructor_waits = self._count_wait
         try:
             yield
@@ -413,8 +415,8 @@ class _Run:
         """Add the learner's node; of an instance, its class is used."""
         make = type(answer.make) if isinstance(answer.make, Node) else answer.make
         if isclass(make):  # a function may be a program's main, which calls both
-            self._world.explain_init = _refuse_init  # type: ignore[method-assign]
-            self._world.explain_shutdown = self._shut_down  # type: ignore[method-assign]
+            self._world.explain_init = _refuse_init  # type: ignore[method-assign]  # this world only
+            self._world.explain_shutdown = self._shut_down  # type: ignore[method-assign]  # the same
         node = self._add(replace(answer, make=make))
         self._steps.subject = self._world.name_of(node) or ""
         state = self._world.state_of(node)
@@ -574,7 +576,7 @@ def observe_system(
     seconds: float,
     *,
     parameters: Mapping[str, Any] | None = None,
-    **options: Any,  # noqa: ANN401
+    **options: Any,  # noqa: ANN401 - those of `observe`
 ) -> Observation:
     """Run the nodes of an answer, as a launch file would start them; otherwise like `observe`.
 
@@ -619,7 +621,7 @@ def _makers(answer: Any) -> list[Maker]:  # noqa: ANN401 - whatever a learner ha
     return [_maker(one) for one in listed]
 
 
-def _maker(one: Any) -> Maker:  # noqa: ANN401
+def _maker(one: Any) -> Maker:  # noqa: ANN401 - whatever a learner hands over
     if isinstance(one, Maker):
         return one
     if not isinstance(one, tuple | list):

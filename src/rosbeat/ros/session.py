@@ -44,9 +44,9 @@ spinning.install()
 
 
 class Session:
-    """Runs ROS nodes inside a page, in virtual time or live, and records what they do.
+    """Run ROS nodes inside a page, in virtual time or live, and record what they do.
 
-    The page's own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
+    The pages' own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
     """
 
     def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
@@ -178,7 +178,7 @@ class Session:
                 self._world.makers[node] = Maker(maker, start)
         return made
 
-    def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401
+    def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401 - unchecked input
         """Start a program: a Python file with a function `main`, run unchanged in virtual time.
 
         It is a process of its own, as one that `ros2 run` starts: with a default context, command

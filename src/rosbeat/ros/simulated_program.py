@@ -43,27 +43,27 @@ _KNOWN_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
 
 
 class SimulatedProgram:
-    """A program that a session runs; `Session.spawn` makes one.
+    """Run a program in a session's virtual time; `Session.spawn` creates one.
 
     Its methods are those of `subprocess.Popen`, as far as they make sense in virtual time.
 
     Args:
-        world: The session.
+        world: The session's world.
         target: A file with a function `main`, or such a function.
-        arguments: What stands behind the program's name on the command line.
+        arguments: Command-line arguments after the program's name.
 
     Attributes:
         name: The file's name without `.py`, or the function's module and name.
         returncode: The exit code; negative for a signal that ended it; None while it runs.
         stderr: The traceback with which it ended; empty if there was none.
-        argv: Its command line, as `sys.argv` has it.
-        interrupt: The exception that a simulated Ctrl+C raises, to be told from a real one.
+        argv: Its command line, as in `sys.argv`.
+        interrupt: The exception that a simulated Ctrl+C raises, to distinguish it from a real one.
 
     Raises:
-        SessionError: If it is neither a file nor a function.
+        SessionError: If `target` is neither a file nor a function.
     """
 
-    def __init__(self, world: World, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401
+    def __init__(self, world: World, target: Any, arguments: Sequence[str]) -> None:  # noqa: ANN401 - unchecked input
         self._target = _checked(target)
         self.name = target.__name__ if callable(target) else self._target.stem
         self.returncode: int | None = None
@@ -98,7 +98,7 @@ class SimulatedProgram:
 
     @property
     def nodes(self) -> tuple[Node, ...]:
-        """The nodes that it has made and not destroyed."""
+        """Return the nodes that the program has created and not destroyed."""
         return tuple(state.node for state in self._process.states if state.node is not None)
 
     def poll(self) -> int | None:
@@ -158,7 +158,7 @@ class SimulatedProgram:
         utilities.Context = self._new_context
         utilities.g_default_context = self._context
         sys.argv = self.argv
-        signal.signal = self._set_handler  # type: ignore[assignment]
+        signal.signal = self._set_handler  # type: ignore[assignment]  # `leave` puts it back
         if isinstance(self._target, Path):
             sys.path.insert(0, str(self._root))
             self._hidden = {one: sys.modules.pop(one) for one in self._names if one in sys.modules}
@@ -212,7 +212,7 @@ class SimulatedProgram:
     def _new_context(self) -> ProgramContext:
         return ProgramContext(self._world, self)
 
-    def _set_handler(self, number: int, handler: Any) -> Any:  # noqa: ANN401
+    def _set_handler(self, number: int, handler: Any) -> Any:  # noqa: ANN401 - as `signal.signal`
         """Do what `signal.signal` does, for this program only."""
         before = self._handlers.get(number, signal.SIG_DFL)
         self._handlers[number] = handler

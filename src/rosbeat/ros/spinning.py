@@ -15,9 +15,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import rclpy
+from rclpy.client import Client
 from rclpy.executors import Executor, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
@@ -30,6 +31,10 @@ from rosbeat.ros.recording import watcher_of
 
 if TYPE_CHECKING:
     from rosbeat.ros.simulated_program import SimulatedProgram
+
+#: A `World`, or None. Its own type would ask everywhere whether a node is of a session and whether
+#: code of a node is running, which is known here.
+_World: TypeAlias = Any
 
 #: Seconds between two looks at whether the learner pressed Interrupt.
 PULSE = 0.1
@@ -114,15 +119,15 @@ def _spin_until(original: Callable[..., None]) -> Callable[..., None]:
     return spin_until_future_complete
 
 
-def _session_of(node: Node) -> Any:  # noqa: ANN401 - a World
+def _session_of(node: Node) -> _World:
     """Return the session of a node, or None; refuse to spin a program's in another thread."""
-    world: Any = watcher_of(node)
+    world: _World = watcher_of(node)
     state = world.state_of(node) if world is not None else None
     _refuse_thread(world, state.process.program if state is not None else None)
     return world
 
 
-def _refuse_thread(world: Any, program: SimulatedProgram | None) -> None:  # noqa: ANN401
+def _refuse_thread(world: _World, program: SimulatedProgram | None) -> None:
     """End a program that spins in another thread than the session's, and that thread."""
     if program is None or world.live is not None or threading.get_ident() == world.virtual.thread:
         return
@@ -184,14 +189,14 @@ def _executor_until(original: Callable[..., None], most: int | None = None) -> C
     return spin
 
 
-def _world_of(executor: Executor) -> Any:  # noqa: ANN401 - a World
+def _world_of(executor: Executor) -> _World:
     """Return the session in whose code an executor spins, or None."""
     world = getattr(executor.context, "watcher", None)
     _refuse_thread(world, getattr(executor.context, "program", None))
     return world if world is not None and _is_simulated(world) else None
 
 
-def _states(world: Any, executor: Executor) -> list[NodeState]:  # noqa: ANN401
+def _states(world: _World, executor: Executor) -> list[NodeState]:
     found = [world.state_of(node) for node in executor.get_nodes()]
     return sorted((one for one in found if one is not None), key=lambda one: one.number)
 
@@ -206,19 +211,20 @@ def _give_back(nodes: list[Node], executor: Executor) -> None:
 # In virtual time.
 
 
-def _is_simulated(world: Any) -> bool:  # noqa: ANN401
+def _is_simulated(world: _World) -> bool:
     return world.live is None and bool(world.virtual.in_callback)
 
 
-def _plays_program(world: Any) -> bool:  # noqa: ANN401
+def _plays_program(world: _World) -> bool:
     return _is_simulated(world) and world.virtual.current.process.program is not None
 
 
-def _play(world: Any, executor: Executor | None, states: list[NodeState]) -> None:  # noqa: ANN401
+def _play(world: _World, executor: Executor | None, states: list[NodeState]) -> None:
     """Spin until the program's context is shut down, as `spin` of a process does."""
     process = world.virtual.current.process
     before = process.threads
     if isinstance(executor, MultiThreadedExecutor):
+        # Its number of threads has no public name.
         process.threads = executor._executor._max_workers
     try:
         if not rclpy.ok():  # at once, and yet a loop around it must not keep Interrupt away
@@ -230,7 +236,7 @@ def _play(world: Any, executor: Executor | None, states: list[NodeState]) -> Non
 
 
 def _play_until(
-    world: Any,  # noqa: ANN401
+    world: _World,
     states: list[NodeState],
     future: Future,
     timeout_sec: float | None,
@@ -245,12 +251,13 @@ def _clients(state: NodeState) -> list[Any]:
     return list(state.node.clients) if state.node is not None else []
 
 
-def _asked(client: Any, future: Future) -> bool:  # noqa: ANN401
+def _asked(client: Client, future: Future) -> bool:
+    # `get_pending_request` would need the number of the request.
     return any(one is future for one in client._pending_requests.values())
 
 
 @contextmanager
-def _global_executor(world: Any, node: Node) -> Iterator[list[NodeState]]:  # noqa: ANN401
+def _global_executor(world: _World, node: Node) -> Iterator[list[NodeState]]:
     """Give the nodes that the global executor of a process has, with one that is added to it.
 
     A node that another executor spins is taken away from that one, and at the end nobody spins it
@@ -291,7 +298,7 @@ def _spin_until_interrupt(node: Node, executor: Executor) -> None:
         executor.remove_node(node)
 
 
-def _spin_in_session(world: Any, node: Node) -> None:  # noqa: ANN401
+def _spin_in_session(world: _World, node: Node) -> None:
     """Run the session's nodes against the wall clock until Interrupt."""
     world.refuse_in_callback("rclpy.spin")
     _refuse_in_constructor(node)

@@ -136,10 +136,10 @@ def drift(phases: Sequence[tuple[float, float]]) -> Callable[[], Node]:
 
 
 class Room(Node):
-    """Publishes the temperature of a heated room each second, in whole degrees.
+    """Publish the temperature of a heated room each second, in whole degrees.
 
-    It gains one degree a second while the last message on `heater` was True, and else loses one in
-    five seconds.
+    It rises by one degree a second while the last message on `heater` was True, and otherwise falls
+    by one degree in five seconds.
     """
 
     def __init__(self, degrees: int) -> None:
@@ -165,7 +165,7 @@ class Room(Node):
 
 
 class Weather(Node):
-    """Publishes temperature and light of a still day, always the same."""
+    """Publish temperature and light of a calm day, always the same values."""
 
     def __init__(self) -> None:
         super().__init__("weather")
@@ -179,7 +179,7 @@ class Weather(Node):
 
 
 class Window(Node):
-    """Opens when it is warm."""
+    """Publish whether the window is open, which depends on the temperature."""
 
     def __init__(self) -> None:
         super().__init__("window")
@@ -193,7 +193,7 @@ class Window(Node):
 
 
 class SoilProbe(Node):
-    """Publishes how wet the soil is, in per cent: it dries, and is wet again."""
+    """Publish the soil moisture in percent, which falls steadily and then jumps back."""
 
     def __init__(self) -> None:
         super().__init__("soil_probe")
@@ -207,7 +207,7 @@ class SoilProbe(Node):
 
 
 class Gardener(Node):
-    """Waters when the soil is dry."""
+    """Publish whether to water, which depends on the soil moisture."""
 
     def __init__(self) -> None:
         super().__init__("gardener")
@@ -228,7 +228,7 @@ class Gardener(Node):
 
 
 class Lamp(Node):
-    """Shines in the dark, if it ever learns that it is dark."""
+    """Listen on the topic `light`, on which nothing is published, and complain about it."""
 
     def __init__(self) -> None:
         super().__init__("lamp")
@@ -266,7 +266,7 @@ def observe_greenhouse() -> tuple[Observation, dict[str, Any]]:
         parameters = {
             f"{node.get_fully_qualified_name()} {name}": one.value
             for node in session.nodes
-            for name, one in node._parameters.items()
+            for name, one in node.get_parameters_by_prefix("").items()
             if name not in ("use_sim_time", "start_type_description_service")
         }
         return session.observation(), parameters

@@ -48,13 +48,14 @@ if TYPE_CHECKING:
 
 
 class Agenda:
-    """The timers of all nodes, ordered by (deadline, order of creation).
+    """Order the timers of all nodes by (deadline, order of creation).
 
-    A deadline only ever moves later without the agenda being told (a longer period, say), so an
-    entry that is looked at too early is simply put back. A canceled timer waits aside: a reset may
-    bring it back. So each step costs the logarithm of the number of timers, not the number.
+    A deadline only ever moves later without the agenda being notified (a longer period, for
+    example), so an entry that is popped too early is simply put back. A canceled timer is set
+    aside, because a reset may bring it back. So each step costs the logarithm of the number of
+    timers.
 
-    An entry may be in the heap several times; only the place at its own `deadline` counts.
+    An entry may be in the heap several times; only the position at its own `deadline` counts.
     """
 
     def __init__(self) -> None:
@@ -129,9 +130,9 @@ _TRAIL = 24
 
 
 class ChainGuard:
-    """Counts how far each callback is from the timer that began it all: its `depth`.
+    """Count how far each callback is from the timer that began its chain: its `depth`.
 
-    A burst of messages is wide but not deep, so it is never mistaken for a circle.
+    A burst of messages is wide but not deep, so it is never mistaken for an endless chain.
     """
 
     def __init__(self) -> None:
@@ -145,7 +146,11 @@ class ChainGuard:
         self._firings = self._followers = self._wakes = 0
 
     def timer_fires(self, entry: Entry) -> None:
-        """Begin a chain at a timer; raise an EndlessChainError if its period is zero."""
+        """Begin a chain at a timer.
+
+        Raises:
+            EndlessChainError: If the timer keeps firing at one instant, because its period is zero.
+        """
         self.depth = self._followers = 0
         self._firings += 1
         if self._firings > MOST_FIRINGS:
@@ -178,9 +183,12 @@ class ChainGuard:
             )
 
     def inspect(self, entry: Entry) -> None:
-        """Raise an EndlessChainError if a callback's chain is longer or wider than any that ends.
+        """Check the length and width of a callback's chain.
 
-        It is asked only more than `SUSPICIOUS` steps after a timer.
+        This is called only more than `SUSPICIOUS` steps after a timer.
+
+        Raises:
+            EndlessChainError: If the chain is longer or wider than any that ends.
         """
         self._followers += 1
         if max(self.depth, self._followers) > LONGEST_CHAIN - _TRAIL:
@@ -211,7 +219,7 @@ _MOST_EXITS = 100
 
 
 class VirtualTimeExecutor(WaitSetExecutor):
-    """Runs the callbacks of all processes in virtual time.
+    """Run the callbacks of all processes in virtual time.
 
     Timers, subscriptions, services and clients are taken directly; see `WaitSetExecutor` for the
     rest.
@@ -219,11 +227,12 @@ class VirtualTimeExecutor(WaitSetExecutor):
     Attributes:
         now: Virtual time in nanoseconds.
         is_live: Whether the session is live, so that the wall clock counts.
-        running: Whether `run_until` is at work.
+        running: Whether `run_until` is active.
         calling: The callback that is running, or ran last; None before the first.
-        elsewhere: What threads of the nodes' own have published since the last step.
-        constructor_waits: Called with nanoseconds and the reason when a constructor waits, in the
-            place of the wait; None to let virtual time pass. Only scenarios set it.
+        elsewhere: Work that other threads have queued since the last step, such as the recording of
+            a message that they published.
+        constructor_waits: Called with nanoseconds and the reason when a constructor waits, instead
+            of the wait; None to let virtual time pass. Only scenarios set it.
         thread: The thread in which the nodes run.
     """
 
@@ -273,7 +282,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     # What rclpy calls.
 
-    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:  # noqa: ANN401
+    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:  # noqa: ANN401 - rclpy's own signature
         """Run a callback or coroutine as soon as what is running has ended."""
         task = Task(callback, args, kwargs, executor=self)
         self._coroutines.add_task(task, callback, self.current)
@@ -283,17 +292,17 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     @property
     def has_work(self) -> bool:
-        """Whether callbacks wait for the next run."""
+        """Return whether callbacks are pending for the next run."""
         return bool(self._ready or self._behind)
 
     @property
     def in_callback(self) -> bool:
-        """Whether the caller is code of a node: a callback, a constructor or a program."""
+        """Return whether the caller is code of a node: a callback, a constructor or a program."""
         return self.current is not None and threading.get_ident() == self.thread
 
     @property
     def suspended(self) -> list[Call]:
-        """The callbacks and programs that have begun and wait now, in the order of the begin."""
+        """Return the callbacks and programs that wait now, in the order in which they began."""
         return [call for call in self._suspended if call.wait is not None]
 
     def all_waits(self) -> tuple[WaitRecord, ...]:
@@ -538,6 +547,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
 
     def start_main(self, main: Callable[[], None], process: Process) -> None:
         """Begin another greenlet, for the `main` of a program, as soon as virtual time goes on."""
+        program = process.program
+        assert program is not None
 
         def run() -> None:
             self.current = call = Call(process)
@@ -546,7 +557,7 @@ class VirtualTimeExecutor(WaitSetExecutor):
             finally:
                 self._forget_call(call)
                 self.current = None
-                process.program.callback_ended()  # it may have been a signal handler
+                program.callback_ended()  # it may have been a signal handler
                 if not call.broken:  # else whoever has ended it goes on
                     getcurrent().parent = self._next_driver()
 

@@ -30,6 +30,7 @@ from rosbeat.ros.processes import Call, Process
 from rosbeat.ros.qos_events import event_name, topic_of
 
 if TYPE_CHECKING:
+    from rosbeat.ros.recording import Entity
     from rosbeat.ros.world import World
 
 # Callbacks that wait by themselves: `async def` callbacks and tasks.
@@ -37,12 +38,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Waiting:
-    """A coroutine or task that has not ended.
+    """Hold a coroutine or task that has not ended.
 
     Attributes:
-        process: Where it runs; None for one that was created outside of all nodes.
-        state: The node that began it, if one did.
-        name: What it is called in an error.
+        process: The process in which it runs; None if it was created outside of all nodes.
+        state: The node that began it, if there is one.
+        name: Its name in errors.
         entry: The entity whose callback it is; its callback group is occupied until it ends.
     """
 
@@ -54,19 +55,19 @@ class Waiting:
 
     @property
     def ended(self) -> bool:
-        """Whether it has returned, raised or been canceled."""
+        """Return whether it has returned, raised or been canceled."""
         return bool(self.task.done() or self.task.cancelled())
 
     @property
     def abandoned(self) -> bool:
-        """Whether the node that began it has ended."""
+        """Return whether the node that began it has ended."""
         return self.state is not None and self.state.ended and not self.task.executing()
 
     @property
     def rests(self) -> bool:
-        """Whether it cannot go on now: its node is paused, or its process is busy.
+        """Return whether it cannot continue now, because its node is paused or its process is busy.
 
-        rclpy looks at its tasks again when it has handled all that its last look found ready.
+        rclpy visits its tasks again when it has handled everything that its last wait found ready.
         """
         if self.task.executing() or (self.state is not None and not self.state.spinning):
             return True
@@ -75,6 +76,7 @@ class Waiting:
 
     def place(self) -> object:
         """Return what it awaits, innermost: another object each time it has got further."""
+        # A task has no public name for its coroutine.
         inner, deeper = None, self.task._handler
         while deeper is not None:  # a coroutine, a generator, or neither
             inner, deeper = deeper, getattr(deeper, "cr_await", None)
@@ -83,9 +85,9 @@ class Waiting:
 
 
 class Coroutines:
-    """The coroutines of one executor that have not ended, in the order in which they began.
+    """Hold the coroutines of one executor that have not ended, in the order in which they began.
 
-    Of each process the newest goes on first, as in rclpy (`_wait_for_ready_callbacks`).
+    The newest coroutine of each process continues first, as in rclpy (`_wait_for_ready_callbacks`).
     """
 
     def __init__(self, executor: Executor) -> None:
@@ -152,11 +154,11 @@ NOT_OF_CALLBACKS = (KeyboardInterrupt, GreenletExit, DeadlinePassed)
 
 
 class WaitSetExecutor(SingleThreadedExecutor):
-    """rclpy's executor, asked only for what cannot be taken directly.
+    """Ask rclpy's executor only for entities that cannot be taken directly.
 
-    One pass costs about a millisecond. It is made for nodes that have guard conditions or waitables
-    (actions, say), and once for all nodes after entities were made or destroyed: publishers and
-    subscriptions tell of a QoS that does not fit by waitables too, but only then.
+    One pass costs about a millisecond. A pass runs for nodes with guard conditions or waitables
+    (such as actions), and once for all nodes after entities were created or destroyed: publishers
+    and subscriptions report incompatible QoS through waitables too, but only then.
     """
 
     current: Any
@@ -213,11 +215,11 @@ class WaitSetExecutor(SingleThreadedExecutor):
         # rclpy would take what was interrupted for running, for ever.
         self._tasks[:] = [parts for parts in self._tasks if not parts[0].executing()]
 
-    def _make_handler(self, entity: Any, node: Node, take: Any) -> Task:  # noqa: ANN401
+    def _make_handler(self, entity: Entity, node: Node, take: Callable[..., Any]) -> Task:
         self._host.callback_ran(entity, node)
         return super()._make_handler(entity, node, take)
 
-    def _handle(self, handler: Task, entity: Any, node: Node) -> None:  # noqa: ANN401
+    def _handle(self, handler: Task, entity: Entity, node: Node) -> None:
         state = self._host.state_of(node)
         if state is None:
             return
@@ -259,7 +261,7 @@ def waitable_name(entity: Any) -> str:  # noqa: ANN401 - any of rclpy's
     return getattr(callback, "__name__", type(callback).__name__)
 
 
-def waitable_label(entity: Any, node: Node) -> tuple[str, str, str]:  # noqa: ANN401
+def waitable_label(entity: Entity, node: Node) -> tuple[str, str, str]:
     """Return kind, name and source with which a run of its callback is recorded."""
     if isinstance(entity, EventHandler):
         source = f"{event_name(entity)} of {topic_of(entity, node)}"

@@ -13,8 +13,12 @@ from typing import Any
 from weakref import WeakKeyDictionary, WeakSet
 
 from greenlet import getcurrent
+from rclpy.client import Client
 from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
+from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.task import Future
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from rosbeat.domains import DomainLease, lease_domain
@@ -35,7 +39,9 @@ from rosbeat.ros.processes import Call, Process, Wait
 from rosbeat.ros.qos_events import Limits, wait_for_stored
 from rosbeat.ros.randomness import SeededRandom
 from rosbeat.ros.recording import (
+    Entity,
     Memory,
+    Message,
     PublisherTap,
     Recorder,
     SessionLogger,
@@ -46,20 +52,21 @@ from rosbeat.ros.wait_set import waitable_label, waitable_name
 
 
 class World:
-    """Everything behind a `Session`.
+    """Hold the internal state of a `Session`.
 
-    The hooks of `recording` and `actions` tell it of new nodes and entities, and the executors ask
-    it for nodes. It never refers to the `Session`, so that a session nobody holds any more is
-    closed at once.
+    The hooks of `recording` and `actions` notify it of new nodes and entities, and the executors
+    query it for nodes. It never refers to the `Session`, so that a session is closed as soon as
+    nothing else refers to it.
 
     Attributes:
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
-        graph_observer: Sees the other processes; None in a private domain, where there are none.
-        external_messages: Records what comes from outside; None in a private domain.
-        start: How the node that is being made is started.
-        makers: What the session was handed to make each node, and how it was started.
-        next_number: Returns the place of a new entity in the order of creation.
+        graph_observer: Observes the other processes; None in a private domain, where there are
+            none.
+        external_messages: Records messages from other processes; None in a private domain.
+        start: How the node that is being created is started.
+        makers: The factory of each node, and how the node was started.
+        next_number: Returns the position of a new entity in the order of creation.
     """
 
     def __init__(self, seed: int = 0, domain_id: int | None = None) -> None:
@@ -196,6 +203,7 @@ class World:
         if isinstance(clock, SessionClock):
             clock.move()
         elif clock is not None:
+            # In the place of the clock that rclpy's constructor has just made.
             node._clock = make_clock(self.virtual)
         if node not in self._states:
             name = node.get_fully_qualified_name()
@@ -206,12 +214,13 @@ class World:
             self._states[node] = state
             self._names[node] = name
 
-    def entity_made(self, node: Node, kind: str, entity: Any) -> None:  # noqa: ANN401
+    def entity_made(self, node: Node, kind: str, entity: Entity) -> None:
         """Tap what sends; run the callbacks of whatever has some."""
         state = self._states[node]
         if kind == "publisher":
             self._tap_publisher(state, entity)
         elif kind == "rate":
+            # A rate has no public name for its timer.
             entity.sleep = partial(self._sleep, self._entries[entity._timer], entity.sleep)
         else:
             self._watch(state, kind, entity)
@@ -228,12 +237,13 @@ class World:
         if node.executor is not None:
             node.executor.remove_node(node)
 
-    def logger_of(self, node: Node, original: Any) -> Any:  # noqa: ANN401
+    def logger_of(self, node: Node, original: RcutilsLogger) -> RcutilsLogger:
         """Return the logger that the node's code gets."""
         state = self._states.get(node)
         if state is None:
             return original
         if state.logger is None:
+            # Not `get_clock`, which a learner's class may have replaced.
             state.logger = SessionLogger(original.name, self._logged, node._clock)
         return state.logger
 
@@ -256,7 +266,11 @@ class World:
         note(f"{state.name} called rclpy.shutdown() and stops; the other nodes go on.")
 
     def refuse_in_callback(self, call: str) -> None:
-        """Raise a SessionError for what would run the simulation, if a node calls it."""
+        """Refuse a call that runs the simulation, if a node makes it.
+
+        Raises:
+            SessionError: If the caller is a callback.
+        """
         running = self.virtual.running and get_ident() == self.virtual.thread
         if running or (self.live is not None and self.live.is_this_thread()):
             raise SessionError(
@@ -273,7 +287,7 @@ class World:
 
     # What the executors and actions tell.
 
-    def callback_ran(self, entity: Any, node: Node | None) -> None:  # noqa: ANN401
+    def callback_ran(self, entity: Entity, node: Node | None) -> None:
         """Record a callback that is about to run, live or through rclpy's wait set."""
         entry, state = self._entries.get(entity), self.state_of(node)
         if entry is not None:
@@ -290,7 +304,7 @@ class World:
         with self.recorder.lock:
             self.recorder.add_callback(self.now(), label.number)
 
-    def entity_raised(self, node: Node | None, entity: Any, error: BaseException) -> None:  # noqa: ANN401
+    def entity_raised(self, node: Node | None, entity: Entity, error: BaseException) -> None:
         """Record an exception that left a callback, in live mode."""
         entry = self._entries.get(entity)
         state = entry.state if entry else self.state_of(node)
@@ -337,7 +351,7 @@ class World:
         reason: str,
         done: Callable[[], bool],
         seconds: float | None,
-        needs: Any,  # noqa: ANN401 - any entity of rclpy
+        needs: Entity,
     ) -> bool:
         """Wait until something is done, in a callback as in a cell."""
         if self.live is not None:
@@ -412,7 +426,11 @@ class World:
         return bool(done())
 
     def go_live(self) -> None:
-        """Run the nodes against the wall clock; raise a SessionError if a callback waits."""
+        """Run the nodes against the wall clock.
+
+        Raises:
+            SessionError: If a callback still waits in virtual time.
+        """
         waiting = self.virtual.suspended
         if waiting:
             raise SessionError(
@@ -440,6 +458,7 @@ class World:
         is_virtual = executor is self.virtual
         self.virtual.is_live = not is_virtual
         for state in self.states():
+            # Not `get_clock`, which a learner's class may have replaced.
             clock: SessionClock = state.node._clock
             clock.follow_session() if is_virtual else clock.follow_wall()
             show_sim_time(state.node, is_virtual)
@@ -480,7 +499,7 @@ class World:
 
     # Watching what nodes make.
 
-    def _watch(self, state: NodeState, kind: str, entity: Any) -> None:  # noqa: ANN401
+    def _watch(self, state: NodeState, kind: str, entity: Entity) -> None:
         if kind == "timer":
             name, source = "", f"{entity.timer_period_ns / NANOSECONDS:g} s"
         else:
@@ -503,12 +522,12 @@ class World:
         client = entry.entity
         send, wait_for_service = client.call_async, client.wait_for_service
 
-        def call_async(request: Any) -> Any:  # noqa: ANN401
+        def call_async(request: Message) -> Future:
             future = send(request)
             self.sent("service", entry.name, entry.state)
             return future
 
-        def call(request: Any, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
+        def call(request: Message, timeout_sec: float | None = None) -> Message:
             self._check_call(entry)
             return self._wait_for_answer(client, call_async(request), timeout_sec)
 
@@ -546,7 +565,7 @@ class World:
         if self.external_messages is not None:
             self.external_messages.watch_subscription(entry.entity)
 
-    def _tap_publisher(self, state: NodeState, publisher: Any) -> None:  # noqa: ANN401
+    def _tap_publisher(self, state: NodeState, publisher: Publisher) -> None:
         topic, memory = publisher.topic_name, Memory(publisher.msg_type)
         if topic in INFRASTRUCTURE_TOPICS:
             quiet = partial(self.sent, "subscription", topic, state)
@@ -556,11 +575,11 @@ class World:
         recorder, virtual, thread = self.recorder, self.virtual, get_ident()
         happened = virtual.sender("subscription", topic, state)
 
-        def record(copy: Any) -> None:  # noqa: ANN401
+        def record(copy: Any) -> None:  # noqa: ANN401 - what `Memory.take` makes
             recorder.add_sample(number, virtual.now, copy)
             happened()
 
-        def published(copy: Any) -> None:  # noqa: ANN401
+        def published(copy: Any) -> None:  # noqa: ANN401 - the same
             if self.live is not None:
                 with recorder.lock:
                     recorder.add_sample(number, self.now(), copy)
@@ -596,7 +615,9 @@ class World:
                 "with `call_async`.",
             )
 
-    def _wait_for_answer(self, client: Any, future: Any, timeout_sec: float | None) -> Any:  # noqa: ANN401
+    def _wait_for_answer(
+        self, client: Client, future: Future, timeout_sec: float | None
+    ) -> Message:
         """Do what `client.call` does when it has sent its request (rclpy, `client.py`)."""
         in_callback = self.live is None and self.virtual.in_callback
         reason = f"an answer from {client.service_name}"
@@ -618,10 +639,13 @@ class World:
             self.refuse_in_callback("rate.sleep")
             original()
         else:
-            done = lambda: entry.calls > calls  # noqa: E731
+
+            def done() -> bool:
+                return entry.calls > calls
+
             self.wait("rate.sleep", "a rate", done, None, entry.entity)
 
-    def _is_in_current_process(self, entity: Any) -> bool:  # noqa: ANN401 - any entity of rclpy
+    def _is_in_current_process(self, entity: Entity) -> bool:
         call = self.virtual.current
         states = call.process.states if call is not None else []
         return any(one.entity is entity for state in states
@@ -650,8 +674,12 @@ def find(world: World, node: Node | str) -> NodeState:
     return state
 
 
-def full_topic(call: str, topic: Any) -> str:  # noqa: ANN401 - unchecked input
-    """Return the full name of a topic; raise a SessionError if ROS does not allow it."""
+def full_topic(call: str, topic: object) -> str:
+    """Return the full name of a topic.
+
+    Raises:
+        SessionError: If the name is not a string, or ROS does not allow it.
+    """
     name = "/" + check_name(call, topic).lstrip("/")
     try:
         validate_full_topic_name(name)

@@ -58,6 +58,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from IPython.core.interactiveshell import InteractiveShell
+
     from rosbeat.workspace.catching_up import catch_up as catch_up
     from rosbeat.workspace.place import workspace as folder
     from rosbeat.workspace.terminals import terminal as terminal
@@ -84,7 +86,7 @@ def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
 
 
-def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
+def register(shell: InteractiveShell) -> None:
     """Make the commands of a page known to a shell; a second time changes nothing.
 
     Args:
@@ -94,7 +96,7 @@ def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
         import_module(name).register(shell)
 
 
-def _running_shell() -> Any:  # noqa: ANN401
+def _running_shell() -> InteractiveShell | None:
     """Return the shell of this process, without loading IPython where there is none."""
     ipython = sys.modules.get("IPython")
     return ipython.get_ipython() if ipython else None

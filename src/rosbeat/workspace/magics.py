@@ -6,12 +6,15 @@ import argparse
 import re
 import shlex
 from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from IPython.core.error import UsageError
 from IPython.core.magic import no_var_expand
 
 from rosbeat.workspace.terminals.registry import Terminals, terminals_of
+
+if TYPE_CHECKING:
+    from IPython.core.interactiveshell import InteractiveShell
 
 _NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]*")
 _USAGE = """\
@@ -27,7 +30,7 @@ _USAGE = """\
     lists the terminals"""
 
 
-def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
+def register(shell: InteractiveShell) -> None:
     """Make `%%terminal` and `%terminal` known to a shell; a second call changes nothing.
 
     Args:
@@ -42,7 +45,7 @@ def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
     shell.register_magic_function(no_var_expand(magic), "line_cell", "terminal")
 
 
-def run(shell: Any, line: str, cell: str | None) -> None:  # noqa: ANN401
+def run(shell: InteractiveShell, line: str, cell: str | None) -> None:
     """Do what `%%terminal` or `%terminal` asks.
 
     Args:

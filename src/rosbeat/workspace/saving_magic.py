@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
 from types import CodeType, TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from IPython.core.magic import no_var_expand
 
@@ -17,6 +17,9 @@ from rosbeat.errors import WorkspaceError
 from rosbeat.workspace.catching_up import PACKAGE, catch_up
 from rosbeat.workspace.place import workspace
 from rosbeat.workspace.saving import locate, save
+
+if TYPE_CHECKING:
+    from IPython.core.interactiveshell import InteractiveShell
 
 # The first page on which the package is expected to exist.
 _PAGE_AFTER_PACKAGE = "03"
@@ -27,7 +30,7 @@ _MAGIC = re.compile(r"^\s*(%%?\w|!|\?)|\?\s*$|^\s*\w+\s*=\s*[%!]")
 _ABSENT = object()
 
 
-def register(shell: Any) -> None:  # noqa: ANN401 - IPython carries no types
+def register(shell: InteractiveShell) -> None:
     """Make `%%save` known to a shell.
 
     Args:
@@ -55,7 +58,7 @@ def with_body(lines: list[str]) -> list[str]:
     return [lines[0].rstrip("\n") + "\n", "\n"] if alone else lines
 
 
-def save_cell(shell: Any, line: str, cell: str) -> None:  # noqa: ANN401
+def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
     """Save the body of a cell, say so, and run it if it is a module of a package.
 
     Args:
@@ -234,7 +237,9 @@ def refuse_magics(text: str, transform: Callable[[str], str]) -> None:
 # Running a module's text on the page, without its `main`.
 
 
-def run_as_module(shell: Any, text: str, name: str, path: Path, first_line: str) -> None:  # noqa: ANN401
+def run_as_module(
+    shell: InteractiveShell, text: str, name: str, path: Path, first_line: str
+) -> None:
     """Run a module's text in the namespace of the page.
 
     While it runs, `__name__` is the module's name, so `if __name__ == "__main__":` is not met.
@@ -286,11 +291,11 @@ class BadSyntax(Exception):  # noqa: N818 - it stands for a SyntaxError
 BadSyntax.__name__ = "SyntaxError"
 
 
-def _shown(shell: Any, error: SyntaxError) -> BadSyntax:  # noqa: ANN401
+def _shown(shell: InteractiveShell, error: SyntaxError) -> BadSyntax:
     return BadSyntax(str(error), shell.SyntaxTB.structured_traceback(type(error), error, []))
 
 
-def _number_of_cell(shell: Any) -> int:  # noqa: ANN401
+def _number_of_cell(shell: InteractiveShell) -> int:
     """Return the number of the running cell; the shell may count the next one by now."""
     numbers = getattr(shell.compile, "_filename_map", {})
     frame = sys._getframe()
@@ -301,14 +306,14 @@ def _number_of_cell(shell: Any) -> int:  # noqa: ANN401
     return int(shell.execution_count)
 
 
-def _compiled(shell: Any, source: str) -> CodeType:  # noqa: ANN401
+def _compiled(shell: InteractiveShell, source: str) -> CodeType:
     filename = shell.compile.cache(source, _number_of_cell(shell), raw_code=source)
     code: CodeType = shell.compile(source, filename, "exec")
     return code
 
 
 @contextmanager
-def _as_module(shell: Any, name: str, path: Path) -> Iterator[None]:  # noqa: ANN401
+def _as_module(shell: InteractiveShell, name: str, path: Path) -> Iterator[None]:
     """Give the page a module's name while a module's text runs on it.
 
     The page is found under that name too: decorators such as `dataclass` look there.
@@ -333,10 +338,10 @@ def _put_back(target: dict[str, Any], before: dict[str, Any]) -> None:
             target[key] = value
 
 
-def _render(shell: Any, error: BaseException, trace: TracebackType | None) -> None:  # noqa: ANN401
+def _render(shell: InteractiveShell, error: BaseException, trace: TracebackType | None) -> None:
     """Make IPython show an exception from the learner's own first frame on."""
     if hasattr(error, "_render_traceback_") or isinstance(error, SyntaxError):
         return
     shown = shell.InteractiveTB.structured_traceback(type(error), error, trace, tb_offset=0)
     with suppress(AttributeError, TypeError):  # an exception may refuse attributes
-        error._render_traceback_ = lambda: shown  # type: ignore[attr-defined]
+        error._render_traceback_ = lambda: shown  # type: ignore[attr-defined]  # IPython's protocol
