@@ -1,4 +1,4 @@
-"""What was observed, as plain data.
+"""Define what was observed, as plain data.
 
 Everything here is a frozen dataclass of numbers, strings, tuples and dicts. Nothing says right or
 wrong, nothing needs ROS, and nothing differs between two runs of one program: there is no wall
@@ -24,25 +24,25 @@ ACTION_PART = "/_action/"
 
 
 def is_hidden(name: str) -> bool:
-    """Whether a part of a ROS name begins with an underscore (ROS 2 design: hidden names)."""
+    """Return whether a part of a ROS name begins with an underscore (ROS 2 design: hidden names)."""
     return any(part.startswith("_") for part in name.split("/"))
 
 
 class Timed:
-    """Adds `time`, in seconds, to a record that has `time_ns`."""
+    """Add `time`, in seconds, to a record that has `time_ns`."""
 
     __slots__ = ()
     time_ns: int
 
     @property
     def time(self) -> float:
-        """Seconds of virtual time since the session began."""
+        """Return the seconds of virtual time since the session began."""
         return self.time_ns / NANOSECONDS
 
 
 @dataclass(frozen=True, slots=True)
 class Sample(Timed):
-    """One message as it was published.
+    """Hold one message as it was published.
 
     Attributes:
         time_ns: When it was published, in nanoseconds of virtual time. What another process
@@ -64,13 +64,13 @@ class Sample(Timed):
 
     @property
     def value(self) -> Any:  # noqa: ANN401 - a message field may be of any plain type
-        """The only field's value if the message has one field, else the whole `data`."""
+        """Return the only field's value if the message has one field, else the whole `data`."""
         return next(iter(self.data.values())) if len(self.data) == 1 else self.data
 
 
 @dataclass(frozen=True, slots=True)
 class LogRecord(Timed):
-    """One log line, as it came over `/rosout`.
+    """Hold one log line, as it came over `/rosout`.
 
     Attributes:
         time_ns: When it was logged, in nanoseconds of virtual time.
@@ -91,7 +91,7 @@ class LogRecord(Timed):
 
 @dataclass(frozen=True, slots=True)
 class CallbackRecord(Timed):
-    """One run of a callback.
+    """Hold one run of a callback.
 
     Attributes:
         time_ns: When it began, in nanoseconds of virtual time. It takes none, unless it waits.
@@ -113,7 +113,7 @@ class CallbackRecord(Timed):
 
 @dataclass(frozen=True, slots=True)
 class WaitRecord(Timed):
-    """One wait of a callback, in which virtual time passed.
+    """Hold one wait of a callback, in which virtual time passed.
 
     Attributes:
         time_ns: When the wait began, in nanoseconds of virtual time.
@@ -163,7 +163,7 @@ class FailedCall:
 
 @dataclass(frozen=True, slots=True)
 class Fault(Timed):
-    """An exception that left a callback, and so ended its node; in the work on a goal, the goal.
+    """Hold an exception that left a callback and ended its node or, in the work on a goal, the goal.
 
     Attributes:
         time_ns: When it happened, in nanoseconds of virtual time.
@@ -191,7 +191,7 @@ class Fault(Timed):
 
 @dataclass(frozen=True)
 class QoS:
-    """The quality of service of one endpoint, in ROS's own words.
+    """Hold the quality of service of one endpoint, in ROS's own words.
 
     Attributes:
         reliability: `RELIABLE` or `BEST_EFFORT`.
@@ -217,7 +217,7 @@ class QoS:
 
 @dataclass(frozen=True)
 class Endpoint:
-    """One end of a topic or service.
+    """Hold one endpoint of a topic or service.
 
     Attributes:
         node: Full name of the node it belongs to.
@@ -239,7 +239,7 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class TimerRecord:
-    """One timer of a node.
+    """Hold one timer of a node.
 
     Attributes:
         node: Full name of the node.
@@ -256,7 +256,7 @@ class TimerRecord:
 
 @dataclass(frozen=True)
 class GraphSnapshot:
-    """The ROS graph at one moment.
+    """Hold the ROS graph at one moment.
 
     Attributes:
         nodes: Full names of the nodes, in order of creation; then those of other processes, if the
@@ -273,19 +273,19 @@ class GraphSnapshot:
     processes: tuple[tuple[str, ...], ...] = ()
 
     def topics(self, infrastructure: bool = False) -> tuple[str, ...]:
-        """Names of the topics, sorted; with `infrastructure` also what nodes and actions bring."""
+        """Return the topics' names, sorted; `infrastructure` adds what nodes and actions bring."""
         names = {end.name for end in self.endpoints if end.kind in ("publisher", "subscription")}
         seen = {name for name in names - INFRASTRUCTURE_TOPICS if ACTION_PART not in name}
         return tuple(sorted(names if infrastructure else seen))
 
     def on(self, name: str, kind: str) -> tuple[Endpoint, ...]:
-        """The endpoints of one kind on one topic or service, in order of creation."""
+        """Return the endpoints of one kind on one topic or service, in order of creation."""
         return tuple(end for end in self.endpoints if end.name == name and end.kind == kind)
 
 
 @dataclass(frozen=True, slots=True)
 class Reply(Timed):
-    """What a step of a scenario got that asks for something.
+    """Hold what a step of a scenario received in reply.
 
     Attributes:
         time_ns: When it came, in nanoseconds of virtual time.
@@ -304,7 +304,7 @@ class Reply(Timed):
 
 @dataclass(frozen=True, slots=True)
 class Observation(Timed):
-    """All that a session saw, from its beginning to `time_ns`.
+    """Hold all that a session saw, from its beginning to `time_ns`.
 
     Attributes:
         time_ns: How far the session had run, in nanoseconds of virtual time.
@@ -335,7 +335,7 @@ class Observation(Timed):
 
 @dataclass(frozen=True)
 class ProgramRun:
-    """One run of a program in a process of its own, ended with Ctrl+C.
+    """Hold one run of a program in a process of its own, ended with Ctrl+C.
 
     Attributes:
         program: What was run, such as `temperature_publisher`.
@@ -352,7 +352,7 @@ class ProgramRun:
 
 @dataclass(frozen=True)
 class Part:
-    """One requirement of an exercise that gives points for each.
+    """Hold one requirement of an exercise that gives points for each.
 
     Attributes:
         id: Its name, such as `R1`.
@@ -372,13 +372,13 @@ class Part:
 
     @property
     def points(self) -> int:
-        """Points that were reached."""
+        """Return the points that were reached."""
         return self.out_of if self.met else 0
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a judge says of an observation.
+    """Hold what a judge says of an observation.
 
     Attributes:
         exercise: The exercise's id, such as `03a`.
@@ -405,7 +405,7 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class QueueStep(Timed):
-    """One change of a subscription's queue.
+    """Hold one change of a subscription's queue.
 
     Attributes:
         time_ns: When, in nanoseconds of virtual time.
