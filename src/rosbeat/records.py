@@ -24,7 +24,7 @@ ACTION_PART = "/_action/"
 
 
 def is_hidden(name: str) -> bool:
-    """Return whether a part of a ROS name begins with an underscore (ROS 2 design: hidden names)."""
+    """Return whether a part of a ROS name begins with an underscore, which hides it in lists."""
     return any(part.startswith("_") for part in name.split("/"))
 
 
@@ -163,7 +163,7 @@ class FailedCall:
 
 @dataclass(frozen=True, slots=True)
 class Fault(Timed):
-    """Hold an exception that left a callback and ended its node or, in the work on a goal, the goal.
+    """Hold an exception that left a callback and ended its node, or a goal that was worked on.
 
     Attributes:
         time_ns: When it happened, in nanoseconds of virtual time.
