@@ -296,7 +296,7 @@ def _vent_readings(numbers: Mapping[str, float], seed: int) -> Iterator[float]:
         *(some.middle, top, opening + _JUST),
         *(some.middle, bottom, closing - _JUST, some.middle),
     )
-    far = (some.hot, some.middle, some.cold, some.cold + 1)
+    far = (some.hot, some.middle, some.cold)
     yield some.hot  # how a vent stands before its first reading is up to the answer
     yield some.cold
     yield from chain(*Draw(seed).shuffled((slowly, far)))
