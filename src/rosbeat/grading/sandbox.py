@@ -180,8 +180,9 @@ _NEW = (
 #: Lines of `/proc/PID/status` that count as memory, in KiB: pages of its own and shared ones, and
 #: tables of pages. Pages of files, as libraries, do not count.
 _COUNTED = (b"RssAnon:", b"RssShmem:", b"VmPTE:")
-#: What a full buffer of a socket takes, and descriptors of a process that need not count for one.
-_BUFFER, _FREE_DESCRIPTORS = 212_992, 64
+#: What the two buffers of a socket take when they are full, how many sockets of an answer need not
+#: count for full ones, and what one buffer of a TCP connection may take.
+_BUFFERS, _FREE_SOCKETS, _MOST_OF_TCP = 2 * 212_992, 64, 65_536
 #: What a process says when it has settled, and before it says what went wrong.
 _SETTLED, _TROUBLE = b".", b"!"
 #: What the keeper asks of init, and what that answers when it is done.
@@ -291,13 +292,15 @@ class Sandbox:
 
     def _memory(self) -> int:
         """Return the bytes of memory that are used in there."""
-        total, left = 0, self._guests()
+        total, left, sockets = 0, self._guests(), set[str]()
         if self._init is not None:
             left += _children(self._proc, self._init.pid)
         while left:
             one = left.pop()
             left += _children(self._proc, one)
             total += _memory_of(self._proc, one)
+            sockets |= _sockets_of(self._proc, one)
+        total += _BUFFERS * max(0, len(sockets) - _FREE_SOCKETS)
         if self._init is not None:
             for path in _SCRATCH:
                 found = os.statvfs(path)
@@ -354,18 +357,25 @@ def _children(proc: int, process: int) -> list[int]:
 
 
 def _memory_of(proc: int, process: int) -> int:
-    """Return the bytes of memory of a process, and of what waits in its sockets at the most."""
-    total = 0
+    """Return the bytes of memory of a process."""
     with suppress(OSError):
         lines = _read(f"{process}/status", proc).splitlines()
-        total = 1024 * sum(int(one.split()[1]) for one in lines if one.startswith(_COUNTED))
+        return 1024 * sum(int(one.split()[1]) for one in lines if one.startswith(_COUNTED))
+    return 0
+
+
+def _sockets_of(proc: int, process: int) -> set[str]:
+    """Return the sockets that a process has open; what waits in them is charged to nobody."""
+    found: set[str] = set()
     with suppress(OSError):
         descriptors = os.open(f"{process}/fd", os.O_RDONLY, dir_fd=proc)
         try:
-            total += _BUFFER * max(0, len(os.listdir(descriptors)) - _FREE_DESCRIPTORS)
+            for name in os.listdir(descriptors):
+                with suppress(OSError):  # it may be closed meanwhile
+                    found.add(os.readlink(name, dir_fd=descriptors))
         finally:
             os.close(descriptors)
-    return total
+    return {one for one in found if one.startswith("socket:")}
 
 
 def _read(path: str, folder: int) -> bytes:
@@ -631,6 +641,7 @@ def _isolate(view: View, init: _Init) -> None:
     for one in _NEW:
         flags |= one
     linux.unshare(flags)
+    linux.limit_tcp(_MOST_OF_TCP)
     _make_root(_ROOT, view.readable, view.hidden)
     os.chdir("/")
     init.start()
