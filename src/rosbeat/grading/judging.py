@@ -23,6 +23,8 @@ from rosbeat.grading.traces import trace_of
 from rosbeat.records import Fault, Observation, Outcome
 
 _WHERE = "the cell"
+#: Nanoseconds of a day. No run is as long, and some judges count each tick of a run.
+_LONGEST = 86_400 * 10**9
 #: What is said of an answer that took its watchers along; the next run tries it again.
 WATCHER_LOST = "The process that watched the answer was lost."
 #: Ids of what is said of a run that did not come to its end; see `diagnosis.mistakes`.
@@ -78,6 +80,8 @@ def _read(exercise: Exercise[Any], evidence: Evidence, seed: int) -> tuple[Outco
     try:
         with _uncollected():
             seen = from_json(evidence.seen)
+            if isinstance(seen, Observation) and seen.time_ns > _LONGEST:
+                return _forged(exercise.id, f"it has lasted {seen.time_ns} ns"), ""
             return exercise.judged(seen, seed), trace_of(seen)
     except RecordError as error:
         return _forged(exercise.id, str(error.what)), ""
@@ -99,6 +103,8 @@ def _uncollected() -> Iterator[None]:
 
 def _raised(exercise: Exercise[Any], evidence: Evidence) -> Outcome:
     """Say of a cell that could not be run what is said of any exception."""
+    if evidence.raised == "KeyboardInterrupt":  # it was interrupted before it came to the class
+        return _too_long(exercise.id, evidence)
     if evidence.raised in _UNREAD:
         return _unread(exercise.id, evidence)
     fault = Fault(
