@@ -365,3 +365,432 @@ TEXTS = (
 )  # fmt: skip
 
 STYLES = (*MAGICS, *IMPORTS, *CLASSES, *TEXTS)
+
+
+# Answers that are built in an unusual way.
+
+WRITTEN: dict[str, tuple[str, str]] = {}
+
+
+def _written(name: str, exercise: str, text: str) -> None:
+    WRITTEN[name] = (exercise, dedent(text).strip() + "\n")
+
+
+_written("getattr and setattr", "03a", """
+    class HumiditySensor(Node):
+        def __init__(self):
+            super().__init__("humidity_sensor")
+            for name, value in {"topic": "humidity", "period": 0.5, "depth": 5}.items():
+                setattr(self, name, value)
+            create = getattr(self, "create_" + "publisher")
+            self.__dict__["out"] = create(Float32, self.topic, self.depth)
+            vars(self).update(value=45.0)
+            self.create_timer(getattr(self, "period"), self.say)
+
+        def say(self):
+            self.out.publish(Float32(data=self.value))
+    """)
+_written("a lambda", "03a", """
+    class HumiditySensor(Node):
+        def __init__(self, *args, **options):
+            super().__init__("humidity_sensor", *args, **options)
+            out = self.create_publisher(Float32, "humidity", 5)
+            self.create_timer(0.5, lambda: out.publish(Float32(data=45.0)))
+    """)
+_written("partial", "03a", """
+    from functools import partial
+
+    class HumiditySensor(Node):
+        def __init__(self):
+            Node.__init__(self, node_name="humidity_sensor")
+            out = self.create_publisher(msg_type=Float32, topic="humidity", qos_profile=5)
+            self.create_timer(timer_period_sec=0.5,
+                              callback=partial(out.publish, Float32(data=45.0)))
+    """)
+_written("a generator as a callback", "03a", """
+    class HumiditySensor(Node):
+        def __init__(self):
+            super().__init__("humidity_sensor")
+            self.steps = self._run(self.create_publisher(Float32, "humidity", 5))
+            self.create_timer(0.5, self.steps.__next__)
+
+        def _run(self, out):
+            while True:
+                yield out.publish(Float32(data=45.0))
+    """)
+_written("a callable object", "03a", """
+    class Says:
+        def __init__(self, out):
+            self.out = out
+            self.count = 0
+
+        def __call__(self):
+            self.count += 1
+            self.out.publish(Float32(data=45.0))
+
+    class HumiditySensor(Node):
+        def __init__(self):
+            super().__init__("humidity_sensor")
+            self.create_timer(0.5, Says(self.create_publisher(Float32, "humidity", 5)))
+    """)
+_written("a node inside a function", "03a", """
+    def make(period, topic):
+        class Made(Node):
+            def __init__(self):
+                super().__init__("humidity_sensor")
+                self.out = self.create_publisher(Float32, topic, 5)
+                self.create_timer(period, self.say)
+
+            def say(self):
+                self.out.publish(Float32(data=45.0))
+
+        return Made
+
+    HumiditySensor = make(0.5, "humidity")
+    """)
+_written("type", "03a", """
+    def __init__(self):
+        Node.__init__(self, "humidity_sensor")
+        self.out = self.create_publisher(Float32, "humidity", 5)
+        self.create_timer(1 / 2, self.say)
+
+    HumiditySensor = type("HumiditySensor", (Node,), {
+        "__init__": __init__,
+        "say": lambda self: self.out.publish(Float32(data=45.0)),
+    })
+    """)
+_written("a dataclass of settings", "03a", """
+    from dataclasses import dataclass, field
+
+    @dataclass
+    class Settings:
+        topic: str = "humidity"
+        period: "float" = 0.5
+        depth: int = field(default=5)
+
+    class HumiditySensor(Node):
+        settings = Settings()
+
+        def __init__(self):
+            super().__init__("humidity_sensor")
+            self.out = self.create_publisher(Float32, self.settings.topic, self.settings.depth)
+            self.create_timer(self.settings.period, self.say)
+
+        def say(self):
+            self.out.publish(Float32(data=45.0))
+    """)
+_written("an enum and a match", "04a", """
+    from enum import Enum
+
+    class State(Enum):
+        WARM = "Warm"
+        FROST = "Frost"
+        FINE = "Fine"
+
+        @classmethod
+        def of(cls, temp):
+            match temp:
+                case t if t > 8.0:
+                    return cls.WARM
+                case t if t < 2.0:
+                    return cls.FROST
+                case _:
+                    return cls.FINE
+
+    class FridgeMonitor(Node):
+        def __init__(self):
+            super().__init__("fridge_monitor")
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg):
+            state = State.of(msg.data)
+            self.get_logger().info(f"Fridge: {msg.data:.2f}C - Status:{state.value}")
+    """)
+_written("bisect", "04a", """
+    import bisect
+    import math
+
+    class FridgeMonitor(Node):
+        EDGES = (2.0, math.nextafter(8.0, 9.0))
+
+        def __init__(self):
+            super().__init__("fridge_monitor")
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg):
+            status = ("Frost", "Fine", "Warm")[bisect.bisect_right(self.EDGES, msg.data)]
+            self.get_logger().info("Fridge: %.2fC - Status:%s" % (msg.data, status))
+    """)
+_written("a table of rules", "04a", """
+    from operator import gt, lt
+
+    RULES = [(gt, 8.0, "Warm"), (lt, 2.0, "Frost")]
+
+    class FridgeMonitor(Node):
+        def __init__(self):
+            super().__init__("fridge_monitor")
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg):
+            status = next((word for test, limit, word in RULES if test(msg.data, limit)), "Fine")
+            self.get_logger().info("Fridge: {:.2f}C - Status:{}".format(msg.data, status))
+    """)
+_written("a property and its setter", "04a", """
+    class FridgeMonitor(Node):
+        def __init__(self):
+            super().__init__("fridge_monitor")
+            self._temp = 0.0
+            self.subscription = self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        @property
+        def temp(self):
+            return self._temp
+
+        @temp.setter
+        def temp(self, value):
+            self._temp = value
+
+        @property
+        def status(self):
+            return "Warm" if self.temp > 8 else "Frost" if self.temp < 2 else "Fine"
+
+        def hear(self, msg):
+            self.temp = msg.data
+            self.get_logger().info(f"Fridge: {self.temp:.2f}C - Status:{self.status}")
+    """)
+_written("a decorator that logs", "04a", """
+    import functools
+
+    def logged(method):
+        @functools.wraps(method)
+        def wrapper(self, *args, **options):
+            self.get_logger().info(method(self, *args, **options))
+        return wrapper
+
+    class FridgeMonitor(Node):
+        def __init__(self):
+            super().__init__("fridge_monitor")
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        @logged
+        def hear(self, msg):
+            word = {True: "Warm"}.get(msg.data > 8.0) or {True: "Frost"}.get(msg.data < 2.0)
+            return f"Fridge: {msg.data:.2f}C - Status:{word or 'Fine'}"
+    """)
+_written("numpy.select", "04a", """
+    import numpy as np
+
+    class FridgeMonitor(Node):
+        def __init__(self):
+            super().__init__("fridge_monitor")
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg):
+            status = np.select([msg.data > 8.0, msg.data < 2.0], ["Warm", "Frost"], "Fine")
+            self.get_logger().info(f"Fridge: {msg.data:.2f}C - Status:{status}")
+    """)
+_written("an async callback", "04a", """
+    class FridgeMonitor(Node):
+        def __init__(self):
+            super().__init__("fridge_monitor")
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        async def hear(self, msg):
+            status = "Warm" if msg.data > 8.0 else "Frost" if msg.data < 2.0 else "Fine"
+            self.get_logger().info(f"Fridge: {msg.data:.2f}C - Status:{status}")
+    """)
+_written("words by format", "04b", """
+    from string import Template
+
+    TEXT = Template("$degrees degrees")
+
+    class Alarm(Node):
+        def __init__(self, /, name="alarm"):
+            super().__init__(name)
+            self.alerts = self.create_publisher(String, "alert", 10)
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg: Float32) -> None:
+            if msg.data < 20.0 or msg.data > 26.0:
+                self.alerts.publish(String(data=TEXT.substitute(degrees=format(msg.data, ".1f"))))
+    """)
+_written("try, except, else, finally", "04b", """
+    class Comfortable(Exception):
+        pass
+
+    class Alarm(Node):
+        def __init__(self):
+            super().__init__("alarm")
+            self.alerts, self.heard = self.create_publisher(String, "alert", 10), 0
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg):
+            try:
+                if 20.0 <= msg.data <= 26.0:
+                    raise Comfortable
+            except Comfortable:
+                pass
+            else:
+                self.alerts.publish(String(data=f"{msg.data:.1f} degrees"))
+            finally:
+                self.heard += 1
+    """)
+_written("a deque and statistics", "04c", """
+    import statistics
+    from collections import deque
+
+    class CalmMonitor(Node):
+        def __init__(self):
+            super().__init__("calm_monitor")
+            self.last = deque(maxlen=5)
+            self.status = "Normal"
+            self.means = self.create_publisher(Float32, "mean", 10)
+            self.words = self.create_publisher(String, "status", 10)
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg):
+            self.last.append(msg.data)
+            self.means.publish(Float32(data=statistics.fmean(self.last)))
+            before, self.status = self.status, self.after(msg.data)
+            if before != self.status:
+                self.words.publish(String(data=self.status))
+
+        def after(self, x):
+            if x > 26.0 or (self.status == "High" and x >= 25.0):
+                return "High"
+            if x < 20.0 or (self.status == "Low" and x <= 21.0):
+                return "Low"
+            return "Normal"
+    """)
+_written("a class of its own for each task", "04c", """
+    from collections import deque
+
+    class Mean:
+        '''Keep the last values.'''
+
+        __slots__ = ("_values",)
+
+        def __init__(self, size: int = 5) -> None:
+            self._values: deque[float] = deque(maxlen=size)
+
+        def __lshift__(self, value: float) -> float:
+            self._values.append(value)
+            return sum(self._values) / len(self._values)
+
+    class Calm:
+        def __init__(self):
+            self.word = "Normal"
+
+        def send(self, x):
+            low, high = (20.0, 26.0)
+            low += 1.0 * (self.word == "Low")
+            high -= 1.0 * (self.word == "High")
+            above = x > high or (self.word == "High" and x == high)
+            below = x < low or (self.word == "Low" and x == low)
+            new = "High" if above else "Low" if below else "Normal"
+            changed, self.word = new != self.word, new
+            return changed
+
+    class CalmMonitor(Node):
+        def __init__(self):
+            super().__init__("calm_monitor")
+            self.mean, self.calm = Mean(), Calm()
+            self.means = self.create_publisher(Float32, "mean", 10)
+            self.words = self.create_publisher(String, "status", 10)
+            self.create_subscription(Float32, "temperature", self.hear, 10)
+
+        def hear(self, msg):
+            self.means.publish(Float32(data=self.mean << msg.data))
+            if self.calm.send(msg.data):
+                self.words.publish(String(data=self.calm.word))
+    """)
+_written("an event and a lock", "00a", """
+    import threading
+
+    class WeatherReader(Node):
+        def __init__(self):
+            super().__init__("weather_reader")
+            self.lock = threading.RLock()
+            self.heard = threading.Event()
+            self.signal = self.heard.set
+            self.create_subscription(String, "weather", self.read, 10)
+
+        def read(self, msg):
+            with self.lock:
+                self.signal()
+                self.get_logger().info("I read: " + msg.data)
+    """)
+_written("names in another alphabet", "00b", """
+    class SportsReporter(Node):
+        '''Спортивный репортёр ⚽'''
+
+        def __init__(self):
+            super().__init__("sports_reporter")
+            self.издатель = self.create_publisher(String, "sports", 10)
+            self.таймер = self.create_timer(2.0, self.писать)
+            self.счёт = 0
+
+        def писать(self):
+            self.счёт += 1
+            self.издатель.publish(String(data=f"Матч № {self.счёт}: ½ – 数 🎉"))
+    """)
+_written("itertools", "00b", """
+    import itertools
+
+    class SportsReporter(Node):
+        def __init__(self):
+            super().__init__("sports_reporter")
+            self.news = map("Goal {}".format, itertools.count(1))
+            out = self.create_publisher(String, "sports", 10)
+            self.create_timer(2.0, lambda: out.publish(String(data=next(self.news))))
+    """)
+_written("random without its module's name", "03b", """
+    from random import Random
+
+    class RoomSensor(Node):
+        __dice = Random()
+
+        def __init__(self):
+            super().__init__("temperature_sensor")
+            self.out = self.create_publisher(Float32, "temperature", 10)
+            self.create_timer(1.0, self.step)
+            self.__value = 22.0
+
+        def step(self):
+            self.__value = sorted((18.0, self.__value + self.__dice.uniform(-0.3, 0.3), 28.0))[1]
+            msg = Float32()
+            msg.data = self.__value
+            self.out.publish(msg)
+    """)
+_written("numpy's clip", "03b", """
+    import numpy as np
+
+    class RoomSensor(Node):
+        def __init__(self):
+            super().__init__("temperature_sensor")
+            self.out = self.create_publisher(Float32, "temperature", 10)
+            self.create_timer(1.0, self.step)
+            self.dice = np.random.default_rng()
+            self.temperature = np.float64(22.0)
+
+        def step(self):
+            drift = self.dice.uniform(-0.3, 0.3)
+            self.temperature = np.clip(self.temperature + drift, 18.0, 28.0)
+            self.out.publish(Float32(data=float(self.temperature)))
+    """)
+_written("a node that is tried out first", "03a", """
+    class HumiditySensor(Node):
+        def __init__(self):
+            super().__init__("humidity_sensor")
+            self.out = self.create_publisher(Float32, "humidity", 5)
+            self.create_timer(0.5, self.say)
+
+        def say(self):
+            self.out.publish(Float32(data=45.0))
+
+    with Session(seed=1) as robot:
+        node = robot.add(HumiditySensor)
+        robot.run(seconds=2)
+    print("works!", robot)
+    check("03a", HumiditySensor)
+    """)

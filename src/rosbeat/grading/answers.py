@@ -345,9 +345,12 @@ def without_magics(source: str) -> tuple[str, tuple[str, ...]]:
     text = "\n".join(lines)
     if _parsed(text) is not None:
         return text, tuple(said)
+    goes_on = False
     for number, line in enumerate(lines):
-        lines[number] = _plain_line(line)
-        if lines[number] != line and lines[number].endswith(("pass", "None")):
+        lines[number] = "" if goes_on else _plain_line(line)
+        is_left_out = lines[number] != line and lines[number].endswith(("pass", "None"))
+        goes_on = (is_left_out or goes_on) and line.rstrip().endswith("\\")
+        if is_left_out:
             said.append(
                 f"Line {number + 1} was left out, a command of IPython: {line.strip()[:60]}"
             )

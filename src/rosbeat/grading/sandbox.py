@@ -700,6 +700,8 @@ _SYSTEM = ("/usr", "/lib", "/lib32", "/lib64", "/bin", "/sbin")
 _ETC = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "localtime", "alternatives")
 #: Names of users and hosts come from files, of which there are none: nobody else is asked.
 _NAMES = "passwd: files\ngroup: files\nhosts: files\n"
+#: The one user in there: programs ask for its name and home.
+_USER = f"learner:x:{_INSIDE}:{_INSIDE}::/tmp:/bin/sh\n"
 _DEVICES = ("null", "zero", "full", "random", "urandom")
 #: Where everything that is written is thrown away, and how many bytes each may hold.
 _SCRATCH, _MOST_SCRATCH = ("/tmp", "/dev/shm"), 100 * MB
@@ -726,6 +728,7 @@ def _make_root(root: str, readable: Iterable[str], hidden: Iterable[str]) -> Non
     for path in (*_SYSTEM, *(f"/etc/{name}" for name in _ETC), *_outermost(readable)):
         _show(root, path)
     Path(f"{root}/etc/nsswitch.conf").write_text(_NAMES, encoding="ascii")
+    Path(f"{root}/etc/passwd").write_text(_USER, encoding="ascii")
     for path in hidden:
         if os.path.isdir(root + path):
             linux.mount("tmpfs", root + path, "tmpfs", _PLAIN | linux.MS_RDONLY, "size=4k,mode=755")
