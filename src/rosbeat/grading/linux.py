@@ -167,11 +167,11 @@ def _checked(result: int, what: str) -> None:
 # The filter of system calls.
 
 #: Numbers of calls on x86_64 and on aarch64. All but `pivot_root`, which takes a right that nobody
-#: in a sandbox has, and the last three are refused there:
+#: in a sandbox has, and the last four are refused there:
 #: keys are kept by the kernel for a user, past all namespaces (keyrings(7)); who lets itself be
-#: traced is held by whoever waits for it; memory of `memfd_create`, `shmget` and queues of messages
-#: belongs to no process that could be asked how much it uses, and queues and semaphores outlive
-#: the processes that made them; the others widen what of the kernel is in reach.
+#: traced is held by whoever waits for it; memory of `memfd_create`, `shmget`, queues of messages and
+#: what `vmsplice` puts into pipes belongs to no process that could be asked how much it uses, and
+#: queues and semaphores outlive the processes that made them; the others widen what of the kernel is in reach.
 _NUMBERS = {
     "pivot_root": (155, 41),
     "add_key": (248, 217),
@@ -186,6 +186,7 @@ _NUMBERS = {
     "msgget": (68, 186),
     "semget": (64, 190),
     "mq_open": (240, 180),
+    "vmsplice": (278, 75),
     "userfaultfd": (323, 282),
     "io_uring_setup": (425, 425),
     "io_uring_enter": (426, 426),
@@ -195,15 +196,18 @@ _NUMBERS = {
     "socket": (41, 198),
     "socketpair": (53, 199),
     "setsockopt": (54, 208),
+    "fcntl": (72, 25),
 }
 _SOCKETS = ("socket", "socketpair")
 #: The names of all calls that a sandbox refuses, whatever they are handed.
 REFUSED = tuple(
-    name for name in _NUMBERS if name not in ("pivot_root", *_SOCKETS, "setsockopt")
+    name for name in _NUMBERS if name not in ("pivot_root", *_SOCKETS, "setsockopt", "fcntl")
 )
 #: Options of sockets that change the size of a buffer: SO_SNDBUF, SO_RCVBUF, and their `...FORCE`.
 #: To set them has no effect, so that no more waits in a socket than the keeper reckons with.
 _SIZES = (7, 8, 32, 33)
+#: F_SETLEASE: who owns a file, as an ordinary user owns Python's, would stop others who open it.
+_LEASE = 1024
 #: Address families of sockets. Netlink's first protocol lists interfaces, which DDS asks for.
 _FAMILIES, _NETLINK = (socket.AF_UNIX, socket.AF_INET, socket.AF_INET6), 16
 #: Numbers of machines in linux/audit.h.
@@ -256,6 +260,8 @@ def _steps() -> list[bytes]:
         *(_step(_LOAD, _CALL), _step(_IF_AT_LEAST, _X32, 0, 1), _step(_RETURN, unknown)),
         *(one for name in REFUSED for one in _returned(number_of(name), refused)),
         *(_step(_IF_EQUAL, number_of("setsockopt"), 0, len(_of_options())), *_of_options()),
+        *(_step(_IF_EQUAL, number_of("fcntl"), 0, 4), _step(_LOAD, _SECOND)),
+        *(*_returned(_LEASE, refused), _step(_RETURN, _ALLOW)),
         *(_step(_IF_EQUAL, sockets[0], 2, 0), _step(_IF_EQUAL, sockets[1], 1, 0)),
         *(_step(_RETURN, _ALLOW), _step(_LOAD, _FIRST)),
         *(one for family in _FAMILIES for one in _returned(family, _ALLOW)),

@@ -183,6 +183,9 @@ _COUNTED = (b"RssAnon:", b"RssShmem:", b"VmPTE:")
 #: What the two buffers of a socket take when they are full, how many sockets of an answer need not
 #: count for full ones, and what one buffer of a TCP connection may take.
 _BUFFERS, _FREE_SOCKETS, _MOST_OF_TCP = 2 * 212_992, 64, 65_536
+#: Bytes of `/proc/PID/maps`, some 10,000 mappings, from which on the kernel's own notes of a process
+#: count, and what they may take.
+_MOST_MAPS, _NOTES = 1_000_000, 64 * MB
 #: What a process says when it has settled, and before it says what went wrong.
 _SETTLED, _TROUBLE = b".", b"!"
 #: What the keeper asks of init, and what that answers when it is done.
@@ -358,10 +361,13 @@ def _children(proc: int, process: int) -> list[int]:
 
 def _memory_of(proc: int, process: int) -> int:
     """Return the bytes of memory of a process."""
+    total = 0
     with suppress(OSError):
         lines = _read(f"{process}/status", proc).splitlines()
-        return 1024 * sum(int(one.split()[1]) for one in lines if one.startswith(_COUNTED))
-    return 0
+        total = 1024 * sum(int(one.split()[1]) for one in lines if one.startswith(_COUNTED))
+        if len(_read(f"{process}/maps", proc, _MOST_MAPS)) >= _MOST_MAPS:
+            total += _NOTES
+    return total
 
 
 def _sockets_of(proc: int, process: int) -> set[str]:
@@ -378,12 +384,16 @@ def _sockets_of(proc: int, process: int) -> set[str]:
     return {one for one in found if one.startswith("socket:")}
 
 
-def _read(path: str, folder: int) -> bytes:
+def _read(path: str, folder: int, most: int = 1 << 30) -> bytes:
+    """Return a file's content, as soon as it is whole or has as many bytes."""
     handle = os.open(path, os.O_RDONLY, dir_fd=folder)
+    found = bytearray()
     try:
-        return b"".join(iter(lambda: os.read(handle, 65_536), b""))
+        while len(found) < most and (data := os.read(handle, 65_536)):
+            found += data
     finally:
         os.close(handle)
+    return bytes(found)
 
 
 # Becoming the work.
