@@ -166,12 +166,12 @@ def _checked(result: int, what: str) -> None:
 
 # The filter of system calls.
 
-#: Numbers of calls on x86_64 and on aarch64. All but `pivot_root`, which takes a right that nobody
-#: in a sandbox has, and the last four are refused there:
+#: Numbers of calls on x86_64 and on aarch64. `REFUSED` are those that a sandbox refuses always:
 #: keys are kept by the kernel for a user, past all namespaces (keyrings(7)); who lets itself be
 #: traced is held by whoever waits for it; memory of `memfd_create`, `shmget`, queues of messages and
 #: what `vmsplice` puts into pipes belongs to no process that could be asked how much it uses, and
-#: queues and semaphores outlive the processes that made them; the others widen what of the kernel is in reach.
+#: queues and semaphores outlive the processes that made them; the others widen what of the kernel
+#: is in reach.
 _NUMBERS = {
     "pivot_root": (155, 41),
     "add_key": (248, 217),
@@ -197,11 +197,27 @@ _NUMBERS = {
     "socketpair": (53, 199),
     "setsockopt": (54, 208),
     "fcntl": (72, 25),
+    "prlimit64": (302, 261),
+    "setpriority": (141, 140),
+    "sched_setparam": (142, 118),
+    "sched_setscheduler": (144, 119),
+    "sched_setaffinity": (203, 122),
+    "sched_setattr": (314, 274),
 }
 _SOCKETS = ("socket", "socketpair")
-#: The names of all calls that a sandbox refuses, whatever they are handed.
+#: Calls that may be made for oneself only, with the places of the arguments that have to be 0: init
+#: is of the same user, and without memory or time it would end, or be late.
+_FOR_ONESELF = {
+    "setpriority": (0, 1),
+    **dict.fromkeys(("prlimit64", "sched_setparam", "sched_setscheduler"), (0,)),
+    **dict.fromkeys(("sched_setaffinity", "sched_setattr"), (0,)),
+}
+#: The names of all calls that a sandbox refuses, whatever they are handed; `pivot_root` takes a
+#: right that nobody in there has.
 REFUSED = tuple(
-    name for name in _NUMBERS if name not in ("pivot_root", *_SOCKETS, "setsockopt", "fcntl")
+    name
+    for name in _NUMBERS
+    if name not in ("pivot_root", *_SOCKETS, "setsockopt", "fcntl", *_FOR_ONESELF)
 )
 #: Options of sockets that change the size of a buffer: SO_SNDBUF, SO_RCVBUF, and their `...FORCE`.
 #: To set them has no effect, so that no more waits in a socket than the keeper reckons with.
@@ -214,7 +230,7 @@ _FAMILIES, _NETLINK = (socket.AF_UNIX, socket.AF_INET, socket.AF_INET6), 16
 _MACHINES = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 _LOAD, _IF_EQUAL, _IF_AT_LEAST, _RETURN = 0x20, 0x15, 0x35, 0x06
 _ALLOW, _REFUSE = 0x7FFF0000, 0x00050000
-#: Where in `struct seccomp_data` the call's number, the machine and three arguments are.
+#: Where in `struct seccomp_data` the call's number, the machine and its arguments are.
 _CALL, _MACHINE, _FIRST, _SECOND, _THIRD = 0, 4, 16, 24, 32
 #: From here on, numbers of x86_64 are those of another way to call (x32).
 _X32 = 0x40000000
@@ -259,9 +275,13 @@ def _steps() -> list[bytes]:
         *(_step(_LOAD, _MACHINE), _step(_IF_EQUAL, machine, 1, 0), _step(_RETURN, unknown)),
         *(_step(_LOAD, _CALL), _step(_IF_AT_LEAST, _X32, 0, 1), _step(_RETURN, unknown)),
         *(one for name in REFUSED for one in _returned(number_of(name), refused)),
-        *(_step(_IF_EQUAL, number_of("setsockopt"), 0, len(_of_options())), *_of_options()),
-        *(_step(_IF_EQUAL, number_of("fcntl"), 0, 4), _step(_LOAD, _SECOND)),
-        *(*_returned(_LEASE, refused), _step(_RETURN, _ALLOW)),
+        *_if_called("setsockopt", _of_options()),
+        *_if_called("fcntl", [_step(_LOAD, _SECOND), *_returned(_LEASE, refused)]),
+        *(
+            one
+            for name, places in _FOR_ONESELF.items()
+            for one in _if_called(name, _of_oneself(places, refused))
+        ),
         *(_step(_IF_EQUAL, sockets[0], 2, 0), _step(_IF_EQUAL, sockets[1], 1, 0)),
         *(_step(_RETURN, _ALLOW), _step(_LOAD, _FIRST)),
         *(one for family in _FAMILIES for one in _returned(family, _ALLOW)),
@@ -270,14 +290,27 @@ def _steps() -> list[bytes]:
     ]
 
 
+def _if_called(name: str, steps: list[bytes]) -> list[bytes]:
+    """Return steps for one call, which is allowed if they come to their end."""
+    return [_step(_IF_EQUAL, number_of(name), 0, len(steps) + 1), *steps, _step(_RETURN, _ALLOW)]
+
+
 def _of_options() -> list[bytes]:
     """Return what is done with `setsockopt`: sizes of buffers are taken for set, and are not."""
     return [
         *(_step(_LOAD, _SECOND), _step(_IF_EQUAL, socket.SOL_SOCKET, 1, 0)),
         *(_step(_RETURN, _ALLOW), _step(_LOAD, _THIRD)),
         *(one for option in _SIZES for one in _returned(option, _REFUSE)),
-        _step(_RETURN, _ALLOW),
     ]
+
+
+def _of_oneself(places: tuple[int, ...], refused: int) -> list[bytes]:
+    """Return the steps that refuse a call for any other process."""
+    each = [
+        (_step(_LOAD, _FIRST + 8 * place), _step(_IF_EQUAL, 0, 1, 0), _step(_RETURN, refused))
+        for place in places
+    ]
+    return [one for some in each for one in some]
 
 
 def _returned(value: int, verdict: int) -> tuple[bytes, bytes]:

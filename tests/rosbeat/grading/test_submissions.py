@@ -129,7 +129,7 @@ def test_a_path_can_be_told_as_its_learner_knows_it(path, own):
     ],
 )  # fmt: skip
 def test_nobody_hands_in_for_somebody_else(ana, eve, learners, handed_in, pages):
-    files = {f"{ana}03_write.ipynb": PAGE_03, f"{eve}03_write.ipynb": PAGE_03.replace("a", "a ")}
+    files = {f"{ana}03_write.ipynb": PAGE_03, f"{eve}03_write.ipynb": f"{PAGE_03}\n"}
     found = collect(handed_in(files), pages)
     assert tuple(one.learner for one in found.submissions) == learners
     assert all(len(one.pages) == 1 and not one.remarks for one in found.submissions)
