@@ -24,6 +24,8 @@ from typing import Any, Union, cast, get_args, get_origin, get_type_hints
 from rosbeat.errors import RecordError
 from rosbeat.record_columns import records_of
 
+#: Not looked up in `json` when a record is written: an answer that is observed may change that.
+_dumps = json.dumps
 _FLOAT, _COLUMNS = "$float", "$columns"
 #: From how many records on a tuple is written by columns.
 _MANY = 32
@@ -51,7 +53,7 @@ def write(
         columns: Write long tuples of records by columns.
     """
     document = {**head, **_plain(value, columns)}
-    return json.dumps(document, sort_keys=sort_keys, allow_nan=False, separators=(",", ":"))
+    return _dumps(document, sort_keys=sort_keys, allow_nan=False, separators=(",", ":"))
 
 
 @cache

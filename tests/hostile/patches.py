@@ -21,7 +21,7 @@ DEEDS = (
             f"import json\n{_PATCH.format(name='dumps')}{_FAKE_JSON}\njson.dumps = fake",
             WRONG.replace("0.7", "0.4999"),
         ),
-        forges=True,
+        words="readings",
     ),
     Deed(
         "json.dumps, by another name, put back later",

@@ -207,18 +207,14 @@ _NUMBERS = {
 _SOCKETS = ("socket", "socketpair")
 #: Calls that may be made for oneself only, with the places of the arguments that have to be 0: init
 #: is of the same user, and without memory or time it would end, or be late.
-_FOR_ONESELF = {
-    "setpriority": (0, 1),
-    **dict.fromkeys(("prlimit64", "sched_setparam", "sched_setscheduler"), (0,)),
-    **dict.fromkeys(("sched_setaffinity", "sched_setattr"), (0,)),
-}
+_FOR_ONESELF = {"prlimit64": (0,), "setpriority": (0, 1)}
+#: Calls that have an effect for oneself only; the middleware makes them for its own threads.
+_SCHEDULING = ("sched_setparam", "sched_setscheduler", "sched_setaffinity", "sched_setattr")
+#: The names of all calls that a sandbox judges by what they are handed.
+_JUDGED = (*_SOCKETS, *_FOR_ONESELF, *_SCHEDULING, "setsockopt", "fcntl")
 #: The names of all calls that a sandbox refuses, whatever they are handed; `pivot_root` takes a
 #: right that nobody in there has.
-REFUSED = tuple(
-    name
-    for name in _NUMBERS
-    if name not in ("pivot_root", *_SOCKETS, "setsockopt", "fcntl", *_FOR_ONESELF)
-)
+REFUSED = tuple(name for name in _NUMBERS if name not in ("pivot_root", *_JUDGED))
 #: Options of sockets that change the size of a buffer: SO_SNDBUF, SO_RCVBUF, and their `...FORCE`.
 #: To set them has no effect, so that no more waits in a socket than the keeper reckons with.
 _SIZES = (7, 8, 32, 33)
@@ -282,6 +278,7 @@ def _steps() -> list[bytes]:
             for name, places in _FOR_ONESELF.items()
             for one in _if_called(name, _of_oneself(places, refused))
         ),
+        *(one for name in _SCHEDULING for one in _if_called(name, _of_oneself((0,), _REFUSE))),
         *(_step(_IF_EQUAL, sockets[0], 2, 0), _step(_IF_EQUAL, sockets[1], 1, 0)),
         *(_step(_RETURN, _ALLOW), _step(_LOAD, _FIRST)),
         *(one for family in _FAMILIES for one in _returned(family, _ALLOW)),
@@ -304,10 +301,10 @@ def _of_options() -> list[bytes]:
     ]
 
 
-def _of_oneself(places: tuple[int, ...], refused: int) -> list[bytes]:
-    """Return the steps that refuse a call for any other process."""
+def _of_oneself(places: tuple[int, ...], verdict: int) -> list[bytes]:
+    """Return the steps with a verdict on a call for any other process or thread."""
     each = [
-        (_step(_LOAD, _FIRST + 8 * place), _step(_IF_EQUAL, 0, 1, 0), _step(_RETURN, refused))
+        (_step(_LOAD, _FIRST + 8 * place), _step(_IF_EQUAL, 0, 1, 0), _step(_RETURN, verdict))
         for place in places
     ]
     return [one for some in each for one in some]

@@ -44,14 +44,16 @@ def observe(job: Job, seal: str, result: int) -> None:
         result: The descriptor to write to: the seal, and an object of JSON with `seen`; or with
             `raised`, `text`, `line` and `code` if the cell could not be run.
     """
-    run, write, given = scenario(job.exercise), _writer(seal, result), json.loads(job.given)
+    # What is looked up here is what it was before the answer runs.
+    run, write, to_text = scenario(job.exercise), _writer(seal, result), to_json
+    given = json.loads(job.given)
     warnings.simplefilter("ignore")  # a warning ends no cell
     try:
         subject = _replayed(job) if job.replay else _subject_of(job)
     except BaseException as error:  # SystemExit, too: it is what the cell does
         write(fault_of(error, job.answer))
         return
-    write({"seen": to_json(run(subject, job.seed, **given))})
+    write({"seen": to_text(run(subject, job.seed, **given))})
 
 
 def _writer(seal: str, result: int) -> Callable[[dict[str, Any]], None]:

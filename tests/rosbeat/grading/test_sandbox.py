@@ -2,6 +2,7 @@
 
 import errno
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -169,6 +170,8 @@ def test_the_first_process_cannot_be_starved_or_slowed(seen):
     told = seen["reaches_init"]["told"]
     assert told.pop("my own") == ["done", "done"]
     assert told.pop("signal") == 0  # it does not hear it
+    assert told.pop("time") == ["done", os.SCHED_OTHER]  # it has no effect
+    assert told.pop("processor") == ["done", len(os.sched_getaffinity(0))]
     assert set(told.values()) == {-1, "PermissionError"}
 
 
