@@ -37,7 +37,11 @@ class Style:
             found = re.search(r"(?m)^class [^\n]*:\n", answer)
             assert found, answer
             answer = f"{answer[: found.end()]}{inner}\n\n{answer[found.end() :]}"
-        parts = (dedent(self.above).strip("\n"), self.change(answer), dedent(self.below).strip("\n"))
+        parts = (
+            dedent(self.above).strip("\n"),
+            self.change(answer),
+            dedent(self.below).strip("\n"),
+        )
         return "\n\n".join(part for part in parts if part)
 
 
@@ -47,7 +51,9 @@ def _first_class(answer: str) -> str:
 
 def _named_below(text: str) -> Callable[[str], str]:
     """Add a text in which NAME is the class."""
-    return lambda answer: f"{answer}\n\n{dedent(text).strip()}".replace("NAME", _first_class(answer))
+    return lambda answer: f"{answer}\n\n{dedent(text).strip()}".replace(
+        "NAME", _first_class(answer)
+    )
 
 
 def _each_class(pattern: str, other: str) -> Callable[[str], str]:
@@ -376,7 +382,10 @@ def _written(name: str, exercise: str, text: str) -> None:
     WRITTEN[name] = (exercise, dedent(text).strip() + "\n")
 
 
-_written("getattr and setattr", "03a", """
+_written(
+    "getattr and setattr",
+    "03a",
+    """
     class HumiditySensor(Node):
         def __init__(self):
             super().__init__("humidity_sensor")
@@ -389,15 +398,23 @@ _written("getattr and setattr", "03a", """
 
         def say(self):
             self.out.publish(Float32(data=self.value))
-    """)
-_written("a lambda", "03a", """
+    """,
+)
+_written(
+    "a lambda",
+    "03a",
+    """
     class HumiditySensor(Node):
         def __init__(self, *args, **options):
             super().__init__("humidity_sensor", *args, **options)
             out = self.create_publisher(Float32, "humidity", 5)
             self.create_timer(0.5, lambda: out.publish(Float32(data=45.0)))
-    """)
-_written("partial", "03a", """
+    """,
+)
+_written(
+    "partial",
+    "03a",
+    """
     from functools import partial
 
     class HumiditySensor(Node):
@@ -406,8 +423,12 @@ _written("partial", "03a", """
             out = self.create_publisher(msg_type=Float32, topic="humidity", qos_profile=5)
             self.create_timer(timer_period_sec=0.5,
                               callback=partial(out.publish, Float32(data=45.0)))
-    """)
-_written("a generator as a callback", "03a", """
+    """,
+)
+_written(
+    "a generator as a callback",
+    "03a",
+    """
     class HumiditySensor(Node):
         def __init__(self):
             super().__init__("humidity_sensor")
@@ -417,8 +438,12 @@ _written("a generator as a callback", "03a", """
         def _run(self, out):
             while True:
                 yield out.publish(Float32(data=45.0))
-    """)
-_written("a callable object", "03a", """
+    """,
+)
+_written(
+    "a callable object",
+    "03a",
+    """
     class Says:
         def __init__(self, out):
             self.out = out
@@ -432,8 +457,12 @@ _written("a callable object", "03a", """
         def __init__(self):
             super().__init__("humidity_sensor")
             self.create_timer(0.5, Says(self.create_publisher(Float32, "humidity", 5)))
-    """)
-_written("a node inside a function", "03a", """
+    """,
+)
+_written(
+    "a node inside a function",
+    "03a",
+    """
     def make(period, topic):
         class Made(Node):
             def __init__(self):
@@ -447,8 +476,12 @@ _written("a node inside a function", "03a", """
         return Made
 
     HumiditySensor = make(0.5, "humidity")
-    """)
-_written("type", "03a", """
+    """,
+)
+_written(
+    "type",
+    "03a",
+    """
     def __init__(self):
         Node.__init__(self, "humidity_sensor")
         self.out = self.create_publisher(Float32, "humidity", 5)
@@ -458,8 +491,12 @@ _written("type", "03a", """
         "__init__": __init__,
         "say": lambda self: self.out.publish(Float32(data=45.0)),
     })
-    """)
-_written("a dataclass of settings", "03a", """
+    """,
+)
+_written(
+    "a dataclass of settings",
+    "03a",
+    """
     from dataclasses import dataclass, field
 
     @dataclass
@@ -478,8 +515,12 @@ _written("a dataclass of settings", "03a", """
 
         def say(self):
             self.out.publish(Float32(data=45.0))
-    """)
-_written("an enum and a match", "04a", """
+    """,
+)
+_written(
+    "an enum and a match",
+    "04a",
+    """
     from enum import Enum
 
     class State(Enum):
@@ -505,8 +546,12 @@ _written("an enum and a match", "04a", """
         def hear(self, msg):
             state = State.of(msg.data)
             self.get_logger().info(f"Fridge: {msg.data:.2f}C - Status:{state.value}")
-    """)
-_written("bisect", "04a", """
+    """,
+)
+_written(
+    "bisect",
+    "04a",
+    """
     import bisect
     import math
 
@@ -520,8 +565,12 @@ _written("bisect", "04a", """
         def hear(self, msg):
             status = ("Frost", "Fine", "Warm")[bisect.bisect_right(self.EDGES, msg.data)]
             self.get_logger().info("Fridge: %.2fC - Status:%s" % (msg.data, status))
-    """)
-_written("a table of rules", "04a", """
+    """,
+)
+_written(
+    "a table of rules",
+    "04a",
+    """
     from operator import gt, lt
 
     RULES = [(gt, 8.0, "Warm"), (lt, 2.0, "Frost")]
@@ -534,8 +583,12 @@ _written("a table of rules", "04a", """
         def hear(self, msg):
             status = next((word for test, limit, word in RULES if test(msg.data, limit)), "Fine")
             self.get_logger().info("Fridge: {:.2f}C - Status:{}".format(msg.data, status))
-    """)
-_written("a property and its setter", "04a", """
+    """,
+)
+_written(
+    "a property and its setter",
+    "04a",
+    """
     class FridgeMonitor(Node):
         def __init__(self):
             super().__init__("fridge_monitor")
@@ -557,8 +610,12 @@ _written("a property and its setter", "04a", """
         def hear(self, msg):
             self.temp = msg.data
             self.get_logger().info(f"Fridge: {self.temp:.2f}C - Status:{self.status}")
-    """)
-_written("a decorator that logs", "04a", """
+    """,
+)
+_written(
+    "a decorator that logs",
+    "04a",
+    """
     import functools
 
     def logged(method):
@@ -576,8 +633,12 @@ _written("a decorator that logs", "04a", """
         def hear(self, msg):
             word = {True: "Warm"}.get(msg.data > 8.0) or {True: "Frost"}.get(msg.data < 2.0)
             return f"Fridge: {msg.data:.2f}C - Status:{word or 'Fine'}"
-    """)
-_written("numpy.select", "04a", """
+    """,
+)
+_written(
+    "numpy.select",
+    "04a",
+    """
     import numpy as np
 
     class FridgeMonitor(Node):
@@ -588,8 +649,12 @@ _written("numpy.select", "04a", """
         def hear(self, msg):
             status = np.select([msg.data > 8.0, msg.data < 2.0], ["Warm", "Frost"], "Fine")
             self.get_logger().info(f"Fridge: {msg.data:.2f}C - Status:{status}")
-    """)
-_written("an async callback", "04a", """
+    """,
+)
+_written(
+    "an async callback",
+    "04a",
+    """
     class FridgeMonitor(Node):
         def __init__(self):
             super().__init__("fridge_monitor")
@@ -598,8 +663,12 @@ _written("an async callback", "04a", """
         async def hear(self, msg):
             status = "Warm" if msg.data > 8.0 else "Frost" if msg.data < 2.0 else "Fine"
             self.get_logger().info(f"Fridge: {msg.data:.2f}C - Status:{status}")
-    """)
-_written("words by format", "04b", """
+    """,
+)
+_written(
+    "words by format",
+    "04b",
+    """
     from string import Template
 
     TEXT = Template("$degrees degrees")
@@ -613,8 +682,12 @@ _written("words by format", "04b", """
         def hear(self, msg: Float32) -> None:
             if msg.data < 20.0 or msg.data > 26.0:
                 self.alerts.publish(String(data=TEXT.substitute(degrees=format(msg.data, ".1f"))))
-    """)
-_written("try, except, else, finally", "04b", """
+    """,
+)
+_written(
+    "try, except, else, finally",
+    "04b",
+    """
     class Comfortable(Exception):
         pass
 
@@ -634,8 +707,12 @@ _written("try, except, else, finally", "04b", """
                 self.alerts.publish(String(data=f"{msg.data:.1f} degrees"))
             finally:
                 self.heard += 1
-    """)
-_written("a deque and statistics", "04c", """
+    """,
+)
+_written(
+    "a deque and statistics",
+    "04c",
+    """
     import statistics
     from collections import deque
 
@@ -661,8 +738,12 @@ _written("a deque and statistics", "04c", """
             if x < 20.0 or (self.status == "Low" and x <= 21.0):
                 return "Low"
             return "Normal"
-    """)
-_written("a class of its own for each task", "04c", """
+    """,
+)
+_written(
+    "a class of its own for each task",
+    "04c",
+    """
     from collections import deque
 
     class Mean:
@@ -703,8 +784,12 @@ _written("a class of its own for each task", "04c", """
             self.means.publish(Float32(data=self.mean << msg.data))
             if self.calm.send(msg.data):
                 self.words.publish(String(data=self.calm.word))
-    """)
-_written("an event and a lock", "00a", """
+    """,
+)
+_written(
+    "an event and a lock",
+    "00a",
+    """
     import threading
 
     class WeatherReader(Node):
@@ -719,8 +804,12 @@ _written("an event and a lock", "00a", """
             with self.lock:
                 self.signal()
                 self.get_logger().info("I read: " + msg.data)
-    """)
-_written("names in another alphabet", "00b", """
+    """,
+)
+_written(
+    "names in another alphabet",
+    "00b",
+    """
     class SportsReporter(Node):
         '''Спортивный репортёр ⚽'''
 
@@ -733,8 +822,12 @@ _written("names in another alphabet", "00b", """
         def писать(self):
             self.счёт += 1
             self.издатель.publish(String(data=f"Матч № {self.счёт}: ½ – 数 🎉"))
-    """)
-_written("itertools", "00b", """
+    """,
+)
+_written(
+    "itertools",
+    "00b",
+    """
     import itertools
 
     class SportsReporter(Node):
@@ -743,8 +836,12 @@ _written("itertools", "00b", """
             self.news = map("Goal {}".format, itertools.count(1))
             out = self.create_publisher(String, "sports", 10)
             self.create_timer(2.0, lambda: out.publish(String(data=next(self.news))))
-    """)
-_written("random without its module's name", "03b", """
+    """,
+)
+_written(
+    "random without its module's name",
+    "03b",
+    """
     from random import Random
 
     class RoomSensor(Node):
@@ -761,8 +858,12 @@ _written("random without its module's name", "03b", """
             msg = Float32()
             msg.data = self.__value
             self.out.publish(msg)
-    """)
-_written("numpy's clip", "03b", """
+    """,
+)
+_written(
+    "numpy's clip",
+    "03b",
+    """
     import numpy as np
 
     class RoomSensor(Node):
@@ -777,8 +878,12 @@ _written("numpy's clip", "03b", """
             drift = self.dice.uniform(-0.3, 0.3)
             self.temperature = np.clip(self.temperature + drift, 18.0, 28.0)
             self.out.publish(Float32(data=float(self.temperature)))
-    """)
-_written("a node that is tried out first", "03a", """
+    """,
+)
+_written(
+    "a node that is tried out first",
+    "03a",
+    """
     class HumiditySensor(Node):
         def __init__(self):
             super().__init__("humidity_sensor")
@@ -793,4 +898,5 @@ _written("a node that is tried out first", "03a", """
         robot.run(seconds=2)
     print("works!", robot)
     check("03a", HumiditySensor)
-    """)
+    """,
+)
