@@ -172,7 +172,7 @@ IMPORTS = (
     Style("statistics", "import statistics\nfrom collections import Counter, deque\n"
           "print(statistics.mean(deque([1, 2], maxlen=5)), Counter('abba'))"),
     Style("argparse", "import argparse\nparser = argparse.ArgumentParser()\n"
-          "parser.add_argument('--rate', type=float, default=2.0)\noptions = parser.parse_args([])"),
+          "parser.add_argument('--rate', type=float)\noptions = parser.parse_args([])"),
     Style("a program", "import subprocess\nprint(subprocess.run(['echo', 'hello'], check=True,\n"
           "                     capture_output=True, text=True).stdout)"),
     Style("which", "import shutil\nprint(shutil.which('python3'))"),

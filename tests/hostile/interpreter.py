@@ -133,7 +133,8 @@ DEEDS = (
         before(
             "import signal\nfor one in signal.valid_signals() - {signal.SIGKILL, signal.SIGSTOP}:\n"
             "    signal.signal(one, signal.SIG_IGN)\n"
-            "signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())\nwhile True:\n    pass"
+            "signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())\n"
+            "while True:\n    pass"
         ),
         words="end",
     ),
@@ -162,14 +163,15 @@ DEEDS = (
     ),
     Deed(
         "another program in its place",
-        before(f"import os, sys\nos.execv(sys.executable, [sys.executable, '-c', 'x=\"{TRACE}\"'])"),
+        before(f"import os\nos.execv('/bin/sh', ['sh', '-c', 'exit 0', '{TRACE}'])"),
         words="ended",
     ),
     Deed(
         "another program that writes where evidence goes",
         before(
             "import os, sys\nos.set_inheritable(3, True)\n"
-            "os.execv(sys.executable, [sys.executable, '-c', 'import os; os.write(3, b\"passed\")'])"
+            "program = 'import os; os.write(3, b\"passed\")'\n"
+            "os.execv(sys.executable, [sys.executable, '-c', program])"
         ),
         words="seal",
     ),

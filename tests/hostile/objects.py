@@ -122,7 +122,8 @@ DEEDS = (
     Deed(
         "an exception group of many",
         before(
-            "try:\n    error = ExceptionGroup('x' * 10_000, [ValueError(n) for n in range(10_000)])\n"
+            "try:\n    some = [ValueError(n) for n in range(10_000)]\n"
+            "    error = ExceptionGroup('x' * 10_000, some)\n"
             "except NameError:\n    error = ValueError('Group')\nraise error"
         ),
         words="Group",

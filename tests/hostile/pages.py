@@ -124,7 +124,7 @@ def _no_names(body):
 
 
 #: Names that are defined nowhere, and cells that might define them.
-_UNKNOWN = "\n".join(f"n{n}" for n in range(3_000))
+_UNKNOWN = "; ".join(f"n{n}" for n in range(3_000))
 _MIGHT = "é = 1\n" + "\n".join(f"y{n} = {n}" for n in range(300))
 _SUM = f"BASE = {' + '.join(['1'] * 900)}"
 _CHAIN = f"BASE = Node{'.x' * 2_000}"
@@ -189,10 +189,10 @@ UPLOADS = (
            "failed"),
     Upload("a helper that is a long sum", {PAGE: page(
         RIGHT.replace("0.5", "BASE / 1800"), _above(_SUM))}, "passed"),
-    Upload("a helper that is a long chain", {PAGE: page(f"BASE\n{RIGHT}", _above(_CHAIN))}, "failed"),
+    Upload("a helper that is a long chain", {PAGE: page(f"BASE\n{RIGHT}", _above(_CHAIN))},
+           "failed"),
     Upload("names that no cell defines", {PAGE: page(
-        f"def unused():\n    {_UNKNOWN.replace(chr(10), '; ')}\n\n{RIGHT}", _above(*[_MIGHT] * 900))},
-        "passed"),
+        f"def unused():\n    {_UNKNOWN}\n\n{RIGHT}", _above(*[_MIGHT] * 900))}, "passed"),
     Upload("helpers that need each other", {PAGE: page(f"n0\n{RIGHT}", _above(
         "\n".join(f"n{n} = n{n + 1}" for n in range(2_000))))}, "failed"),
     Upload("a program of 300,000 statements", {PAGE: page("a = 1\n" + "a;" * 300_000 + RIGHT)}, ""),
@@ -207,8 +207,8 @@ UPLOADS = (
            "passed"),
     Upload("a zip with 20,000 folders in each other", {"all.zip": _zip(
         {"a/" * 20_000 + PAGE: _WHOLE})}, "", "folders"),
-    Upload("a zip with 30,000 files", {"all.zip": _zip({str(n): b"" for n in range(30_000)})}, "held",
-           "entries"),
+    Upload("a zip with 30,000 files", {"all.zip": _zip({str(n): b"" for n in range(30_000)})},
+           "held", "entries"),
     Upload("a zip for somebody else", {"all.zip": _zip(
         {f"Ana_4711_assignsubmission_file_/{PAGE}": _WHOLE})}, "passed"),
     Upload("a file for somebody else", {f"ana_4711_1_{PAGE}": _WHOLE}, "passed"),

@@ -168,10 +168,10 @@ def _checked(result: int, what: str) -> None:
 
 #: Numbers of calls on x86_64 and on aarch64. `REFUSED` are those that a sandbox refuses always:
 #: keys are kept by the kernel for a user, past all namespaces (keyrings(7)); who lets itself be
-#: traced is held by whoever waits for it; memory of `memfd_create`, `shmget`, queues of messages and
-#: what `vmsplice` puts into pipes belongs to no process that could be asked how much it uses, and
-#: queues and semaphores outlive the processes that made them; the others widen what of the kernel
-#: is in reach.
+#: traced is held by whoever waits for it; memory of `memfd_create`, of `shmget`, of queues of
+#: messages, and of what `vmsplice` puts into pipes, belongs to no process that could be asked how
+#: much it uses, and queues and semaphores outlive the processes that made them; the others widen
+#: what of the kernel is in reach.
 _NUMBERS = {
     "pivot_root": (155, 41),
     "add_key": (248, 217),

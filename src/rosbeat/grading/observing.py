@@ -177,7 +177,7 @@ def _replayed(job: Job) -> Any:  # noqa: ANN401 - whatever a page hands over
     workspace.register(shell)
     run_imports(job.imports, shell.user_ns)
     for cell in job.replay:
-        shell.run_cell(cell, store_history=False)
+        shell.run_cell(cell, store_history=True)
     return eval(compile(job.subject, "<check>", "eval", dont_inherit=True), shell.user_ns)
 
 

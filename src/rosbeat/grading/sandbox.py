@@ -183,8 +183,8 @@ _COUNTED = (b"RssAnon:", b"RssShmem:", b"VmPTE:")
 #: What the two buffers of a socket take when they are full, how many sockets of an answer need not
 #: count for full ones, and what one buffer of a TCP connection may take.
 _BUFFERS, _FREE_SOCKETS, _MOST_OF_TCP = 2 * 212_992, 64, 65_536
-#: Bytes of `/proc/PID/maps`, some 10,000 mappings, from which on the kernel's own notes of a process
-#: count, and what they may take.
+#: Bytes of `/proc/PID/maps`, some 10,000 mappings, from which on what the kernel notes of a process
+#: counts, and how much that may be.
 _MOST_MAPS, _NOTES = 1_000_000, 64 * MB
 #: What a process says when it has settled, and before it says what went wrong.
 _SETTLED, _TROUBLE = b".", b"!"
