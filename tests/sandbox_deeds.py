@@ -4,13 +4,16 @@ It is a process of its own because a sandbox is forked, and a test process has t
 """
 
 import ctypes
+import fcntl
 import json
 import mmap
 import os
 import platform
+import resource
 import shutil
 import signal
 import socket
+import struct
 import sys
 import tempfile
 import time
@@ -255,6 +258,200 @@ def fills_both_scratch_folders(result):
     print(len(eaten))
 
 
+def leaves_queues(result):
+    """Queues and semaphores belong to no process, but to the namespace."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.mq_open(b"/left", os.O_CREAT | os.O_RDWR, 0o666, None)
+    libc.msgget(0x1EF7, 0o1666)
+    libc.semget(0x1EF7, 1, 0o1666)
+
+
+def finds_queues(result):
+    libc = ctypes.CDLL(None, use_errno=True)
+    tells(result, {
+        "posix": libc.mq_open(b"/left", os.O_RDWR), "messages": libc.msgget(0x1EF7, 0),
+        "semaphores": libc.semget(0x1EF7, 0, 0),
+    })  # fmt: skip
+
+
+def keeps_memory_in_tcp(result):
+    """A window grows while somebody reads; what is sent when nobody does any more is kept."""
+    kept, sent = [], 0
+    with socket.create_server(("127.0.0.1", 0), backlog=50) as server:
+        for _ in range(20):
+            pair = (socket.create_connection(server.getsockname()), server.accept()[0])
+            kept.append(pair)
+            for end in pair:
+                end.setblocking(False)
+            for begin, reading in ((0, True), (1, False)) * 2:
+                for _ in range(30):
+                    with suppress(BlockingIOError):
+                        sent += 0 if reading else pair[begin].send(bytes(1_000_000))
+                    with suppress(BlockingIOError):
+                        while reading and pair[1 - begin].recv(1 << 20):
+                            pass
+    tells(result, {"kept": sent, "pairs": len(kept)})
+
+
+def keeps_a_few_sockets_in_many_processes(result):
+    for _ in range(100):
+        if os.fork() == 0:
+            kept = [socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM) for _ in range(20)]
+            for one in (end for pair in kept for end in pair):
+                one.setblocking(False)
+                with suppress(OSError):
+                    while True:
+                        one.send(b"x" * 50_000)
+            time.sleep(1000)
+    time.sleep(1000)
+
+
+def asks_for_larger_buffers(result):
+    def size(option):
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sock:
+            before = sock.getsockopt(socket.SOL_SOCKET, option)
+            sock.setsockopt(socket.SOL_SOCKET, option, 8_000_000)
+            return sock.getsockopt(socket.SOL_SOCKET, option) == before
+
+    def other_option():
+        with socket.socket() as sock:
+            sock.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            return sock.getsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR)
+
+    tells(result, {"same": [size(one) for one in (socket.SO_SNDBUF, socket.SO_RCVBUF)],
+                   "other": other_option()})  # fmt: skip
+
+
+def fills_tables_of_pages(result):
+    for _ in range(100):
+        if os.fork() == 0:
+            many = mmap.mmap(-1, 3_000_000_000)
+            for at in range(0, len(many), 1 << 21):
+                len(many[at : at + 1])  # read only: all of it is one page of zeros
+            time.sleep(1000)
+    time.sleep(1000)
+
+
+def maps_in_many_pieces(result):
+    for _ in range(100):
+        if os.fork() == 0:
+            kinds = (mmap.PROT_READ, mmap.PROT_READ | mmap.PROT_WRITE)
+            with suppress(OSError):
+                kept = []
+                while True:
+                    kept.append(mmap.mmap(-1, 4096, prot=kinds[len(kept) % 2]))
+            time.sleep(1000)
+    time.sleep(1000)
+
+
+def keeps_pages_in_pipes(result):
+    libc = ctypes.CDLL(None, use_errno=True)
+    reading, writing = os.pipe()
+    page = (ctypes.c_size_t * 2)(ctypes.addressof(ctypes.create_string_buffer(4096)), 4096)
+    tells(result, {"vmsplice": libc.vmsplice(writing, page, 1, 0), "pipe": reading})
+
+
+def makes_namespaces(result):
+    libc = ctypes.CDLL(None, use_errno=True)
+    kinds = {"user": 0x10000000, "mount": 0x20000, "process": 0x20000000, "net": 0x40000000,
+             "ipc": 0x8000000, "names": 0x4000000, "groups": 0x2000000, "time": 0x80}  # fmt: skip
+
+    def clone3(kind):
+        wanted = ctypes.create_string_buffer(struct.pack("8Q", kind, 0, 0, 0, 17, 0, 0, 0))
+        made = libc.syscall(435, wanted, 64)
+        if made == 0:
+            os._exit(0)
+        return made
+
+    tells(result, {
+        **{f"unshare {name}": libc.unshare(kind) for name, kind in kinds.items()},
+        **{f"clone3 {name}": clone3(kind) for name, kind in kinds.items()},
+        "setns": libc.setns(os.open("/proc/self/ns/mnt", os.O_RDONLY), 0),
+    })  # fmt: skip
+
+
+def mounts_in_new_ways(result):
+    libc = ctypes.CDLL(None, use_errno=True)
+    tells(result, {
+        "fsopen": libc.syscall(430, b"tmpfs", 0), "fspick": libc.syscall(433, -100, b"/", 0),
+        "open_tree": libc.syscall(428, -100, b"/", 1),
+        "move_mount": libc.syscall(429, -100, b"/tmp", -100, b"/usr", 0),
+        "mount_setattr": libc.syscall(442, -100, b"/", 0, bytes(32), 32),
+        "chroot": attempt(lambda: os.chroot("/tmp")),
+        "umount": libc.umount2(b"/tmp", 2), "swapon": libc.swapon(b"/tmp/x", 0),
+    })  # fmt: skip
+
+
+def reaches_init(result):
+    """Whoever is of the same user may do some things to init, though it hears no signal."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    init = libc.syscall(434, 1, 0)
+    idle = os.sched_param(0)
+    tells(result, {
+        "descriptors": libc.syscall(438, init, 0, 0), "compare": libc.syscall(312, 1, 0, 0, 0, 0),
+        "advise": libc.syscall(440, init, 0, 0, 21, 0),
+        "memory": attempt(lambda: resource.prlimit(1, resource.RLIMIT_AS, (0, 0))),
+        "time": [attempt(lambda: os.sched_setscheduler(1, os.SCHED_IDLE, idle)),
+                 os.sched_getscheduler(1)],
+        "processor": [attempt(lambda: os.sched_setaffinity(1, {0})),
+                      len(os.sched_getaffinity(1))],
+        "priority": attempt(lambda: os.setpriority(os.PRIO_PROCESS, 1, 19)),
+        "priority of all": attempt(lambda: os.setpriority(os.PRIO_USER, 0, 19)),
+        "signal": libc.syscall(424, init, signal.SIGKILL, 0, 0),
+        "my own": [attempt(lambda: os.sched_setaffinity(0, {0})), attempt(lambda: os.nice(1))],
+    })  # fmt: skip
+
+
+def opens_by_handle(result):
+    libc = ctypes.CDLL(None, use_errno=True)
+    handle = ctypes.create_string_buffer(struct.pack("II", 128, 0) + bytes(128))
+    mount = ctypes.c_int()
+    named = libc.name_to_handle_at(-100, b"/usr", handle, ctypes.byref(mount), 0)
+    folder = os.open("/usr", os.O_RDONLY)
+    tells(result, {"named": named, "opened": libc.open_by_handle_at(folder, handle, 0)})
+
+
+def holds_a_lease(result):
+    """Whoever opens a file that somebody has a lease on waits for up to 45 seconds."""
+    Path("/tmp/mine").write_text("x")
+    with open("/tmp/mine", "rb") as file:
+        tells(result, {
+            "lease": attempt(lambda: fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_WRLCK)),
+            "lock": attempt(lambda: fcntl.flock(file, fcntl.LOCK_SH)),
+        })  # fmt: skip
+
+
+def stops_itself(result):
+    os.kill(os.getpid(), signal.SIGSTOP)
+
+
+def waits_for_a_child_that_borrows_its_memory(result):
+    """The parent of a `vfork` cannot be interrupted until the child has ended."""
+    number, flags = {"x86_64": 56, "aarch64": 220}[platform.machine()], 0x4000 | signal.SIGCHLD
+    if ctypes.CDLL(None).syscall(number, flags, 0, 0, 0, 0) == 0:
+        time.sleep(1000)
+
+
+def adopts_daemons(result):
+    """A subreaper, without a signal when its parent ends, whose grandchildren go on."""
+    libc = ctypes.CDLL(None)
+    libc.prctl(36, 1, 0, 0, 0)
+    libc.prctl(1, 0, 0, 0, 0)
+    if os.fork() == 0:
+        libc.prctl(1, 0, 0, 0, 0)
+        os.setsid()
+        if os.fork() == 0:
+            Path("/dev/shm/mine").write_text("x")
+            time.sleep(1000)
+        os._exit(0)
+    os.wait()
+
+
+def hides_and_eats(result):
+    ctypes.CDLL(None).prctl(4, 0, 0, 0, 0)  # nobody may look into it
+    eats(result)
+
+
 def leaves_files(result):
     for folder in ("/tmp", "/dev/shm"):
         Path(folder, "left").write_text("x")
@@ -304,7 +501,11 @@ DEEDS = (
     *(calls_what_is_not_there, hides_a_pipe, shares_memory),
     *(closes_everything_and_sleeps, looks_around, reads_what_lies_below_tmp, ignores_signals),
     *(opens_sockets, keeps_memory_in_sockets, fills_both_scratch_folders),
-    *(leaves_files, finds_files),
+    *(leaves_files, finds_files, leaves_queues, finds_queues, keeps_memory_in_tcp),
+    *(keeps_a_few_sockets_in_many_processes, asks_for_larger_buffers, fills_tables_of_pages),
+    *(maps_in_many_pieces, keeps_pages_in_pipes, makes_namespaces, mounts_in_new_ways),
+    *(reaches_init, opens_by_handle, holds_a_lease, stops_itself, adopts_daemons),
+    *(waits_for_a_child_that_borrows_its_memory, hides_and_eats),
 )
 
 

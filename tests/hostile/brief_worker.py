@@ -15,8 +15,10 @@ def main(options):
 
     def prepare_with_less_time():
         prepare()
+        from rosbeat.grading import observing
         from rosbeat.ros import scenario
 
+        observing._STOP = 2.0  # what the cell has, before it is interrupted
         scenario.observe.__kwdefaults__["deadline"] = 1.5  # what an answer has in virtual time
 
     worker.prepare = prepare_with_less_time

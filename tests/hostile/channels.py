@@ -10,6 +10,28 @@ while frame and "seal" not in frame.f_locals:
     frame = frame.f_back
 seal = frame.f_locals["seal"]
 """
+#: The true evidence of the answer itself, changed.
+_TRUE = f"""{_FRAMES}
+from rosbeat.exercises.registry import scenario
+from rosbeat.exercises.evidence import to_json
+
+class Mine(Node):
+    def __init__(self):
+        super().__init__('humidity_sensor')
+        self.p = self.create_publisher(Float32, 'humidity', 5)
+        self.create_timer(0.7, lambda: self.p.publish(Float32(data=1.0)))
+
+seen = json.loads(to_json(scenario('03a')(Mine, frame.f_locals['job'].seed)))
+"""
+_WRITE = """
+os.write(3, (seal + json.dumps({'seen': json.dumps(seen)})).encode())
+os._exit(0)
+"""
+
+
+def _changed(change):
+    return before(f"{_TRUE}\n{change}\n{_WRITE}", WRONG)
+
 
 DEEDS = (
     Deed("the channel closed", before("import os\nos.closerange(0, 100)", WRONG), words=""),
@@ -84,5 +106,74 @@ DEEDS = (
             WRONG,
         ),
         words="it was to last",
+    ),
+    Deed(
+        "the channel read by the answer itself",
+        before(
+            "import os, threading\nreading = os.open('/proc/self/fd/3', os.O_RDONLY)\n"
+            "def reads():\n    while True:\n        os.read(reading, 1)\n"
+            "threading.Thread(target=reads, daemon=True).start()",
+            WRONG,
+        ),
+        words="",
+    ),
+    Deed(
+        "another file in the channel's place",
+        before("import os\nos.dup2(os.open('/tmp/x', os.O_CREAT | os.O_RDWR), 3)", WRONG),
+        words="",
+    ),
+    Deed(
+        "a channel of one page that does not wait",
+        before("import fcntl, os\nfcntl.fcntl(3, 1031, 4096)\nos.set_blocking(3, False)", WRONG),
+        words="",
+    ),
+    Deed(
+        "two that answer",
+        before("import os\nos.fork()", WRONG),
+        words="",
+    ),
+    Deed(
+        "a sealed result of ten million lists",
+        before(
+            f"{_FRAMES}\nbig = json.dumps('[' + '[],' * 10_000_000 + '[]]')\n"
+            "os.write(3, (seal + '{\"seen\": ').encode())\n"
+            "os.write(3, big.encode())\nos.write(3, b'}')\nos._exit(0)",
+            WRONG,
+        ),
+        words="",
+    ),
+    Deed(
+        "a sealed exception in other alphabets",
+        before(
+            f"{_FRAMES}\nodd = '=1+1' + chr(0x202e) + chr(0xdfff) + chr(27) + '[2J' + chr(7)\n"
+            "said = {'raised': '<b>' + odd, 'text': odd, 'line': 10**15,\n"
+            "        'code': '<script>alert(1)</script>' + odd}\n"
+            "os.write(3, (seal + json.dumps(said)).encode())\nos._exit(0)",
+            WRONG,
+        ),
+        words="raised",
+    ),
+    Deed(
+        "evidence of a run of years",
+        _changed("seen['time_ns'] = 10**19"),
+        words="it has lasted",
+    ),
+    Deed(
+        "evidence of readings at no time",
+        _changed("for one in seen['samples']:\n    one['time_ns'] = 10**300"),
+        words="",
+    ),
+    Deed(
+        "evidence with markup and formulas for names",
+        _changed(
+            "name = '=<script>alert(1)</script>' + chr(0x202e) + chr(27) + '[31m' + chr(0xd800)\n"
+            "seen = json.loads(json.dumps(seen).replace('humidity', json.dumps(name)[1:-1]))"
+        ),
+        words="",
+    ),
+    Deed(
+        "evidence of another exercise",
+        _changed("seen = json.loads(to_json(scenario('04a')(Mine)))"),
+        words="",
     ),
 )

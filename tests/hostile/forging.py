@@ -59,7 +59,38 @@ DEEDS = (
             "module.to_json = fake",
             WRONG.replace("0.7", "0.4999"),
         ),
+        words="readings",
+    ),
+    Deed(
+        "json's encoder",
+        before(
+            "import json\nreal = json.JSONEncoder.encode\n\ndef fake(self, document):\n"
+            "    if isinstance(document, dict) and 'samples' in document:\n"
+            "        for n, sample in enumerate(document['samples']):\n"
+            "            sample['time_ns'] = (n + 1) * 500_000_000\n"
+            "    return real(self, document)\n\njson.JSONEncoder.encode = fake",
+            WRONG.replace("0.7", "0.4999"),
+        ),
         forges=True,
+    ),
+    Deed(
+        "the constructor of what is recorded",
+        before(
+            "from rosbeat.records import Sample\nreal = Sample.__init__\n\n"
+            "def fake(self, time_ns, *args, **more):\n"
+            "    real(self, round(time_ns / 5e8) * 500_000_000, *args, **more)\n\n"
+            "Sample.__init__ = fake",
+            WRONG,
+        ),
+        words="readings",
+    ),
+    Deed(
+        "the class of the scenario's session",
+        before(
+            "import rosbeat.ros.scenario as s\nreal = s.observe\n"
+            "s.observe = lambda *a, **k: real(*a, **{**k, 'seconds': 0.0})",
+            _EMPTY,
+        ),
     ),
     Deed(
         "an empty node that looks for a judge",

@@ -2,13 +2,28 @@
 
 import os
 
-from hostile import channels, floods, forging, names, pages, patches, peeking, processes
+from hostile import (
+    channels,
+    floods,
+    forging,
+    interpreter,
+    names,
+    objects,
+    pages,
+    patches,
+    peeking,
+    processes,
+    texts,
+)
 from hostile.deed import CANARY, CLASS, COURSE, FRIDGE, HOME, RIGHT, WRONG, Upload
 
 #: Every attack from within an answer, by its name.
 DEEDS = {
     deed.name: deed
-    for module in (processes, floods, channels, patches, forging, peeking)
+    for module in (
+        *(processes, floods, channels, patches, forging, peeking),
+        *(interpreter, objects, texts),
+    )
     for deed in module.DEEDS
 }
 UPLOADS = {upload.name: upload for module in (pages, names) for upload in module.UPLOADS}

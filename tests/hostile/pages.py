@@ -100,6 +100,36 @@ def _hidden_base(body):
                              "source": "Base = __import__('os') and Node"})  # fmt: skip
 
 
+def _above(*cells):
+    """Cells above the answer, of which one may define what it needs."""
+
+    def change(body):
+        for source in cells:
+            body["cells"].insert(1, {"cell_type": "code", "id": "", "metadata": {}, "outputs": [],
+                                     "source": source})  # fmt: skip
+
+    return change
+
+
+def _twice(body):
+    """Names of cells as no JSON library of this world writes them."""
+    for one in body["cells"]:
+        one["id"] = "\ud800" + one["id"]
+        one["metadata"]["rosbeat"] = one["metadata"].get("rosbeat", {}) | {"x": [[]] * 100}
+
+
+def _no_names(body):
+    for one in body["cells"]:
+        one["metadata"], one["id"] = {}, "same"
+
+
+#: Names that are defined nowhere, and cells that might define them.
+_UNKNOWN = "; ".join(f"n{n}" for n in range(3_000))
+_MIGHT = "é = 1\n" + "\n".join(f"y{n} = {n}" for n in range(300))
+_SUM = f"BASE = {' + '.join(['1'] * 900)}"
+_CHAIN = f"BASE = Node{'.x' * 2_000}"
+
+
 def _zip(files):
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -155,4 +185,34 @@ UPLOADS = (
     Upload("no page of this course", {"x.ipynb": b'{"cells": [], "nbformat": 4, "metadata": {}}'},
            words="not a page"),
     Upload("a program", {"homework.py": RIGHT.encode()}, words="not a notebook"),
+    Upload("options of a magic without end", {PAGE: page(f"%time {'-a1' * 40}!x\n{RIGHT}")},
+           "failed"),
+    Upload("a helper that is a long sum", {PAGE: page(
+        RIGHT.replace("0.5", "BASE / 1800"), _above(_SUM))}, "passed"),
+    Upload("a helper that is a long chain", {PAGE: page(f"BASE\n{RIGHT}", _above(_CHAIN))},
+           "failed"),
+    Upload("names that no cell defines", {PAGE: page(
+        f"def unused():\n    {_UNKNOWN}\n\n{RIGHT}", _above(*[_MIGHT] * 900))}, "passed"),
+    Upload("helpers that need each other", {PAGE: page(f"n0\n{RIGHT}", _above(
+        "\n".join(f"n{n} = n{n + 1}" for n in range(2_000))))}, "failed"),
+    Upload("a program of 300,000 statements", {PAGE: page("a = 1\n" + "a;" * 300_000 + RIGHT)}, ""),
+    Upload("a comparison of 200,000 terms", {PAGE: page(f"x = {'1<' * 200_000}1\n{RIGHT}")}, ""),
+    Upload("a call of 50,000 brackets", {PAGE: page(f"x = int{'()' * 40_000}\n{WRONG}")}, "failed"),
+    Upload("half letters for ids", {PAGE: page(RIGHT, _twice)}, "passed"),
+    Upload("cells without names", {PAGE: page(RIGHT, _no_names)}, "passed"),
+    Upload("2,000 copies of a cell", {PAGE: page(RIGHT, _above(*[WRONG] * 1_900))}, "passed"),
+    Upload("a name that stands twice", {PAGE: _WHOLE.replace(b'"cells":', b'"cells": 1, "cells":')},
+           "passed"),
+    Upload("numbers that are none", {PAGE: _WHOLE.replace(b'"nbformat": 4', b'"nbformat": NaN')},
+           "passed"),
+    Upload("a zip with 20,000 folders in each other", {"all.zip": _zip(
+        {"a/" * 20_000 + PAGE: _WHOLE})}, "", "folders"),
+    Upload("a zip with 30,000 files", {"all.zip": _zip({str(n): b"" for n in range(30_000)})},
+           "held", "entries"),
+    Upload("a zip for somebody else", {"all.zip": _zip(
+        {f"Ana_4711_assignsubmission_file_/{PAGE}": _WHOLE})}, "passed"),
+    Upload("a file for somebody else", {f"ana_4711_1_{PAGE}": _WHOLE}, "passed"),
+    Upload("a file of Moodle for somebody else", {f"Ana_4711_assignsubmission_file_{PAGE}": _WHOLE},
+           "passed"),
+    Upload("a notebook of many lists", {PAGE: b'{"cells": [' + b"[]," * 500_000 + b"[]]}"}, ""),
 )  # fmt: skip

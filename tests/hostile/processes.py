@@ -1,6 +1,6 @@
 """Processes: ended, multiplied, left behind."""
 
-from hostile.deed import TRACE, WRONG, Deed, before, within
+from hostile.deed import RIGHT, TRACE, WRONG, Deed, before, within
 
 _DETACHED = f"""
 import subprocess, sys
@@ -85,7 +85,25 @@ DEEDS = (
         before(
             "class Bad:\n    def __del__(self):\n        while True:\n            pass\n\nBad()"
         ),
-        words="end",
+        words="passed",  # it is interrupted, as a learner does it on the page
+        passes=True,
+    ),
+    Deed(
+        "a main that spins until it is interrupted",
+        RIGHT + "\nimport rclpy\n\ndef main():\n    rclpy.init()\n    node = HumiditySensor()\n"
+        "    try:\n        rclpy.spin(node)\n    except KeyboardInterrupt:\n        pass\n"
+        "    node.destroy_node()\n    rclpy.try_shutdown()\n\n"
+        "if __name__ == '__main__':\n    main()\n",
+        words="passed",
+        passes=True,
+    ),
+    Deed(
+        "processes that take all time",
+        before(
+            "import os\nfor _ in range(100):\n    if os.fork() == 0:\n        os.setsid()\n"
+            "        os.execv('/bin/sh', ['sh', '-c', 'while :; do :; done'])",
+            WRONG,
+        ),
     ),
     Deed(
         "an exit when Python ends",

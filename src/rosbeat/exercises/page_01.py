@@ -7,7 +7,7 @@ import re
 import shlex
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,7 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
+from rosbeat.records import OMIT_EMPTY
 from rosbeat.workspace.catching_up import FOLDERS
 from rosbeat.workspace.place import NAME, workspace
 
@@ -63,11 +64,13 @@ class FolderMaking:
 
     Attributes:
         workspace: What is in the workspace.
-        obstacle: What is where the folder was asked for, if it is none: `link`, `file` or empty.
+        obstacle: What is where the folder was asked for, if it is none: `a link`, `a file`, `behind
+            a link` or empty.
         is_older: Whether the folder that was asked for has been there longer than this page runs.
         tried: Each line about that folder, with the folder it was typed in, as the prompt said it.
             Empty where a page has no terminals.
         meaning: What the last of these lines has led to, if it is a known mistake.
+        outside: A line that makes such a folder, in a cell that is run by no terminal.
     """
 
     workspace: Workspace
@@ -75,6 +78,7 @@ class FolderMaking:
     is_older: bool = False
     tried: tuple[tuple[str, str], ...] = ()
     meaning: CommandMeaning | None = None
+    outside: str = field(default="", metadata=OMIT_EMPTY)
 
 
 #: This module is imported by the first cell of a page.
@@ -101,9 +105,28 @@ def _look_at_making(answer: Answer) -> FolderMaking:
             tried += lines
             meaning = look_at_terminal(terminal, root, lines[-1][1]).meaning
     place = root / _ALARM
-    obstacle = "link" if place.is_symlink() else "file" if place.is_file() else ""
+    obstacle = "a link" if place.is_symlink() else "a file" if place.is_file() else ""
+    if (root / _RUNS_THROUGH).is_symlink():
+        obstacle = "behind a link"
     is_older = place.is_dir() and place.stat().st_mtime < _PAGE_BEGAN
-    return FolderMaking(found, obstacle, is_older, tried, meaning)
+    outside = "" if tried else _typed_outside()
+    return FolderMaking(found, obstacle, is_older, tried, meaning, outside)
+
+
+def _typed_outside() -> str:
+    """Return the last line that makes the folder in a cell of this page without a terminal."""
+    from IPython import get_ipython
+
+    shell = get_ipython()
+    cells = shell.history_manager.input_hist_raw if shell else []
+    lines = [
+        line.strip().lstrip("!% ")
+        for cell in cells
+        if not cell.lstrip().startswith("%%terminal")
+        for line in cell.splitlines()
+    ]
+    typed = [one for one in lines if "mkdir " in one and _is_try(one)]
+    return typed[-1] if typed else ""
 
 
 def _is_try(line: str) -> bool:
@@ -144,7 +167,7 @@ def _judge_folder(seen: FolderMaking) -> Verdict:
     there = {one for one in seen.workspace.folders if _is_near(one) and one != _ALARM}
     known = diagnosis_of(seen.meaning)
     if seen.obstacle:
-        said = f"{_ALARM} is a {seen.obstacle}, and a folder was asked for."
+        said = f"{_ALARM} is {seen.obstacle}, and a folder of this workspace was asked for."
         hint = "Remove it with `rm`, and make the folder with `mkdir`: it makes a new, empty one."
         return Diagnosis("not-a-folder", said, hint)
     if known and known.mistake != "folder-exists":  # which is no mistake here
@@ -152,10 +175,22 @@ def _judge_folder(seen: FolderMaking) -> Verdict:
         return Diagnosis(known.mistake, known.evidence, hint)
     if typed or there:
         return _diagnose_making(typed, there, seen)
+    if seen.outside:
+        return _diagnose_outside(seen.outside)
     if not seen.tried:
         return not_attempted(f"There is no folder {_ALARM} yet.")
     said = f"You typed `{seen.tried[-1][1]}`, and there is no folder {_ALARM} in the workspace."
     return Diagnosis(UNKNOWN, said, _PWD)
+
+
+def _diagnose_outside(line: str) -> Diagnosis:
+    """Return what is wrong with a line in a cell that is run by no terminal."""
+    said = f"You typed `{line}` in a cell that no terminal runs."
+    hint = "Begin the cell with `%%terminal one`, as it was given; nothing may stand above that."
+    if re.search(r"(?<!\S)-(-parents|\w*p)\b", line):
+        return Diagnosis(UNKNOWN, said, hint)
+    said += " It also names a folder in a folder that is not there yet."
+    return Diagnosis("parents-missing", said, f"{hint} {_PARENTS}")
 
 
 def _is_near(folder: str) -> bool:
@@ -171,6 +206,7 @@ def _letters(path: str) -> str:
 
 _BOTH = _PARENT + _CHILD
 _PWD = "A relative path begins where the terminal is. pwd says where that is."
+_PARENTS = "Which option of mkdir makes the folders in between, too?"
 _ONE_LEVEL = "One level is missing. A path may name several folders: outer/inner."
 _BETWEEN = "One level is missing: what lies between the two?"
 _SIDE_BY_SIDE = (
@@ -213,6 +249,9 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
         seen: The evidence.
     """
     near = max(typed or there, key=_nearness)
+    if near == _ALARM and _ALARM not in seen.workspace.folders:
+        said = f"What you typed makes {_ALARM}, and it is not there any more."
+        return Diagnosis(UNKNOWN, said, "What did you type after that? Make the folder once more.")
     evidence = f"There is {near}, but not {_ALARM}."
     if _ALARM in seen.workspace.folders:
         evidence = f"What you typed makes {near}. {_ALARM} is there from before."

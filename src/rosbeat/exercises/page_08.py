@@ -465,7 +465,8 @@ def _diagnose_archive(observation: Observation, fed: Sensors) -> Diagnosis | Non
 def _diagnose_order(kept: Sequence[float], fed: Sensors) -> Diagnosis | None:
     """Compare the order; what turns it round is the node's own doing, whatever its policies."""
     for name, values in fed.by_sensor().items():
-        if [value for value in kept if value in values] != list(values):
+        left = iter(kept)
+        if not all(value in left for value in values):
             return Diagnosis(
                 "wrong-values",
                 f"The readings of {name} are in the archive in another order than it published "

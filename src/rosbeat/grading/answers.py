@@ -12,7 +12,7 @@ import ast
 import builtins
 import json
 import re
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Sequence, Set
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 from functools import lru_cache
@@ -27,6 +27,9 @@ from rosbeat.grading.notebook import Cell
 ALIKE = 0.6
 #: What is said of an answer that is nowhere, and of one of which a part is.
 NOT_THERE, PART_NOT_THERE = "Its cell is not on the page.", "A cell of it is not on the page."
+#: Characters of a cell that is read as a program, and of all cells that are searched for helpers:
+#: no answer is as long, and parsing takes a second for each of some 100,000 characters.
+_MOST_PARSED, _MOST_SEARCHED = 100_000, 500_000
 #: Names that every cell of a notebook has, besides those of Python itself.
 OF_A_NOTEBOOK = ("display", "get_ipython")
 
@@ -297,6 +300,8 @@ def _is_program(source: str) -> bool:
 
 @lru_cache(maxsize=512)
 def _parsed(text: str) -> ast.Module | None:
+    if len(text) > _MOST_PARSED:
+        return None
     try:
         return ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -309,7 +314,8 @@ def _parsed(text: str) -> ast.Module | None:
 _TRANSPARENT = frozenset(("time", "timeit", "capture", "prun"))
 _LINE = re.compile(r"(?P<left>\s*(?:[\w.]+\s*=\s*)?)(?P<sign>[%!?])(?P<rest>.*)")
 _HELP = re.compile(r"(?P<left>\s*)[%\w.]+\?{1,2}\s*")
-_OPTIONS = re.compile(r"(?:\s*-\w+\s*\d*)*\s+")
+# Each option is matched in one way only: a line with many of them must not take for ever.
+_OPTIONS = re.compile(r"(?:\s*-\w+(?:\s+\d+)?)*\s+")
 
 
 def without_magics(source: str) -> tuple[str, tuple[str, ...]]:
@@ -337,9 +343,12 @@ def without_magics(source: str) -> tuple[str, tuple[str, ...]]:
     text = "\n".join(lines)
     if _parsed(text) is not None:
         return text, tuple(said)
+    goes_on = False
     for number, line in enumerate(lines):
-        lines[number] = _plain_line(line)
-        if lines[number] != line and lines[number].endswith(("pass", "None")):
+        lines[number] = "" if goes_on else _plain_line(line)
+        is_left_out = lines[number] != line and lines[number].endswith(("pass", "None"))
+        goes_on = (is_left_out or goes_on) and line.rstrip().endswith("\\")
+        if is_left_out:
             said.append(
                 f"Line {number + 1} was left out, a command of IPython: {line.strip()[:60]}"
             )
@@ -401,34 +410,59 @@ def statements_needed(
         cells: The other cells, those that count more first.
         names: What is defined already.
     """
-    others = tuple(cells)
     todo: list[ast.AST] = [tree for tree in map(_parsed, texts) if tree is not None]
     known = set(names).union(*map(_names_of, todo))
-    wanted: list[ast.stmt] = []
+    offered: dict[str, _Offer] | None = None
+    wanted: dict[_Offer, None] = {}
     while todo:
         for name in sorted(_named(todo.pop(), ast.Load) - known):
-            found = next((one for one, names in _offers(name, others) if name in names), None)
+            if offered is None:  # most answers need nothing, and reading all cells takes its time
+                offered = _offers(cells)
+            found = offered.get(name)
             if found is not None:
-                wanted = [*(one for one in wanted if one is not found), found]
-                known |= _names_of(found)
-                todo.append(found)
-    return tuple(map(ast.unparse, wanted[::-1]))  # what others build on was found last
+                wanted.pop(found, None)
+                wanted[found] = None
+                known |= found.names
+                todo.append(found.statement)
+    return tuple(one.text for one in reversed(wanted))  # what others build on was found last
 
 
-def _offers(name: str, cells: Iterable[str]) -> Iterator[tuple[ast.stmt, frozenset[str]]]:
-    """Give what cells define that may define a name: reading all of them would take its time."""
+@dataclass(frozen=True, eq=False)
+class _Offer:
+    """Hold a statement that defines names, and the cell in which it stands."""
+
+    statement: ast.stmt
+    names: frozenset[str]
+    cell: str
+
+    @property
+    def text(self) -> str:
+        try:
+            return ast.unparse(self.statement)
+        except RecursionError:  # a sum of hundreds of terms
+            return ast.get_source_segment(self.cell, self.statement) or ""
+
+
+def _offers(cells: Iterable[str]) -> dict[str, _Offer]:
+    """Return what cells define by its name; the first cell counts, and its last definition."""
+    found: dict[str, _Offer] = {}
+    left = _MOST_SEARCHED
     for cell in cells:
-        # Python takes some letters for others (`ﬁ` for `fi`), but no letter of ASCII.
-        if name in cell or not cell.isascii():
-            yield from _offered(cell)
+        left -= len(cell)
+        if left < 0:
+            break
+        for one in _offered(cell):
+            for name in one.names:
+                found.setdefault(name, one)
+    return found
 
 
 @lru_cache(maxsize=512)
-def _offered(cell: str) -> tuple[tuple[ast.stmt, frozenset[str]], ...]:
-    """Return what a cell defines, the last first, and under which names."""
+def _offered(cell: str) -> tuple[_Offer, ...]:
+    """Return what a cell defines, the last first."""
     tree = _parsed(cell)
     defining = [one for one in tree.body if isinstance(one, _DEFINES)] if tree else []
-    return tuple((one, frozenset(_names_of(one))) for one in reversed(defining))
+    return tuple(_Offer(one, frozenset(_names_of(one)), cell) for one in reversed(defining))
 
 
 def _names_of(tree: ast.AST) -> set[str]:
@@ -546,4 +580,4 @@ def _remarks(
 @lru_cache(maxsize=64)
 def _statements_of(page: CoursePage) -> frozenset[str]:
     cells = _python(page.cells)
-    return frozenset(ast.unparse(one) for cell in cells for one, _ in _offered(cell))
+    return frozenset(one.text for cell in cells for one in _offered(cell))

@@ -429,7 +429,7 @@ def _summary_json(gradebook: Gradebook, out: Path, code: int) -> str:
         for one, mark in marks
         if mark.status == HELD
     ]
-    graded = [one.grade for one in gradebook.learners if one.grade is not None]
+    graded = [one.points for one in gradebook.with_a_grade]
     said = {
         **{"version": _VERSION, "exit": code, "out": str(out), "course": gradebook.course},
         **{"learners": len(gradebook.learners), "graded": len(graded)},

@@ -23,6 +23,10 @@ from rosbeat.grading.traces import trace_of
 from rosbeat.records import Fault, Observation, Outcome
 
 _WHERE = "the cell"
+#: Lists and objects in evidence. Long lists of records are written by columns, so there are few.
+_MOST_NESTED = 2_000_000
+#: Nanoseconds of a day. No run is as long, and some judges count each tick of a run.
+_LONGEST = 86_400 * 10**9
 #: What is said of an answer that took its watchers along; the next run tries it again.
 WATCHER_LOST = "The process that watched the answer was lost."
 #: Ids of what is said of a run that did not come to its end; see `diagnosis.mistakes`.
@@ -76,8 +80,12 @@ def _before_reading(exercise: Exercise[Any], evidence: Evidence) -> Outcome | No
 
 def _read(exercise: Exercise[Any], evidence: Evidence, seed: int) -> tuple[Outcome, str]:
     try:
+        if evidence.seen.count("[") + evidence.seen.count("{") > _MOST_NESTED:
+            return _forged(exercise.id, "it holds millions of lists"), ""
         with _uncollected():
             seen = from_json(evidence.seen)
+            if isinstance(seen, Observation) and seen.time_ns > _LONGEST:
+                return _forged(exercise.id, f"it has lasted {seen.time_ns} ns"), ""
             return exercise.judged(seen, seed), trace_of(seen)
     except RecordError as error:
         return _forged(exercise.id, str(error.what)), ""
@@ -99,6 +107,8 @@ def _uncollected() -> Iterator[None]:
 
 def _raised(exercise: Exercise[Any], evidence: Evidence) -> Outcome:
     """Say of a cell that could not be run what is said of any exception."""
+    if evidence.raised == "KeyboardInterrupt":  # it was interrupted before it came to the class
+        return _too_long(exercise.id, evidence)
     if evidence.raised in _UNREAD:
         return _unread(exercise.id, evidence)
     fault = Fault(

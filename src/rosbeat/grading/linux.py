@@ -14,6 +14,8 @@ import os
 import platform
 import socket
 import struct
+from contextlib import suppress
+from pathlib import Path
 
 CLONE_NEWNS, CLONE_NEWUTS, CLONE_NEWIPC = 0x00020000, 0x04000000, 0x08000000
 CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNET = 0x10000000, 0x20000000, 0x40000000
@@ -142,6 +144,20 @@ def loopback_up() -> None:
         fcntl.ioctl(sock, _SIOCSIFFLAGS, struct.pack("16sH14s", b"lo", flags | _IFF_UP, b""))
 
 
+def limit_tcp(most: int) -> None:
+    """Limit what the kernel keeps for each end of a TCP connection in a new network namespace.
+
+    The usual limits grow with a connection to several MB, which no process is charged for. The
+    setting is left as it is where it may not be written, as in some containers.
+
+    Args:
+        most: Bytes of each of its two buffers.
+    """
+    for name in ("tcp_rmem", "tcp_wmem"):
+        with suppress(OSError):
+            Path("/proc/sys/net/ipv4", name).write_text(f"4096 16384 {most}", encoding="ascii")
+
+
 def _checked(result: int, what: str) -> None:
     if result != 0:
         number = ctypes.get_errno()
@@ -150,11 +166,12 @@ def _checked(result: int, what: str) -> None:
 
 # The filter of system calls.
 
-#: Numbers of calls on x86_64 and on aarch64. All but `pivot_root`, which takes a right that nobody
-#: in a sandbox has, and the last two are refused there:
+#: Numbers of calls on x86_64 and on aarch64. `REFUSED` are those that a sandbox refuses always:
 #: keys are kept by the kernel for a user, past all namespaces (keyrings(7)); who lets itself be
-#: traced is held by whoever waits for it; memory of `memfd_create` and `shmget` belongs to no
-#: process that could be asked how much it uses; the others widen what of the kernel is in reach.
+#: traced is held by whoever waits for it; memory of `memfd_create`, of `shmget`, of queues of
+#: messages, and of what `vmsplice` puts into pipes, belongs to no process that could be asked how
+#: much it uses, and queues and semaphores outlive the processes that made them; the others widen
+#: what of the kernel is in reach.
 _NUMBERS = {
     "pivot_root": (155, 41),
     "add_key": (248, 217),
@@ -166,6 +183,10 @@ _NUMBERS = {
     "memfd_create": (319, 279),
     "memfd_secret": (447, 447),
     "shmget": (29, 194),
+    "msgget": (68, 186),
+    "semget": (64, 190),
+    "mq_open": (240, 180),
+    "vmsplice": (278, 75),
     "userfaultfd": (323, 282),
     "io_uring_setup": (425, 425),
     "io_uring_enter": (426, 426),
@@ -174,18 +195,39 @@ _NUMBERS = {
     "perf_event_open": (298, 241),
     "socket": (41, 198),
     "socketpair": (53, 199),
+    "setsockopt": (54, 208),
+    "fcntl": (72, 25),
+    "prlimit64": (302, 261),
+    "setpriority": (141, 140),
+    "sched_setparam": (142, 118),
+    "sched_setscheduler": (144, 119),
+    "sched_setaffinity": (203, 122),
+    "sched_setattr": (314, 274),
 }
 _SOCKETS = ("socket", "socketpair")
-#: The names of all calls that a sandbox refuses, whatever they are handed.
-REFUSED = tuple(name for name in _NUMBERS if name not in ("pivot_root", *_SOCKETS))
+#: Calls that may be made for oneself only, with the places of the arguments that have to be 0: init
+#: is of the same user, and without memory or time it would end, or be late.
+_FOR_ONESELF = {"prlimit64": (0,), "setpriority": (0, 1)}
+#: Calls that have an effect for oneself only; the middleware makes them for its own threads.
+_SCHEDULING = ("sched_setparam", "sched_setscheduler", "sched_setaffinity", "sched_setattr")
+#: The names of all calls that a sandbox judges by what they are handed.
+_JUDGED = (*_SOCKETS, *_FOR_ONESELF, *_SCHEDULING, "setsockopt", "fcntl")
+#: The names of all calls that a sandbox refuses, whatever they are handed; `pivot_root` takes a
+#: right that nobody in there has.
+REFUSED = tuple(name for name in _NUMBERS if name not in ("pivot_root", *_JUDGED))
+#: Options of sockets that change the size of a buffer: SO_SNDBUF, SO_RCVBUF, and their `...FORCE`.
+#: To set them has no effect, so that no more waits in a socket than the keeper reckons with.
+_SIZES = (7, 8, 32, 33)
+#: F_SETLEASE: who owns a file, as an ordinary user owns Python's, would stop others who open it.
+_LEASE = 1024
 #: Address families of sockets. Netlink's first protocol lists interfaces, which DDS asks for.
 _FAMILIES, _NETLINK = (socket.AF_UNIX, socket.AF_INET, socket.AF_INET6), 16
 #: Numbers of machines in linux/audit.h.
 _MACHINES = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 _LOAD, _IF_EQUAL, _IF_AT_LEAST, _RETURN = 0x20, 0x15, 0x35, 0x06
 _ALLOW, _REFUSE = 0x7FFF0000, 0x00050000
-#: Where in `struct seccomp_data` the call's number, the machine and two arguments are.
-_CALL, _MACHINE, _FIRST, _THIRD = 0, 4, 16, 32
+#: Where in `struct seccomp_data` the call's number, the machine and its arguments are.
+_CALL, _MACHINE, _FIRST, _SECOND, _THIRD = 0, 4, 16, 24, 32
 #: From here on, numbers of x86_64 are those of another way to call (x32).
 _X32 = 0x40000000
 _FILTER = 2
@@ -229,12 +271,43 @@ def _steps() -> list[bytes]:
         *(_step(_LOAD, _MACHINE), _step(_IF_EQUAL, machine, 1, 0), _step(_RETURN, unknown)),
         *(_step(_LOAD, _CALL), _step(_IF_AT_LEAST, _X32, 0, 1), _step(_RETURN, unknown)),
         *(one for name in REFUSED for one in _returned(number_of(name), refused)),
+        *_if_called("setsockopt", _of_options()),
+        *_if_called("fcntl", [_step(_LOAD, _SECOND), *_returned(_LEASE, refused)]),
+        *(
+            one
+            for name, places in _FOR_ONESELF.items()
+            for one in _if_called(name, _of_oneself(places, refused))
+        ),
+        *(one for name in _SCHEDULING for one in _if_called(name, _of_oneself((0,), _REFUSE))),
         *(_step(_IF_EQUAL, sockets[0], 2, 0), _step(_IF_EQUAL, sockets[1], 1, 0)),
         *(_step(_RETURN, _ALLOW), _step(_LOAD, _FIRST)),
         *(one for family in _FAMILIES for one in _returned(family, _ALLOW)),
         *(_step(_IF_EQUAL, _NETLINK, 0, 3), _step(_LOAD, _THIRD), *_returned(0, _ALLOW)),
         _step(_RETURN, _REFUSE | errno.EAFNOSUPPORT),
     ]
+
+
+def _if_called(name: str, steps: list[bytes]) -> list[bytes]:
+    """Return steps for one call, which is allowed if they come to their end."""
+    return [_step(_IF_EQUAL, number_of(name), 0, len(steps) + 1), *steps, _step(_RETURN, _ALLOW)]
+
+
+def _of_options() -> list[bytes]:
+    """Return what is done with `setsockopt`: sizes of buffers are taken for set, and are not."""
+    return [
+        *(_step(_LOAD, _SECOND), _step(_IF_EQUAL, socket.SOL_SOCKET, 1, 0)),
+        *(_step(_RETURN, _ALLOW), _step(_LOAD, _THIRD)),
+        *(one for option in _SIZES for one in _returned(option, _REFUSE)),
+    ]
+
+
+def _of_oneself(places: tuple[int, ...], verdict: int) -> list[bytes]:
+    """Return the steps with a verdict on a call for any other process or thread."""
+    each = [
+        (_step(_LOAD, _FIRST + 8 * place), _step(_IF_EQUAL, 0, 1, 0), _step(_RETURN, verdict))
+        for place in places
+    ]
+    return [one for some in each for one in some]
 
 
 def _returned(value: int, verdict: int) -> tuple[bytes, bytes]:

@@ -157,6 +157,11 @@ class Gradebook:
     remarks: tuple[Remark, ...] = ()
     solutions: tuple[Solution, ...] = ()
 
+    @property
+    def with_a_grade(self) -> tuple[Graded, ...]:
+        """Return the learners whose points are all known, who are those that averages are about."""
+        return tuple(one for one in self.learners if one.grade is not None)
+
 
 # What the files say about the marks of their answers.
 

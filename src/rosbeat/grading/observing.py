@@ -6,14 +6,17 @@ Nothing in here decides about a mark: it runs a stranger's code and the scenario
 from __future__ import annotations
 
 import ast
+import asyncio
 import inspect
 import json
 import linecache
 import os
+import signal
+import threading
 import traceback
 import warnings
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -28,6 +31,8 @@ from rosbeat.workspace.place import workspace as workspace_folder
 #: The file name of the answer's cell, by which its lines are found.
 CELL = "<answer>"
 _MOST_TEXT = 1_000
+#: Seconds after which cells that still run are interrupted.
+_STOP = 20.0
 
 
 def observe(job: Job, seal: str, result: int) -> None:
@@ -39,14 +44,16 @@ def observe(job: Job, seal: str, result: int) -> None:
         result: The descriptor to write to: the seal, and an object of JSON with `seen`; or with
             `raised`, `text`, `line` and `code` if the cell could not be run.
     """
-    run, write, given = scenario(job.exercise), _writer(seal, result), json.loads(job.given)
+    # What is looked up here is what it was before the answer runs.
+    run, write, to_text = scenario(job.exercise), _writer(seal, result), to_json
+    given = json.loads(job.given)
     warnings.simplefilter("ignore")  # a warning ends no cell
     try:
         subject = _replayed(job) if job.replay else _subject_of(job)
     except BaseException as error:  # SystemExit, too: it is what the cell does
         write(fault_of(error, job.answer))
         return
-    write({"seen": to_json(run(subject, job.seed, **given))})
+    write({"seen": to_text(run(subject, job.seed, **given))})
 
 
 def _writer(seal: str, result: int) -> Callable[[dict[str, Any]], None]:
@@ -75,8 +82,9 @@ def _subject_of(job: Job) -> Any:  # noqa: ANN401 - whatever a learner hands ove
         with suppress(Exception):  # as on a page where its cell has failed
             exec(compile(statement, "<earlier>", "exec", dont_inherit=True), space)
     failed: list[BaseException] = []
-    for number, text in enumerate((*job.parts, job.answer)):
-        _run(text, CELL if text is job.answer else f"<part {number + 1}>", space, failed)
+    with _stopped_later():
+        for number, text in enumerate((*job.parts, job.answer)):
+            _run(text, CELL if text is job.answer else f"<part {number + 1}>", space, failed)
     # As on a page: what cells have defined before they failed is there for the check.
     try:
         return eval(compile(job.subject, "<check>", "eval", dont_inherit=True), space)
@@ -91,9 +99,25 @@ def _run(text: str, name: str, space: dict[str, Any], failed: list[BaseException
     # It is of no module, which rclpy's first log line would ask each of them otherwise.
     inspect.modulesbyfile[name] = name
     try:
-        exec(compile(text, name, "exec", dont_inherit=True), space)
-    except (Exception, SystemExit) as error:  # `exit()` ends a cell, and the page goes on
-        failed.append(error)
+        code = compile(text, name, "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT, dont_inherit=True)
+        if code.co_flags & inspect.CO_COROUTINE:  # a cell may await, as in a notebook
+            asyncio.run(eval(code, space))
+        else:
+            exec(code, space)
+    except (Exception, SystemExit, KeyboardInterrupt) as error:
+        failed.append(error)  # `exit()` ends a cell, and the page goes on
+
+
+@contextmanager
+def _stopped_later() -> Iterator[None]:
+    """Interrupt what goes on for long, as a learner does with a cell whose `main` spins."""
+    timer = threading.Timer(_STOP, os.kill, (os.getpid(), signal.SIGINT))
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def fault_of(error: BaseException, answer: str, cell: str = CELL) -> dict[str, Any]:
@@ -153,7 +177,7 @@ def _replayed(job: Job) -> Any:  # noqa: ANN401 - whatever a page hands over
     workspace.register(shell)
     run_imports(job.imports, shell.user_ns)
     for cell in job.replay:
-        shell.run_cell(cell, store_history=False)
+        shell.run_cell(cell, store_history=True)
     return eval(compile(job.subject, "<check>", "eval", dont_inherit=True), shell.user_ns)
 
 

@@ -188,11 +188,14 @@ def _lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
     learners = count(len(gradebook.learners), "learner")
     said = f"{learners}, {count(len(exercises), 'exercise')}: {_by_status(marks)}."
     yield sentence_case(said)
-    counted = [one for one in gradebook.learners if not one.excused]
+    counted = gradebook.with_a_grade
     if counted:
         reached = sum(one.points for one in counted) / len(counted)
         whole = max(one.out_of for one in counted)
-        yield f"On average {number(round(reached, 1))} of {number(whole)} points."
+        waiting = sum(not one.is_settled for one in gradebook.learners)
+        without = f", without {_many(waiting, 'learner')} of whom something is held"
+        average = f"On average {number(round(reached, 1))} of {number(whole)} points"
+        yield f"{average}{without if waiting else ''}."
     yield from _mistake_lines(marks)
     yield from _remark_lines(gradebook)
     yield from _held_lines(gradebook, out)

@@ -180,8 +180,12 @@ _NEW = (
 #: Lines of `/proc/PID/status` that count as memory, in KiB: pages of its own and shared ones, and
 #: tables of pages. Pages of files, as libraries, do not count.
 _COUNTED = (b"RssAnon:", b"RssShmem:", b"VmPTE:")
-#: What a full buffer of a socket takes, and descriptors of a process that need not count for one.
-_BUFFER, _FREE_DESCRIPTORS = 212_992, 64
+#: What the two buffers of a socket take when they are full, how many sockets of an answer need not
+#: count for full ones, and what one buffer of a TCP connection may take.
+_BUFFERS, _FREE_SOCKETS, _MOST_OF_TCP = 2 * 212_992, 64, 65_536
+#: Bytes of `/proc/PID/maps`, some 10,000 mappings, from which on what the kernel notes of a process
+#: counts, and how much that may be.
+_MOST_MAPS, _NOTES = 1_000_000, 64 * MB
 #: What a process says when it has settled, and before it says what went wrong.
 _SETTLED, _TROUBLE = b".", b"!"
 #: What the keeper asks of init, and what that answers when it is done.
@@ -291,13 +295,15 @@ class Sandbox:
 
     def _memory(self) -> int:
         """Return the bytes of memory that are used in there."""
-        total, left = 0, self._guests()
+        total, left, sockets = 0, self._guests(), set[str]()
         if self._init is not None:
             left += _children(self._proc, self._init.pid)
         while left:
             one = left.pop()
             left += _children(self._proc, one)
             total += _memory_of(self._proc, one)
+            sockets |= _sockets_of(self._proc, one)
+        total += _BUFFERS * max(0, len(sockets) - _FREE_SOCKETS)
         if self._init is not None:
             for path in _SCRATCH:
                 found = os.statvfs(path)
@@ -354,26 +360,40 @@ def _children(proc: int, process: int) -> list[int]:
 
 
 def _memory_of(proc: int, process: int) -> int:
-    """Return the bytes of memory of a process, and of what waits in its sockets at the most."""
+    """Return the bytes of memory of a process."""
     total = 0
     with suppress(OSError):
         lines = _read(f"{process}/status", proc).splitlines()
         total = 1024 * sum(int(one.split()[1]) for one in lines if one.startswith(_COUNTED))
-    with suppress(OSError):
-        descriptors = os.open(f"{process}/fd", os.O_RDONLY, dir_fd=proc)
-        try:
-            total += _BUFFER * max(0, len(os.listdir(descriptors)) - _FREE_DESCRIPTORS)
-        finally:
-            os.close(descriptors)
+        if len(_read(f"{process}/maps", proc, _MOST_MAPS)) >= _MOST_MAPS:
+            total += _NOTES
     return total
 
 
-def _read(path: str, folder: int) -> bytes:
+def _sockets_of(proc: int, process: int) -> set[str]:
+    """Return the sockets that a process has open; what waits in them is charged to nobody."""
+    found: set[str] = set()
+    with suppress(OSError):
+        descriptors = os.open(f"{process}/fd", os.O_RDONLY, dir_fd=proc)
+        try:
+            for name in os.listdir(descriptors):
+                with suppress(OSError):  # it may be closed meanwhile
+                    found.add(os.readlink(name, dir_fd=descriptors))
+        finally:
+            os.close(descriptors)
+    return {one for one in found if one.startswith("socket:")}
+
+
+def _read(path: str, folder: int, most: int = 1 << 30) -> bytes:
+    """Return a file's content, as soon as it is whole or has as many bytes."""
     handle = os.open(path, os.O_RDONLY, dir_fd=folder)
+    found = bytearray()
     try:
-        return b"".join(iter(lambda: os.read(handle, 65_536), b""))
+        while len(found) < most and (data := os.read(handle, 65_536)):
+            found += data
     finally:
         os.close(handle)
+    return bytes(found)
 
 
 # Becoming the work.
@@ -631,6 +651,7 @@ def _isolate(view: View, init: _Init) -> None:
     for one in _NEW:
         flags |= one
     linux.unshare(flags)
+    linux.limit_tcp(_MOST_OF_TCP)
     _make_root(_ROOT, view.readable, view.hidden)
     os.chdir("/")
     init.start()
@@ -689,6 +710,8 @@ _SYSTEM = ("/usr", "/lib", "/lib32", "/lib64", "/bin", "/sbin")
 _ETC = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "localtime", "alternatives")
 #: Names of users and hosts come from files, of which there are none: nobody else is asked.
 _NAMES = "passwd: files\ngroup: files\nhosts: files\n"
+#: The one user in there: programs ask for its name and home.
+_USER = f"learner:x:{_INSIDE}:{_INSIDE}::/tmp:/bin/sh\n"
 _DEVICES = ("null", "zero", "full", "random", "urandom")
 #: Where everything that is written is thrown away, and how many bytes each may hold.
 _SCRATCH, _MOST_SCRATCH = ("/tmp", "/dev/shm"), 100 * MB
@@ -715,6 +738,7 @@ def _make_root(root: str, readable: Iterable[str], hidden: Iterable[str]) -> Non
     for path in (*_SYSTEM, *(f"/etc/{name}" for name in _ETC), *_outermost(readable)):
         _show(root, path)
     Path(f"{root}/etc/nsswitch.conf").write_text(_NAMES, encoding="ascii")
+    Path(f"{root}/etc/passwd").write_text(_USER, encoding="ascii")
     for path in hidden:
         if os.path.isdir(root + path):
             linux.mount("tmpfs", root + path, "tmpfs", _PLAIN | linux.MS_RDONLY, "size=4k,mode=755")

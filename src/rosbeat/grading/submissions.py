@@ -100,8 +100,9 @@ def collect(source: Path, pages: Sequence[CoursePage]) -> Collection:
     owned: list[tuple[Owner, File]] = []
     with open_upload(source) as files:
         level = _wrappers([_as_folder(file) for file in files])
+        deepest = _deepest([file.parts[level:] for file in files])
         for file in files:
-            owner = owner_of(file.parts[level:])
+            owner = owner_of(file.parts[level:], deepest)
             if owner is not None:
                 owned.append((owner, file))
             elif file.problem != EMPTY_FOLDER:
@@ -116,8 +117,11 @@ def collect(source: Path, pages: Sequence[CoursePage]) -> Collection:
 
 # Whose a file is.
 
+#: How files are called that may hold a page.
+_NOTEBOOKS = (".ipynb", ".json", ".txt")
 #: `Ana Muster_4711_assignsubmission_file_`, and behind it the file's name if there are no folders.
-_MOODLE = re.compile(r"(?s)(?P<name>.+)_(?P<id>\d+)_assignsubmission_[a-z]+(?:_(?P<file>.*))?")
+#: A learner may choose that so that it looks like another one's: the first number counts.
+_MOODLE = re.compile(r"(?s)(?P<name>.+?)_(?P<id>\d+)_assignsubmission_[a-z]+(?:_(?P<file>.*))?")
 #: `musterana_LATE_4711_998877_page-1.ipynb`; the number before the suffix counts attempts.
 _CANVAS = re.compile(
     r"(?s)(?P<name>[^_]+)_(?P<late>LATE_)?(?P<id>\d+)_(?P<submission>\d+)_(?P<file>.+)"
@@ -146,17 +150,30 @@ class Owner:
     attempt: int = 0
 
 
-def owner_of(parts: tuple[str, ...]) -> Owner | None:
+def owner_of(parts: tuple[str, ...], deepest: int | None = None) -> Owner | None:
     """Return whose a file is, or None if its path does not tell.
 
     Args:
         parts: Its path, folder by folder.
+        deepest: In how many of these a name that Moodle or Canvas made is looked for; by default in
+            all. What lies in a learner's own folder has names that the learner chose.
     """
-    return _of_moodle(parts) or _of_canvas(parts) or _of_folder(parts)
+    return _of_moodle(parts, deepest) or _of_canvas(parts, deepest) or _of_folder(parts)
 
 
-def _of_moodle(parts: tuple[str, ...]) -> Owner | None:
-    for place, part in enumerate(parts):
+def _deepest(paths: Sequence[tuple[str, ...]]) -> int | None:
+    """Return in how many parts of a path a name that Moodle or Canvas made is looked for.
+
+    It may stand anywhere, as in several downloads beside each other, unless there are folders
+    without any: those are learners' own, and then only a folder's own name tells whose it is.
+    """
+    tried = [one for one in paths if one[-1].lower().endswith((*_NOTEBOOKS, ".zip"))]
+    named = {one[0] for one in tried if _of_moodle(one) or _of_canvas(one)}
+    return None if named >= {one[0] for one in tried if len(one) > 1} else 1
+
+
+def _of_moodle(parts: tuple[str, ...], deepest: int | None = None) -> Owner | None:
+    for place, part in enumerate(parts[:deepest]):
         found = _MOODLE.fullmatch(part)
         if found:
             rest = [found["file"] or "", *parts[place + 1 :]]
@@ -165,8 +182,8 @@ def _of_moodle(parts: tuple[str, ...]) -> Owner | None:
     return None
 
 
-def _of_canvas(parts: tuple[str, ...]) -> Owner | None:
-    for place, part in enumerate(parts):
+def _of_canvas(parts: tuple[str, ...], deepest: int | None = None) -> Owner | None:
+    for place, part in enumerate(parts[:deepest]):
         found = _CANVAS.fullmatch(part)
         if not found:
             continue
@@ -222,7 +239,6 @@ _DECIDES = (
     "it is the newest, by the date of the file",
     "the dates are the same, and it has more cells",
 )
-_NOTEBOOKS = (".ipynb", ".json", ".txt")
 #: Remarks about files that are left out, one by one; of more, only the number is told.
 _MOST_LEFT_OUT = 20
 _Found = tuple["Owner", HandedIn]

@@ -28,6 +28,8 @@ MOST_BYTES = 64_000_000
 MOST_OF_A_LEARNER, MOST_FILES = 400_000_000, 5_000
 #: Zip files inside zip files: a learner's own, and one more that somebody put into it.
 MOST_LEVELS = 2
+#: Folders inside folders that are looked into, and entries of one zip file.
+MOST_DEPTH, MOST_ENTRIES = 40, 20_000
 #: Archives that are not opened. Somebody may have put their pages into one.
 OTHER_ARCHIVES = (".rar", ".7z", ".tar", ".gz", ".tgz", ".bz2", ".xz", ".zst")
 #: Files and folders that computers add by themselves.
@@ -35,6 +37,9 @@ _CLUTTER = {"__MACOSX", ".DS_Store", "Thumbs.db", "desktop.ini", "__pycache__"}
 _DRIVE = re.compile(r"[A-Za-z]:")
 EMPTY_FOLDER = "The folder is empty."
 _LINK = "It is a link or not an ordinary file, so it was not followed."
+_DEEP = f"It lies in more than {MOST_DEPTH} folders, one in another, so it was not looked at."
+#: What each entry in the directory of a zip file begins with.
+_ENTRY = b"PK\1\2"
 
 
 def _no_bytes() -> bytes:
@@ -162,7 +167,10 @@ def opened(file: File, allowed: Allowance, level: int = 0) -> Iterator[File]:
         yield replace(file, problem="It is a zip file in a zip file in a zip file.")
         return
     try:
-        archive = zipfile.ZipFile(io.BytesIO(allowed.read(file)))
+        data = allowed.read(file)
+        if data.count(_ENTRY) > MOST_ENTRIES:
+            raise OSError(f"It has more than {MOST_ENTRIES} entries, more than any submission.")
+        archive = zipfile.ZipFile(io.BytesIO(data))
     except Exception as error:  # zipfile raises a dozen types for damaged archives
         said = str(error) if isinstance(error, OSError) else f"It cannot be opened: {error}."
         yield replace(file, problem=printable(said, 400))
@@ -180,6 +188,9 @@ def _files_of_folder(root: Path) -> Iterator[File]:
     failed: list[OSError] = []
     for place, folders, names in os.walk(root, onerror=failed.append):
         above = Path(place).relative_to(root).parts
+        if len(above) >= MOST_DEPTH and folders:
+            yield File((*above[:2], ""), problem=_DEEP)
+            folders.clear()
         links = [name for name in folders if Path(place, name).is_symlink()]
         folders[:] = [name for name in folders if not _is_clutter(name) and name not in links]
         yield from (File((*above, name, ""), problem=_LINK) for name in links)
@@ -213,12 +224,14 @@ def _files_of_zip(archive: zipfile.ZipFile, inside: tuple[str, ...]) -> Iterator
     found = [one for one in found if one[1] and not any(map(_is_clutter, one[1]))]
     filled: set[tuple[str, ...]] = set()
     for member, parts in sorted(found, key=lambda one: -len(one[1])):  # the innermost first
-        if member.is_dir() and parts not in filled:
+        if len(parts) > MOST_DEPTH:
+            yield File((*parts[:2], parts[-1]), problem=_DEEP)
+        elif member.is_dir() and parts not in filled:
             yield File((*parts, ""), problem=EMPTY_FOLDER)
         elif not member.is_dir():
             read, problem = partial(_unpack, archive, member), _problem_of(member)
             yield File(parts, member.file_size, _changed(member), read, problem)
-        filled.update(parts[:n] for n in range(len(parts)))
+        filled.update(parts[:n] for n in range(min(len(parts), MOST_DEPTH)))
 
 
 def _parts(name: str) -> tuple[str, ...]:

@@ -57,6 +57,12 @@ ANSWERS = (
         "not-a-folder",
         "mkdir -p resources/sounds docs/alarm\nln -s ../../docs/alarm resources/sounds/alarm",
     ),
+    wrong(
+        "01a",
+        "a link above it",
+        "not-a-folder",
+        "mkdir docs/sounds\nln -s ../docs/sounds resources/sounds\nmkdir resources/sounds/alarm",
+    ),
     wrong("01a", "a file", "not-a-folder", "mkdir resources/sounds\ntouch resources/sounds/alarm"),
     wrong(
         "01a",

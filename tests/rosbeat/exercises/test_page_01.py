@@ -39,6 +39,34 @@ def test_nothing_typed_and_nothing_made_is_nothing_tried():
     assert made().status == "not attempted"
 
 
+@pytest.mark.parametrize(
+    ("line", "mistake"),
+    [
+        ("mkdir resources/sounds/alarm", "parents-missing"),
+        ("mkdir -p resources/sounds/alarm", "new-to-me"),
+        ("mkdir --parents resources/sounds/alarm", "new-to-me"),
+    ],
+)
+def test_a_try_outside_of_a_terminal_is_a_try(line, mistake):
+    outcome = made(outside=line)
+    assert (outcome.status, outcome.mistake) == ("failed", mistake)
+    assert f"You typed `{line}` in a cell that no terminal runs." in outcome.evidence
+    assert "%%terminal one" in outcome.hint
+
+
+@pytest.mark.parametrize("obstacle", ["a link", "a file", "behind a link"])
+def test_what_is_in_the_way_is_named(obstacle):
+    outcome = made(obstacle=obstacle, tried=((PLACE, "mkdir resources/sounds/alarm"),))
+    assert outcome.mistake == "not-a-folder"
+    assert f"resources/sounds/alarm is {obstacle}," in outcome.evidence
+
+
+def test_what_was_made_and_removed_again_is_not_misspelled():
+    outcome = made(tried=((PLACE, "mkdir -p resources/sounds/alarm"),))
+    assert outcome.mistake == "new-to-me"
+    assert "is not there any more" in outcome.evidence
+
+
 def test_a_try_that_nothing_explains_is_unknown_and_shown():
     outcome = made(tried=((PLACE, "mkdir $HOME/sounds/alarm"),))
     assert (outcome.status, outcome.mistake) == ("failed", "new-to-me")

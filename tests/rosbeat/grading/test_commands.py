@@ -624,6 +624,17 @@ def test_a_summary_for_programs(course, workers, typed, tmp_path):
     assert (found["lines"], found["files"]) == ([], {"empty": 1})
 
 
+@pytest.mark.parametrize("held", [False, True])
+def test_both_summaries_tell_the_same_average(held, course, workers, typed, tmp_path):
+    if held:
+        (tmp_path / "class/cy").mkdir()
+        (tmp_path / "class/cy/03_write.ipynb").write_text("")
+    code = WAITS if held else 0
+    found = json.loads(typed("--json", code=code).out)
+    said = f"On average {found['average']:g} of {found['out_of']:g} points"
+    assert f"{said}{', without 1 learner' if held else '.'}" in typed(code=code).out
+
+
 # The roster, and lateness.
 
 

@@ -258,6 +258,15 @@ def test_whoever_has_no_grade_is_not_in_the_average():
     assert "On average 1 of 2 points." in told
 
 
+def test_whoever_waits_for_a_person_is_not_in_the_average_either():
+    ana = book(mark(points=2.0, out_of=2.0)).learners[0]
+    held = mark(status="held", points=0.0, out_of=2.0, answer="import os", file="x")
+    ben = replace(ana, learner="ben", marks=(held,))
+    told = summary(replace(book(), learners=(ana, ben)), OUT)
+    assert "On average 2 of 2 points, without 1 learner of whom something is held." in told
+    assert "On average" not in summary(replace(book(), learners=(ben,)), OUT)
+
+
 def test_lines_of_the_roster_are_shown_as_those_by_hand_are():
     line = Remark("roster", "roster.csv, line 2", "Nobody is called so.")
     told = summary(replace(book(mark()), remarks=(line,)), OUT)

@@ -2,6 +2,7 @@
 
 import errno
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -93,6 +94,13 @@ def test_it_reaches_itself_and_nobody_else(seen):
         ("leaves_with_a_high_code", {"exit"}),
         ("keeps_memory_in_sockets", {"memory"}),
         ("fills_both_scratch_folders", {"memory"}),
+        ("keeps_a_few_sockets_in_many_processes", {"memory"}),
+        ("fills_tables_of_pages", {"memory"}),
+        ("maps_in_many_pieces", {"memory"}),
+        ("stops_itself", {"deadline"}),
+        ("waits_for_a_child_that_borrows_its_memory", {"deadline"}),
+        ("adopts_daemons", {"ended"}),
+        ("hides_and_eats", {"memory"}),
     ],
 )
 def test_each_deed_ends_in_its_own_way(deed, endings, seen):
@@ -138,6 +146,38 @@ def test_sockets_reach_this_machine_only(seen):
 def test_what_an_answer_has_written_is_gone_for_the_next(seen):
     assert seen["leaves_files"]["how"] == "ended"
     assert "left" not in seen["finds_files"]["told"]["found"]
+
+
+def test_queues_and_semaphores_are_not_left_for_the_next(seen):
+    assert seen["leaves_queues"]["how"] == "ended"
+    assert set(seen["finds_queues"]["told"].values()) == {-1}
+
+
+def test_little_waits_in_sockets_and_nothing_in_pipes_but_what_was_written(seen):
+    told = seen["keeps_memory_in_tcp"]["told"]
+    assert told["pairs"] == 20
+    assert told["kept"] < 20 * 2 * 4 * 65_536
+    assert seen["asks_for_larger_buffers"]["told"] == {"same": [True, True], "other": 1}
+    assert seen["keeps_pages_in_pipes"]["told"]["vmsplice"] == -1
+
+
+def test_no_namespace_and_no_mount_is_made_in_any_way(seen):
+    assert set(seen["makes_namespaces"]["told"].values()) == {-1}
+    assert set(seen["mounts_in_new_ways"]["told"].values()) == {-1, "PermissionError"}
+
+
+def test_the_first_process_cannot_be_starved_or_slowed(seen):
+    told = seen["reaches_init"]["told"]
+    assert told.pop("my own") == ["done", "done"]
+    assert told.pop("signal") == 0  # it does not hear it
+    assert told.pop("time") == ["done", os.SCHED_OTHER]  # it has no effect
+    assert told.pop("processor") == ["done", len(os.sched_getaffinity(0))]
+    assert set(told.values()) == {-1, "PermissionError"}
+
+
+def test_files_are_opened_by_their_names_and_held_from_nobody(seen):
+    assert seen["opens_by_handle"]["told"]["opened"] == -1
+    assert seen["holds_a_lease"]["told"] == {"lease": "PermissionError", "lock": "done"}
 
 
 def test_python_itself_stays_as_it_is(seen):

@@ -114,6 +114,27 @@ def test_a_path_can_be_told_as_its_learner_knows_it(path, own):
     assert own_path(path) == own
 
 
+@pytest.mark.parametrize(
+    ("ana", "eve", "learners"),
+    [
+        ("Ana_4711_assignsubmission_file_", "Eve_5_assignsubmission_file_x_4711_assignsubmission_"
+         "file_", ("4711", "5")),
+        ("Ana_4711_assignsubmission_file_/", "Eve_5_assignsubmission_file_/x_4711_assignsubmission_"
+         "file_/", ("4711", "5")),
+        ("ana_4711_99_", "eve_5_98_x_4711_99_", ("4711", "5")),
+        ("4711/", "eve/x_4711_assignsubmission_file_/", ("4711", "eve")),
+        ("4711/", "eve/exercise_4711_1_", ("4711", "eve")),
+        ("all/4711/", "all/eve/exercise_4711_1_", ("4711", "eve")),
+        ("one/Ana_4711_assignsubmission_file_", "two/Eve_5_assignsubmission_file_", ("4711", "5")),
+    ],
+)  # fmt: skip
+def test_nobody_hands_in_for_somebody_else(ana, eve, learners, handed_in, pages):
+    files = {f"{ana}03_write.ipynb": PAGE_03, f"{eve}03_write.ipynb": f"{PAGE_03}\n"}
+    found = collect(handed_in(files), pages)
+    assert tuple(one.learner for one in found.submissions) == learners
+    assert all(len(one.pages) == 1 and not one.remarks for one in found.submissions)
+
+
 # What is wrong, and never fatal.
 
 

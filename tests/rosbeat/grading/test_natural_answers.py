@@ -1,0 +1,112 @@
+"""Right answers pass in whatever style they are written, and none is held or refused.
+
+A learner of a class hands in one page, with all of its answers in one style.
+"""
+
+import json
+from collections import deque
+from itertools import cycle, islice
+
+import pytest
+
+from bank.graded import ANSWERS, course
+from bank.pages import ROOT
+from natural_answers import STYLES, WRITTEN
+from rosbeat.grading.answers import subject_of
+from rosbeat.grading.ledger import Ledger
+from rosbeat.grading.marks import settle
+from rosbeat.grading.run import Plan, Pool, grade
+from rosbeat.grading.submissions import collect
+
+pytestmark = [pytest.mark.ros, pytest.mark.timeout(300), pytest.mark.xdist_group("natural")]
+#: Pages whose exercises are answered with a class of one cell.
+PAGES = ("03", "04", "00", "08", "03", "07", "04", "09", "00", "12", "04", "03", "11")
+
+
+def right_answers():
+    """Right answers of the bank by exercise: those whose class has the name that is checked."""
+    found = {}
+    for one in ANSWERS:
+        page = course()[one.exercise[:2]]
+        parts = [wanted for wanted in page.wanted if wanted.exercise == one.exercise]
+        has_one_class = len(parts) == 1 and "class " in one.text
+        is_checked = one.subject == subject_of(page, one.exercise)
+        if one.status == "passed" and has_one_class and is_checked:
+            found.setdefault(one.exercise, []).append(one.text)
+    return found
+
+
+def handed_in():
+    """Texts of answers by style and exercise: each style on one page, and other answers each."""
+    right = {name: cycle(some) for name, some in right_answers().items()}
+    found = {name: {exercise: text} for name, (exercise, text) in WRITTEN.items()}
+    for place, (style, page) in enumerate(zip(STYLES, cycle(PAGES), strict=False)):
+        there = deque(one for one in right if one.startswith(page))
+        there.rotate(place // len(PAGES))
+        for name in islice(there, 2):
+            found.setdefault(style.name, {})[name] = style.around(next(right[name]))
+    return found
+
+
+def page_with(answers):
+    """The page of some answers, with these in their cells."""
+    page = course()[next(iter(answers))[:2]]
+    body = json.loads((ROOT / "notebooks" / f"{page.lesson}.ipynb").read_text(encoding="utf-8"))
+    for cell in body["cells"]:
+        name = cell["metadata"].get("rosbeat", {}).get("exercise")
+        cell["source"] = answers.get(name, cell["source"])
+    return f"{page.lesson}.ipynb", json.dumps(body).encode()
+
+
+@pytest.fixture(scope="module")
+def marks(tmp_path_factory):
+    """The marks by style and exercise, and the remarks of each."""
+    folder, out = tmp_path_factory.mktemp("class"), tmp_path_factory.mktemp("grades")
+    names = {}
+    for number, (style, answers) in enumerate(handed_in().items()):
+        names[f"learner-{number:03}"] = style
+        (folder / f"learner-{number:03}").mkdir()
+        name, content = page_with(answers)
+        (folder / f"learner-{number:03}" / name).write_bytes(content)
+    plan = Plan(tuple(course()[one] for one in sorted(set(PAGES))), "natural", seed=815)
+
+    def observe(submissions):
+        with Pool(2) as pool:
+            yield from pool.observe(submissions)
+
+    with Ledger(out / "judged.jsonl") as ledger:
+        found = collect(folder, plan.pages)
+        graded = settle(grade(found, plan, ledger, observe, lambda *_: None), found)
+    return {
+        names[one.learner]: {mark.exercise: mark for mark in one.marks} for one in graded.learners
+    }
+
+
+def test_there_are_many():
+    found = handed_in()
+    assert len(STYLES) + len(WRITTEN) == len(found)
+    assert sum(map(len, found.values())) >= 200
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_a_right_answer_passes_however_it_is_built(name, marks):
+    (exercise, text), (mark,) = WRITTEN[name], _tried(marks[name])
+    assert (mark.exercise, mark.status, mark.repairs) == (exercise, "passed", ()), f"{mark}\n{text}"
+
+
+def _tried(marks):
+    return [one for one in marks.values() if one.status not in ("missing", "not attempted")]
+
+
+@pytest.mark.parametrize("style", STYLES, ids=lambda style: style.name)
+def test_right_answers_pass_in_any_style(style, marks):
+    for exercise, text in handed_in()[style.name].items():
+        mark = marks[style.name][exercise]
+        assert (mark.status, mark.points) == ("passed", mark.out_of), f"{mark}\n{text}"
+        said = [one for one in mark.repairs if "left out, a command of IPython" not in one]
+        assert said == [], mark.repairs
+        assert bool(mark.repairs) == style.left_out, mark.repairs
+
+
+def test_none_is_held(marks):
+    assert [one for some in marks.values() for one in some.values() if one.status == "held"] == []
