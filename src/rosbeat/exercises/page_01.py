@@ -7,7 +7,7 @@ import re
 import shlex
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,6 @@ from rosbeat.exercises.scenarios import (
     look_at_workspace,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
-from rosbeat.records import OMIT_EMPTY
 from rosbeat.workspace.catching_up import FOLDERS
 from rosbeat.workspace.place import NAME, workspace
 
@@ -78,7 +77,7 @@ class FolderMaking:
     is_older: bool = False
     tried: tuple[tuple[str, str], ...] = ()
     meaning: CommandMeaning | None = None
-    outside: str = field(default="", metadata=OMIT_EMPTY)
+    outside: str = ""
 
 
 #: This module is imported by the first cell of a page.

@@ -193,7 +193,7 @@ def _lines(gradebook: Gradebook, out: Path) -> Iterator[str]:
         reached = sum(one.points for one in counted) / len(counted)
         whole = max(one.out_of for one in counted)
         waiting = sum(not one.is_settled for one in gradebook.learners)
-        without = f", without {_many(waiting, 'learner')} of whom something is held"
+        without = f", without {count(waiting, 'learner')} of whom something is held"
         average = f"On average {number(round(reached, 1))} of {number(whole)} points"
         yield f"{average}{without if waiting else ''}."
     yield from _mistake_lines(marks)
