@@ -31,16 +31,15 @@ from rosbeat.workspace.place import workspace as workspace_folder
 #: The file name of the answer's cell, by which its lines are found.
 CELL = "<answer>"
 _MOST_TEXT = 1_000
-#: Seconds after which cells that still run are interrupted.
-_STOP = 20.0
 
 
-def observe(job: Job, seal: str, result: int) -> None:
+def observe(job: Job, seal: str, patience: float, result: int) -> None:
     """Run an answer, and write down what it did.
 
     Args:
         job: The answer.
         seal: What the text begins with, so that what an answer writes by accident is told apart.
+        patience: Seconds after which cells of Python that still run are interrupted.
         result: The descriptor to write to: the seal, and an object of JSON with `seen`; or with
             `raised`, `text`, `line` and `code` if the cell could not be run.
     """
@@ -49,7 +48,7 @@ def observe(job: Job, seal: str, result: int) -> None:
     given = json.loads(job.given)
     warnings.simplefilter("ignore")  # a warning ends no cell
     try:
-        subject = _replayed(job) if job.replay else _subject_of(job)
+        subject = _replayed(job) if job.replay else _subject_of(job, patience)
     except BaseException as error:  # SystemExit, too: it is what the cell does
         write(fault_of(error, job.answer))
         return
@@ -70,7 +69,7 @@ def _writer(seal: str, result: int) -> Callable[[dict[str, Any]], None]:
 # A cell of Python.
 
 
-def _subject_of(job: Job) -> Any:  # noqa: ANN401 - whatever a learner hands over
+def _subject_of(job: Job, patience: float) -> Any:  # noqa: ANN401 - whatever a learner hands over
     """Run the answer's cell as on its page, and evaluate what its check hands over.
 
     Raises:
@@ -82,7 +81,7 @@ def _subject_of(job: Job) -> Any:  # noqa: ANN401 - whatever a learner hands ove
         with suppress(Exception):  # as on a page where its cell has failed
             exec(compile(statement, "<earlier>", "exec", dont_inherit=True), space)
     failed: list[BaseException] = []
-    with _stopped_later():
+    with _stopped_after(patience):
         for number, text in enumerate((*job.parts, job.answer)):
             _run(text, CELL if text is job.answer else f"<part {number + 1}>", space, failed)
     # As on a page: what cells have defined before they failed is there for the check.
@@ -109,9 +108,9 @@ def _run(text: str, name: str, space: dict[str, Any], failed: list[BaseException
 
 
 @contextmanager
-def _stopped_later() -> Iterator[None]:
+def _stopped_after(patience: float) -> Iterator[None]:
     """Interrupt what goes on for long, as a learner does with a cell whose `main` spins."""
-    timer = threading.Timer(_STOP, os.kill, (os.getpid(), signal.SIGINT))
+    timer = threading.Timer(patience, os.kill, (os.getpid(), signal.SIGINT))
     timer.daemon = True
     timer.start()
     try:

@@ -75,6 +75,8 @@ WALL, WALL_OF_A_PAGE = 60.0, 240.0
 #: Seconds that a submission may lose to answers that do not end. When they are used up, each of its
 #: further answers has this part of the usual time: most need less than a second.
 LOST_AT_MOST, HURRIED = 180.0, 1 / 6
+#: The part of its time after which a cell that still runs is interrupted, as a learner does it.
+PATIENCE = 1 / 3
 #: Of what an answer may have written itself, no more than the course writes is believed.
 _MOST, _MOST_LINES = 2_000, 1_000_000
 #: How a keeper ends that was told that there are no more submissions.
@@ -163,8 +165,10 @@ def _keep(view: View, isolated: bool) -> int:
         with Sandbox(view, isolated) as sandbox:
             for one in json.loads(line):
                 job = read_job(one)
-                evidence = _observed(job, sandbox, limits_of(job, lost))
-                lost += evidence.seconds if evidence.how == "deadline" else 0.0
+                limits = limits_of(job, lost)
+                evidence = _observed(job, sandbox, limits)
+                is_interrupted = not job.replay and evidence.seconds >= limits.wall * PATIENCE
+                lost += evidence.seconds if evidence.how == "deadline" or is_interrupted else 0.0
                 _say(to_line(evidence))
     except GradingError as error:
         _say(json.dumps({"refused": [error.what, error.means, error.to_try]}))
@@ -208,11 +212,12 @@ def _observed(job: Job, sandbox: Sandbox, limits: Limits) -> Evidence:
     from rosbeat.grading.observing import observe
 
     seal = secrets.token_hex(16)
-    ending = sandbox.run(partial(observe, job, seal), limits)
+    work = partial(observe, job, seal, limits.wall * PATIENCE)
+    ending = sandbox.run(work, limits)
     if (ending.how, ending.number) == ("signal", signal.SIGKILL):
         # Somebody outside may have done that, such as a kernel that is out of memory. An answer
         # that ends itself does so again.
-        ending = sandbox.run(partial(observe, job, seal), limits)
+        ending = sandbox.run(work, limits)
     return _read(ending, seal)
 
 

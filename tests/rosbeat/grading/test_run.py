@@ -921,12 +921,23 @@ def graded_for_real():
 
 
 @pytest.mark.ros
-def test_the_clock_of_a_learner_runs_on(monkeypatch):
+@pytest.mark.parametrize(
+    ("loop", "how", "raised"),
+    [
+        ("{}", "ended", "KeyboardInterrupt"),  # as a learner ends it
+        ("try:\n        while True:\n            {}\n    except BaseException:\n        pass",
+         "deadline", ""),
+    ],
+    ids=["interrupted", "goes on"],
+)  # fmt: skip
+def test_the_clock_of_a_learner_runs_on(loop, how, raised, monkeypatch):
     """Three endless answers, and the fourth has little time; see `hostile.brief_worker`."""
     monkeypatch.setattr(module, "_MODULE", "hostile.brief_worker")
     monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
-    texts = [*(f"while True:\n    {n}" for n in range(4)), RIGHT]
+    texts = [*(f"while True:\n    {loop.format(n)}" for n in range(4)), RIGHT]
     with Pool(1) as pool:
         found = dict(pool.observe([[(n, answer(text)) for n, text in enumerate(texts)]]))
-    assert [found[n].how for n in range(5)] == [*(["deadline"] * 4), "ended"]
+    assert [found[n].how for n in range(5)] == [*([how] * 4), "ended"]
+    assert {found[n].raised for n in range(4)} == {raised}
+    assert found[4].raised == ""
     assert found[3].seconds < found[0].seconds
