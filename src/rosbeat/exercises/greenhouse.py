@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib.resources import files
-from itertools import chain
 from math import inf, isfinite, nan
 from pathlib import Path
 from textwrap import wrap
@@ -292,14 +291,11 @@ def _vent_readings(numbers: Mapping[str, float], seed: int) -> Iterator[float]:
     # A limit that a Float32 cannot carry is met by no reading.
     top = opening if as_float32(opening) == opening else opening - _JUST
     bottom = closing if as_float32(closing) == closing else closing + _JUST
-    slowly = (
-        *(some.middle, top, opening + _JUST),
-        *(some.middle, bottom, closing - _JUST, some.middle),
-    )
-    far = (some.hot, some.middle, some.cold)
-    yield some.hot  # how a vent stands before its first reading is up to the answer
-    yield some.cold
-    yield from chain(*Draw(seed).shuffled((slowly, far)))
+    # How a vent stands before its first reading is up to the answer. Then it is hot again although
+    # the vent is open, and no limit is passed without need.
+    yield from (some.hot, some.middle, some.hot, some.cold)
+    yield from (some.middle, top, opening + _JUST, bottom)
+    yield from (some.middle, bottom, closing - _JUST, some.middle)
 
 
 def _longer(seed: int) -> Iterator[int]:

@@ -335,6 +335,19 @@ def _together(*tracks: Track) -> Track:
     return {at: (sum(sum(track.get(at, ())) for track in tracks),) for at in set().union(*tracks)}
 
 
+def _with_gaps(beat: _Beat) -> Track:
+    """Return the ticks of a beat that were not left out; nothing if it is a slower one, or ends."""
+    kept = {at: one for at, one in beat.right.items() if at in beat.done}
+    ends = list(kept) == list(beat.right)[: len(kept)]
+    return {} if ends or beat.done == _ticks(min(beat.done), beat.end) else kept
+
+
+def _first_extra(beat: _Beat) -> int:
+    """Return the first moment at which more came than was due, or 0."""
+    more = (at for at, one in beat.done.items() if one > beat.right.get(at, (0,)))
+    return min(more, default=0)
+
+
 _FEW = {0: "none", 1: "one"}
 _COUNT = (
     "What does the first argument of create_timer count: calls per second, or seconds between "
@@ -365,7 +378,7 @@ _BEATS = suspects(
     (
         "wrong-rate",
         "Two timers publish, each with a period of its own. Where does the other one come from?",
-        lambda beat: _together(beat.right, _ticks(min(beat.done), beat.end)),
+        lambda beat: _together(beat.right, _ticks(_first_extra(beat), beat.end)),
     ),
     (
         "wrong-rate",
@@ -376,6 +389,11 @@ _BEATS = suspects(
             if beat.done[min(beat.done)] > (1,)
             else {}
         ),
+    ),
+    (
+        "wrong-rate",
+        "The rate is right, and some ticks publish nothing. Which condition leaves them out?",
+        _with_gaps,
     ),
     ("wrong-rate", _COUNT, lambda beat: _ticks(min(beat.done), beat.end)),
 )

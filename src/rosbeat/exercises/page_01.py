@@ -6,7 +6,7 @@ import posixpath
 import re
 import shlex
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,6 +21,7 @@ from rosbeat.exercises.scenarios import (
     Workspace,
     look_at_terminal,
     look_at_workspace,
+    typed_about,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
 from rosbeat.workspace.catching_up import FOLDERS
@@ -84,25 +85,9 @@ class FolderMaking:
 _PAGE_BEGAN = time.time()
 
 
-def page_terminals() -> Iterable[Any]:
-    """Return the open terminals of this page; none where there is no page."""
-    from IPython import get_ipython
-
-    from rosbeat.workspace.terminals import terminals_of
-
-    shell = get_ipython()
-    return terminals_of(shell) if shell else ()
-
-
 def _look_at_making(answer: Answer) -> FolderMaking:
     found, root = look_at_workspace(answer), Path(answer)
-    tried: tuple[tuple[str, str], ...] = ()
-    meaning = None
-    for terminal in page_terminals():
-        lines = tuple(one for one in look_at_terminal(terminal, root).commands if _is_try(one[1]))
-        if lines:
-            tried += lines
-            meaning = look_at_terminal(terminal, root, lines[-1][1]).meaning
+    tried, meaning = typed_about(root, _is_try)
     place = root / _ALARM
     obstacle = "a link" if place.is_symlink() else "a file" if place.is_file() else ""
     if (root / _RUNS_THROUGH).is_symlink():

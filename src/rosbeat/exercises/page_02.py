@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any
 
 from packaging.licenses import InvalidLicenseExpression, canonicalize_license_expression
 
-from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.packages import Manifest
 from rosbeat.exercises.exercise import BLANK, Exercise, Verdict, not_attempted, passed
-from rosbeat.exercises.scenarios import Workspace, look_at_workspace
-from rosbeat.exercises.workspace_model import alike
+from rosbeat.exercises.scenarios import (
+    Answer,
+    CommandMeaning,
+    Workspace,
+    look_at_workspace,
+    typed_about,
+)
+from rosbeat.exercises.workspace_model import alike, diagnosis_of
 from rosbeat.workspace.packages import Package
 
 # A manifest is text, and what is wrong with a text is told by looking at it: nothing is simulated
@@ -189,15 +197,50 @@ def _is_known_license(text: str) -> bool:
 _SECOND, _NEEDS = "room_display", ("rclpy", "sensor_msgs")
 
 
-def _judge_second(seen: Workspace) -> Verdict:
+@dataclass(frozen=True)
+class PackageMaking:
+    """Record the packages of a workspace, and what was typed to make one.
+
+    Attributes:
+        workspace: What is in the workspace.
+        tried: The last line that was to make a package; empty where a page has no terminals.
+        meaning: What that line has led to, if it is a known mistake.
+    """
+
+    workspace: Workspace
+    tried: str = ""
+    meaning: CommandMeaning | None = None
+
+
+def _look_at_package_making(answer: Answer) -> PackageMaking:
+    found = look_at_workspace(answer)
+    typed, meaning = typed_about(Path(answer), lambda line: bool(_CREATES.search(line)))
+    return PackageMaking(found, typed[-1][1] if typed else "", meaning)
+
+
+_CREATES = re.compile(r"\bpkg\s+create\b")
+
+
+def _judge_second(made: PackageMaking) -> Verdict:
+    seen = made.workspace
     package = seen.packages.get(_SECOND)
     slips = _slips_of_absence(seen) if package is None else _slips_of_package(seen, package)
     slip = next(slips, None)
     if slip:
         return slip
     if package is None:
-        return not_attempted(f"There is no package {_SECOND} yet.")
+        return diagnosis_of(made.meaning) or _nothing_made(made.tried)
     return passed(f"{_SECOND} is a Python package that needs {' and '.join(_NEEDS)}.")
+
+
+def _nothing_made(tried: str) -> Verdict:
+    if not tried:
+        return not_attempted(f"There is no package {_SECOND} yet.")
+    return Diagnosis(
+        UNKNOWN,
+        f"You typed `{tried}`, and there is no package {_SECOND}.",
+        "The last lines that the command printed say what it could not do.",
+    )
 
 
 def _misplaced(place: str) -> Diagnosis:
@@ -278,7 +321,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "02b",
-        look_at_workspace,
+        _look_at_package_making,
         _judge_second,
         title="a second package",
         points=2,

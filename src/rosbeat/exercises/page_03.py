@@ -256,7 +256,9 @@ class _Walk:
         moves = [move for move in self.moves[2 * _PHASE :] if move]
         ups = sum(move > 0 for move in moves) / max(1, len(moves))
         turns = sum((one > 0) != (next_one > 0) for one, next_one in pairwise(moves))
-        return len(moves) > 30 and turns <= ups * (1 - ups) * len(moves)
+        # One whose steps grow too wide has another mistake: a speed that walks, for one.
+        is_wide = self.widest > 2 * self.asked.step
+        return len(moves) > 30 and not is_wide and turns <= ups * (1 - ups) * len(moves)
 
     def is_clamped_too_early(self) -> bool:
         # A whole step beyond is as far as such a walk gets; nothing cuts it off before.

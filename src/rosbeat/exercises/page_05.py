@@ -72,13 +72,14 @@ Calls = tuple[tuple[str, ...], ...]
 def draw_calls(draw: Draw) -> Calls:
     """Draw the names with which the function is called.
 
-    The capital letters and underscores show whether it changes what it is given.
+    The capital letters, underscores and last letters show whether it changes what it is given.
     """
     return (
         draw.shuffled(("talk", "rosie", "voice")),
         draw.shuffled(("watch_room", "house", "monitor", "start")),
         draw.shuffled(("a", "b", "c", "d")),
         draw.shuffled(("showRoom_2", "lampKit_1", "bigDisplay_3", "runAll_4")),
+        draw.shuffled(("puppy", "happy", "copy")),
     )
 
 

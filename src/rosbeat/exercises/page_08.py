@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import accumulate, groupby, pairwise
+from itertools import accumulate, pairwise
 from typing import Any, NamedTuple
 
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
@@ -368,9 +368,8 @@ def _copies(kept: Sequence[float], fed: Sensors) -> Track:
 
 
 def _without_repetitions(fed: Sensors) -> Track:
-    """Return what an archive keeps that takes equal readings in a row for one."""
-    values = [value for _, value in sorted(fed.readings().items())]
-    return _copies([value for value, _ in groupby(values)], fed)
+    """Return what an archive keeps that takes equal readings for one."""
+    return _copies(list(dict.fromkeys(fed.readings().values())), fed)
 
 
 def _archive(fed: Sensors, qos: QoS | Sequence[QoS], most: int = 99) -> Track:
@@ -387,7 +386,7 @@ def _archive(fed: Sensors, qos: QoS | Sequence[QoS], most: int = 99) -> Track:
             for one in waiting[-depth:]
             if not asks.lifespan_ns or (fed.returns - one[0]) * NANOSECONDS < asks.lifespan_ns
         )
-    return {one: (readings[one],) * min(count, most) for one, count in counts.items()}
+    return _copies([readings[one] for one in counts for _ in range(min(counts[one], most))], fed)
 
 
 _QUEUE = (
@@ -416,6 +415,7 @@ def archive_suspects(fed: Sensors, asks: Sequence[QoS]) -> list[Suspect]:
     return [
         Suspect("heard-twice", _TWICE, partial(_archive, qos=asks)),
         Suspect("queue-too-short", _QUEUE, partial(_archive, qos=asks, most=1)),
+        Suspect("change-missing", _EQUAL, _without_repetitions),
     ]
 
 

@@ -224,8 +224,7 @@ class Work(NamedTuple):
 def draw_work(draw: Draw) -> Work:
     """Draw orders: one after another, two while two others wait, and one more while some wait.
 
-    A test for "no order" must not take the number 0 for none, and the same number twice is two
-    orders. Work begins at half a second past a
+    A test for "no order" must not take the number 0 for none. Work begins at half a second past a
     full one: so a node that counts halves is in time.
     """
 
@@ -237,12 +236,12 @@ def draw_work(draw: Draw) -> Work:
 
 
 def _orders(draw: Draw) -> Work:
-    one, two, three, four = (7, 12, 5, 4) if draw.is_page else draw.shuffled(range(1, 100))[:4]
+    one, *others = (7, 12, 5, 9, 4) if draw.is_page else draw.shuffled(range(1, 100))[:5]
     first = draw.number(2.5, 2.5, 7.5, 1.0)
     second = first + draw.whole(7, 4, 12)
     third = second + draw.one_of(2.25, 0.25, 0.75, 1.25, 1.75)
     times = (first, second, second, third, third, second + 7.25)
-    return Work(tuple(zip(times, (one, 0, two, two, three, four), strict=True)), second + 19.5)
+    return Work(tuple(zip(times, (one, 0, *others), strict=True)), second + 19.5)
 
 
 def _run_with_orders(answer: Answer, fed: Work) -> Observation:
@@ -305,14 +304,9 @@ def _work_between(begin: float, end: float, fed: Work) -> str:
 
 def _by_report(reports: Reports, fed: Work) -> Track:
     """Return each report's number, and the seconds from when the order could begin."""
-    came: dict[int, list[float]] = {}
-    for at, number in fed.orders:
-        came.setdefault(number, []).append(at)
-    free, found = 0.0, {}
+    came, free, found = {number: at for at, number in fed.orders}, 0.0, {}
     for place, (at, number) in enumerate(reports):
-        times = came.get(number, [0.0])
-        begin = times.pop(0) if len(times) > 1 else times[0]
-        found[place] = (number, at - max(free, begin))
+        found[place] = (number, at - max(free, came.get(number, 0.0)))
         free = at
     return found
 
@@ -378,11 +372,6 @@ def _keep(most: int) -> Callable[[list[int], int], None]:
     return lambda waiting, order: waiting.append(order) if len(waiting) < most else None
 
 
-def _keep_different(waiting: list[int], order: int) -> None:
-    if order not in waiting:
-        waiting.append(order)
-
-
 def _take_and_empty(waiting: list[int]) -> list[int]:
     done = waiting[:1]
     waiting.clear()
@@ -401,8 +390,6 @@ WORK_SUSPECTS = suspects(
      _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
     ("order-lost", f"Only the newest order is kept. {_WAITS}",
      _worker(put=lambda waiting, order: waiting.__setitem__(slice(None), [order]))),
-    ("order-lost", "The same number twice is two orders, and both are to be done.",
-     _worker(_keep_different)),
     ("order-lost", "The next work begins only when another order comes. When one order is done, "
      "look whether another one waits.", _started_by_orders),
     ("order-lost", f"No order could wait. {_WAITS}", _worker(_keep(1))),
@@ -475,7 +462,7 @@ def _first_report(mismatch: Mismatch, reports: Track, evidence: str, fed: Work) 
     before = reports.get(mismatch.at - 1)
     if done and before and done[1] == 0 and done[0] != before[0]:
         return Diagnosis("work-at-once", evidence, _ONE_AT_A_TIME)
-    if done and numbers.count(done[0]) > [number for _, number in fed.orders].count(done[0]):
+    if done and numbers.count(done[0]) > 1:
         hint = "A timer calls again and again until it is stopped."
         return Diagnosis("done-twice", evidence, hint)
     if right[0] not in numbers:

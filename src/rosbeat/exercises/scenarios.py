@@ -273,6 +273,39 @@ def look_at_terminal(answer: Answer, root: Path, about: str = "") -> TypedIn:
     )
 
 
+def page_terminals() -> Iterable[Any]:
+    """Return the open terminals of this page; none where there is no page."""
+    from IPython import get_ipython
+
+    from rosbeat.workspace.terminals import terminals_of
+
+    shell = get_ipython()
+    return terminals_of(shell) if shell else ()
+
+
+def typed_about(
+    root: Path, is_about: Callable[[str], bool]
+) -> tuple[tuple[tuple[str, str], ...], CommandMeaning | None]:
+    """Return what was typed about something in the terminals of this page.
+
+    Args:
+        root: The workspace.
+        is_about: Tells whether a line is about it.
+
+    Returns:
+        Each such line, with the folder it was typed in, as the prompt said it; and what the last of
+        them has led to, if it is a known mistake.
+    """
+    typed: tuple[tuple[str, str], ...] = ()
+    meaning = None
+    for terminal in page_terminals():
+        lines = tuple(one for one in look_at_terminal(terminal, root).commands if is_about(one[1]))
+        if lines:
+            typed += lines
+            meaning = look_at_terminal(terminal, root, lines[-1][1]).meaning
+    return typed, meaning
+
+
 def meaning_of(
     command: str, output: str, code: int, folder: Path, root: Path
 ) -> CommandMeaning | None:
