@@ -53,7 +53,7 @@ def outcome_of(exercise: str, text: str, subject: str, seed: int = PAGE) -> Outc
         return found.judged(found.observed(answer, seed), seed)
 
 
-def told(answer: Answer, workspace: Path, seed: int = PAGE) -> Outcome:
+def told(answer: Answer, workspace: Path, seed: int = PAGE, *, patient: bool = False) -> Outcome:
     """Return what `check` says of an answer of the bank.
 
     Args:
@@ -61,11 +61,12 @@ def told(answer: Answer, workspace: Path, seed: int = PAGE) -> Outcome:
         workspace: A folder that is not there yet, where the environment says that it is; only
             answers about files and terminals make it.
         seed: Of the inputs.
+        patient: Whether an answer that does not end gets as much time as on a page.
     """
     if answer.exercise in workspaces.EXERCISES:
         return workspaces.outcome_of(answer, workspace)
     usual = observe.__kwdefaults__
     assert usual is not None
-    endless = _ENDLESS & set(answer.mistakes)
-    with patch.dict(usual, deadline=_PATIENCE if endless else usual["deadline"]):
+    hurried = not patient and _ENDLESS & set(answer.mistakes)
+    with patch.dict(usual, deadline=_PATIENCE if hurried else usual["deadline"]):
         return outcome_of(answer.exercise, answer.text, answer.subject, seed)
