@@ -19,7 +19,7 @@ changes another one; by default the solution that the course publishes::
     === untried | it leaves nothing behind that could be judged
 
 What a change looks for has to be there exactly once. Lines that come end a change of lines, and so
-does an empty line. Of several mistakes, and of one that has several names, each name is true.
+does an empty line; without a line to find they come first. Of several mistakes, and of one that has several names, each name is true.
 Behind the name, parts that are set off by ` | ` say more:
 
     from NAME     the entry to change, instead of the solution
@@ -43,6 +43,7 @@ from bank.pages import solution
 _HERE = Path(__file__).parent
 STATUS = {"right": "passed", "wrong": "failed", "untried": "not attempted"}
 _BAR, _ARROW = " | ", " => "
+_CHANGE = r"(?:^[ -].*\n)*(?:^\+.*\n)+|(?:^[ -].*\n)+|^.+"
 _DEFINED = r"^(?:(?:class|def) (\w+)|(\w+) = )"
 
 
@@ -126,12 +127,12 @@ def changed(text: str, changes: str) -> str:
     Raises:
         ValueError: If what a change looks for is not there exactly once.
     """
-    for change in re.findall(r"(?:^[ -].*\n)+(?:^\+.*\n)*|^.+", f"{changes}\n", re.MULTILINE):
+    for change in re.findall(_CHANGE, f"{changes}\n", re.MULTILINE):
         if change[0] in " -+":
             lines = change.splitlines()
             old = "".join(f"{line[1:]}\n" for line in lines if line[0] != "+")
             new = "".join(f"{line[1:]}\n" for line in lines if line[0] != "-")
-            text = _replaced(f"\n{text}", f"\n{old}", f"\n{new}")[1:]
+            text = _replaced(f"\n{text}", f"\n{old}", f"\n{new}")[1:] if old else new + text
         else:
             text = _replaced(text, *change.split(_ARROW))
     return text

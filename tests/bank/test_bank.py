@@ -141,6 +141,8 @@ def test_lines_stay_and_go_and_come():
     change = "     high = 2\n+    more = 3\n-        return self.low\n+        return 1\n"
     text = SOLUTION.replace("2\n", "2\n    more = 3\n").replace("self.low", "1")
     assert only(f"=== right | lines\n{change}").text == text
+    top = only("=== right | top\n+import math\n+\n-    high = 2\n").text
+    assert top == "import math\n\n" + SOLUTION.replace("    high = 2\n", "")
 
 
 def test_an_entry_changes_another_one():
@@ -154,7 +156,6 @@ def test_an_entry_changes_another_one():
         "low => high",
         "nothing => high",
         "-    mid = 2",
-        "+    mid = 2",
         "     low = 1\n-    low = 2",
         " => a",
     ],
