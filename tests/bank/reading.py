@@ -19,8 +19,8 @@ changes another one; by default the solution that the course publishes::
     === untried | it leaves nothing behind that could be judged
 
 What a change looks for has to be there exactly once. Lines that come end a change of lines, and so
-does an empty line; without a line to find they come first. Of several mistakes, and of one that has several names, each name is true.
-Behind the name, parts that are set off by ` | ` say more:
+does an empty line; without a line to find they come first. Of several mistakes, and of one that has
+several names, each name is true. Behind the name, parts that are set off by ` | ` say more::
 
     from NAME     the entry to change, instead of the solution
     misses R1 R2  the requirements of the rubric that are not met: these, and no others
@@ -89,13 +89,20 @@ def parse(exercise: str, text: str, published: str) -> tuple[Answer, ...]:
         ValueError: If an entry is not as it has to be: it says which one.
     """
     entries = [one.partition("\n") for one in re.split(r"^=== ", text, flags=re.MULTILINE)[1:]]
-    bodies = {head.split(_BAR)[1]: _typed_and_text(body) for head, _, body in entries}
-    return tuple(_answer(exercise, head, bodies, published) for head, _, _ in entries)
+    heads = [head.split(_BAR) for head, _, _ in entries]
+    if nameless := [head for head in heads if len(head) < 2]:
+        raise ValueError(f"{exercise}: without a name: {nameless}")
+    bodies = {
+        head[1]: _typed_and_text(entry[2]) for head, entry in zip(heads, entries, strict=True)
+    }
+    return tuple(_answer(exercise, head, bodies, published) for head in heads)
 
 
-def _answer(exercise: str, head: str, bodies: dict[str, tuple[str, str]], published: str) -> Answer:
+def _answer(
+    exercise: str, head: list[str], bodies: dict[str, tuple[str, str]], published: str
+) -> Answer:
     """Return an answer by the head of its entry, and by the bodies of all entries."""
-    verdict, name, *more = head.split(_BAR)
+    verdict, name, *more = head
     word, _, mistakes = verdict.partition(" ")
     said = {}
     for part in more:
@@ -104,8 +111,11 @@ def _answer(exercise: str, head: str, bodies: dict[str, tuple[str, str]], publis
         said[kind if known else "subject"] = value if known else part
     before, cell = bodies[name]
     try:
+        base = bodies[said["from"]][1] if "from" in said else published
+        if "from" in said and (_is_change(base) or not _is_change(cell)):
+            raise ValueError("it has to change a whole entry")
         if _is_change(cell):
-            cell = changed(bodies[said["from"]][1] if "from" in said else published, cell)
+            cell = changed(base, cell)
         status = STATUS[word]
     except (KeyError, ValueError) as error:
         raise ValueError(f"{exercise} {name}: {error}") from error
@@ -134,7 +144,8 @@ def changed(text: str, changes: str) -> str:
             new = "".join(f"{line[1:]}\n" for line in lines if line[0] != "-")
             text = _replaced(f"\n{text}", f"\n{old}", f"\n{new}")[1:] if old else new + text
         else:
-            text = _replaced(text, *change.split(_ARROW))
+            old, new = change.split(_ARROW)
+            text = _replaced(text, old, new)
     return text
 
 

@@ -150,6 +150,15 @@ def test_an_entry_changes_another_one():
     assert (found.text, found.subject) == ("x = 2\n", "x")
 
 
+def test_an_entry_that_is_changed_is_a_whole_one():
+    head = "=== right | b\nlow = 1 => low = 2\n=== right | c | from b\n"
+    for change in ("low = 2 => low = 3\n", "x = 1\n"):
+        with pytest.raises(ValueError, match="03a c: it has to change a whole entry"):
+            parse("03a", head + change, SOLUTION)
+    with pytest.raises(ValueError, match="03a: without a name"):
+        parse("03a", "=== right\nx = 1\n", SOLUTION)
+
+
 @pytest.mark.parametrize(
     "entry",
     [
