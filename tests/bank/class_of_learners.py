@@ -1,4 +1,4 @@
-"""A class that hands in pages 03 and 04, with answers of the bank, right and wrong."""
+"""Make a class that hands in pages 03 and 04, with answers of the bank, right and wrong."""
 
 import shutil
 from collections.abc import Callable, Sequence
@@ -8,9 +8,9 @@ from pathlib import Path
 
 import nbformat
 
-from bank.answer import Answer
-from bank.nodes.table import ANSWERS
+from bank import reading
 from bank.pages import lesson, subject
+from bank.reading import Answer
 from rosbeat.authoring import pages
 from rosbeat.exercises.registry import EXERCISES
 
@@ -23,12 +23,12 @@ _SLOW = {"callback-blocks", "constructor-blocks", "exits"}
 
 @cache
 def blank(page: str) -> nbformat.NotebookNode:
-    """The learners' page, by its two digits."""
+    """Return the learners' page, by its two digits."""
     return pages.notebook_page(lesson(page), POINTS)
 
 
 def filled(page: nbformat.NotebookNode, answers: dict[str, str]) -> nbformat.NotebookNode:
-    """A page with texts of answers, by exercise, in the place of its blanks."""
+    """Return a page with texts of answers, by exercise, in the place of its blanks."""
     page = deepcopy(page)
     for cell in page.cells:
         exercise = cell.metadata.get("rosbeat", {}).get("exercise")
@@ -38,17 +38,17 @@ def filled(page: nbformat.NotebookNode, answers: dict[str, str]) -> nbformat.Not
 
 @cache
 def answers_to(exercise: str, status: str) -> tuple[Answer, ...]:
-    """Answers of the bank that define what the check cell hands over, in the bank's order."""
+    """Return answers that define what the check cell hands over, in the bank's order."""
     return tuple(
         one
-        for one in ANSWERS
+        for one in reading.answers()
         if (one.exercise, one.status, one.subject) == (exercise, status, subject(exercise))
         and not _SLOW & set(one.mistakes)
     )
 
 
 def answers_of(number: int) -> dict[str, Answer]:
-    """The answers of one learner: each other one is right, and no two learners agree for long.
+    """Return the answers of one learner: each other one is right, and no two agree for long.
 
     Args:
         number: Which learner of the class, from 0.

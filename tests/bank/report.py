@@ -12,7 +12,7 @@ from functools import cache
 from tempfile import TemporaryDirectory
 
 from bank.mutants import Mutant, mutants
-from bank.pages import NODE_EXERCISES, ROOT, references, subject
+from bank.pages import NODE_EXERCISES, ROOT, solution, subject
 from bank.running import outcome_of
 
 PAGE = ROOT / "docs" / "mutants.md"
@@ -38,7 +38,7 @@ Written by `PYTHONPATH=tests .venv/bin/python -m bank.report`, which keeps the r
 @cache
 def mutants_of(exercise: str) -> tuple[Mutant, ...]:
     """The mutants of an exercise's reference solution."""
-    return tuple(mutants(references()[exercise]))
+    return tuple(mutants(solution(exercise)))
 
 
 @cache

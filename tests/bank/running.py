@@ -1,14 +1,22 @@
-"""Running an answer of the bank as a page would."""
+"""Run an answer of the bank as a page would."""
 
 import linecache
 import warnings
+from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
+from bank import workspaces
 from bank.pages import imports
+from bank.reading import Answer
 from rosbeat.exercises.check import check
 from rosbeat.exercises.draw import PAGE
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import Outcome
+from rosbeat.ros.scenario import observe
+
+#: Mistakes that a deadline finds out, and the seconds until then; a page has more patience.
+_ENDLESS, _PATIENCE = {"callback-blocks", "constructor-blocks"}, 2.0
 
 
 def namespace_of(exercise: str, text: str, name: str) -> dict[str, Any]:
@@ -43,3 +51,22 @@ def outcome_of(exercise: str, text: str, subject: str, seed: int = PAGE) -> Outc
             return check(exercise, answer).outcome
         found = EXERCISES[exercise]
         return found.judged(found.observed(answer, seed), seed)
+
+
+def told(answer: Answer, workspace: Path, seed: int = PAGE, *, patient: bool = False) -> Outcome:
+    """Return what `check` says of an answer of the bank.
+
+    Args:
+        answer: The answer.
+        workspace: A folder that is not there yet, where the environment says that it is; only
+            answers about files and terminals make it.
+        seed: Of the inputs.
+        patient: Whether an answer that does not end gets as much time as on a page.
+    """
+    if answer.exercise in workspaces.EXERCISES:
+        return workspaces.outcome_of(answer, workspace)
+    usual = observe.__kwdefaults__
+    assert usual is not None
+    hurried = not patient and _ENDLESS & set(answer.mistakes)
+    with patch.dict(usual, deadline=_PATIENCE if hurried else usual["deadline"]):
+        return outcome_of(answer.exercise, answer.text, answer.subject, seed)

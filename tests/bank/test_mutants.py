@@ -6,7 +6,7 @@ import pytest
 
 from bank import report
 from bank.mutants import mutants
-from bank.pages import NODE_EXERCISES, references, subject
+from bank.pages import NODE_EXERCISES, solution, subject
 from bank.running import outcome_of
 
 PAGE = report.PAGE.read_text(encoding="utf-8")
@@ -20,7 +20,7 @@ ALWAYS = ("00b", "04a")
 @pytest.mark.ros
 @pytest.mark.parametrize("exercise", NODE_EXERCISES)
 def test_the_reference_solution_passes(exercise):
-    outcome = outcome_of(exercise, references()[exercise], subject(exercise))
+    outcome = outcome_of(exercise, solution(exercise), subject(exercise))
     assert (outcome.status, outcome.remarks) == ("passed", ()), outcome
 
 

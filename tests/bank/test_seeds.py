@@ -4,19 +4,17 @@ from zlib import crc32
 
 import pytest
 
-from bank import held_out, pages
-from bank.beyond import page_07, page_08, page_09, page_11, page_12, page_13
-from bank.nodes import table
-from bank.running import namespace_of, outcome_of
+from bank import pages
+from bank.reading import answers, held_out
+from bank.running import namespace_of, told
 from rosbeat.diagnosis.mistakes import UNKNOWN
 from rosbeat.exercises.registry import EXERCISES
 
 pytestmark = pytest.mark.ros
 
 DRAWN = [name for name, one in EXERCISES.items() if one.draw is not None]
-HELD_OUT = [one for one in held_out.answers() if one.exercise in DRAWN]
-PAGES = (table, page_07, page_08, page_09, page_11, page_12, page_13)
-BANK = [one for page in PAGES for one in page.ANSWERS if one.exercise in DRAWN]
+HELD_OUT = [one for one in held_out() if one.exercise in DRAWN]
+BANK = [one for one in answers() if one.exercise in DRAWN]
 
 
 def seed_of(answer):
@@ -25,16 +23,15 @@ def seed_of(answer):
 
 
 @pytest.mark.parametrize("answer", HELD_OUT, ids=lambda one: one.id)
-def test_a_held_out_answer_gets_its_outcome_with_any_seed(answer):
-    handed = answer.handed or pages.subject(answer.exercise)
-    outcome = outcome_of(answer.exercise, answer.text, handed, seed_of(answer))
+def test_a_held_out_answer_gets_its_outcome_with_any_seed(answer, workspace):
+    outcome = told(answer, workspace, seed_of(answer))
     assert outcome.status == answer.status, outcome
-    assert outcome.mistake in (answer.mistake, UNKNOWN), outcome
+    assert outcome.mistake in (answer.mistakes or ("",)) + (UNKNOWN,), outcome
 
 
 @pytest.mark.parametrize("exercise", DRAWN)
 def test_evidence_of_a_right_answer_does_not_pass_with_another_seed(exercise):
-    space = namespace_of(exercise, pages.references_of(exercise), "<reference>")
+    space = namespace_of(exercise, pages.solution(exercise), "<reference>")
     judged, seen = (getattr(EXERCISES[exercise], name) for name in ("judged", "observed"))
     evidence = seen(eval(pages.subject(exercise), space))
     assert judged(evidence).status == "passed"
@@ -43,8 +40,8 @@ def test_evidence_of_a_right_answer_does_not_pass_with_another_seed(exercise):
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("answer", BANK, ids=lambda one: one.id)
-def test_an_answer_of_the_bank_gets_its_outcome_with_any_seed(answer):
-    outcome = outcome_of(answer.exercise, answer.text, answer.subject, seed_of(answer))
+def test_an_answer_of_the_bank_gets_its_outcome_with_any_seed(answer, workspace):
+    outcome = told(answer, workspace, seed_of(answer))
     assert outcome.status == answer.status, outcome
     # The name may be another one: of two mistakes, the first to show depends on what is fed.
     assert bool(outcome.mistake) == bool(answer.mistakes)

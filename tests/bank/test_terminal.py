@@ -2,9 +2,8 @@
 
 import pytest
 
-from bank.workspaces.shell import typed
-from bank.workspaces.table import Desk
-from bank.workspaces.terminal import CASES, ROWS
+from bank.terminal import CASES, ROWS
+from bank.workspaces import Desk, typed
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.workspace.meanings import explain, recognise
 

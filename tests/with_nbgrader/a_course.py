@@ -20,7 +20,7 @@ from nbgrader.utils import is_grade
 from nbgrader.validator import Validator
 
 from bank.class_of_learners import NAMES, PAGES, answers_of, blank, filled, nbgrader_course
-from bank.pages import references
+from bank.pages import NODE_EXERCISES, solution
 
 #: Beside the pages: what the pages of this class do not do.
 ODD = {
@@ -48,10 +48,11 @@ def main(folder: Path) -> None:
         shorten(page)
     add_odd_page(source)
     run(GenerateAssignmentApp, "ps1")
-    hand_in("ada", references(), *PAGES)
+    solutions = {name: solution(name) for name in NODE_EXERCISES}
+    hand_in("ada", solutions, *PAGES)
     hand_in("bob", {name: one.text for name, one in answers_of(1).items()}, *PAGES)
     hand_in("cleo", {}, "03")
-    nbformat.write(filled(blank("03"), references()), "whole.ipynb")
+    nbformat.write(filled(blank("03"), solutions), "whole.ipynb")
     files = ("whole.ipynb", f"submitted/bob/ps1/{NAMES['03']}.ipynb")
     said = [validated(file) for file in files]
     run(AutogradeApp, "ps1")

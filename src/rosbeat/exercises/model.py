@@ -244,7 +244,7 @@ def status_of(value: float, low: float, high: float) -> str:
 
 
 #: What is wrong with `if value:` as a test for whether there is a value.
-ZERO_IS_FALSE = "In Python 0 is false: to ask whether there is something, ask `is not None`."
+ZERO_IS_FALSE = "Python takes 0 for false, so `if value:` does not ask whether there is one."
 #: The words that `status_of` returns.
 STATUSES = ("High", "Low", "Normal")
 

@@ -2,7 +2,6 @@
 
 from textwrap import dedent
 
-from bank.answer import edited
 from bank.running import namespace_of
 
 READER = """
@@ -36,6 +35,20 @@ HUMIDITY = """
 """
 
 
+def edited(text, *edits):
+    """Return a text, dedented, with something else in the place of what is in it.
+
+    Raises:
+        ValueError: If a text to replace is not there.
+    """
+    text = dedent(text).lstrip("\n")
+    for old, new in edits:
+        if old not in text:
+            raise ValueError(f"{old!r} is not in:\n{text}")
+        text = text.replace(old, new)
+    return text
+
+
 def subject(text):
     """Return the name of the first class in a text."""
     return text.split("class ")[1].split("(")[0]
@@ -43,5 +56,5 @@ def subject(text):
 
 def made(exercise, text, *edits):
     """Return the class that a cell of an exercise's page makes, after some edits."""
-    text = edited(dedent(text), *edits)
+    text = edited(text, *edits)
     return namespace_of(exercise, text, f"<{exercise}>")[subject(text)]

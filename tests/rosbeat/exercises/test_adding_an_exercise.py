@@ -7,13 +7,16 @@ from types import ModuleType
 import pytest
 
 from bank.pages import imports
+from bank.reading import parse
 from bank.running import outcome_of
 from rosbeat import hint
 from rosbeat.exercises import registry
 from rosbeat.exercises.model import agree
 
 DOCS = Path(__file__).parents[3] / "docs" / "exercises.md"
-EXERCISE, ANSWERS = re.findall(r"^```python\n(.*?)^```", DOCS.read_text("utf-8"), re.S | re.M)
+SOLUTION, EXERCISE, ANSWERS = re.findall(
+    r"^```(?:python|text)\n(.*?)^```", DOCS.read_text("utf-8"), re.DOTALL | re.MULTILINE
+)
 
 
 def run(text, name):
@@ -42,7 +45,7 @@ def test_it_is_short():
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("answer", run(ANSWERS, "answers").ANSWERS, ids=lambda one: one.id)
+@pytest.mark.parametrize("answer", parse("14a", ANSWERS, SOLUTION), ids=lambda one: one.id)
 def test_each_answer_is_told_what_is_right_or_wrong(added, answer):
     outcome = outcome_of(answer.exercise, answer.text, answer.subject)
     assert outcome.status == answer.status, outcome

@@ -5,7 +5,7 @@ from answers import HUMIDITY, made  # the folder is put on the path by conftest.
 from IPython.core.interactiveshell import InteractiveShell
 from IPython.utils.capture import capture_output
 
-from bank.nodes import room_right
+from bank.pages import solution
 from rosbeat import Session, check
 from rosbeat.diagnosis.mistakes import Diagnosis
 from rosbeat.errors import ExerciseError
@@ -67,7 +67,7 @@ def test_a_check_answers_though_nothing_can_be_remembered(tmp_path, monkeypatch,
 
 @pytest.mark.ros
 def test_a_check_leaves_the_learners_session_alone(capsys):
-    room = made("03b", room_right.BASE)
+    room = made("03b", solution("03b"))
     with Session(seed=1) as ros:
         ros.add(room)
         ros.run(3)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from answers import HUMIDITY, made  # the folder is put on the path by conftest.py
 
-from bank.nodes import fridge_right
+from bank.pages import solution
 from rosbeat.errors import RecordError
 from rosbeat.exercises.check import EXERCISES
 from rosbeat.exercises.evidence import FORMAT, KINDS, VERSION, from_json, to_json
@@ -20,7 +20,7 @@ FINISHED = Path(__file__).parents[3] / "solutions" / "sensor_simulator"
 TYPED = TypedIn("src", (("resources/images", "cd ../../src"), ("src", "pwd")), None, "$ ...\n")
 SWAPPED, BLANK = ('Float32, "humidity"', '"humidity", Float32'), ('"humidity"', "____")
 NODES = (
-    made("04a", fridge_right.BASE),
+    made("04a", solution("04a")),
     made("03a", HUMIDITY, SWAPPED),
     made("03a", HUMIDITY, BLANK),
     None,

@@ -6,29 +6,17 @@ Which answers pass, and what each mistake is called, is in the bank of answers.
 import answers  # the folder is put on the path by conftest.py
 import pytest
 
-from bank.answer import edited
-from bank.beyond import anywhere_right, silence_right, worker_wrong
-from bank.beyond.archive_right import BASE as ARCHIVE
-from bank.beyond.deadline_right import BASE as WATCHDOG
-from bank.beyond.mode_keeper_right import BASE as KEEPER
-from bank.nodes import alarm_right, fridge_right, hysteresis_right, room_right
+from bank.pages import solution
 from bank.running import outcome_of
 
 BASES = {
     "00a": answers.READER,
     "00b": answers.REPORTER,
     "03a": answers.HUMIDITY,
-    "03b": room_right.BASE,
-    "04a": fridge_right.BASE,
-    "04b": alarm_right.BASE,
-    "04c": hysteresis_right.BASE,
-    "08a": KEEPER,
-    "08b": ARCHIVE,
-    "08c": WATCHDOG,
-    "09a": silence_right.BASE,
-    "09b": worker_wrong.TIMED,
-    "09c": anywhere_right.BASE,
+    **{name: solution(name) for name in ("03b", "04a", "04b", "04c")},
+    **{name: solution(name) for name in ("08a", "08b", "08c", "09a", "09b", "09c")},
 }
+_SEND = 'self.alerts.publish(String(data=f"{msg.data:.1f} degrees"))'
 _SUBSCRIBE = 'self.create_subscription(String, "weather", self.read, 10)'
 _CLAMP = "max(18.0, min(28.0, self.temperature))"
 _UNIFORM = "random.uniform(-0.3, 0.3)"
@@ -73,15 +61,16 @@ TOLD = [
     ("04a", ("temp = msg.data", "temp = int(msg.data)"), "Whole degrees are too coarse"),
     ("04b", ("> 26.0", ">= 26.0"), "for a reading of 26. Publish only"),
     ("04b", (" or msg.data < 20.0", ""), "No alert for a reading of 19.9844. Low readings"),
-    ("04b", (alarm_right._SEND, f"[{alarm_right._SEND} for _ in 'ab']"), "14 alerts for 7"),
+    ("04b", (_SEND, f"[{_SEND} for _ in 'ab']"), "14 alerts for 7"),
     ("04b", ('"alert"', '"alerts"'), "The node publishes on /alerts"),
     ("04c", ("[-5:]", "[-4:]"), "of the last five it is 24.003. The last readings were 22, 25.5"),
     ("04c", ("[-5:]", "[-4:]"), "It is the mean of the last 4 readings."),
-    ("04c", ("self.status = new\n", "pass\n"), "Normal was published, and High was due"),
-    ("04c", ("value < 25.0", "value < 24.0"), "far enough back"),
+    ("04c", ('return "High"', 'return "Normal" if self.status == "Low" else "High"'),
+     "Normal was published, and High was due"),
+    ("04c", ("value >= 25.0", "value >= 24.0"), "far enough back"),
     ("04a", ("{status}", "None"), "A function that ends without return gives None."),
     ("04a", ("{status}", "{[status]}"), "A list with a word in it is not the word."),
-    ("04b", (alarm_right._SEND, f"{alarm_right._SEND}\n            return\n        self.alerts."
+    ("04b", (_SEND, f"{_SEND}\n            return\n        self.alerts."
              "publish(String(data='OK'))"), "'OK' was published on /alert for a reading of 22."),
     ("04b", ("msg.data < 20.0", "20.0"), "each side of `or` needs a comparison of its own"),
     ("08a", ("!= self.mode", "!= 'idle'"), "At 2 s the node published 'drive' on /mode; nothing "
@@ -94,8 +83,8 @@ TOLD = [
     ("08c", ("seconds=2", "seconds=3"), "'lost', at 9 s; 'lost' was due, at 8 s. Your subscription "
      "has a deadline of 3 s."),
     ("08c", ('"lost"', '"Lost"'), "Capitals and spaces count"),
-    ("09a", (">= 3.0", ">= 5.0"), "Lost was due, and the node said lost at 17 s."),
-    ("09a", (">= 3.0", ">= 2.0"), "Nothing was due, and the node said lost at 9.5 s."),
+    ("09a", ("timer(3.0", "timer(5.0"), "Lost was due, and the node said lost at 17 s."),
+    ("09a", ("timer(3.0", "timer(2.0"), "Nothing was due, and the node said lost at 9.25 s."),
     ("09a", ('self.statuses.publish(String(data="back"))', "pass"),
      "Back was due, and the node said nothing."),
     ("09b", ("create_timer(3.0", "create_timer(3.4"), "order 7 was done at 5.9 s"),
@@ -110,7 +99,7 @@ TOLD = [
     ("09c", (".1f} {", ".1f}{"), "with a space between them"),
     ("09c", ('f"{word}', '"{word}'), "The braces are still there"),
     ("09c", (".1f", ".0f"), "Of 27.5 it said 'High 28 C'."),
-    ("09c", ('self.value_of("high")', "26.0"), "The parameter high changed nothing."),
+    ("09c", ("> self.high", "> 26.0"), "The parameter high changed nothing."),
     ("09c", ("unit", "units"), "no parameter unit."),
 ]  # fmt: skip
 
@@ -118,7 +107,7 @@ TOLD = [
 @pytest.mark.ros
 @pytest.mark.parametrize(("exercise", "edit", "said"), TOLD)
 def test_a_mistake_is_shown_where_it_first_makes_a_difference(exercise, edit, said):
-    text = edited(BASES[exercise], edit)
+    text = answers.edited(BASES[exercise], edit)
     outcome = outcome_of(exercise, text, answers.subject(text))
     assert outcome.status == "failed"
     assert said in f"{outcome.evidence} {outcome.hint}", outcome
@@ -128,7 +117,7 @@ def test_a_mistake_is_shown_where_it_first_makes_a_difference(exercise, edit, sa
 def test_only_a_policy_that_stands_alone_is_called_one():
     profile = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
     hints = [
-        outcome_of("08a", edited(KEEPER, (profile, wrong)), "ModeKeeper").hint
+        outcome_of("08a", answers.edited(solution("08a"), (profile, wrong)), "ModeKeeper").hint
         for wrong in ("DurabilityPolicy.TRANSIENT_LOCAL", "QoSProfile(depth=1)", "1")
     ]
     assert ["policy alone" in hint for hint in hints] == [True, False, False]
@@ -136,7 +125,7 @@ def test_only_a_policy_that_stands_alone_is_called_one():
 
 @pytest.mark.ros
 def test_what_is_taken_out_of_an_empty_list_is_told_so():
-    stop = "        if not self.waiting:\n            self.oven.cancel()"
-    text = edited(worker_wrong.TIMED, (stop, "        pass"))
-    outcome = outcome_of("09b", text, "Worker")
+    stop = "        if not self.waiting:\n            self.work.cancel()"
+    text = answers.edited(solution("09b"), (stop, "        pass"))
+    outcome = outcome_of("09b", text, "SteadyWorker")
     assert (outcome.mistake, "The list is empty" in outcome.evidence) == ("index-error", True)

@@ -6,10 +6,13 @@ from itertools import combinations
 from math import isfinite
 from pathlib import Path
 
+import answers  # the folder is put on the path by conftest.py
 import pytest
 from rclpy.node import Node
 from std_msgs.msg import Float32
 
+from bank.pages import solution
+from bank.running import outcome_of
 from rosbeat import Session
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises import greenhouse
@@ -408,3 +411,33 @@ def test_a_system_goes_through_every_trial_and_something_else_through_one():
     none = observe_greenhouse(lambda: 3)
     assert list(none.runs) == [PLAIN]
     assert [one.kind for one in none.plain.faults] == ["NoSystemError"]
+
+
+@pytest.mark.ros
+def test_an_adjusted_rubric_judges_by_its_own_numbers(monkeypatch, tmp_path):
+    own = files("rosbeat.exercises").joinpath("rubrics/greenhouse.json").read_text()
+    numbers = {'"open_above": 28.0': '"open_above": 31.5', '"pump_seconds": 5': '"pump_seconds": 8'}
+    for old, new in numbers.items():
+        own = own.replace(old, new)
+    path = tmp_path / "mine.json"
+    path.write_text(own.replace("The pump does not run", "Never runs the pump"))
+    monkeypatch.setenv("ROSBEAT_RUBRIC", str(path))
+    usual = outcome_of("13b", solution("13b"), "greenhouse")
+    assert {part.id for part in usual.parts if not part.met} >= {"R1", "R2"}
+    text = answers.edited(solution("13b"), ("28.0", "31.5"), ("timer(5.0", "timer(8.0"))
+    adjusted = outcome_of("13b", text, "greenhouse")
+    assert (adjusted.status, adjusted.points) == ("passed", 20)
+    assert "Never runs the pump" in adjusted.parts[2].text
+
+
+@pytest.mark.ros
+def test_a_temperature_of_zero_is_in_the_mean(monkeypatch, tmp_path):
+    own = files("rosbeat.exercises").joinpath("rubrics/greenhouse.json").read_text()
+    numbers = (("28.0", "6.0"), ("26.0", "4.0"), ("-20.0", "-60.0"))
+    for old, new in numbers:
+        own = own.replace(old, new)
+    path = tmp_path / "cold.json"
+    path.write_text(own, encoding="utf-8-sig")
+    monkeypatch.setenv("ROSBEAT_RUBRIC", str(path))
+    judged = outcome_of("13b", answers.edited(solution("13b"), *numbers), "greenhouse")
+    assert (judged.status, judged.points) == ("passed", 20)

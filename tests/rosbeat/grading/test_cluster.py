@@ -11,7 +11,8 @@ from importlib import import_module
 import psutil
 import pytest
 
-from bank.graded import ANSWERS
+from bank.pages import subject
+from bank.reading import answers
 from grading_class import hand_in, pages_of
 from rosbeat.errors import GradingError
 from rosbeat.grading import cluster as module
@@ -48,7 +49,8 @@ def cluster():
 
 def answers_to(exercise):
     """Four answers, right and wrong, that define what the page's check hands over."""
-    named = [one for one in ANSWERS if one.exercise == exercise and not one.handed]
+    usual = subject(exercise)
+    named = [one for one in answers() if (one.exercise, one.subject) == (exercise, usual)]
     right = [one.text for one in named if one.status == "passed"][:2]
     wrong = [one.text for one in named if one.status == "failed" and "sleep" not in one.text]
     return [*right, *wrong[:2]]

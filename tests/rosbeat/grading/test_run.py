@@ -14,7 +14,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from bank.graded_workspaces import job_of, usable
+from bank.graded import handed_in, usable
 from fake_worker import NOTES
 from grading_files import BLANK, DONE, PAGE_03, PAGE_04, cell, notebook, page
 from rosbeat.diagnosis.mistakes import MISTAKES
@@ -882,7 +882,7 @@ def test_two_pages_of_one_learner_start_from_their_own_workspace():
     right = next(one for one in usable("01a") if one.status == "passed")
     wrong = next(one for one in usable("01a") if one.status == "failed")
     with Pool(1) as pool:
-        seen = dict(pool.observe([[(one.status, job_of(one)) for one in (right, wrong)]]))
+        seen = dict(pool.observe([[(one.status, handed_in(one).job) for one in (right, wrong)]]))
     found = {status: judge(EXERCISES["01a"], one) for status, one in seen.items()}
     assert {status: one.status for status, one in found.items()} == {
         "passed": "passed",

@@ -1,1 +1,0 @@
-"""Answers to the exercises about nodes, page by page; see `bank.answer`."""

@@ -1,1 +1,0 @@
-"""The bank of answers about files and terminals."""
