@@ -101,7 +101,7 @@ def removing(at: float, node: str) -> Step:
 # A function whose result is the answer: called once, and what it gave back as plain data.
 
 #: Seconds of wall time that the function may take.
-SECONDS = 2.0
+FUNCTION_DEADLINE = 2.0
 #: Characters of JSON that a result may have.
 MOST = 20_000
 
@@ -134,13 +134,13 @@ def report(answer: Answer, *arguments: Value) -> Report:
         answer: The function.
         arguments: What it is called with.
     """
-    seen = Report("", f"Deadline: it was still running after {SECONDS:g} s")
-    with Deadline(SECONDS) as deadline:
+    seen = Report("", f"Deadline: it was still running after {FUNCTION_DEADLINE:g} s")
+    with Deadline(FUNCTION_DEADLINE) as deadline:
         try:
             seen = _written(answer(*arguments))
         except (Exception, SystemExit) as error:  # whatever a learner's function does is evidence
             seen = Report("", f"{type(error).__name__}: {error}")
-    late = f"Deadline: it was still running after {SECONDS:g} s"
+    late = f"Deadline: it was still running after {FUNCTION_DEADLINE:g} s"
     return Report("", late) if deadline.passed else seen
 
 
