@@ -8,8 +8,8 @@ begins, and `options` reads its arguments.
 - Running: `answers` and `jobs` (which code is run), `run` (the whole of a run), `worker`,
   `sandbox`, `linux` (system calls), `observing`, `cluster`, `progress_bar`.
 - Judging: `judging`, `ledger` (judged answers, so that a run can resume), `remarks`.
-- Marks: `marks`, `weights`, `manual` (points given by hand), `results`, `tables` and `cells`
-  (CSV), `groups`.
+- Marks: `marks`, `weights`, `manual` (points given by hand), `results`, `tables` (CSV),
+  `groups`.
 - Reports: `report`, `feedback`, `traces`, `rendering` with `templates/`, `writing`, and `review`
   (the page on which an instructor marks by eye).
 - For the class: `release` makes the folder that learners get.

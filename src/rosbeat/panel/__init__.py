@@ -7,7 +7,8 @@ beside it, nothing from the network.
 - `sampling` turns a session into frames, `traffic` decides when one may be sent;
 - `layout` places the graph as the pictures of `rosbeat.viz` do, `charts` draws values;
 - `orders` understands what comes from the browser;
-- `panel` holds it together, and has the thread that looks 20 times a second; `widget` and the two files beside it are what the browser runs;
+- `panel` holds it together, and has the thread that looks 20 times a second; `widget` and the
+  two files beside it are what the browser runs;
 - `still` is the picture that stands where no browser is.
 
 How it works, and why:
