@@ -91,6 +91,21 @@ def test_whatever_is_drawn_tells_each_suspect_from_the_right_model_and_from_othe
     assert all(tells_apart(fed(exercise, seed), *models) for seed in seeds)
 
 
+@pytest.mark.thorough
+@pytest.mark.timeout(3_600)
+@pytest.mark.parametrize("name", sorted(DRAWN.keys() & SLOW.keys()))
+def test_whatever_is_drawn_for_slow_exercises_tells_suspects_apart(name):
+    exercise, *models = DRAWN[name]
+    assert all(tells_apart(fed(exercise, seed), *models) for seed in SEEDS)
+
+
+@pytest.mark.thorough
+@pytest.mark.timeout(3_600)
+@pytest.mark.parametrize("exercise", SLOW)
+def test_evidence_for_slow_exercises_that_was_made_in_advance_does_not_fit(exercise):
+    assert len({repr(fed(exercise, seed)) for seed in SEEDS}) > 0.99 * len(SEEDS)
+
+
 @pytest.mark.parametrize("suspect", [page_09.TOO_SHORT, page_09.TOO_LONG])
 def test_work_of_another_length_is_not_right(suspect):
     for work in (fed("09b", seed) for seed in FEW_SEEDS):
