@@ -115,6 +115,12 @@ def test_what_happened_has_marks_of_its_own(observation, written, counts):
     assert is_tidy(picture)
 
 
+def test_a_node_that_hears_itself_gets_no_arrow():
+    picture = timeline(made(ONE, calls=[timer(1), heard(1, "/sensor")]))
+    assert heads(picture) == []
+    assert "message nobody took" not in words_in(picture)
+
+
 def test_only_lost_messages_look_like_lost_ones():
     assert [one.get_linestyle() for one in axes_of(timeline(made(ONE))).patches[:1]] == ["--"]
     topics = [f"/topic_{k}" for k in range(6)]

@@ -9,7 +9,7 @@ import pytest
 from rosbeat.errors import TerminalError
 from rosbeat.records import LogRecord
 from rosbeat.workspace import meanings
-from rosbeat.workspace.terminals import Terminals
+from rosbeat.workspace.terminals import Terminals, shell
 from rosbeat.workspace.terminals.output import KEPT_CHARACTERS, LONGEST_LINE
 
 TICK = 'i=0; while true; do i=$((i+1)); echo "[INFO] [sensor]: tick $i"; sleep 0.05; done'
@@ -303,6 +303,14 @@ def test_a_question_is_completed_by_its_own_answer_only(terminal):
     terminal.answer("x", show=shown.append)
     terminal.answer("y", show=shown.append)
     assert shown == ["One? x", "more", "y"]
+
+
+def test_a_program_that_does_not_read_is_given_up(terminal, says, monkeypatch):
+    terminal.type("sleep 100", seconds=0, show=str)
+    monkeypatch.setattr(shell, "_TAKES_WITHIN", 0.3)
+    with pytest.raises(TerminalError) as caught:
+        terminal.answer("\n".join(["x" * 4000] * 40), show=str, seconds=0.01)
+    says(caught.value, "takes no more input", "Ctrl+C")
 
 
 # How long a page follows a command, and what is refused meanwhile.
