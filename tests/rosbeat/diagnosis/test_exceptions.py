@@ -297,6 +297,10 @@ def test_what_an_argument_could_be(kind, role, words):
         ),
         ("node.create_timer(1.0, lambda: None)", "create_timer(float, function)"),
         (
+            "node.create_publisher(msg.Float32, 'a', 10)",
+            "create_publisher(message_type[Float32], str, int)",
+        ),
+        (
             "self.create_publisher(float, 'a', self.depth)",
             "create_publisher(type[float], str, method[depth])",
         ),

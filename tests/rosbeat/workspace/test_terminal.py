@@ -458,7 +458,10 @@ def test_a_line_without_end_is_cut_and_counted(seen, terminal):
 
 @pytest.mark.parametrize(
     ("command", "code"),
-    [("exit", 0), ("exit 3", 3), ("set -e\nfalse", 1), ("exec true", 0), ("kill -9 $$", 137)],
+    [
+        *(("exit", 0), ("exit 3", 3), ("set -e\nfalse", 1), ("exec true", 0), ("kill -9 $$", 137)),
+        ("sleep 100 &\nexit", 0),
+    ],
 )
 def test_a_shell_that_ends_is_followed_by_a_new_one(terminals, terminal, seen, command, code):
     shown = seen(f"cd /\n{command}\necho never")
