@@ -99,9 +99,9 @@ def test_several_publishers_of_a_topic_cannot_be_told_apart(tmp_path):
 
 
 OFFERED = [
-    *(QoS(*words, depth) for *words, depth in product(
-        ["RELIABLE", "BEST_EFFORT"], ["VOLATILE", "TRANSIENT_LOCAL"], ["KEEP_LAST", "KEEP_ALL"],
-        [0, 1, 1000])),
+    *(QoS(*words, 5) for words in product(
+        ["RELIABLE", "BEST_EFFORT"], ["VOLATILE", "TRANSIENT_LOCAL"], ["KEEP_LAST", "KEEP_ALL"])),
+    *(QoS(depth=depth) for depth in (0, 1, 1000)),
     # What another process does not tell stays unknown, and no limit is no limit.
     QoS(history="UNKNOWN", depth=0),
     *(QoS(depth=10, deadline_ns=deadline, lifespan_ns=lifespan) for deadline, lifespan in
@@ -245,12 +245,15 @@ def test_nothing_else_is_overwritten_either(tmp_path, says, kind):
         (Observation(0, 0), None, ()),
     ],
 )  # fmt: skip
-@pytest.mark.parametrize("storage", STORAGES)
-def test_which_topics_are_recorded(tmp_path, run, topics, recorded, storage):
-    bag = record(run, tmp_path / "run", topics=topics, storage=storage)
-    assert bag.topics == recorded
+def test_which_topics_are_recorded(tmp_path, run, topics, recorded):
     counts = {topic: sum(one.topic == topic for one in run.samples) for topic in recorded}
-    assert (bag.counts, len(bag), bag.seconds) == (counts, sum(counts.values()), run.time_ns / 1e9)
+    for storage in ["mcap"] if run.samples else STORAGES:
+        bag = record(run, tmp_path / storage, topics=topics, storage=storage)
+        assert (bag.topics, bag.counts, len(bag)) == (recorded, counts, sum(counts.values()))
+        assert bag.seconds == run.time_ns / 1e9
+        assert bag.observation().samples == tuple(
+            one for one in run.samples if one.topic in recorded
+        )
 
 
 @pytest.mark.parametrize("storage", STORAGES)
