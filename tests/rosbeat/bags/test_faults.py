@@ -1,46 +1,49 @@
-"""Faults: pure, seeded, one after the other."""
+"""Faults on their way into messages: pure, seeded, one after the other, in any field."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
-from rosbeat.bags import delayed, drift, dropouts, spikes, stuck, with_nan
+from made_records import run_of, sample
+from rosbeat.bags import delayed, drift, dropouts, inject, record, spikes, stuck, with_nan
 from rosbeat.errors import BagError
 
-
-@pytest.fixture
-def walk(make):
-    return tuple(make.sample(at, float(at)) for at in range(1, 101))
+WALK = tuple(sample(time, float(time)) for time in range(1, 101))
+IMU = {"angular": {"x": 1.0, "y": 2.0}, "valid": True, "label": "a", "list": [1.0]}
 
 
 def numbers(samples):
     return [one.value for one in samples]
 
 
-def test_stuck_says_again_what_it_said_last(walk):
-    found = numbers(stuck(at=10, seconds=5)(walk))
-    assert found[8:16] == [9, 9, 9, 9, 9, 9, 15, 16]
-    assert numbers(stuck(at=98)(walk))[-4:] == [97, 97, 97, 97]
-    assert numbers(stuck()(walk)) == [1] * 100
+@pytest.mark.parametrize(
+    ("fault", "at", "values"),
+    [
+        (stuck(at=10, seconds=5), 9, [9, 9, 9, 9, 9, 9, 15, 16]),
+        (stuck(at=98), 97, [97, 97, 97, 97]),
+        (stuck(), 1, [1] * 100),
+        (drift(0.5), 1, [1.5, 3.0, 4.5]),
+        (drift(-2, at=98), 97, [97, 98, 97, 96]),
+    ],
+    ids=repr,
+)
+def test_stuck_says_again_what_it_said_last_and_drift_grows_with_time(fault, at, values):
+    assert numbers(fault(WALK))[at - 1 : at - 1 + len(values)] == values
 
 
-def test_drift_grows_with_time(walk):
-    assert numbers(drift(0.5)(walk))[:3] == [1.5, 3.0, 4.5]
-    assert numbers(drift(-2, at=98)(walk))[-4:] == [97, 98, 97, 96]
-
-
-def test_dropouts_lose_a_share_or_whole_spans(walk):
-    kept = dropouts(share=0.3, seed=1)(walk)
+def test_dropouts_lose_a_share_or_whole_spans():
+    kept = dropouts(share=0.3, seed=1)(WALK)
     assert 55 <= len(kept) <= 85
-    assert all(one in walk for one in kept)
-    assert numbers(dropouts(spans=[(1, 4), (5, 100)])(walk)) == [4, 100]
-    assert dropouts(share=1)(walk) == ()
-    assert dropouts()(walk) == walk
+    assert all(one in WALK for one in kept)
+    assert numbers(dropouts(spans=[(1, 4), (5, 100)])(WALK)) == [4, 100]
+    assert dropouts(share=1)(WALK) == ()
+    assert dropouts()(WALK) == WALK
 
 
-def test_nan_comes_once_for_a_while_or_for_ever(walk):
+def test_nan_comes_once_for_a_while_or_for_ever():
     def where(fault):
-        return [one.time for one in fault(walk) if math.isnan(one.value)]
+        return [one.time for one in fault(WALK) if math.isnan(one.value)]
 
     assert where(with_nan(at=9.5)) == [10]
     assert where(with_nan(at=10, seconds=3)) == [10, 11, 12]
@@ -48,16 +51,16 @@ def test_nan_comes_once_for_a_while_or_for_ever(walk):
     assert where(with_nan(at=101)) == []
 
 
-def test_spikes_go_both_ways(walk):
-    off = {b - a for a, b in zip(numbers(walk), numbers(spikes(0.3, 50)(walk)), strict=True)}
+def test_spikes_go_both_ways():
+    off = {b - a for a, b in zip(numbers(WALK), numbers(spikes(0.3, 50)(WALK)), strict=True)}
     assert off == {0, 50, -50}
 
 
-def test_delayed_comes_later_and_may_overtake(walk):
-    assert [one.time for one in delayed(0.25)(walk)][:2] == [1.25, 2.25]
-    moved = delayed(0, jitter=3)(walk)
-    assert numbers(moved) != numbers(walk)
-    assert sorted(numbers(moved)) == numbers(walk)
+def test_delayed_comes_later_and_may_overtake():
+    assert [one.time for one in delayed(0.25)(WALK)][:2] == [1.25, 2.25]
+    moved = delayed(0, jitter=3)(WALK)
+    assert numbers(moved) != numbers(WALK)
+    assert sorted(numbers(moved)) == numbers(WALK)
     times = [one.time_ns for one in moved]
     assert times == sorted(times)
     by_value = {one.value: one.time for one in moved}
@@ -72,36 +75,18 @@ SEEDED = {
 
 
 @pytest.mark.parametrize("name", SEEDED)
-def test_the_same_seed_gives_the_same_and_another_one_does_not(walk, name):
+def test_the_same_seed_gives_the_same_whatever_other_topics_do(name):
     fault = SEEDED[name](4)
-    assert fault(walk) == fault(walk) == SEEDED[name](4)(walk)
-    assert SEEDED[name](5)(walk) != fault(walk)
+    assert fault(WALK) == fault(WALK) == SEEDED[name](4)(WALK)
+    assert SEEDED[name](5)(WALK) != fault(WALK)
+    others = tuple(sample(at, 0.0, "/other") for at in range(200))
+    both = sorted(WALK + others, key=lambda one: one.time_ns)
+    assert tuple(one for one in fault(both) if one.topic == "/temperature") == fault(WALK)
 
 
-@pytest.mark.parametrize("name", SEEDED)
-def test_another_topic_changes_nothing_for_the_first(walk, make, name):
-    others = tuple(make.sample(at, 0.0, "/other") for at in range(200))
-    both = sorted(walk + others, key=lambda one: one.time_ns)
-    found = [one for one in SEEDED[name](4)(both) if one.topic == "/temperature"]
-    assert tuple(found) == SEEDED[name](4)(walk)
-
-
-def test_random_faults_are_the_same_on_every_python(walk):
-    assert numbers(dropouts(0.9, seed=1)(walk)) == [
-        6,
-        17,
-        23,
-        34,
-        36,
-        37,
-        46,
-        51,
-        52,
-        64,
-        67,
-        89,
-        97,
-    ]
+def test_random_faults_are_the_same_on_every_python():
+    kept = [6, 17, 23, 34, 36, 37, 46, 51, 52, 64, 67, 89, 97]
+    assert numbers(dropouts(0.9, seed=1)(WALK)) == kept
 
 
 def test_nothing_comes_of_nothing():
@@ -124,8 +109,50 @@ def test_they_say_what_they_do():
     ]  # fmt: skip
 
 
+def test_faults_come_one_after_the_other_and_change_nothing_that_was_given():
+    before = tuple(replace(one, data=dict(one.data)) for one in WALK)
+    inject(WALK, stuck(5), drift(1), with_nan(7), spikes(1, 1), delayed(1), dropouts(0.5))
+    assert before == WALK
+    found = inject(WALK, drift(1, at=50), stuck(at=60), dropouts(spans=[(0, 59)]))
+    assert [(one.time, one.value) for one in found[:3]] == [(59, 68), (60, 68), (61, 68)]
+    assert inject(WALK, stuck(at=60), drift(1, at=50))[-1].value == 59 + 50
+    assert inject(WALK, lambda samples: samples[::50]) == (WALK[0], WALK[50])  # any function
+
+
+def test_only_the_topic_that_is_meant():
+    samples = [sample(1, 1.0, "/a"), sample(1, "warm", "/b"), sample(2, 2.0, "/a")]
+    assert numbers(drift(1, topic="a")(samples)) == [2.0, "warm", 4.0]
+    assert numbers(stuck()(samples)) == [1.0, "warm", 1.0]
+
+
+def test_the_order_of_one_instant_is_kept():
+    samples = [sample(at, float(k), f"/{t}") for at in (1, 2) for k, t in enumerate("cabac")]
+    assert list(drift(0)(samples)) == samples
+    assert numbers(drift(0, at=1, topic="a")(samples)) == numbers(samples)
+
+
+def test_whatever_has_messages_can_be_broken(tmp_path):
+    run = run_of([1.0, 2.0])
+    bag = record(run, tmp_path / "run")
+    assert inject(bag, stuck()) == inject(run, stuck()) == inject(list(run.samples), stuck())
+    assert inject(bag) == run.samples
+
+
+def test_a_field_of_a_larger_message_and_whole_numbers():
+    one = sample(10, IMU)
+    (found,) = drift(1, field="angular.y")([one])
+    assert found.data == {**IMU, "angular": {"x": 1.0, "y": 12.0}}
+    assert one.data["angular"]["y"] == 2.0
+    (found,) = drift(0.26)([sample(10, 5)])
+    assert (found.value, type(found.value)) == (8, int)
+
+
+def on(value, fault):
+    return lambda: fault([sample(1, value)])
+
+
 @pytest.mark.parametrize(
-    ("make_fault", "words"),
+    ("ask", "words"),
     [
         (lambda: stuck(at=-1), "at=-1"),
         (lambda: stuck(at="soon"), "at='soon'"),
@@ -135,18 +162,29 @@ def test_they_say_what_they_do():
         (lambda: drift(True), "rate=True"),
         (lambda: dropouts(share=1.1), "a number from 0 to 1"),
         (lambda: dropouts(share=None), "share=None"),
-        (lambda: dropouts(spans=[(4, 3)]), "pairs of ascending times"),
-        (lambda: dropouts(spans=[3]), "pairs of ascending times"),
+        *((lambda spans=spans: dropouts(spans=spans), "pairs of ascending times")
+          for spans in ([(4, 3)], [3], 3)),
         (lambda: dropouts(spans=[(-1, 3)]), "spans=-1"),
         (lambda: with_nan(seconds=-1), "seconds=-1"),
         (lambda: spikes(-0.1, 1), "share=-0.1"),
         (lambda: spikes(0.1, "big"), "size='big'"),
         (lambda: delayed(-1), "seconds=-1"),
         (lambda: delayed(1, jitter=-1), "jitter=-1"),
-        (lambda: dropouts(spans=3), "pairs of ascending times"),
+        # A message that cannot have the fault.
+        (on("warm", drift(1)), "holds no number"),
+        (on(True, drift(1)), "holds no number"),
+        (on(IMU, drift(1)), "'angular.x', 'angular.y'"),
+        (on(IMU, drift(1, field="angular.z")), "the field 'angular.z'"),
+        (on(IMU, with_nan(field="angular")), "the field 'angular'"),
+        (on(3, with_nan()), "whole numbers, and NaN is not one"),
+        # What is no fault, no run, no topic.
+        (lambda: inject((), 3), "is not a fault"),
+        (lambda: inject(3, stuck()), "is not a run"),
+        (lambda: inject(None, stuck(topic="a")), "is not a run"),
+        (lambda: inject(WALK, stuck(topic="temprature")), "Did you mean '/temperature'"),
     ],
-)
-def test_bad_input_gets_three_parts(says, make_fault, words):
+)  # fmt: skip
+def test_bad_input_gets_three_parts(says, ask, words):
     with pytest.raises(BagError) as caught:
-        make_fault()
+        ask()
     says(caught.value, words)

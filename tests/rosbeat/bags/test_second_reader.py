@@ -12,6 +12,7 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float32, String
 
+from made_records import run_of
 from nodes import Talker
 from rosbeat import Session
 from rosbeat.bags import record
@@ -128,14 +129,14 @@ def check(rows, run, same):
         assert same(plain(deserialize_message(wire, message_class(kind))), data)
 
 
-def test_thousands_of_messages(tmp_path, make, same):
-    many = make.run([at / 7 for at in range(20_000)])
+def test_thousands_of_messages(tmp_path, same):
+    many = run_of([at / 7 for at in range(20_000)])
     bag = record(many, tmp_path / "run")
     assert len(read(tmp_path / "run" / "messages.mcap")) == len(bag) == 20_000
 
 
-def test_an_empty_bag_is_one_for_others_too(tmp_path, make):
+def test_an_empty_bag_is_one_for_others_too(tmp_path):
     record(Observation(NANOSECONDS, 0), tmp_path / "empty")
     assert read(tmp_path / "empty" / "messages.mcap") == []
-    record(replace(make.run([]), time_ns=1), tmp_path / "silent")
+    record(replace(run_of([]), time_ns=1), tmp_path / "silent")
     assert read(tmp_path / "silent" / "messages.mcap") == []

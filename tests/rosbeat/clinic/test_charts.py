@@ -1,113 +1,82 @@
 """What an observation looks like on paper."""
 
+from dataclasses import replace
+
 import pytest
 
+from made_records import STRING, at, call, graph_of, heard, pub, sample, sub
 from rosbeat.clinic.charts import chart
-from rosbeat.clinic.plans import FLOAT, STRING, Orders, Truth
-from rosbeat.records import (
-    CallbackRecord,
-    Endpoint,
-    Fault,
-    GraphSnapshot,
-    LogRecord,
-    Observation,
-    QoS,
-    Sample,
-    TimerRecord,
-)
+from rosbeat.clinic.plans import Orders, Truth
+from rosbeat.records import Endpoint, Fault, LogRecord, Observation, QoS, TimerRecord
 
-SECOND = 10**9
 ORDERS = Orders("/t", 1.0, 2.0, 0.0, 3.0)
+A, B = pub("/a", "/t"), sub("/b", "/t")
+INFRASTRUCTURE = (
+    pub("/a", "/rosout", type_name="rcl_interfaces/msg/Log"),
+    Endpoint("/a", "/a/get", "x/srv/Y", "server", QoS()),
+)
+SEEN = Observation(
+    at(5),
+    0,
+    tuple(sample(time, time / 2, "/t", "/a") for time in (1, 2, 3, 4)),
+    tuple(LogRecord(at(time), "INFO", name, "started", "__init__", 1)
+          for time, name in ((0, "a"), (2.5, "b"))),
+    callbacks=tuple(heard(time, "/b", "/t") for time in (3, 4)),
+    graph=replace(graph_of(A, B, *INFRASTRUCTURE), timers=(TimerRecord("/a", "tick", at(1), 4),)),
+)  # fmt: skip
+ENDED = (Fault(at(3), "/a", "tick", "IndexError", "out of range", 0, ""),)
+UNFIT = sub("/b", "/t", qos=QoS(durability="TRANSIENT_LOCAL"))
+WORDS = tuple(sample(time, "High", "/t", "/a", STRING) for time in (1, 2))
+CALLS = (call(1, "/b", "hear", "waitable", ""), heard(2, "/b", "/t"), call(1, "/a", "tick"))
 
 
-def sample(at, value, node="/a", topic="/t", type_name=FLOAT):
-    return Sample(int(at * SECOND), topic, type_name, node, {"data": value})
+def spoken(*times):
+    return {"samples": tuple(sample(time, 1.0, "/t", "/a") for time in times)}
 
 
-def line(at, name):
-    return LogRecord(int(at * SECOND), "INFO", name, f"{name} started", "__init__", 1)
+def talk(found):
+    (one,) = found.talks
+    return one
 
 
-def ran(at, node, kind="subscription", source="/t"):
-    return CallbackRecord(int(at * SECOND), node, kind, "hear", source)
-
-
-def seen(**changes):
-    ends = (
-        Endpoint("/a", "/t", FLOAT, "publisher", QoS()),
-        Endpoint("/b", "/t", FLOAT, "subscription", QoS()),
-        Endpoint("/a", "/rosout", "rcl_interfaces/msg/Log", "publisher", QoS()),
-        Endpoint("/a", "/a/get", "x/srv/Y", "server", QoS()),
-    )
-    timers = (TimerRecord("/a", "tick", SECOND, 4),)
-    base = {
-        "samples": tuple(sample(at, at / 2) for at in (1, 2, 3, 4)),
-        "logs": (line(0, "a"), line(2.5, "b")),
-        "callbacks": tuple(ran(at, "/b") for at in (3, 4)),
-        "graph": GraphSnapshot(("/a", "/b"), ends, timers),
-        **changes,
-    }
-    return Observation(5 * SECOND, 0, **base)
-
-
-def test_only_topics_are_on_the_chart():
-    found = chart(seen(), ORDERS, number=4, truths=[Truth("gone-quiet", ("/a",))])
-    assert found.topics == ("/t",)
-    assert found.nodes == ("/a", "/b")
-    assert (found.number, found.seconds, found.truths[0].places) == (4, 5.0, ("/a",))
-
-
-def test_what_came_before_somebody_listened_does_not_count_as_sent():
-    (heard,) = chart(seen(), ORDERS).hearings
-    assert (heard.count, heard.sent, heard.before, heard.last) == (2, 2, 2, 4.0)
-
-
-def test_a_publisher_that_does_not_fit_sends_nothing():
-    asks = QoS(durability="TRANSIENT_LOCAL")
-    graph = seen().graph
-    ends = (graph.endpoints[0], Endpoint("/b", "/t", FLOAT, "subscription", asks))
-    (heard,) = chart(seen(graph=GraphSnapshot(graph.nodes, ends)), ORDERS).hearings
-    assert (heard.sent, heard.before) == (0, 0)
-
-
-def test_what_was_said_is_counted_and_each_value_stands_once():
-    (talk,) = chart(seen(), ORDERS).talks
-    assert (talk.count, talk.first, talk.last, talk.gap) == (4, 1.0, 4.0, 1.0)
-    assert talk.values == (0.5, 1.0, 1.5, 2.0)
-    assert talk.texts == ()
+def hearing(found):
+    (one,) = found.hearings
+    return one.count, one.sent, one.before, one.last
 
 
 @pytest.mark.parametrize(
-    ("times", "gap"),
-    [((), 0.0), ((1,), 0.0), ((1, 1, 1), 0.0), ((5, 5, 10, 10, 15), 5.0), ((1, 2, 3, 9), 1.0)],
-)
-def test_the_gap_is_the_usual_one_between_moments(times, gap):
-    (talk,) = chart(seen(samples=tuple(sample(at, 1.0) for at in times)), ORDERS).talks
-    assert talk.gap == gap
+    ("changes", "read", "expected"),
+    [
+        # Only topics are on the chart.
+        ({}, lambda found: (found.topics, found.nodes), (("/t",), ("/a", "/b"))),
+        # What came before somebody listened does not count as sent,
+        ({}, hearing, (2, 2, 2, 4.0)),
+        # and a publisher that does not fit sends nothing.
+        ({"graph": graph_of(A, UNFIT)}, lambda found: hearing(found)[1:3], (0, 0)),
+        # Each value stands once, and texts are texts.
+        ({}, lambda found: (talk(found).count, talk(found).first, talk(found).last),
+         (4, 1.0, 4.0)),
+        ({}, lambda found: (talk(found).values, talk(found).texts), ((0.5, 1.0, 1.5, 2.0), ())),
+        ({"graph": graph_of(pub("/a", "/t", type_name=STRING)), "samples": WORDS},
+         lambda found: (talk(found).values, talk(found).texts), ((), ("High",))),
+        # The gap is the usual one between moments.
+        *((spoken(*times), lambda found: talk(found).gap, gap) for times, gap in (
+            ((), 0.0), ((1,), 0.0), ((1, 1, 1), 0.0), ((5, 5, 10, 10, 15), 5.0),
+            ((1, 2, 3, 9), 1.0))),
+        # Callbacks of the middleware do not count.
+        ({"callbacks": CALLS},
+         lambda found: [(m.callbacks, m.ticks, m.due, m.started) for m in found.members],
+         [(1, 1, 5, 0.0), (1, 0, 0, 2.5)]),
+        # A node that has ended was due until then, and is still listed.
+        ({"faults": ENDED}, lambda found: found.members[0].due, 3),
+        ({"faults": ENDED, "graph": graph_of(B)}, lambda found: found.nodes, ("/b", "/a")),
+    ],
+)  # fmt: skip
+def test_what_is_on_a_chart(changes, read, expected):
+    assert read(chart(replace(SEEN, **changes), ORDERS)) == expected
 
 
-def test_texts_are_texts():
-    ends = (Endpoint("/a", "/t", STRING, "publisher", QoS()),)
-    samples = (sample(1, "High", type_name=STRING), sample(2, "High", type_name=STRING))
-    (talk,) = chart(seen(graph=GraphSnapshot(("/a",), ends), samples=samples), ORDERS).talks
-    assert (talk.values, talk.texts) == ((), ("High",))
-
-
-def test_callbacks_of_the_middleware_do_not_count():
-    calls = (ran(1, "/b", "waitable", ""), ran(2, "/b"), ran(1, "/a", "timer", "1 s"))
-    a, b = chart(seen(callbacks=calls), ORDERS).members
-    assert (a.callbacks, a.ticks, a.due, a.started) == (1, 1, 5, 0.0)
-    assert (b.callbacks, b.ticks, b.due, b.started) == (1, 0, 0, 2.5)
-
-
-def test_a_node_that_has_ended_was_due_until_then_and_is_still_listed():
-    fault = Fault(3 * SECOND, "/a", "tick", "IndexError", "out of range", 0, "")
-    graph = seen().graph
-    found = chart(seen(faults=(fault,)), ORDERS)
-    assert found.members[0].due == 3
-    gone = GraphSnapshot(("/b",), graph.endpoints[1:2])
-    assert chart(seen(faults=(fault,), graph=gone), ORDERS).nodes == ("/b", "/a")
-
-
-def test_who_is_not_spun_is_said_from_outside():
-    assert [one.spun for one in chart(seen(), ORDERS, unspun={"/b"}).members] == [True, False]
+def test_what_only_the_ward_knows():
+    found = chart(SEEN, ORDERS, number=4, truths=[Truth("gone-quiet", ("/a",))], unspun={"/b"})
+    assert (found.number, found.seconds, found.truths[0].places) == (4, 5.0, ("/a",))
+    assert [one.spun for one in found.members] == [True, False]

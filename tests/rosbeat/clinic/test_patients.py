@@ -113,10 +113,21 @@ def test_a_session_opens_when_it_is_asked_for_and_once():
     patient.ros.close()
 
 
-def test_the_order_says_who_speaks_to_whom():
-    rows = Ward(7).patient(6).orders.splitlines()
-    assert "water_probe -> /water_temperature -> water_guard, water_diary" in rows
-    assert "water_hygrometer -> /water_humidity -> (nobody)" in rows
-    assert "Low below 23, High above 26, and Normal else" in rows
-    rows = Ward(7).patient(2).orders.splitlines()
-    assert "cellar_rules (once, soon after its start) -> /cellar_rule -> cellar_plate" in rows
+@pytest.mark.parametrize(
+    ("number", "row"),
+    [
+        (6, "water_probe -> /water_temperature -> water_guard, water_diary"),
+        (6, "water_hygrometer -> /water_humidity -> (nobody)"),
+        (6, "Low below 23, High above 26, and Normal else"),
+        (2, "cellar_rules (once, soon after its start) -> /cellar_rule -> cellar_plate"),
+    ],
+)
+def test_the_order_says_who_speaks_to_whom(number, row):
+    assert row in Ward(7).patient(number).orders.splitlines()
+
+
+@pytest.mark.parametrize(("burst", "readings"), [(1, "a reading every"), (5, "5 readings at once")])
+def test_the_order_says_how_many_readings_come(burst, readings):
+    plan = house(Random(1), PLACES[0], burst=burst)
+    rows = Patient(1, Ill("healthy", plan, (), ""), 1).orders.splitlines()
+    assert any(row.startswith(readings) for row in rows)

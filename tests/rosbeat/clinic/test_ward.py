@@ -1,7 +1,11 @@
 """A seed draws a ward: every case comes, and the same seed is the same ward."""
 
+import subprocess
+import sys
+
 import pytest
 
+from rosbeat import clinic
 from rosbeat.clinic.cases import CASES, HEARD, PAIR, SILENT
 from rosbeat.clinic.ward import Ward
 from rosbeat.errors import ExerciseError
@@ -64,3 +68,16 @@ def test_a_ward_lists_its_patients():
     assert len(Ward(7)) == 11
     assert repr(Ward(7)).splitlines()[0] == "Ward 7, 11 patients"
     assert "  3: the library" in repr(Ward(7)).splitlines()
+
+
+def test_the_names_are_there():
+    assert sorted(clinic.__all__) == clinic.__all__
+    assert all(hasattr(clinic, name) for name in clinic.__all__)
+
+
+def test_reading_a_chart_needs_no_ros():
+    code = (
+        "import sys; from rosbeat import clinic; "
+        "clinic.Ward(7).patient(1).complaint; sys.exit('rosbeat.clinic.nodes' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

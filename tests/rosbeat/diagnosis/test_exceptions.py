@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 
 from failed_calls import failed_call
 from rosbeat import diagnosis
+from rosbeat.diagnosis.calls import in_words, role_of, written_call
 from rosbeat.diagnosis.exceptions import diagnose_fault, first_sentence, meaning_of
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.diagnosis.programs import diagnose_output
-from rosbeat.records import Fault
+from rosbeat.records import Argument, Fault
 
 
 def fault(kind, text, code="", asked="", callback="tick", line=4):
@@ -106,127 +107,146 @@ def test_by_the_call_that_failed(mistake, asked):
     assert named("TypeError", "whatever it says", "x()", asked) == mistake
 
 
+UNREADY = "int() argument must be a string, a bytes-like object or a real number, not 'NoneType'"
+CREATED = "create_publisher(message_type[Float32], str, QoSProfile)"
+HEARD = "create_subscription(message_type[Float32], str, function[f(msg)], int)"
+MISSING = "Dog.on_silence() missing 1 required positional argument: 'event'"
 NOT_KNOWN = [
     ("ValueError", "boom", ""),
     ("AssertionError", "The data must be warm", ""),
+    ("AssertionError", "", "assert depth == 3"),
+    ("AttributeError", "TRANSIENT", "q = Mood.TRANSIENT"),
+    ("AttributeError", "__enter__", "with lock:"),
+    ("TypeError", "", ""),
+    ("TypeError", "", "x()", "publish(NoneType)"),
+    ("TypeError", "A.other() takes 2 positional arguments but 3 were given", "x()"),
     ("TypeError", "'NoneType' object does not support the context manager protocol", "with lock:"),
     ("TypeError", "'NoneType' object is not iterable", "list(None)"),
+    ("TypeError", MISSING, "on_silence()"),
+    ("TypeError", "f() missing 1 required positional argument: 'x'", "y = f()"),
+    ("TypeError", "unsupported operand type(s) for +: 'float' and 'list'", "x + y"),
     ("KeyError", "'temperature'", "readings['temperature']"),
     ("RuntimeError", "cannot schedule new futures after shutdown", "x()"),
     ("RCLError", "failed to create node: out of memory", "x()"),
-    ("TypeError", "f() missing 1 required positional argument: 'x'", "y = f()"),
-    ("TypeError", "unsupported operand type(s) for +: 'float' and 'list'", "x + y"),
+    # A call that was right says nothing.
+    ("RCLError", "out of memory", "x()", CREATED),
+    ("RCLError", "out of memory", "x()", HEARD),
     ("OSError", "[Errno 28] No space left on device", "open('x')"),
 ]
 
 
-def test_a_method_of_one_s_own_that_wants_more_is_told_what():
-    missing = "M.change() missing 1 required positional argument: 'mode'"
-    found = diagnose_fault(fault("TypeError", missing, "self.change()"))
-    assert found.mistake == "argument-missing"
-    assert "change wants mode" in found.evidence
+@pytest.mark.parametrize("given_fault", NOT_KNOWN, ids=str)
+def test_what_is_not_known_gets_no_name(given_fault):
+    assert named(*given_fault) is None
 
 
-def test_a_name_that_is_asked_for_on_its_own_line_may_lack_its_quotes():
-    said = "cannot access local variable 'low' where it is not associated with a value"
-    found = diagnose_fault(fault("UnboundLocalError", said, "low = self.get_parameter(low).value"))
-    assert (found.mistake, "quotes" in found.hint) == ("no-value-yet", True)
+TRANSITION = "goal_handle attempted invalid transition from state {}, at /x"
+INTEGER = "'{}' object cannot be interpreted as an integer"
+ENDED = "still running after 5 s"
+#: What a fault is, the mistake, and a part of its evidence and hint.
+SAID = [
+    # Services and actions.
+    (("TypeError", "", "x()", "send_response(NoneType)"), "response-missing", ""),
+    (("TypeError", "", "x()", "send_response(bool)"), "response-wrong", ""),
+    (("TypeError", "", "x()", "send_response(message[Trigger_Request])"), "response-wrong", ""),
+    (("AssertionError", "The 'result' field must be a sub message of type 'X_Result'"),
+     "result-missing", ""),
+    (("TypeError", "", "goal.publish_feedback([1])"), "feedback-wrong", ""),
+    (("RCLError", TRANSITION.format("EXECUTING with event CANCELED")), "canceled-unasked", ""),
+    (("RCLError", TRANSITION.format("SUCCEEDED with event SUCCEED")), "ended-twice", ""),
+    (("TypeError", INTEGER.format("float"), "x"), "not-an-integer", ""),
+    (("TypeError", INTEGER.format("Future"), "x"), "await-missing", ""),
+    (("TypeError", "'<' not supported between instances of 'Future' and 'int'"),
+     "await-missing", ""),
+    (("TypeError", "'Future' object is not callable", "x()"), "not-callable", ""),
+    # A future that is asked for its result too soon is known by its line.
+    (("TypeError", UNREADY, "x = int(self.reading.result())"), "await-missing", ""),
+    (("TypeError", UNREADY, "x = int(self.reading)"), "none-used", ""),
+    (("RuntimeError", "The service type provided is not valid (<class 'std_msgs.msg._float32."
+      "Float32'>), this might be a message"), "wrong-argument", ""),
+    (("TypeError", "Node.create_service() takes 4 positional arguments but 5 were given", "x()"),
+     "wrong-argument", ""),
+    (("TypeError", "Node.create_service() missing 1 required positional argument: 'callback'",
+      "x()"), "callback-missing", ""),
+    # What ROS calls a callback with, whichever calls it.
+    (("TypeError", "A.tick() takes 1 positional argument but 2 were given"), "callback-parameters",
+     "ROS calls tick with 1 argument besides self, and it takes none. One argument is"),
+    (("TypeError", "A.tick() takes 2 positional arguments but 3 were given"), "callback-parameters",
+     "ROS calls tick with 2 arguments besides self, and it takes 1. A service's callback"),
+    (("TypeError", "make.<locals>.tick() takes 1 positional argument but 2 were given"),
+     "callback-parameters", "ROS calls tick with 2 arguments, and it takes 1. A service's"),
+    (("TypeError", "A.tick() missing 1 required positional argument: 'info'"),
+     "callback-parameters", "of an event, its info"),
+    (("TypeError", "M.change() missing 1 required positional argument: 'mode'", "self.change()"),
+     "argument-missing", "change wants mode"),
+    # Quality of service.
+    (("InvalidQoSProfileException", "('Invalid', 'History and/or depth settings are required.')",
+      "QoSProfile()"), "depth-missing", "how many messages"),
+    (("TypeError", "Duration.__init__() takes 1 positional argument but 2 were given",
+      "Duration(2)"), "wrong-argument", "without a name"),
+    (("TypeError", "Duration.__init__() got an unexpected keyword argument 'second'",
+      "Duration(second=2)"), "wrong-argument", "Duration has no argument second"),
+    (("TypeError", "SubscriptionEventCallbacks.__init__() got an unexpected keyword argument "
+      "'silence'", "x"), "wrong-argument", "no argument silence"),
+    (("AssertionError", "Invalid arguments passed to constructor: dict_keys(['depth', "
+      "'durabilty'])", "x"), "wrong-argument", "QoSProfile has no argument durabilty"),
+    (("AssertionError", "", "qos = QoSProfile(depth=10, deadline=2.0)"), "wrong-argument",
+     "for deadline"),
+    (("AssertionError", "", "deadline=2.0,", "", "__init__"), "wrong-argument", "for deadline"),
+    (("AssertionError", "", "QoSProfile(depth=9, deadline=2, lifespan=3)"), "wrong-argument",
+     "one of the policies"),
+    (("AttributeError", "TRANSIENT", "q = DurabilityPolicy.TRANSIENT"), "wrong-attribute",
+     "DurabilityPolicy has no TRANSIENT"),
+    *((("TypeError", MISSING, code, "", "__init__"), "callback-called", "on_silence") for code in
+      ("events = SubscriptionEventCallbacks(deadline=self.on_silence())",
+       "deadline=self.on_silence(),", 'Float32, "temperature", self.on_silence(), qos')),
+    (("TypeError", "__init__(): incompatible constructor arguments. The following are supported:"
+      "\n1. EventHandle", "self.create_subscription("), "wrong-argument", "the other side"),
+    *((("AttributeError", f"'{kind}' object has no attribute 'create_event_handlers'",
+        "self.create_subscription("), "wrong-argument", f"a {kind}") for kind in ("method", "str")),
+    # Evidence is who raised what it means, and the line; and what Python or the session said.
+    (("TypeError", KNOWN[5][2], "self.publisher_.publish(25.0)"), "number-published",
+     "tick raised TypeError. publish was given a bare value, a float, and not a message. "
+     "Line 4: `self.publisher_.publish(25.0)`."),
+    *(((*KNOWN[0][1:], "msg.data = 9 * 2", asked), None,
+       f"takes a float, and what it was given {words}") for asked, words in
+      (("field(int)", "is an int."), ("field(NoneType)", "is None."), ("field(str)", "is a str."),
+       ("field(Decimal)", "is an object of type Decimal."), ("", "is something else."))),
+    (("AttributeError", "'A' object has no attribute 'publish_temperature'. Did you mean: "
+      "'publish_humidity'?"), "wrong-attribute",
+     "publish_temperature; it has publish_humidity. Is that the one?"),
+    (("UnboundLocalError", "cannot access local variable 'low' where it is not associated with a "
+      "value", "low = self.get_parameter(low).value"), "no-value-yet", "quotes"),
+    (("AttributeError", "__enter__", "with rclpy.init():"), "init-in-with", ""),  # Python 3.10
+    (("TypeError", "'NoneType' object is not callable", "", "", "nothing"), "callback-called",
+     "The first tick raised TypeError. "),
+    (("NodeClassError", "3 is not a node, but of type int.", "", "", "add"), None,
+     "3 is not a node, but of type int."),
+    (("DeadlinePassed", ENDED, "while True:"), None,
+     "tick does not return: still running after 5 s. Line 4: `while True:`."),
+    *((("DeadlinePassed", ENDED, code, "", "__init__"), "constructor-blocks", hint)
+      for code, hint in (("while True:", "timer"), ("time.sleep(9)", "timer"),
+                         ("x = solve(y)", "What ends it?"),
+                         ("x", "The constructor does not return: still running after 5 s."))),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(("kind", "text", "code"), NOT_KNOWN)
-def test_what_is_not_known_gets_no_name(kind, text, code):
-    assert named(kind, text, code) is None
+@pytest.mark.parametrize(("given_fault", "mistake", "said"), SAID)
+def test_what_is_said(given_fault, mistake, said):
+    code = given_fault[2] if len(given_fault) > 2 else ""
+    found = diagnose_fault(fault(*given_fault))
+    assert mistake in (None, found.mistake)  # a value of None has a name of its own
+    assert said in f"{found.evidence} {found.hint}"
+    assert ("Line" in found.evidence) == bool(code)
+    assert found.mistake != "constructor-blocks" or "A callback" not in found.hint
 
 
-def test_init_in_a_with_statement_is_known_by_its_line():
-    # Python 3.10 words it so.
-    assert named("AttributeError", "__enter__", "with rclpy.init():") == "init-in-with"
-    assert named("AttributeError", "__enter__", "with lock:") is None
-
-
-def test_a_future_that_is_asked_for_its_result_too_soon_is_known_by_its_line():
-    text = "int() argument must be a string, a bytes-like object or a real number, not 'NoneType'"
-    assert named("TypeError", text, "x = int(self.reading.result())") == "await-missing"
-    assert named("TypeError", text, "x = int(self.reading)") == "none-used"
-
-
-def test_a_call_that_was_right_says_nothing():
-    asked = "create_publisher(message_type[Float32], str, QoSProfile)"
-    assert named("RCLError", "out of memory", "x()", asked) is None
-    asked = "create_subscription(message_type[Float32], str, function[f(msg)], int)"
-    assert named("RCLError", "out of memory", "x()", asked) is None
-
-
-def test_evidence_is_who_raised_what_it_means_and_the_line():
-    found = diagnose_fault(fault("TypeError", KNOWN[5][2], "self.publisher_.publish(25.0)"))
-    assert found.evidence == (
-        "tick raised TypeError. publish was given a bare value, a float, and not a message. "
-        "Line 4: `self.publisher_.publish(25.0)`."
-    )
-
-
-@pytest.mark.parametrize(
-    ("asked", "words"),
-    [
-        ("field(int)", "is an int."), ("field(NoneType)", "is None."), ("field(str)", "is a str."),
-        ("field(Decimal)", "is an object of type Decimal."), ("", "is something else."),
-    ],
-)  # fmt: skip
-def test_the_type_of_a_value_that_the_line_does_not_show(asked, words):
-    found = diagnose_fault(fault(*KNOWN[0][1:], "msg.data = 9 * 2", asked))
-    assert f"takes a float, and what it was given {words}" in found.evidence
-
-
-def test_the_error_s_own_words_are_spoken_of_only_where_they_stand():
+def test_what_is_said_beside_the_error_has_no_lead_of_its_own():
     one = fault(*KNOWN[10][1:], "self.create_publisher(float, 't', 10)")
     assert "ROS 1" not in diagnose_fault(one).evidence
     assert "Never mind ROS 1" in meaning_of(one).beside_error
-
-
-def test_what_is_said_after_a_lead_has_none_of_its_own():
     two_types = fault("RCLError", "Failed to create subscription: invalid allocator, at /x.c:261")
     assert meaning_of(two_types).beside_error.startswith("The topic exists already")
-
-
-def test_a_name_that_only_begins_alike_is_asked_about():
-    said = "'A' object has no attribute 'publish_temperature'. Did you mean: 'publish_humidity'?"
-    found = diagnose_fault(fault("AttributeError", said))
-    assert found.evidence.endswith("publish_temperature; it has publish_humidity.")
-    assert found.hint == "Is that the one?"
-
-
-def test_without_a_line_none_is_mentioned():
-    assert "Line" not in diagnose_fault(fault("SystemExit", "3")).evidence
-
-
-def test_a_deadline_is_no_exception_of_the_learner_s():
-    late = fault("DeadlinePassed", "still running after 5 s", "while True:")
-    assert diagnose_fault(late).evidence == (
-        "tick does not return: still running after 5 s. Line 4: `while True:`."
-    )
-
-
-@pytest.mark.parametrize(
-    ("code", "hint"),
-    [("while True:", "timer"), ("time.sleep(9)", "timer"), ("x = solve(y)", "What ends it?")],
-)
-def test_a_constructor_that_does_not_return_is_no_callback(code, hint):
-    late = fault("DeadlinePassed", "still running after 5 s", code, callback="__init__")
-    found = diagnose_fault(late)
-    assert found.mistake == "constructor-blocks"
-    assert found.evidence.startswith("The constructor does not return: still running after 5 s.")
-    assert hint in found.hint
-    assert "A callback" not in found.hint
-
-
-def test_the_first_tick_raised_and_not_a_callback_called_nothing():
-    none = fault("TypeError", "'NoneType' object is not callable", callback="nothing")
-    assert diagnose_fault(none).evidence.startswith("The first tick raised TypeError. ")
-
-
-def test_what_the_session_refused_is_complete():
-    text = "3 is not a node, but of type int."
-    assert diagnose_fault(fault("NodeClassError", text, callback="add")).evidence == text
 
 
 @pytest.mark.parametrize(
@@ -244,14 +264,67 @@ def test_the_first_sentence(text, first):
     assert first_sentence(text) == first
 
 
+# Calls that are only written.
+
+
+@pytest.mark.parametrize(
+    ("kind", "role", "words"),
+    [
+        (Argument("message_type", "Float32"), "type", "the message type Float32"),
+        (Argument("type", "float"), "type", "the type float"),
+        (Argument("int"), "depth", "a whole number"),
+        (Argument("QoSProfile"), "depth", "a QoS profile"),
+        (Argument("function", "f", ()), "callback", "the function f"),
+        (Argument("NoneType"), "none", "None"),
+        (Argument("deque"), "other", "an object of type deque"),
+    ],
+)
+def test_what_an_argument_could_be(kind, role, words):
+    assert role_of(kind) == role
+    assert in_words(kind) == words
+
+
+@pytest.mark.parametrize(
+    ("code", "call"),
+    [
+        (
+            "self.publisher_ = self.create_publisher(Float32, 'temperature')",
+            "create_publisher(message_type[Float32], str)",
+        ),
+        (
+            "self.create_subscription(std_msgs.msg.String, topic, self.listen(), qos_profile=10)",
+            "create_subscription(message_type[String], unknown, NoneType, qos_profile=int)",
+        ),
+        ("node.create_timer(1.0, lambda: None)", "create_timer(float, function)"),
+        (
+            "node.create_publisher(msg.Float32, 'a', 10)",
+            "create_publisher(message_type[Float32], str, int)",
+        ),
+        (
+            "self.create_publisher(float, 'a', self.depth)",
+            "create_publisher(type[float], str, method[depth])",
+        ),
+        ("self.create_publisher(*arguments)", ""),
+        ("self.create_publisher(Float32, **options)", ""),
+        ("self.publisher_ = self.create_publisher(", ""),
+        ("rclpy.spin(node)", ""),
+    ],
+)
+def test_a_call_that_is_written(code, call):
+    assert written_call(code) == failed_call(call)
+
+
 # Whatever is thrown at it.
 
 KINDS = sorted({kind for _, kind, _ in KNOWN} | {"SyntaxError", "DeadlinePassed", "X"})
+
 PARTS = [text for _, _, text in KNOWN] + [asked for _, asked in BY_CALL]
+
 texts = st.one_of(st.text(), st.sampled_from(PARTS), st.builds(
     lambda one, at, more: one[:at] + more + one[at:],
     st.sampled_from(PARTS), st.integers(0, 80), st.text(max_size=5),
 ))  # fmt: skip
+
 faults = st.builds(
     Fault, st.just(0), st.just("/s"), st.sampled_from(["", "tick", "__init__", "<lambda>"]),
     st.one_of(st.sampled_from(KINDS), st.text()), texts, st.integers(0, 3), texts,
@@ -272,6 +345,11 @@ def test_no_fault_makes_a_diagnosis_raise(one):
 def test_no_output_makes_a_diagnosis_raise(text):
     found = diagnose_output(text)
     assert found is None or found.mistake in MISTAKES
+
+
+@given(st.text())
+def test_any_line_can_be_looked_at(code):
+    written_call(code)
 
 
 # The table.

@@ -5,8 +5,8 @@ import subprocess
 import sys
 
 import pytest
-from broken_nodes import IMPORTS, Broken, P, S, T, V, publisher, sensor, timer
 
+from broken_nodes import IMPORTS, Broken, P, S, T, V, publisher, sensor, timer
 from rosbeat.diagnosis.programs import diagnose_output, fault_in
 from rosbeat.domains import lease_domain
 

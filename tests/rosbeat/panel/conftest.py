@@ -4,23 +4,14 @@ from dataclasses import dataclass, field
 
 import pytest
 
+from made_records import graph_of, pub, sample, sub
 from rosbeat.panel.charts import Arrival
 from rosbeat.panel.sampling import News
-from rosbeat.records import Endpoint, GraphSnapshot, Sample
-
-FLOAT = "std_msgs/msg/Float32"
+from rosbeat.records import GraphSnapshot
 
 
-def sample(value, topic="/temperature", node="/sensor", time_ns=0, field="data"):
-    return Sample(time_ns, topic, FLOAT, node, {field: value})
-
-
-def two_nodes(topic="/temperature"):
-    ends = (
-        Endpoint("/sensor", topic, FLOAT, "publisher", None, 1),
-        Endpoint("/monitor", topic, FLOAT, "subscription", None, 1),
-    )
-    return GraphSnapshot(("/sensor", "/monitor"), ends)
+def two_nodes():
+    return graph_of(pub("/sensor", "/temperature"), sub("/monitor", "/temperature"))
 
 
 @dataclass
@@ -53,8 +44,7 @@ class MadeUp:
         return dict(self.states)
 
     def hear(self, value, count=1, **about):
-        about.setdefault("time_ns", self.now_ns())
-        self.waiting.append(Arrival(count, sample(value, **about)))
+        self.waiting.append(Arrival(count, sample(self.seconds, value, **about)))
 
     def __getattr__(self, name):
         if name not in ("pause", "resume", "stop", "start", "publish", "repeat", "disturb",

@@ -1,4 +1,4 @@
-"""Columns, order, places and frames, as examples and as properties of any graph."""
+"""Columns, order, places and frames of a graph, and text and ticks, as properties of any."""
 
 from dataclasses import replace
 from itertools import combinations
@@ -7,6 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rosbeat.viz import theme
+from rosbeat.viz.canvas import TimeScale, blank, line_height, text_width, wrap
 from rosbeat.viz.layout import (
     GAP_LEAST,
     Rim,
@@ -19,7 +21,9 @@ from rosbeat.viz.layout import (
 )
 
 nodes = [f"n{k}" for k in range(6)]
+
 topics = [f"t{k}" for k in range(4)]
+
 wires = st.lists(
     st.tuples(st.sampled_from(nodes), st.sampled_from(topics), st.booleans()).map(
         lambda one: one[:2] if one[2] else one[1::-1]
@@ -27,8 +31,11 @@ wires = st.lists(
     unique=True,
     max_size=20,
 )
+
 homes = st.lists(st.integers(0, 3), min_size=len(nodes), max_size=len(nodes))
+
 sizes = {name: (60.0 + 9 * k, 30.0 + 4 * k) for k, name in enumerate(nodes + topics)}
+
 starts = dict.fromkeys(nodes, 0) | dict.fromkeys(topics, 1)
 
 
@@ -36,47 +43,36 @@ def columns(plan):
     return {name: rank for rank, layer in enumerate(plan.layers) for name in layer}
 
 
-def test_a_chain_takes_one_column_each():
-    plan = layering({"a": 0, "t": 1, "b": 0}, [("a", "t"), ("t", "b")])
-    assert plan.layers == [["a"], ["t"], ["b"]]
+def links_of(words):
+    return [tuple(link.split(">")) for link in words.split()]
 
 
-def test_a_source_stands_right_beside_what_it_feeds():
-    links = [("a", "t"), ("t", "b"), ("b", "u"), ("late", "u"), ("u", "c")]
-    plan = layering({"a": 0, "b": 0, "late": 0, "c": 0, "t": 1, "u": 1}, links)
+@pytest.mark.parametrize(
+    ("links", "layers", "back"),
+    [
+        ("", [], ""),
+        ("a>T T>b", [["a"], ["T"], ["b"]], ""),
+        ("T>b", [["T"], ["b"]], ""),
+        ("a>T T>a", [["a"], ["T"]], "T>a"),
+        ("a>T T>b b>U U>a", None, "U>a"),
+        ("a>T b>U U>c T>d", None, ""),
+    ],
+)
+def test_columns_of_small_graphs(links, layers, back):
+    names = sorted({name for link in links_of(links) for name in link}, key=str.swapcase)
+    plan = layering({name: int(name.isupper()) for name in names}, links_of(links))
+    assert layers is None or plan.layers == layers
+    assert plan.back == tuple(links_of(back))
+    # Crossings are undone: each row follows one chain.
+    if links.startswith("a>T b>U"):
+        assert [layer[0] for layer in plan.layers] in (["a", "T", "d"], ["b", "U", "c"])
+
+
+def test_a_source_stands_right_beside_what_it_feeds_and_a_long_link_gets_stand_ins():
+    begin = {"a": 0, "b": 0, "late": 0, "c": 0, "T": 1, "U": 1}
+    plan = layering(begin, links_of("a>T T>b b>U late>U U>c T>c"))
     assert columns(plan)["late"] == columns(plan)["b"]
-
-
-def test_an_empty_first_column_is_closed():
-    plan = layering({"b": 0, "t": 1}, [("t", "b")])
-    assert plan.layers == [["t"], ["b"]]
-
-
-def test_a_long_link_gets_stand_ins():
-    links = [("a", "t"), ("t", "b"), ("b", "u"), ("u", "c"), ("t", "c")]
-    plan = layering({"a": 0, "b": 0, "c": 0, "t": 1, "u": 1}, links)
-    assert len(plan.chains["t", "c"]) == 4
-
-
-def test_a_cycle_gives_one_link_back():
-    links = [("a", "t"), ("t", "b"), ("b", "u"), ("u", "a")]
-    plan = layering({"a": 0, "b": 0, "t": 1, "u": 1}, links)
-    assert plan.back == (("u", "a"),)
-
-
-def test_a_node_that_hears_itself():
-    assert layering({"a": 0, "t": 1}, [("a", "t"), ("t", "a")]).back == (("t", "a"),)
-
-
-def test_crossings_are_undone():
-    links = [("a", "t"), ("b", "u"), ("u", "c"), ("t", "d")]
-    plan = layering({"a": 0, "b": 0, "c": 0, "d": 0, "t": 1, "u": 1}, links)
-    firsts = [layer[0] for layer in plan.layers]
-    assert firsts in (["a", "t", "d"], ["b", "u", "c"])
-
-
-def test_nothing_at_all():
-    assert layering({}, []).layers == []
+    assert len(plan.chains["T", "c"]) == 4
 
 
 @settings(max_examples=150, deadline=None)
@@ -102,27 +98,20 @@ def apart(one, other):
 
 @settings(max_examples=100, deadline=None)
 @given(wires)
-def test_boxes_never_overlap_and_nothing_leaves_the_picture(links):
-    plan = layering(starts, links)
-    result = place(plan, sizes, 700)
+def test_boxes_never_overlap_and_arrows_go_around_them_inside_the_picture(links):
+    result = place(layering(starts, links), sizes, 700)
     assert set(result.boxes) == set(sizes)
     assert all(apart(*pair) > -0.01 for pair in combinations(result.boxes.values(), 2))
     points = [p for way in (*result.routes.values(), *result.returns.values()) for p in way]
     for along, across in points:
         assert -0.01 <= along <= result.length + 0.01
         assert -0.01 <= across <= result.breadth + 0.01
-
-
-@settings(max_examples=100, deadline=None)
-@given(wires)
-def test_arrows_go_around_boxes(links):
-    result = place(layering(starts, links), sizes, 700)
-    for (source, target), way in result.routes.items():
+    for ends, way in result.routes.items():
         for along, across in way[1:-1]:
             for name, box in result.boxes.items():
-                if name not in (source, target):
-                    near = abs(along - box.along) < box.length / 2
-                    assert not (near and abs(across - box.across) < box.breadth / 2)
+                near = abs(along - box.along) < box.length / 2
+                hit = near and abs(across - box.across) < box.breadth / 2
+                assert name in ends or not hit
 
 
 def test_the_gap_is_kept_when_room_is_short():
@@ -160,10 +149,52 @@ def test_frames_hold_their_boxes_and_no_others_in_any_graph(links, home):
         assert frame.across + frame.breadth / 2 <= result.breadth + 0.01
 
 
-def test_what_a_note_leads_to_goes_with_it():
-    links = [("a", "note"), ("note", "t"), ("t", "b"), ("c", "u"), ("u", "b")]
-    assert enclosed([["a", "b"]], links, ["note", "t", "u"]) == [{"a", "b", "note", "t"}]
+def test_what_a_note_leads_to_goes_with_it_and_a_topic_of_one_node_stays_outside():
+    links = links_of("a>note note>T T>b c>U U>b")
+    assert enclosed([["a", "b"]], links, ["note", "T", "U"]) == [{"a", "b", "note", "T"}]
+    assert enclosed([["a", "b"]], links_of("a>T"), ["T"]) == [{"a", "b"}]
 
 
-def test_a_topic_that_only_one_node_uses_stays_outside():
-    assert enclosed([["a", "b"]], [("a", "t")], ["t"]) == [{"a", "b"}]
+# Text and ticks.
+
+
+@pytest.mark.parametrize("words", ["/temperature_sensor", "$x_1$ costs $"])
+@pytest.mark.parametrize("weight", ["normal", "bold"])
+@pytest.mark.parametrize("size", [theme.TEXT, theme.TINY])
+def test_text_is_as_wide_as_it_was_said_to_be(words, size, weight):
+    with blank(50) as canvas:
+        drawn = canvas.text(10, 25, words, size, weight=weight).get_window_extent()
+    assert text_width(words, size, weight) == pytest.approx(drawn.width, abs=3)
+    assert line_height(size) > 0
+    assert text_width("  ") == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "rows"),
+    [
+        ("/short", ("/short",)),
+        ("/temperature_sensor", ("/temperature_", "sensor")),
+        ("/building_site/floor", ("/building_site/", "floor")),
+        ("x" * 60, None),  # without joints it breaks anywhere
+    ],
+)
+def test_names_break_after_their_joints(name, rows):
+    found = wrap(name, 110)
+    assert rows in (None, found)
+    assert "".join(found) == name
+    assert all(text_width(row) <= 110 for row in found)
+
+
+@pytest.mark.parametrize("last", [0.001, 1, 7, 60, 12345])
+def test_ticks_are_inside_and_few(last):
+    scale = TimeScale(last, 150, 700)
+    assert [scale(at) for at in (0, last / 2, last)] == pytest.approx([150, 425, 700])
+    ticks = scale.ticks()
+    assert 2 <= len(ticks) <= 11
+    assert ticks[0] == 0
+    assert ticks[-1] <= last * 1.0001
+
+
+def test_one_instant_stands_in_the_middle():
+    scale = TimeScale(0, 100, 600)
+    assert (scale(0), scale.ticks()) == (350, [0])

@@ -1,4 +1,4 @@
-"""A workspace of each test's own, with the package of the course in it if asked for."""
+"""A workspace and terminals of each test's own, with the package of the course if asked for."""
 
 import sys
 
@@ -8,6 +8,7 @@ from traitlets.config import Config
 
 from rosbeat.workspace import saving_magic
 from rosbeat.workspace.catching_up import NODES, PACKAGE, finished
+from rosbeat.workspace.terminals import Terminals
 
 SETUP_CFG = (
     f"[develop]\nscript_dir=$base/lib/{PACKAGE}\n[install]\ninstall_scripts=$base/lib/{PACKAGE}\n"
@@ -73,3 +74,35 @@ def shell(root, monkeypatch):
     yield shell
     InteractiveShell.clear_instance()
     shell.restore_sys_module_state()
+
+
+@pytest.fixture
+def home(tmp_path, monkeypatch):
+    """A steady home: what terminals show names nobody and no machine."""
+    folder = tmp_path / "home"
+    folder.mkdir()
+    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(folder))
+    return folder
+
+
+@pytest.fixture
+def terminals(home):
+    with Terminals() as opened:
+        yield opened
+
+
+@pytest.fixture
+def terminal(terminals):
+    return terminals.get("sensor")
+
+
+@pytest.fixture
+def seen(terminal):
+    """Type into the terminal and return the lines that were shown."""
+
+    def type_and_see(text, **options):
+        shown = []
+        terminal.type(text, show=shown.append, **options)
+        return shown
+
+    return type_and_see

@@ -7,12 +7,24 @@ from rosbeat.workspace import magics
 from torture.kernel import Kernel
 
 
+@pytest.fixture(scope="module")
+def started(tmp_path_factory):
+    """One kernel for all tests: what a page does in it is closed after each."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path_factory.mktemp("home")))
+        with Kernel() as kernel:
+            assert kernel.run("%load_ext rosbeat").error == ""
+            assert kernel.run("%terminal").text.startswith("No terminal is open.")
+            assert kernel.run("from rosbeat import workspace").error == ""
+            yield kernel
+
+
 @pytest.fixture
-def kernel(tmp_path, monkeypatch):
-    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
-    with Kernel() as started:
-        assert started.run("from rosbeat import workspace").error == ""
-        yield started
+def kernel(started):
+    yield started
+    for name in ("sensor", "monitor"):
+        started.run(f"%terminal {name} --close")
+    started.run("%%bash\nrm -rf $ROSBEAT_STEADY_HOME/*")
 
 
 def test_a_page_types_into_terminals(kernel):
@@ -67,13 +79,6 @@ def test_ctrl_c_has_the_time_that_it_is_given(kernel):
     assert reply.error == "TerminalError"
     assert reply.seconds < 9  # without it, ten
     assert kernel.run("%terminal sensor --close").error == ""
-
-
-def test_the_extension_makes_the_magic_known(tmp_path, monkeypatch):
-    monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
-    with Kernel() as kernel:
-        assert kernel.run("%load_ext rosbeat").error == ""
-        assert kernel.run("%%terminal a\necho hello").text == "~$ echo hello\nhello\n"
 
 
 # Options. A shell without terminals is enough: nothing is started before they are understood.

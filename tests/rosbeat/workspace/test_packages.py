@@ -115,20 +115,73 @@ def test_a_bad_manifest_has_a_problem_and_nothing_else(data):
 # The build script.
 
 
-def test_adjacent_strings(setup_of):
-    (joined,) = setup_of(scripts("'a = p.a:main'", "'b = p.b:main',")).entry_points
-    assert joined.joined
-    assert joined.line == 5
-    (one,) = setup_of(scripts("'a = '", "'p.a:main',")).entry_points
-    assert not one.joined  # one text in two parts
-    assert one.module == "p.a"
-    assert not setup_of(scripts("'a = b = c:d'")).entry_points[0].joined
+def imported(call):
+    return f"from setuptools import setup\nsetup({call})\n"
 
 
-def test_a_part_is_absent(setup_of):
-    (one, two) = setup_of(scripts("'a = p.a',", "'b',")).entry_points
-    assert (one.module, one.function) == ("p.a", "")
-    assert (two.executable, two.module) == ("b", "")
+def parts(setup):
+    return [(one.executable, one.module, one.function, one.joined) for one in setup.entry_points]
+
+
+def lines(setup):
+    return [one.line for one in setup.entry_points]
+
+
+TWICE = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name")
+
+
+@pytest.mark.parametrize(
+    ("text", "read", "expected"),
+    [
+        # Adjacent strings: two entries without a comma, one text in two parts, and two `=`.
+        (scripts("'a = p.a:main'", "'b = p.b:main',"),
+         lambda setup: [(one.joined, one.line) for one in setup.entry_points], [(True, 5)]),
+        (scripts("'a = '", "'p.a:main',"), parts, [("a", "p.a", "main", False)]),
+        (scripts("'a = b = c:d'"), lambda setup: setup.entry_points[0].joined, False),
+        # A part is absent.
+        (scripts("'a = p.a',", "'b',"), parts,
+         [("a", "p.a", "", False), ("b", "", "", False)]),
+        # What cannot be found out is not guessed, and what stands beside it is read.
+        *((imported(f"name='p', entry_points={given}"),
+           lambda setup: (setup.entry_points, setup.incomplete, setup.problem), ((), True, ""))
+          for given in ("{'console_scripts': names()}", "{**more}", "{}, **more", "names",
+                        "['a = b:c']")),
+        (scripts("*others,", "'b = p.b:main',"),
+         lambda setup: (parts(setup), setup.incomplete), ([("b", "p.b", "main", False)], True)),
+        # Data files are missing only if all of them are known.
+        *((imported(f"name='p', data_files={files}"), lambda setup: setup.left_out, missing)
+          for files, missing in (("[]", ("resource/p", "package.xml")), ("unknown()", ()),
+                                 ("[('a', 'b', 'c')]", ()))),
+        # Literals are read without running anything; a name that is assigned twice is none.
+        ("raise SystemExit(3)\n" + scripts("'a = p.a:main'"),
+         lambda setup: (lines(setup), setup.incomplete), ([6], False)),
+        (TWICE + "'console_scripts': []})\n", lambda setup: setup.package_name, "q"),
+        # Entries in the wrong group.
+        *((f"setup({given})", lambda setup: setup.misspelled_group, found) for given, found in (
+            ("entry_point={}", "entry_point"),
+            ("entry_points={'console_script': []}", "console_script"),
+            ("entry_points={'console_scripts': []}", ""),
+            ("entry_points={'gui_scripts': ['a = p.a:main']}", ""),
+            ("entry_points={'pytest11': []}", ""), ("name='p'", ""))),
+        # Whether the code is installed.
+        *((f"from setuptools import *\nsetup({given})\n",
+           lambda setup: setup.installs(PACKAGE), found) for given, found in (
+            ("packages=find_packages()", True),
+            ("packages=find_packages(exclude=['test'])", True),
+            ("packages=find_packages('.', exclude=['sensor*'])", False),
+            ("packages=find_packages(include=['sensor_simulator', 'q.*'])", True),
+            ("packages=find_packages(include=['q'])", False),
+            ("packages=find_packages(where='test')", False),
+            ("packages=find_packages(exclude=unknown())", True),
+            ("packages=['sensor_simulator']", True), ("packages=['q']", False),
+            ("packages=[]", False), ("packages=5", True), ("packages=[unknown()]", True),
+            ("packages=find_packages(include=5)", True), ("packages=unknown()", True),
+            ("", False), ("**unknown()", True))),
+    ],
+)  # fmt: skip
+def test_what_is_read_of_a_script(setup_of, package, text, read, expected):
+    (package / "test").mkdir()
+    assert read(setup_of(text)) == expected
 
 
 @pytest.mark.parametrize("text", [HEAD, "x = 'a\n", "x = 1\n", "", "\0", "(" * 500, b"\xff"])
@@ -137,38 +190,6 @@ def test_a_bad_script_has_a_problem_and_nothing_else(setup_of, text):
     assert setup.problem
     assert "detected" not in setup.problem
     assert setup == SetupScript(problem=setup.problem, line=setup.line)
-
-
-@pytest.mark.parametrize(
-    "given",
-    ["{'console_scripts': names()}", "{**more}", "{}, **more", "names", "['a = b:c']"],
-)
-def test_what_cannot_be_found_out_is_not_guessed(setup_of, given):
-    setup = setup_of(f"from setuptools import setup\nsetup(name='p', entry_points={given})\n")
-    assert setup.entry_points == ()
-    assert setup.incomplete
-    assert setup.problem == ""
-
-
-@pytest.mark.parametrize(
-    ("files", "missing"),
-    [("[]", ("resource/p", "package.xml")), ("unknown()", ()), ("[('a', 'b', 'c')]", ())],
-)
-def test_data_files_are_missing_only_if_all_of_them_are_known(setup_of, files, missing):
-    script = f"from setuptools import setup\nsetup(name='p', data_files={files})\n"
-    assert setup_of(script).left_out == missing
-
-
-def test_what_stands_beside_an_unknown_name_is_read(setup_of):
-    setup = setup_of(scripts("*others,", "'b = p.b:main',"))
-    assert [one.executable for one in setup.entry_points] == ["b"]
-    assert setup.incomplete
-
-
-def test_literals_are_read_without_running_anything(setup_of):
-    setup = setup_of("raise SystemExit(3)\n" + scripts("'a = p.a:main'"))
-    assert [one.line for one in setup.entry_points] == [6]
-    assert not setup.incomplete
 
 
 @pytest.mark.parametrize(
@@ -187,11 +208,6 @@ def test_what_is_calculated_is_found_by_running_it(setup_of, answer):
     assert all(one.line for one in setup.entry_points)
 
 
-def test_a_name_that_is_assigned_twice_is_no_literal(setup_of):
-    changed = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name")
-    assert setup_of(changed + "'console_scripts': []})\n").package_name == "q"
-
-
 def test_a_script_that_does_not_end_is_given_up(setup_of, monkeypatch):
     monkeypatch.setattr("rosbeat.workspace.setup_script._DEADLINE", 0.3)
     setup = setup_of("while True: pass\n" + HEAD + "'console_scripts': [f'a = {package_name}']})\n")
@@ -202,47 +218,6 @@ def test_what_a_script_prints_and_where_it_runs(setup_of, capfd):
     text = "import os, sys\nprint('{', __file__, sys.argv)\nassert os.path.exists('package.xml')\n"
     assert not setup_of(text + scripts("'a = ' + 'p.a:main'[:],")).incomplete
     assert capfd.readouterr() == ("", "")
-
-
-@pytest.mark.parametrize(
-    ("given", "installed"),
-    [
-        ("packages=find_packages()", True),
-        ("packages=find_packages(exclude=['test'])", True),
-        ("packages=find_packages('.', exclude=['sensor*'])", False),
-        ("packages=find_packages(include=['sensor_simulator', 'q.*'])", True),
-        ("packages=find_packages(include=['q'])", False),
-        ("packages=find_packages(where='test')", False),
-        ("packages=find_packages(exclude=unknown())", True),
-        ("packages=['sensor_simulator']", True),
-        ("packages=['q']", False),
-        ("packages=[]", False),
-        ("packages=5", True),
-        ("packages=[unknown()]", True),
-        ("packages=find_packages(include=5)", True),
-        ("packages=unknown()", True),
-        ("", False),
-        ("**unknown()", True),
-    ],
-)
-def test_whether_the_code_is_installed(setup_of, package, given, installed):
-    (package / "test").mkdir()
-    assert setup_of(f"from setuptools import *\nsetup({given})\n").installs(PACKAGE) == installed
-
-
-@pytest.mark.parametrize(
-    ("given", "found"),
-    [
-        ("entry_point={}", "entry_point"),
-        ("entry_points={'console_script': []}", "console_script"),
-        ("entry_points={'console_scripts': []}", ""),
-        ("entry_points={'gui_scripts': ['a = p.a:main']}", ""),
-        ("entry_points={'pytest11': []}", ""),
-        ("name='p'", ""),
-    ],
-)
-def test_entries_in_the_wrong_group(setup_of, given, found):
-    assert setup_of(f"setup({given})").misspelled_group == found
 
 
 def test_entry_points_in_setup_cfg(root, package, setup_of):

@@ -1,11 +1,12 @@
-"""Short ways to make scenes."""
+"""Scenes for an explanation: what a session sees of a sensor and a monitor."""
 
 from dataclasses import replace
 
+from made_records import FLOAT
+from made_records import at as seconds
 from rosbeat.diagnosis.situation import Beat, Condition, Scene
-from rosbeat.records import NANOSECONDS, Endpoint, Fault, GraphSnapshot, QoS, TimerRecord
+from rosbeat.records import Endpoint, Fault, GraphSnapshot, QoS, TimerRecord
 
-FLOAT, STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
 SENSOR, MONITOR, TOPIC = "/sensor", "/monitor", "/temperature"
 SENSOR_DATA = QoS(reliability="BEST_EFFORT")
 LATCHED = QoS(durability="TRANSIENT_LOCAL")
@@ -17,10 +18,6 @@ def pub(node=SENSOR, topic=TOPIC, kind=FLOAT, qos=None, matched=1):
 
 def sub(node=MONITOR, topic=TOPIC, kind=FLOAT, qos=None, matched=1):
     return Endpoint(node, topic, kind, "subscription", qos or QoS(), matched)
-
-
-def seconds(number):
-    return round(number * NANOSECONDS)
 
 
 def spoke(node=SENSOR, number=10, last=10.0, rate=1.0, watched=10.0):

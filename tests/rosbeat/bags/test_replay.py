@@ -8,6 +8,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float32, Int32, String
 
+from made_records import pub, run_of, sample
 from nodes import Listener, Talker
 from rosbeat import Session
 from rosbeat.bags import Bag, dropouts, record, replay, stuck, with_nan
@@ -90,25 +91,25 @@ def test_two_sensors_on_a_topic_are_replayed_one_after_the_other(tmp_path):
 
 
 @pytest.mark.parametrize(("speed", "times"), [(2, [0.5, 1.0, 1.5]), (0.5, [2.0, 4.0, 6.0])])
-def test_speed(make, speed, times):
-    run = make.run([1.0, 2.0, 3.0])
+def test_speed(speed, times):
+    run = run_of([1.0, 2.0, 3.0])
     with Session() as ros:
         ros.add(replay(run, speed=speed))
         ros.run(3 / speed)
         assert [one.time for one in ros.messages("temperature")] == times
 
 
-def test_times_count_from_when_the_node_is_added(make):
+def test_times_count_from_when_the_node_is_added():
     with Session() as ros:
         ros.run(10)
-        ros.add(replay(make.run([1.0, 2.0])))
+        ros.add(replay(run_of([1.0, 2.0])))
         ros.run(10)
         assert [one.time for one in ros.messages("temperature")] == [11.0, 12.0]
 
 
-def test_topics_and_remap(make):
-    run = make.run([1.0])
-    door = make.sample(1, True, "/door", "/lock", "std_msgs/msg/Bool")
+def test_topics_and_remap():
+    run = run_of([1.0])
+    door = sample(1, True, "/door", "/lock", "std_msgs/msg/Bool")
     run = replace(run, samples=(*run.samples, door))
     with Session() as ros:
         ros.add(replay(run, topics="door", remap={"door": "old/door"}, name="player"))
@@ -120,8 +121,8 @@ def test_topics_and_remap(make):
     assert seen.graph.topics() == ("/old/door",)
 
 
-def test_faults_are_injected_on_the_way(make):
-    run = make.run([float(at) for at in range(10)])
+def test_faults_are_injected_on_the_way():
+    run = run_of([float(at) for at in range(10)])
     faults = [stuck(at=3, seconds=2), with_nan(at=7), dropouts(spans=[(8, 10)])]
     with Session() as ros:
         ros.add(replay(run, faults=faults))
@@ -132,10 +133,12 @@ def test_faults_are_injected_on_the_way(make):
     assert math.isnan(found[7])
 
 
-def test_it_offers_what_was_offered(make):
+def test_it_offers_what_was_offered():
     qos = QoS("RELIABLE", "TRANSIENT_LOCAL", "KEEP_LAST", 2)
-    run = make.run([1.0, 2.0, 3.0])
-    run = replace(run, graph=replace(run.graph, endpoints=(make.publisher(qos=qos),)))
+    run = run_of([1.0, 2.0, 3.0])
+    run = replace(
+        run, graph=replace(run.graph, endpoints=(pub("/sensor", "/temperature", -1, qos=qos),))
+    )
     heard = []
 
     class Late(Node):
@@ -156,8 +159,8 @@ def test_it_offers_what_was_offered(make):
     assert heard == [2.0, 3.0]
 
 
-def test_a_message_at_the_very_beginning_and_no_message_at_all(make):
-    run = Observation(0, 0, (make.sample(0, 1.0), make.sample(0, 2.0)))
+def test_a_message_at_the_very_beginning_and_no_message_at_all():
+    run = Observation(0, 0, (sample(0, 1.0), sample(0, 2.0)))
     with Session() as ros:
         ros.add(replay(run))
         ros.add(replay(Observation(0, 0), name="nobody"))
@@ -165,8 +168,8 @@ def test_a_message_at_the_very_beginning_and_no_message_at_all(make):
         assert [(one.time, one.value) for one in ros.messages("temperature")] == [(0, 1), (0, 2)]
 
 
-def test_live_it_runs_by_the_wall_clock(make, eventually):
-    samples = tuple(make.sample(at / 20, float(at)) for at in range(4))
+def test_live_it_runs_by_the_wall_clock(eventually):
+    samples = tuple(sample(at / 20, float(at)) for at in range(4))
     with Session() as ros:
         ros.add(replay(Observation(NANOSECONDS, 0, samples)))
         ros.start()
@@ -174,9 +177,9 @@ def test_live_it_runs_by_the_wall_clock(make, eventually):
         assert [one.value for one in ros.messages("temperature")] == [0.0, 1.0, 2.0, 3.0]
 
 
-def test_a_paused_player_catches_up(make):
+def test_a_paused_player_catches_up():
     with Session() as ros:
-        player = ros.add(replay(make.run([1.0, 2.0, 3.0])))
+        player = ros.add(replay(run_of([1.0, 2.0, 3.0])))
         ros.run(1)
         ros.pause(player)
         ros.run(10)
@@ -199,15 +202,15 @@ def test_a_paused_player_catches_up(make):
         ({"faults": [stuck(topic="door")]}, "no topic '/door'"),
     ],
 )
-def test_bad_input_gets_three_parts(make, says, given, words):
+def test_bad_input_gets_three_parts(says, given, words):
     with pytest.raises(BagError) as caught:
-        replay(make.run([1.0]), **given)
+        replay(run_of([1.0]), **given)
     says(caught.value, words)
 
 
-def test_a_fault_that_makes_a_value_too_large_is_explained(make, says):
+def test_a_fault_that_makes_a_value_too_large_is_explained(says):
     with pytest.raises(BagError) as caught:
-        replay(make.run([1.0]), faults=[lambda samples: [make.sample(1, 1e300)]])
+        replay(run_of([1.0]), faults=[lambda samples: [sample(1, 1e300)]])
     says(caught.value, "Message 1 on /temperature is not a std_msgs/msg/Float32")
 
 

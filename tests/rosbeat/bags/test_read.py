@@ -1,12 +1,14 @@
 """Bags of others, and bags that are broken."""
 
 import random
+import re
 import sqlite3
 from textwrap import dedent
 
 import pytest
 from mcap.writer import Writer
 
+from made_records import run_of
 from rosbeat.bags import Bag, record
 from rosbeat.errors import BagError
 from rosbeat.records import QoS
@@ -55,7 +57,7 @@ NEW_QOS = """
                 reliability: best_effort
                 durability: volatile
                 deadline: {sec: 9223372036, nsec: 854775807}
-                lifespan: {sec: 9223372036, nsec: 854775807}
+                lifespan: {sec: 2147483647, nsec: 999999999}
                 liveliness: automatic
                 liveliness_lease_duration: {sec: 9223372036, nsec: 854775807}
                 avoid_ros_namespace_conventions: false"""
@@ -134,63 +136,70 @@ def test_a_bag_of_somebody_else_is_read(tmp_path, who):
 
 
 @pytest.mark.parametrize("ending", ["mcap", "db3"])
-def test_a_single_file_is_read(tmp_path, make, ending):
-    record(
-        make.run([1.0, 2.0]), tmp_path / "run", storage="mcap" if ending == "mcap" else "sqlite3"
-    )
+def test_a_single_file_is_read(tmp_path, ending):
+    record(run_of([1.0, 2.0]), tmp_path / "run", storage="mcap" if ending == "mcap" else "sqlite3")
     bag = Bag(tmp_path / "run" / f"messages.{ending}")
     assert [one.value for one in bag.messages("temperature")] == [1.0, 2.0]
 
 
-@pytest.mark.parametrize("name", ["nothing", "folder", "folder/file.txt"])
-def test_where_nothing_is_there_are_three_parts(tmp_path, says, name):
-    (tmp_path / "folder").mkdir()
-    (tmp_path / "folder" / "file.txt").write_text("a letter")
-    with pytest.raises(BagError) as caught:
-        Bag(tmp_path / name)
-    says(caught.value, "cannot be read" if name.endswith("txt") else "no recording")
-
-
-@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
-def test_a_missing_data_file_gets_three_parts(tmp_path, make, says, storage):
-    record(make.run([1.0]), tmp_path / "run", storage=storage)
-    next((tmp_path / "run").glob("messages.*")).unlink()
-    with pytest.raises(BagError) as caught:
-        Bag(tmp_path / "run")
-    says(caught.value, "cannot be read", "missing")
+def damaged_by(name, text):
+    return lambda folder: (folder / name).write_text(text)
 
 
 @pytest.mark.parametrize(
-    "text",
+    ("spoil", "words"),
     [
-        "",
-        "{",
-        "[]",
-        "rosbag2_bagfile_information: 3",
-        "rosbag2_bagfile_information: {version: 99}",
-        "rosbag2_bagfile_information: {version: ~}",
-        "\0",
-        "a: !!python/object:os.system {}",
+        (lambda folder: folder.rename(folder.parent / "elsewhere"), "no recording"),
+        (lambda folder: [path.unlink() for path in folder.iterdir()], "no recording"),
+        (lambda folder: (folder / "messages.mcap").unlink(), "missing"),
+        *((damaged_by("metadata.yaml", text), "cannot be read") for text in (
+            "", "{", "[]", "rosbag2_bagfile_information: 3",
+            "rosbag2_bagfile_information: {version: 99}",
+            "rosbag2_bagfile_information: {version: ~}", "\0", "a: !!python/object:os.system {}")),
     ],
-)
-def test_metadata_that_is_none_gets_three_parts(tmp_path, make, says, text):
-    record(make.run([1.0]), tmp_path / "run")
-    (tmp_path / "run" / "metadata.yaml").write_text(text)
+)  # fmt: skip
+def test_what_is_no_recording_gets_three_parts(tmp_path, says, spoil, words):
+    record(run_of([1.0]), tmp_path / "run")
+    spoil(tmp_path / "run")
     with pytest.raises(BagError) as caught:
         Bag(tmp_path / "run")
-    says(caught.value, "cannot be read")
+    says(caught.value, words)
 
 
-def test_notes_that_were_edited_do_no_harm(tmp_path, make):
-    record(make.run([1.0, 2.0]), tmp_path / "run")
+def test_a_file_that_is_none_and_data_that_are_gone_get_three_parts(tmp_path, says):
+    (tmp_path / "file.txt").write_text("a letter")
+    record(run_of([1.0]), tmp_path / "run", storage="sqlite3")
+    (tmp_path / "run" / "messages.db3").unlink()
+    for name in ("file.txt", "run"):
+        with pytest.raises(BagError) as caught:
+            Bag(tmp_path / name)
+        says(caught.value, "cannot be read")
+
+
+@pytest.mark.parametrize("asked", ["temprature", 3])
+def test_an_unknown_topic_gets_three_parts(tmp_path, says, asked):
+    bag = record(run_of([1.0]), tmp_path / "run")
+    with pytest.raises(BagError) as caught:
+        bag.messages(asked)
+    says(caught.value, "not the name of a topic" if asked == 3 else "Did you mean '/temperature'")
+
+
+@pytest.mark.parametrize("note", ["rosbeat.session_ns", "rosbeat.seed", "rosbeat.publishers"])
+@pytest.mark.parametrize("value", ["", "'['", "'null'", "'\"a\"'", "'{\"/a\": 3}'"])
+def test_notes_that_were_edited_do_no_harm(tmp_path, note, value):
+    record(run_of([1.0, 2.0]), tmp_path / "run")
     path = tmp_path / "run" / "metadata.yaml"
-    path.write_text(path.read_text().replace("'2000000000'", "'soon'"))
-    assert [one.time for one in Bag(tmp_path / "run").messages("temperature")] == [0.0, 1.0]
+    text, changed = re.subn(f"{note}: .*", f"{note}: {value}", path.read_text())
+    assert changed == 1
+    path.write_text(text)
+    # It is read as a bag of somebody else, which begins at its first message.
+    found = [(one.time, one.node) for one in Bag(tmp_path / "run").messages("temperature")]
+    assert found == [(0.0, "?"), (1.0, "?")]
 
 
-def test_messages_that_cannot_be_found_are_missed(tmp_path, make, says):
+def test_messages_that_cannot_be_found_are_missed(tmp_path, says):
     # The library drops what has another quality of service in the data than in metadata.yaml.
-    record(make.run([1.0, 2.0]), tmp_path / "run")
+    record(run_of([1.0, 2.0]), tmp_path / "run")
     path = tmp_path / "run" / "metadata.yaml"
     path.write_text(path.read_text().replace("reliability: reliable", "reliability: best_effort"))
     with pytest.raises(BagError) as caught:
@@ -210,9 +219,9 @@ def damage(data, dice):
 
 
 @pytest.mark.parametrize("name", ["messages.mcap", "messages.db3", "metadata.yaml"])
-def test_whatever_is_damaged_it_is_read_or_explained(tmp_path, make, says, name):
+def test_whatever_is_damaged_it_is_read_or_explained(tmp_path, says, name):
     storage = "sqlite3" if name.endswith("db3") else "mcap"
-    run = make.run([20.0 + at for at in range(50)])
+    run = run_of([20.0 + at for at in range(50)])
     record(run, tmp_path / "run", storage=storage)
     whole, dice, refused = (tmp_path / "run" / name).read_bytes(), random.Random(4), 0
     for _ in range(100):

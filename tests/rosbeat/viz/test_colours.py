@@ -34,6 +34,7 @@ VISION = {
         ]
     ),
 }
+
 # IEC 61966-2-1 (sRGB), D65.
 TO_XYZ = np.array(
     [
@@ -42,6 +43,7 @@ TO_XYZ = np.array(
         [0.0193339, 0.1191920, 0.9503041],
     ]
 )
+
 WHITE = np.array([0.95047, 1.0, 1.08883])
 
 TEXT_ON = {
@@ -51,6 +53,7 @@ TEXT_ON = {
     theme.ALERT_TEXT: (theme.CARD, theme.TOPIC_FILL, theme.TOPIC_FILL_STRONG),
     theme.TAKEN_TEXT: (theme.CARD,),
 }  # fmt: skip
+
 TOGETHER = {
     "series": [look.colour for look in theme.STYLES],
     "callbacks": [theme.BLUE, theme.TAKEN, theme.PURPLE, theme.ALERT],
@@ -60,9 +63,9 @@ TOGETHER = {
     "bands": list(theme.BANDS[:3]),
     "bars": [theme.SLEEP.fill, theme.WAIT.fill],
 }
+
 # CIE76 distances; 2.3 is just noticeable (Mahy et al., 1994). Bands have names and dashed limits.
 LEAST = {"bands": 4.0}
-
 
 #: On a light page a colour is itself.
 PALETTES = {"light": {colour: colour for colour in theme.DARK}, "dark": theme.DARK}
@@ -97,7 +100,6 @@ def distance(one, other, vision):
 def test_the_measures_agree_with_known_values():
     assert contrast("#000000", "#FFFFFF") == pytest.approx(21)
     assert distance("#000000", "#FFFFFF", VISION["full"]) == pytest.approx(100, abs=0.01)
-    assert distance("#FF0000", "#00FF00", VISION["full"]) > 150
     # The classic pair: what full vision tells apart, a deuteranope hardly does.
     olive, brown = "#7A7A00", "#A05A00"
     assert distance(olive, brown, VISION["deuteranopia"]) < distance(olive, brown, VISION["full"])
@@ -109,39 +111,31 @@ def test_every_colour_has_a_counterpart_on_a_dark_page():
     assert colours | set(theme.BANDS) == set(theme.DARK)
 
 
-@pytest.mark.parametrize(("text", "grounds"), TEXT_ON.items())
-def test_text_has_a_contrast_of_at_least_4_5(palette, text, grounds):
-    found = {ground: contrast(palette[text], palette[ground]) for ground in grounds}
-    assert min(found.values()) >= 4.5, found
+GROUNDS = (theme.CARD, theme.FRAME_FILL)
+BARS = (theme.BLUE, theme.TAKEN, theme.PURPLE, theme.BAR_EDGE)
+LEAST_CONTRAST = {
+    "text": (4.5, [(text, ground) for text, grounds in TEXT_ON.items() for ground in grounds]),
+    "outlines": (3, [(line, ground) for ground in GROUNDS for line in
+                     (theme.FRAME, theme.BLUE, theme.TOPIC_EDGE, theme.ALERT)]),
+    "lines": (3, [(look.colour, ground) for look in theme.STYLES
+                  for ground in (*GROUNDS, *theme.BANDS)]),
+    "names on bars": (7, [(theme.INK, look.fill) for look in (theme.SLEEP, theme.WAIT)]),
+    "marks on bars": (3, [(mark, look.fill) for mark in BARS
+                          for look in (theme.SLEEP, theme.WAIT)]),
+    "ink": (7, [(theme.INK, theme.CARD)]),
+}  # fmt: skip
 
 
-@pytest.mark.parametrize("ground", [theme.CARD, theme.FRAME_FILL])
-@pytest.mark.parametrize("line", [theme.FRAME, theme.BLUE, theme.TOPIC_EDGE, theme.ALERT])
-def test_outlines_have_a_contrast_of_at_least_3(palette, line, ground):
-    assert contrast(palette[line], palette[ground]) >= 3
-
-
-@pytest.mark.parametrize("ground", [theme.CARD, theme.FRAME_FILL, *theme.BANDS])
-def test_lines_have_a_contrast_of_at_least_3(palette, ground):
-    found = [contrast(palette[look.colour], palette[ground]) for look in theme.STYLES]
-    assert min(found) >= 3
-
-
-@pytest.mark.parametrize("look", [theme.SLEEP, theme.WAIT])
-def test_on_a_bar_its_name_and_the_marks_can_be_read(palette, look):
-    assert contrast(palette[theme.INK], palette[look.fill]) >= 7
-    marks = (theme.BLUE, theme.TAKEN, theme.PURPLE, theme.BAR_EDGE)
-    assert all(contrast(palette[mark], palette[look.fill]) >= 3 for mark in marks)
-
-
-def test_bars_differ_in_more_than_their_colour():
-    assert theme.SLEEP.hatch != theme.WAIT.hatch
+@pytest.mark.parametrize("case", LEAST_CONTRAST)
+def test_contrast(palette, case):
+    least, pairs = LEAST_CONTRAST[case]
+    found = {pair: contrast(*(palette[colour] for colour in pair)) for pair in pairs}
+    assert min(found.values()) >= least, found
 
 
 def test_the_card_is_soft_and_belongs_to_its_page():
-    dark = theme.DARK[theme.CARD]
-    assert contrast(theme.CARD, "#FFFFFF") < 1.1 > contrast(dark, "#111111") - 0.1
-    assert contrast(theme.INK, theme.CARD) >= 7 <= contrast(theme.DARK[theme.INK], dark)
+    assert contrast(theme.CARD, "#FFFFFF") < 1.1
+    assert contrast(theme.DARK[theme.CARD], "#111111") < 1.2
 
 
 @pytest.mark.parametrize("vision", VISION)
@@ -152,13 +146,11 @@ def test_colours_used_together_can_be_told_apart(palette, group, vision):
     assert min(near.values()) >= LEAST.get(group, 12.0), near
 
 
-def test_no_style_differs_in_colour_alone():
+def test_nothing_differs_in_colour_alone():
     assert len({look.marker for look in theme.STYLES}) == len(theme.STYLES)
     assert len({look.dash for look in theme.STYLES}) == len(theme.STYLES)
-
-
-def test_styles_come_again_after_the_last():
     assert theme.style(len(theme.STYLES)) == theme.style(0)
+    assert theme.SLEEP.hatch != theme.WAIT.hatch
 
 
 def test_a_picture_fits_the_page():

@@ -1,0 +1,59 @@
+"""The picture of a subscription's queue: what waits, what is taken and what is dropped."""
+
+import pytest
+
+from made_records import at
+from pictures import is_tidy, lines, words_in
+from rosbeat.records import queue_steps
+from rosbeat.viz import queue
+from rosbeat.viz.queues import MOST_MOMENTS
+
+
+@pytest.mark.parametrize(
+    ("arrivals", "taken", "depth", "dropped", "words"),
+    [
+        ([0] * 8, [at(1)] * 5, 5, 3, "8 messages arrived."),
+        ([0] * 5, [at(1)], 3, 2,
+         "A queue of depth 3, from 0 s to 1 s: 5 messages arrived. 1 was taken: number 3. "
+         "2 were dropped: numbers 1 and 2. 2 wait at the end: numbers 4 and 5. "
+         "At its fullest the queue held 3 messages."),
+        ([0], [], 3, 0, "at 0 s: 1 message arrived. None was taken. None was dropped."),
+        ([0, 1, 2, 4], [3], 2, 1, "1 was dropped: number 1."),
+        (range(0, 12), [12] * 3, 3, 9, "9 were dropped: numbers 1 to 9."),
+    ],
+)  # fmt: skip
+def test_what_is_dropped_and_taken_is_marked_and_said(arrivals, taken, depth, dropped, words):
+    picture = queue(queue_steps(arrivals, taken, depth), depth)
+    assert words in picture.description
+    # One mark each, and one in the key.
+    assert len(lines(picture, "X")) == dropped + (dropped > 0)
+    assert len(lines(picture, "v")) == len(taken) + (len(taken) > 0)
+    assert ("dropped" in words_in(picture)) == (dropped > 0)
+    assert {f"depth {depth}", "0 s"} <= set(words_in(picture))
+    assert is_tidy(picture)
+
+
+def test_every_waiting_message_is_a_cell():
+    picture = queue(queue_steps([0, 0, 0], [], 3), 3)
+    assert len(picture.figure.axes[0].patches) == 1 + 2 + 3
+    assert words_in(picture).count("1") == 3
+
+
+@pytest.mark.parametrize(("count", "depth"), [(1, 1), (1, 10), (60, 3), (200, 100), (600, 7)])
+def test_any_size_stays_readable(count, depth):
+    arrivals = [k * at(0.1) for k in range(count)]
+    assert is_tidy(queue(queue_steps(arrivals, arrivals[::3], depth), depth))
+
+
+def test_too_much_is_cut_and_said():
+    picture = queue(queue_steps(range(MOST_MOMENTS + 5), [], 2), 2)
+    assert "5 later moments are not shown." in words_in(picture)
+    assert picture.description.endswith("5 later moments are not shown.")
+
+
+def test_a_drop_and_its_cause_are_one_column():
+    texts = queue(queue_steps([0, 1, 2], [5], 2), 2).figure.axes[0].texts
+    below = [one for one in texts if one.get_weight() == "bold"]
+    assert [one.get_text() for one in below] == ["1", "2"]
+    places = {one.get_text(): one.get_position() for one in texts}
+    assert places["3"][0] == pytest.approx(below[1].get_position()[0])

@@ -1,0 +1,328 @@
+"""Sets of terminals, what survives in them, and that nothing of one stays behind."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from rosbeat.errors import TerminalError
+from rosbeat.workspace.terminals import Terminals, reaper, terminal, terminals_of
+from rosbeat.workspace.terminals.reaper import marked
+
+HARD_TO_END = """\
+sleep 300 &
+setsid sleep 300 &
+nohup sleep 300 > /dev/null 2>&1 &
+(trap '' HUP TERM INT; sleep 300) &
+disown -a
+(setsid sh -c 'sleep 300 & sleep 300' &)
+"""
+
+
+class Page:
+    """Stands for an IPython shell."""
+
+
+def test_a_page_has_one_set_and_two_pages_have_two(says):
+    one, two = Page(), Page()
+    assert terminals_of(one) is terminals_of(one)
+    assert terminals_of(one) is not terminals_of(two)
+    with pytest.raises(TerminalError) as caught:
+        terminal("sensor")  # without a page
+    says(caught.value, "Terminals()")
+
+
+def test_closing_leaves_nothing(home, eventually):
+    terminals = Terminals()
+    sensor = terminals.get("sensor")
+    sensor.type(HARD_TO_END, show=str)
+    # The prompt is back before what runs in the background has begun.
+    eventually(lambda: len(marked(terminals._mark)) >= 6)
+    began = time.monotonic()
+    terminals.close()
+    assert time.monotonic() - began < 20
+    assert marked(terminals._mark) == []
+    assert sensor.ended
+    assert list(terminals) == []
+
+
+def test_sets_do_not_disturb_each_other_and_can_be_used_again(home):
+    with Terminals() as one, Terminals() as two:
+        one.get("a").type("sleep 300", seconds=0, show=str)
+        two.get("a").type("sleep 300", seconds=0, show=str)
+        one.close()
+        assert two.get("a").busy
+        assert one.find("a") is None
+        one.get("a").type("true", show=str)
+
+
+@pytest.mark.parametrize("missing", ["folder", "bash"])
+def test_a_folder_or_a_bash_that_is_not_there(home, monkeypatch, says, missing):
+    monkeypatch.setenv("PATH", str(home)) if missing == "bash" else None
+    with Terminals(home / "nowhere" if missing == "folder" else None) as terminals:
+        with pytest.raises(TerminalError) as caught:
+            terminals.get("a")
+        says(caught.value, "bash" if missing == "bash" else "nowhere")
+
+
+def test_nothing_is_left_open(home):
+    def files():
+        return len(list(Path("/proc/self/fd").iterdir()))
+
+    with Terminals() as terminals:
+        terminals.get("a")
+    before = files()
+    for _ in range(3):
+        with Terminals() as terminals:
+            terminals.get("a").type("exit", show=str)
+            terminals.get("a")
+    assert files() <= before
+
+
+def test_a_forked_child_leaves_the_terminals_alone(terminals):
+    terminals.get("a")
+    terminals._pid = os.getpid() + 1
+    assert terminals.alien
+    terminals.close()
+    terminals._pid = os.getpid()
+    assert not terminals.get("a").ended
+
+
+def test_two_names_are_two_terminals(terminals):
+    one, two = terminals.get("one"), terminals.get("two")
+    one.type("cd /usr; X=1", show=str)
+    two.type("echo [$X]; pwd", show=str)
+    assert two.text.splitlines()[1:] == ["[]", "/home/you"]
+    assert terminals.get("one") is one
+    assert [terminal.name for terminal in terminals] == ["one", "two"]
+
+
+def test_closing_one_ends_what_runs_in_it(terminal):
+    assert terminal.state == "waits at ~$"
+    terminal.type("sleep 100", seconds=0, show=str)
+    assert repr(terminal) == "<terminal sensor: runs `sleep 100`>"
+    terminal.close()
+    terminal.close()
+    assert terminal.ended
+    assert repr(terminal) == "<terminal sensor: ended>"
+
+
+# The program that ends what is marked.
+
+
+@pytest.fixture
+def mark():
+    return f"test-{os.getpid()}-{os.urandom(4).hex()}."
+
+
+@pytest.fixture
+def start(mark):
+    """Start programs that carry the mark; kill what is left of them."""
+    started = []
+
+    def start(code, number=1):
+        environ = {**os.environ, reaper.VARIABLE: f"{mark}{number}."}
+        command = [sys.executable, "-I", "-S", "-c", code]
+        process = subprocess.Popen(
+            command, env=environ, stdout=subprocess.PIPE, start_new_session=True
+        )
+        started.append(process)
+        assert process.stdout.readline() == b"ready\n"
+        return process
+
+    yield start
+    for process in started:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+
+
+SLEEP = "import time; print('ready', flush=True); time.sleep(100)"
+
+CHILD = f"""
+import os, subprocess, sys
+subprocess.Popen([sys.executable, "-I", "-S", "-c", {SLEEP!r}])
+import time; time.sleep(100)
+"""
+
+
+def test_marked_processes_are_found(mark, start):
+    one, two = start(SLEEP, 1), start(SLEEP, 12)
+    assert set(reaper.marked(mark)) == {one.pid, two.pid}
+    assert reaper.marked(f"{mark}1.") == [one.pid]
+    assert reaper.marked("nobody.") == []
+
+
+@pytest.mark.parametrize(
+    "follower",
+    [
+        "import signal, sys, time; signal.signal(signal.SIGTERM, lambda *_: sys.exit(7)); ",
+        "import signal; signal.signal(signal.SIGTERM, signal.SIG_IGN); ",
+    ],
+)
+def test_what_is_marked_is_ended_whether_it_listens_or_not(mark, start, follower):
+    leader = start(CHILD.replace(repr(SLEEP), repr(follower + SLEEP)))
+    reaper.end_marked(mark, grace=0.1)
+    assert leader.wait(10) == -signal.SIGKILL
+    assert reaper.marked(mark) == []
+
+
+def test_the_watcher_ends_what_is_marked_when_its_pipe_closes(mark, start, eventually):
+    process = start(SLEEP)
+    command = [sys.executable, "-I", "-S", reaper.__file__, mark, str(os.getpid())]
+    watcher = subprocess.Popen(command, stdin=subprocess.PIPE)
+    assert process.poll() is None
+    watcher.stdin.close()
+    assert watcher.wait(20) == 0
+    assert process.wait(10) == -signal.SIGKILL
+
+
+# The environment.
+
+
+def test_what_a_kernel_sets_for_itself_stays_behind(home, monkeypatch):
+    for name in ("MPLBACKEND", "FORCE_COLOR", "PYTEST_CURRENT_TEST", "PS4", "XDG_CONFIG_HOME"):
+        monkeypatch.setenv(name, "x")
+    monkeypatch.setenv("LC_ALL", "C")
+    with Terminals() as terminals:
+        terminals.get("a").type(
+            "echo [$MPLBACKEND$FORCE_COLOR$PYTEST_CURRENT_TEST$XDG_CONFIG_HOME] $LC_ALL; cd; pwd",
+            show=(shown := []).append,
+        )
+    assert shown[1:] == ["[] C.UTF-8", "/home/you"]
+
+
+def test_a_learner_keeps_home_name_and_folders(monkeypatch, tmp_path):
+    monkeypatch.delenv("ROSBEAT_STEADY_HOME", raising=False)
+    monkeypatch.setenv("ROSBEAT_WORKSPACE_IN", str(tmp_path))
+    monkeypatch.setenv("HOME", str(tmp_path / "ada"))
+    monkeypatch.setenv("USER", "ada")
+    monkeypatch.setenv("LC_ALL", "de_DE.utf8")
+    (tmp_path / "ada" / "more").mkdir(parents=True)
+    with Terminals() as terminals:
+        terminal = terminals.get("a")
+        terminal.type(
+            "echo $USER $HOME $LC_ALL; echo 'in 0.05s [INFO] [1732212345.5] [a]: b'\n"
+            "mkdir ws; cd ws\ncd ~/more\ncd /\ncd ~\ntrue",
+            show=(shown := []).append,
+        )
+    place = tmp_path.name
+    assert shown == [
+        f"{place}$ echo $USER $HOME $LC_ALL; echo 'in 0.05s [INFO] [1732212345.5] [a]: b'",
+        f"ada {tmp_path}/ada de_DE.utf8",
+        "in 0.05s [INFO] [1732212345.5] [a]: b",
+        f"{place}$ mkdir ws; cd ws",
+        "ws$ cd ~/more",
+        "ada/more$ cd /",
+        "/$ cd ~",
+        "~$ true",
+    ]
+
+
+# The prompt by which a page knows that a command has ended.
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "PS1='mine> '",
+        "PROMPT_COMMAND=",
+        "PROMPT_COMMAND='echo prompt'; PS1=x",
+        "unset PS1 PROMPT_COMMAND",
+        "PS1=; PS2=; PROMPT_COMMAND=; true",
+        "exec bash --norc",
+        "stty -echo",
+        "stty echo",
+        "stty sane",
+        "set -u",
+        "set -o pipefail; set -x; set +x",
+        "set -o vi",
+        "trap 'true' INT EXIT ERR DEBUG",
+        "alias ls='ls -la'; shopt -s expand_aliases",
+        "export TERM=xterm LANG=C LC_ALL=C",
+        "enable -n echo; enable echo",
+    ],
+)
+def test_the_prompt_survives(terminal, seen, command):
+    terminal.type(command, timeout=20, show=str)
+    terminal.type("true", show=str)
+    assert seen("echo °fine°; (exit 7)") == ["~$ echo °fine°; (exit 7)", "°fine°", "# exit code 7"]
+
+
+RC = """sleep 0.8
+PROMPT_COMMAND="history -a"
+PS1='\\u@\\h:\\w\\$ '
+"""
+
+
+@pytest.mark.parametrize("command", ["source ~/.bashrc", "exec bash"])
+def test_a_slow_bashrc_does_not_take_the_terminal_away(seen, home, command):
+    (home / ".bashrc").write_text(RC)
+    assert seen(command, timeout=30) == [f"~$ {command}"]
+    assert seen("echo fine") == ["~$ echo fine", "fine"]
+
+
+def test_a_prompt_that_was_lost_after_watching_comes_back(seen, home, terminal):
+    (home / ".bashrc").write_text(RC)
+    assert seen("source ~/.bashrc", seconds=0.1)[-1].startswith("# `source ~/.bashrc` goes on")
+    assert seen("echo fine") == ["~$ echo fine", "fine"]
+
+
+@pytest.mark.parametrize("to", ["/dev/null", "&-", "err.txt"])
+def test_the_prompt_survives_without_a_standard_error(seen, to):
+    assert seen(f"exec 2>{to}", timeout=30) == [f"~$ exec 2>{to}"]
+    assert seen("ls nowhere; echo fine")[-1] == "fine"
+
+
+def test_a_trace_shows_nothing_of_the_prompt(seen):
+    assert seen("set -x\ntrue") == ["~$ set -x", "~$ true", "+ true"]
+    assert seen("set -v\ntrue")[-2:] == ["true", "+ true"]
+    assert seen("unset PROMPT_COMMAND PS1", timeout=30)[-1] == "+ unset PROMPT_COMMAND PS1"
+    assert seen("true")[-2:] == ["true", "+ true"]
+
+
+def test_a_question_for_one_key_is_not_answered_by_a_repair(seen, terminal):
+    seen("read -n 1 -p 'Sure? ' X; PS1=", timeout=1.2)
+    terminal.answer("y", show=str, timeout=20)
+    assert seen("echo $X")[-1] == "y"
+
+
+@pytest.mark.parametrize("wait", ["", "; sleep 2"])
+def test_what_asked_for_one_key_gets_no_enter_that_the_shell_would_get(seen, terminal, wait):
+    seen(f"read -n 1 -p 'Sure? ' X{wait}", timeout=1.2)
+    terminal.answer("y", show=str, **({"seconds": 5} if wait else {"timeout": 20}))
+    # An empty line that bash reads is a second prompt, and ends the next command for the page.
+    assert seen('sleep 0.3; echo "late $X"')[-1] == "late y"
+
+
+@pytest.mark.parametrize(("option", "keys"), [("-n 3", "ab"), ("-e", "a")])
+def test_what_asked_for_more_keys_or_edits_lines_gets_enter(seen, terminal, option, keys):
+    seen(f"read {option} -p 'Which? ' X; echo \"<$X>\"", timeout=1.2)
+    terminal.answer(keys, show=(said := []).append, timeout=20)
+    assert said[-1] == f"<{keys}>"
+
+
+def test_a_folder_with_odd_letters(seen, terminal, home):
+    name = 'o d$d `é\' "x" \\n'
+    (home / name).mkdir()
+    seen("cd o*")
+    assert terminal.folder == home / name
+
+
+def test_a_folder_that_is_gone(seen, home):
+    seen("mkdir gone; cd gone")
+    (home / "gone").rmdir()
+    assert seen("echo hello") == ["gone$ echo hello", "hello"]
+    assert "# exit code 1" in seen("ls .. > /dev/null; cd nowhere 2> /dev/null")
+
+
+def test_a_folder_that_goes_while_a_program_runs(seen, terminal, home):
+    seen("mkdir gone; cd gone\nsleep 100", seconds=0.1)
+    (home / "gone").rmdir()
+    assert terminal.ctrl_c(show=str) == 130
+    assert "does not exist any more" in " ".join(seen("touch x"))
+    assert seen("cd ..\npwd")[-1] == "/home/you"
