@@ -71,7 +71,7 @@ DEEDS = (
             "    return real(self, document)\n\njson.JSONEncoder.encode = fake",
             WRONG.replace("0.7", "0.4999"),
         ),
-        forges=True,
+        words="readings",
     ),
     Deed(
         "the constructor of what is recorded",

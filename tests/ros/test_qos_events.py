@@ -629,8 +629,21 @@ def test_the_profile_is_found_by_place_and_by_name(kind, place):
 )  # fmt: skip
 def test_what_needs_no_stretching_is_left_alone(kind, args):
     given = []
-    make_stretched(lambda *args: given.extend(args), kind, args, {})
+
+    def make(*args):
+        given.extend(args)
+        return SimpleNamespace(qos_profile=args[-1])
+
+    made = make_stretched(make, kind, args, {})
     assert all(one is other for one, other in zip(given, args, strict=True))
+    assert made.qos_profile == args[-1]
+
+
+def test_a_profile_that_is_changed_afterwards_changes_nothing(ros):
+    mine = QoSProfile(depth=5)
+    made = ros.add(lambda: Heart(mine)).publisher
+    mine.depth = 7
+    assert made.qos_profile.depth == 5
 
 
 def test_nodes_and_the_graph_see_what_was_written(ros):

@@ -369,11 +369,15 @@ def broken_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     day.hold(n["pump_seconds"] + 3 + next(more), cold, WET, "wet")
     # Time for a second alarm that nobody wants, and for a report without a single reading.
     long = max(2 * n["silent_seconds"] + react + 2, 2 * n["report_seconds"] + 1)
-    # Then time for one report at least. It is colder than before, and so the mean shows which
-    # readings are in it.
-    back = max(react + 4, n["report_seconds"] + 2)
+    # Then time for one report at least, when some readings have come, and fewer than in as many
+    # seconds. It is colder than before, and so the mean shows which readings are in it.
+    every = n["report_seconds"]
+    back = max(react + 4, every + 2)
     for name, humidity in (("temperature", WET), ("both", None)):
-        day.hold(long + next(more), None, humidity, f"{name} silent")
+        silent = long + next(more)
+        while not 0.3 <= -(day.seconds + silent) % every / every <= 0.7 and silent < long + every:
+            silent += 1
+        day.hold(silent, None, humidity, f"{name} silent")
         cold -= 0.75
         day.hold(back + next(more), cold, WET, f"{name} back")
     return day

@@ -398,16 +398,22 @@ def _next_status(
     low: float = 20.0,
     back_high: float = 25.0,
     back_low: float = 21.0,
+    one_band: bool = False,
 ) -> str:
     status = status_of(value, low, high)
     if status != "Normal":
         return status
+    if one_band:  # the same way back from both sides
+        return "Normal" if back_low < value < back_high else before
     stays = (before == "High" and value >= back_high) or (before == "Low" and value <= back_low)
     return before if stays else "Normal"
 
 
 def _statuses(
-    limits: Mapping[str, float] | None = None, keeps: bool = True, compares: bool = True
+    limits: Mapping[str, float] | None = None,
+    keeps: bool = True,
+    compares: bool = True,
+    one_band: bool = False,
 ) -> Model:
     """Return the model of a node that publishes its status when it changes.
 
@@ -415,12 +421,13 @@ def _statuses(
         limits: Limits other than the page's, as `_next_status` has them.
         keeps: Whether a new status is kept for the next reading.
         compares: Whether only a change is published.
+        one_band: Whether the way back needs both limits, wherever it begins.
     """
 
     def model(seconds: Seconds) -> Track:
         status, found = "Normal", {}
         for second, value in _heard(seconds).items():
-            new = _next_status(status, value, **(limits or {}))
+            new = _next_status(status, value, one_band=one_band, **(limits or {}))
             if new != status or not compares:
                 found[second] = (new,)
             status = new if keeps else "Normal"
@@ -462,6 +469,8 @@ STATUS_SUSPECTS = suspects(
     *_on_the_wrong_side(),
     ("hysteresis-lost", "From High, nothing leads back to Normal.", _statuses({"back_high": -inf})),
     ("hysteresis-lost", "From Low, nothing leads back to Normal.", _statuses({"back_low": inf})),
+    ("hysteresis-lost", "Each way back has one limit: from High only below 25 counts, and from "
+     "Low only above 21.", _statuses(one_band=True)),
     ("hysteresis-lost", "The two limits of the way back have changed places: 25 belongs to High, "
      "and 21 to Low.", _statuses({"back_high": 21.0, "back_low": 25.0})),
     ("wrong-state", _OF_THE_MEAN, lambda seconds: _statuses()(_mean_each_second(seconds))),

@@ -187,6 +187,7 @@ ASKED: dict[str, tuple[Callable[[_Readings], float], tuple[Suspect, ...]]] = {
          lambda r: sum(_gaps(r)) / len(_gaps(r)),
          lambda r: median(_gaps(r)),
          lambda r: max(*_gaps(r), r[0][0]),
+         lambda r: max(*_gaps(r), 1.0),
          lambda r: -max(_gaps(r)),
          lambda r: max(abs(b - a) for a, b in pairwise(_numbers(r)))),
     )),
@@ -811,7 +812,7 @@ def _differences(
         heard: The readings of both sensors.
         partner: The reference of a temperature: the `newest` one; the `next` one in the order in
             which both came; each that comes `after` it; the newest one that is a `number`; or the
-            newest one, unless that is 0 (`not zero`).
+            newest one, unless that is 0 (`not zero`) or has made a pair already (`used up`).
         start: The reference before the first one; None if it waits for one.
     """
     references = [] if start is None else [start]
@@ -827,6 +828,9 @@ def _differences(
         if not references or not temperatures:
             continue
         if partner == "not zero" and references[0] == 0:
+            continue
+        if partner == "used up" and not is_reference:
+            yield one.time_ns, temperatures.pop() - references.pop()
             continue
         if partner == "next":
             yield one.time_ns, temperatures.pop(0) - references.pop(0)
@@ -892,6 +896,7 @@ _LIMIT = "A mean of more than 1 degree is a drift; one of 1.5 is, and one of 0.8
 _NEWEST = (
     "While the newest reference is NaN, a reading of temperature makes no pair with an old one."
 )
+_USED = "A reference stays the newest one until another comes: it may make several pairs."
 _LISTS = "If a reading is lost, the two lists are no longer in step. Which reference is the newest?"
 _WHEN = "Each reading of temperature makes a pair. Which of your two callbacks makes yours?"
 _LIMITS = (0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 5.0, 10.0)
@@ -912,6 +917,7 @@ TWO_SUSPECTS = variants(_watch_two, (
     ("nan-left-out", _NEWEST, {"partner": "number"}),
     ("zero-is-false", f"A reference of 0 counts as none. {ZERO_IS_FALSE}",
      {"partner": "not zero"}),
+    ("pairs-mixed-up", _USED, {"partner": "used up"}),
     ("pairs-mixed-up", _LISTS, {"partner": "next"}),
     ("pairs-mixed-up", _WHEN, {"partner": "after"}),
     ("wrong-window", _WINDOW,

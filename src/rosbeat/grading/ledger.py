@@ -8,7 +8,9 @@ known by all that decides about it: its job, and the version of the course.
 
 from __future__ import annotations
 
+import json
 import os
+import re
 import secrets
 from dataclasses import dataclass
 from hashlib import sha256
@@ -167,7 +169,7 @@ class Ledger:
             return
         line = to_json(outcome, {"key": key, **({"trace": trace} if trace else {})})
         try:
-            self._file.write(_with_digest(line.encode()))
+            self._file.write(_with_digest(_as_ascii(line)))
             self._file.flush()
             os.fdatasync(self._file.fileno())
         except OSError as error:
@@ -189,6 +191,11 @@ class Ledger:
             self._traces[entry.key] = entry.trace
         except (ValueError, RecordError):
             return  # damaged, or of an older version: it is judged again
+
+
+def _as_ascii(line: str) -> bytes:
+    """Return JSON with all but ASCII escaped, so that a terminal can show the file."""
+    return re.sub(r"[^\x00-\x7f]", lambda one: json.dumps(one[0])[1:-1], line).encode("ascii")
 
 
 def _with_digest(body: bytes) -> bytes:
