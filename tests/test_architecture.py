@@ -36,7 +36,7 @@ MAY_IMPORT = {
         *("diagnosis.calls", "diagnosis.exceptions", "diagnosis.situation"),
     },
     "panel": {"records", "errors", "viz", "ros"},
-    "page_session": {"ros", "diagnosis", "panel"},
+    "page_session": {"errors", "ros", "diagnosis", "panel"},
     "explain_command": {"errors", "ros", "diagnosis"},
     "check_command": {"errors", "records_json", "authoring", "exercises"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
