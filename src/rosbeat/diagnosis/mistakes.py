@@ -125,6 +125,7 @@ _OTHERS = (
     Mistake("message-for-value", "a message where the value in it is meant"),
     Mistake("class-changed", "a value put into a message class"),
     Mistake("text-and-number", "a text and a number put together"),
+    Mistake("decimal-comma", "a decimal number with a comma"),
     Mistake("format-code", "a format that does not fit the value"),
     Mistake("logged-no-text", "something logged that is no text"),
     Mistake("not-callable", "brackets after something that is no function"),
