@@ -289,7 +289,19 @@ _SET_UP = (
 )
 
 
+_ONCE = (
+    "A node makes its publishers, subscriptions and timers once, in the constructor, and keeps "
+    "them in self. A callback only uses them."
+)
+
+
 def _stuck(fault: Fault) -> Meaning:
+    anew = re.match(r"(\d+ (?:publishers|subscriptions|timers)\b.*) in (\d+) calls$", fault.text)
+    if anew:
+        means = (
+            f"{fault.callback} made {anew[1]} in {anew[2]} calls, and each one slows the node down."
+        )
+        return Meaning("made-anew", means, _ONCE)
     waits = re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
     loops = re.match(r"(while|for)\b", fault.code) is not None
     if fault.callback == "__init__":

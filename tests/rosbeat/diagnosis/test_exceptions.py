@@ -260,6 +260,18 @@ def test_a_deadline_is_no_exception_of_the_learner_s():
     )
 
 
+@pytest.mark.parametrize("what", ["publishers on /temperature", "subscriptions to /t", "timers"])
+def test_what_is_made_at_each_call_is_no_callback_that_does_not_return(what):
+    late = fault("DeadlinePassed", f"600 {what} in 599 calls", "self.create(x)")
+    found = diagnose_fault(late)
+    assert found.mistake == "made-anew"
+    assert found.evidence == (
+        f"tick made 600 {what} in 599 calls, and each one slows the node down. Line 4: "
+        "`self.create(x)`."
+    )
+    assert "once, in the constructor" in found.hint
+
+
 @pytest.mark.parametrize(
     ("code", "hint"),
     [("while True:", "timer"), ("time.sleep(9)", "timer"), ("x = solve(y)", "What ends it?")],
