@@ -36,7 +36,8 @@ MAY_IMPORT = {
         *("diagnosis.calls", "diagnosis.exceptions", "diagnosis.situation"),
     },
     "panel": {"records", "errors", "viz", "ros"},
-    "page_session": {"ros", "diagnosis", "panel"},
+    "page_errors": set(),
+    "page_session": {"errors", "ros", "diagnosis", "panel"},
     "explain_command": {"errors", "ros", "diagnosis"},
     "check_command": {"errors", "records_json", "authoring", "exercises"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
@@ -54,7 +55,7 @@ MAY_IMPORT = {
     "authoring": {"errors", "domains"},
     # The package itself hands out names of other rooms.
     "rosbeat": {
-        *("environment", "viz", "page_session", "exercises", "workspace"),
+        *("environment", "viz", "page_errors", "page_session", "exercises", "workspace"),
         *("bags", "clinic"),
     },
 }

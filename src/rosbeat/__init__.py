@@ -11,6 +11,7 @@ Importing the package is quick and does not import ROS: names load when they are
 from __future__ import annotations
 
 import os
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +35,9 @@ __all__ = ["Session", "bags", "check", "clinic", "hint", "predict", "progress", 
 environment.apply()
 if os.environ.get("NBGRADER_EXECUTION"):
     import_module("rosbeat.workspace.graded_runs").settle_in()
+# Without loading IPython where there is none.
+if (_ipython := sys.modules.get("IPython")) and (_shell := _ipython.get_ipython()):
+    import_module("rosbeat.page_errors").register(_shell)
 
 _HOMES = {
     "Session": ("rosbeat.page_session", "Session"),

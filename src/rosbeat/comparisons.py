@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, isnan, nan
 from typing import Any, Protocol, runtime_checkable
 
-from rosbeat.errors import BagError
+from rosbeat.errors import BagError, called_as
 from rosbeat.records import NANOSECONDS, Observation, Sample, Timed
 
 #: What kinds of differences there are.
@@ -100,6 +100,7 @@ class Comparison:
         return max(found, key=lambda one: one.amount, default=None)
 
 
+@called_as('bags.compare(one, other, "temperature")')
 def compare(
     one: Run,
     other: Run,

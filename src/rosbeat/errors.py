@@ -21,6 +21,7 @@
     ├── LessonError                 a lesson source breaks a rule of the builder
     ├── BagError                    a recording cannot be written, read, replayed or compared
     ├── GradingError                submissions cannot be collected, graded or reported
+    ├── CallError                a function was called with arguments that it does not take
     ├── RecordError                 saved data that does not follow the schema
     ├── CommandError                the command line was used in a way it does not know
     └── StoppedError                a person has stopped a command (Ctrl-C); what is done stays
@@ -30,7 +31,11 @@ This module imports nothing of rosbeat, so that every room of the house may rais
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from difflib import get_close_matches
+from functools import wraps
+from inspect import Parameter, signature
+from typing import Any, TypeVar, cast
 
 
 class RosbeatError(Exception):
@@ -137,6 +142,10 @@ class GradingError(RosbeatError):
     """Signal that submissions cannot be collected, graded or reported."""
 
 
+class CallError(RosbeatError):
+    """Signal that a function was called with arguments that it does not take, or without one."""
+
+
 class RecordError(RosbeatError):
     """Signal that saved data does not follow the schema of the records."""
 
@@ -147,3 +156,112 @@ class CommandError(RosbeatError):
 
 class StoppedError(RosbeatError):
     """Signal that somebody stopped a command; what it had finished by then is kept."""
+
+
+# Calls that do not fit the signature of the function.
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def called_as(example: str) -> Callable[[_Function], _Function]:
+    """Answer a call that does not fit a function's signature with a `CallError`.
+
+    Python's own `TypeError` names the inner function and comes with a stack of our frames. A
+    `TypeError` that the function itself raises passes unchanged.
+
+    Args:
+        example: A correct call, as a learner would write it: `ros.run(seconds=60)`.
+
+    Returns:
+        The decorator, which leaves the signature as it is.
+    """
+
+    def decorate(function: _Function) -> _Function:
+        @wraps(function)
+        def called(*values: Any, **named: Any) -> Any:  # noqa: ANN401 - the function's own
+            try:
+                return function(*values, **named)
+            except TypeError as error:
+                trace = error.__traceback__
+                # Python binds the arguments before there is a frame of the function.
+                if trace is None or trace.tb_next is not None:
+                    raise
+            raise _call_error(function, example, values, named)
+
+        return cast(_Function, called)
+
+    return decorate
+
+
+def _call_error(
+    function: Callable[..., Any], example: str, values: tuple[Any, ...], named: dict[str, Any]
+) -> CallError:
+    """Return the error for arguments that cannot be bound to the function's parameters."""
+    name = example.partition("(")[0]
+    takes = list(signature(function).parameters.values())
+    if takes and takes[0].name == "self":
+        takes, values = takes[1:], values[1:]
+    by_place = [one for one in takes if one.kind is Parameter.POSITIONAL_OR_KEYWORD]
+    known = [one.name for one in takes if one.kind is not Parameter.VAR_POSITIONAL]
+    missing = [
+        one.name
+        for one in by_place[len(values) :]
+        if one.default is Parameter.empty and one.name not in named
+    ]
+    unknown = [one for one in named if one not in known]
+    tips = [f"Write for example `{example}`."]
+    if len(values) > len(by_place) and len(known) == len(takes):
+        given = f"{len(values)} positional argument{'s' if len(values) > 1 else ''}"
+        what = f"`{name}` was given {given}, and takes {len(by_place) or 'none'}."
+        tips = _decimal_point(by_place, values) + tips
+    elif unknown:
+        what = f"`{name}` has no argument `{unknown[0]}`."
+        tips = [f"Did you mean `{one}`?" for one in get_close_matches(unknown[0], known, 1)] + tips
+    elif missing:
+        what = f"`{name}` was called without {_listed(missing)}."
+    else:
+        twice = [one.name for one in by_place[: len(values)] if one.name in named]
+        what = f"`{name}` was given {_listed(twice)} twice."
+    return CallError(what, _arguments(takes), " ".join(tips))
+
+
+def _arguments(takes: Sequence[Parameter]) -> str:
+    """Say which arguments a function takes, and which of them are optional."""
+    required: list[str] = []
+    optional: list[str] = []
+    by_name: list[str] = []
+    told = []
+    for one in takes:
+        if one.kind is Parameter.VAR_POSITIONAL:
+            told.append(f"It takes any number of `{one.name}`.")
+        elif one.kind is Parameter.KEYWORD_ONLY:
+            by_name.append(one.name)
+        else:
+            (required if one.default is Parameter.empty else optional).append(one.name)
+    if required:
+        told.insert(0, f"It needs {_listed(required)}.")
+    if optional:
+        told.append(f"{_listed(optional)} {_be(optional)} optional.")
+    if by_name:
+        told.append(
+            f"{_listed(by_name)} {_be(by_name)} optional, and {_be(by_name)} given by name."
+        )
+    return " ".join(told) or "It takes no arguments."
+
+
+def _decimal_point(takes: Sequence[Parameter], values: Sequence[object]) -> list[str]:
+    """Return advice for `0,5` in the place of `0.5`, which is two whole numbers to Python."""
+    for one, whole, part in zip(takes, values, values[1:], strict=False):
+        numbers = type(whole) is int and type(part) is int and part >= 0
+        if numbers and ("float" in str(one.annotation) or one.annotation == "object"):
+            return [f"If you mean one number, write a decimal point: `{whole}.{part}`."]
+    return []
+
+
+def _be(names: Sequence[str]) -> str:
+    return "is" if len(names) == 1 else "are"
+
+
+def _listed(names: Sequence[str]) -> str:
+    *first, last = [f"`{name}`" for name in names]
+    return f"{', '.join(first)} and {last}" if first else last

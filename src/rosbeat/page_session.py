@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from rosbeat.diagnosis.silence import Explanation
 from rosbeat.diagnosis.silence import explain as explain_scene
+from rosbeat.errors import called_as
 from rosbeat.ros import session
 from rosbeat.ros.context import show_briefly
 from rosbeat.ros.errors import duration_ns
@@ -48,6 +49,7 @@ class Session(session.Session):
         DomainsExhaustedError: If no private domain id is left on this machine.
     """
 
+    @called_as('ros.explain("temperature")')
     def explain(self, topic: str, *, seconds: float = 3.0) -> Explanation:
         """Say why nothing arrives on a topic, or that all is well, with the rate.
 
@@ -78,6 +80,7 @@ class Session(session.Session):
             show_briefly(interrupt, "you stopped the looking; the session goes on.")
             raise
 
+    @called_as("ros.panel()")
     def panel(self) -> Panel:
         """Open the instrument panel: what the live nodes do, and controls to disturb them.
 

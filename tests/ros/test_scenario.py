@@ -1,14 +1,16 @@
 import os
+import re
 import signal
 import sys
 import threading
 import time
+from functools import partial
 
 import pytest
 import rclpy
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
-from std_msgs.msg import Float32
+from std_msgs.msg import Float32, Int32
 
 import nasty  # answers that go wrong in every way
 from rosbeat.records import QoS
@@ -22,6 +24,36 @@ class Echo(Node):
         super().__init__("echo")
         self.heard = self.create_publisher(Float32, "echo", 10)
         self.create_subscription(Float32, "in", self.heard.publish, 10)
+
+
+class MakesAnew(Node):
+    """Makes something at each call, or without end in one."""
+
+    def __init__(self, make, endless=False):
+        super().__init__("maker")
+        self.make, self.endless = make, endless
+        self.create_timer(0.001, self.tick)
+
+    def tick(self):
+        self.make(self)
+        while self.endless:
+            self.make(self)
+
+
+@pytest.mark.parametrize(("what", "make"), [
+    ("publishers on /level", lambda self: self.create_publisher(Int32, "level", 10)),
+    ("subscriptions to /level", lambda self: self.create_subscription(Int32, "level", print, 10)),
+    ("timers", lambda self: self.create_timer(0.001, self.tick)),
+])  # fmt: skip
+def test_what_is_made_at_each_call_is_told_from_a_callback_that_does_not_return(what, make):
+    fault = observe(partial(MakesAnew, make), 10_000, deadline=1.5).faults[-1]
+    assert (fault.kind, fault.callback) == ("DeadlinePassed", "tick")
+    assert re.fullmatch(rf"\d+ {what} in \d+ calls", fault.text)
+
+
+def test_what_is_made_without_end_in_one_call_is_a_callback_that_does_not_return():
+    make = partial(MakesAnew, lambda self: self.create_publisher(Int32, "level", 10), True)
+    assert observe(make, 10, deadline=0.8).faults[-1].text == "still running after 0.8 s"
 
 
 def test_a_feeder_publishes_one_value_a_second_and_then_falls_silent():

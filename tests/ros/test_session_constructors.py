@@ -1,11 +1,13 @@
 """Nodes whose constructor fails, and what is no node at all."""
 
+from functools import partial
+
 import pytest
 import rclpy
 from rclpy.node import Node
-from std_msgs.msg import String
+from std_msgs.msg import Int32, String
 
-from nodes import Speaker, Talker
+from nodes import Listener, Speaker, Talker, Words
 from rosbeat import Session
 from rosbeat.errors import NodeClassError, NodeConstructionError
 
@@ -165,3 +167,51 @@ def test_an_error_that_misleads_is_translated(ros, says):
         ros.add(Swapped)
     says(caught.value, "create_publisher got a text in the place of the message type")
     assert "Invoked with" not in str(caught.value)
+
+
+# What the middleware prints by itself.
+
+
+class Both(Node):
+    def __init__(self, first):
+        super().__init__("both")
+        if first == "publisher":
+            self.create_publisher(Int32, "count", 10)
+        else:
+            self.create_subscription(Int32, "count", print, 10)
+        self.create_subscription(String, "count", print, 10)
+
+
+@pytest.mark.parametrize("first", ["publisher", "subscription"])
+def test_a_second_type_on_a_topic_is_refused_and_nothing_is_on_stderr(ros, says, capfd, first):
+    with pytest.raises(NodeConstructionError) as caught:
+        ros.add(partial(Both, first))
+    says(
+        caught.value,
+        "existing topic name rt/count with incompatible type std_msgs::msg::dds_::String_",
+        "The topic exists already, with another message type.",
+    )
+    assert capfd.readouterr().err == ""
+
+
+def test_a_subscription_to_the_topic_of_another_node_is_refused_until_that_is_gone(
+    ros, says, capfd
+):
+    words = ros.add(partial(Words, topic="count"))
+    with pytest.raises(NodeConstructionError) as caught:
+        ros.add(Listener)
+    says(caught.value, "with incompatible type std_msgs::msg::dds_::Int32_")
+    assert capfd.readouterr().err == ""
+    ros.remove(words)
+    ros.add(Listener)
+
+
+def test_a_node_name_with_a_space_prints_nothing_on_stderr(ros, says, capfd):
+    class Spaced(Node):
+        def __init__(self):
+            super().__init__("bad name")
+
+    with pytest.raises(NodeConstructionError) as caught:
+        ros.add(Spaced)
+    says(caught.value, "ROS does not allow the name 'bad name'")
+    assert capfd.readouterr().err == ""

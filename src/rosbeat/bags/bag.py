@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rosbeat.bags import bag_words, reading, refusals
 from rosbeat.bags.sources import full_name, place
+from rosbeat.errors import called_as
 from rosbeat.records import (
     NANOSECONDS,
     Endpoint,
@@ -39,6 +40,7 @@ class Bag:
         BagError: If there is no bag at that path, or it is damaged.
     """
 
+    @called_as('bags.Bag("first_run")')
     def __init__(self, folder: str | Path) -> None:
         self.folder = place(folder)
         self._contents = reading.contents(self.folder)
@@ -93,6 +95,7 @@ class Bag:
         """
         return self._length_ns / NANOSECONDS
 
+    @called_as('bag.messages("temperature")')
     def messages(self, topic: str) -> tuple[Sample, ...]:
         """Return the messages on a topic, in order.
 

@@ -14,12 +14,14 @@ from random import Random
 from rosbeat.bags import refusals
 from rosbeat.bags.injecting import InjectedFault, fault
 from rosbeat.bags.numbers import changed
+from rosbeat.errors import called_as
 from rosbeat.records import NANOSECONDS, Sample
 
 #: From when (included) to when (not included), in seconds.
 Span = tuple[float, float]
 
 
+@called_as("bags.stuck(at=20)")
 def stuck(
     at: float = 0, seconds: float | None = None, *, topic: str | None = None
 ) -> InjectedFault:
@@ -45,6 +47,7 @@ def stuck(
     return fault(f"stuck {_words(at, seconds)}", topic, lambda samples: list(change(samples)))
 
 
+@called_as("bags.drift(rate=0.1)")
 def drift(
     rate: float, *, at: float = 0, topic: str | None = None, field: str | None = None
 ) -> InjectedFault:
@@ -72,6 +75,7 @@ def drift(
     )
 
 
+@called_as("bags.dropouts(share=0.2)")
 def dropouts(
     share: float = 0,
     spans: Iterable[Span] = (),
@@ -103,6 +107,7 @@ def dropouts(
     return fault(", ".join(words), topic, change)
 
 
+@called_as("bags.with_nan(at=20)")
 def with_nan(
     at: float = 0,
     seconds: float | None = 0,
@@ -137,6 +142,7 @@ def with_nan(
     return fault(words, topic, change)
 
 
+@called_as("bags.spikes(share=0.1, size=5)")
 def spikes(
     share: float,
     size: float,
@@ -173,6 +179,7 @@ def spikes(
     )
 
 
+@called_as("bags.delayed(seconds=0.5)")
 def delayed(
     seconds: float, *, jitter: float = 0, seed: int = 0, topic: str | None = None
 ) -> InjectedFault:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from rosbeat.bags import refusals
 from rosbeat.bags.sources import Observer, full_name, observed
+from rosbeat.errors import called_as
 from rosbeat.records import Observation, Sample
 
 #: What a fault does to the messages of one topic. Messages that are not there were lost; those in
@@ -58,6 +59,7 @@ def fault(words: str, topic: str | None, change: Change) -> InjectedFault:
     return InjectedFault(words, full_name(topic) if topic is not None else "", change)
 
 
+@called_as("bags.inject(bag, bags.stuck(at=20))")
 def inject(
     source: Observation | Observer | Iterable[Sample], *faults: Change
 ) -> tuple[Sample, ...]:

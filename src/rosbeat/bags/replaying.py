@@ -12,10 +12,12 @@ from rosbeat.bags.reading import UNKNOWN
 from rosbeat.bags.sources import Run, chosen, full_name, observed, types_of
 from rosbeat.bags.types import installed_types
 from rosbeat.bags.writing import wires
+from rosbeat.errors import called_as
 from rosbeat.records import Observation, QoS, Sample
 from rosbeat.ros.playback import NodeFactory, PlayedStep, PlayedTopic, player
 
 
+@called_as("bags.replay(bag)")
 def replay(
     source: Run,
     *,

@@ -22,6 +22,7 @@ from rosbeat.bags.notes import notes_of
 from rosbeat.bags.plain import to_wire
 from rosbeat.bags.sources import Run, chosen, observed, place, types_of
 from rosbeat.bags.types import installed_types
+from rosbeat.errors import called_as
 from rosbeat.records import Observation, Sample
 
 _STORAGES = {"mcap": StoragePlugin.MCAP, "sqlite3": StoragePlugin.SQLITE3}
@@ -31,6 +32,7 @@ _DATA = "messages"
 MISFITS = (ValueError, TypeError, ArithmeticError, struct.error)
 
 
+@called_as('bags.record(ros, "first_run")')
 def record(
     source: Run,
     folder: str | Path,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rosbeat.diagnosis.mistakes import mistake
+from rosbeat.errors import called_as
 
 #: More than ever occur.
 KNOWN = (
@@ -14,6 +15,7 @@ KNOWN = (
 )
 
 
+@called_as("clinic.names()")
 def names() -> dict[str, str]:
     """Return the meaning of every diagnosis by its id, including diagnoses that never occur."""
     return {name: mistake(name).title for name in KNOWN}

@@ -9,7 +9,7 @@ from rosbeat.clinic.cases import CASES, HEARD, PAIR, SILENT, Ill
 from rosbeat.clinic.charts import Chart
 from rosbeat.clinic.houses import PLACES
 from rosbeat.clinic.patients import Patient, examined
-from rosbeat.errors import ExerciseError
+from rosbeat.errors import ExerciseError, called_as
 
 #: How many patients of each level there are, in this order.
 _BEDS = ((SILENT, 4), (HEARD, 4), (PAIR, 3))
@@ -28,6 +28,7 @@ class Ward:
         ExerciseError: If the seed is not an integer from 0 to 2**32 - 1.
     """
 
+    @called_as("clinic.Ward(seed=7)")
     def __init__(self, seed: int = 7) -> None:
         if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**32:
             raise ExerciseError(
@@ -44,6 +45,7 @@ class Ward:
         places = [f"  {at}: {ill.plan.place}" for at, ill in enumerate(self._ill, 1)]
         return "\n".join([f"Ward {self.seed}, {len(self)} patients", *places])
 
+    @called_as("ward.patient(1)")
     def patient(self, number: int) -> Patient:
         """Return one patient, with a new session.
 
@@ -55,6 +57,7 @@ class Ward:
         """
         return Patient(number, self._at(number), self.seed)
 
+    @called_as("ward.chart(1)")
     def chart(self, number: int) -> Chart:
         """Return the chart of one patient, including the correct diagnoses.
 

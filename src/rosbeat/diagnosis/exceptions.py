@@ -289,7 +289,19 @@ _SET_UP = (
 )
 
 
+_ONCE = (
+    "A node makes its publishers, subscriptions and timers once, in the constructor, and keeps "
+    "them in self. A callback only uses them."
+)
+
+
 def _stuck(fault: Fault) -> Meaning:
+    anew = re.match(r"(\d+ (?:publishers|subscriptions|timers)\b.*) in (\d+) calls$", fault.text)
+    if anew:
+        means = (
+            f"{fault.callback} made {anew[1]} in {anew[2]} calls, and each one slows the node down."
+        )
+        return Meaning("made-anew", means, _ONCE)
     waits = re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
     loops = re.match(r"(while|for)\b", fault.code) is not None
     if fault.callback == "__init__":
@@ -679,6 +691,48 @@ _QOS_RULES: tuple[Rule, ...] = (
 )
 
 
+# Decimal numbers with a comma.
+
+#: Two numbers with nothing but a comma between them, and neither is a part of another word.
+_COMMA = re.compile(r"(?<![\w.,'\"])(\d+),(\d+)(?![\w.'\"]|,\d)")
+_TOO_MANY = (
+    r"\) takes (?:from |at most |exactly )?\d.* (?:but \d|\(\d+ given)|expected at most \d+ arg"
+    r"|parameters list is not a ParameterDescriptor"
+)
+
+
+def _decimal_comma(fault: Fault) -> Meaning | None:
+    """Recognise `sleep(0,5)` in the place of `sleep(0.5)`, which hands over two numbers."""
+    found, call = _COMMA.search(fault.code), fault.asked
+    timer = call is not None and call.method == "create_timer" and len(call.given) > 2
+    other = re.search(rf"\b(?:{_MESSAGE}|create_publisher|create_subscription)\(", fault.code)
+    if not found or other or not (timer or matched(fault, _TOO_MANY)):
+        return None
+    return Meaning(
+        "wrong-argument",
+        f"{found[0]} is not one number in Python, but two arguments: {found[1]} and {found[2]}.",
+        f"A decimal number is written with a point: {found[1]}.{found[2]}.",
+    )
+
+
+_NO_COMMA = (
+    "Where does it get its value? In Python 22,5 is a tuple of two numbers; the decimal number is "
+    "written with a point: 22.5."
+)
+_COMMA_RULES: tuple[Rule, ...] = (
+    _decimal_comma,
+    Row(
+        "decimal-comma",
+        r"can only concatenate tuple \(not \"(?:float|int)\"\)"
+        r"|(?:of|for) .*'(?:float|int)' and 'tuple'|(?:of|for) .*'tuple' and '(?:float|int)'"
+        r"|real number, not '?tuple|passed to tuple\.__format__|type tuple doesn't define __round__"
+        r"|bad operand type for abs\(\): 'tuple'",
+        "A tuple, which is several values, stands where a number belongs.",
+        _NO_COMMA,
+    ),
+)
+
+
 # Messages and their fields.
 
 _SHOW = "`ros2 interface show std_msgs/msg/{1}` in a terminal lists what a {1} has."
@@ -713,6 +767,7 @@ def _field_of_another_type(fault: Fault) -> Meaning | None:
         others = {
             "message": ("message-for-value", _ENVELOPE),
             "NoneType": ("none-used", _NO_RETURN),
+            "tuple": (mistake, _NO_COMMA if wanted == "float" else to_try),
         }
         mistake, to_try = others.get(given.kind, (mistake, to_try))
     else:
@@ -1118,6 +1173,7 @@ _VALUE_RULES: tuple[Rule, ...] = (
 )
 
 _RULES: tuple[Rule, ...] = (
+    *_COMMA_RULES,
     *_NODE_RULES,
     *_CALL_RULES,
     *_ANSWER_RULES,

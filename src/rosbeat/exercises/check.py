@@ -8,7 +8,7 @@ from typing import Any
 
 from IPython.display import display
 
-from rosbeat.errors import ExerciseError
+from rosbeat.errors import ExerciseError, called_as
 from rosbeat.exercises.cards import Shown
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
@@ -24,6 +24,7 @@ from rosbeat.workspace import graded_runs
 _NOTHING = object()
 
 
+@called_as('check("03a", HumiditySensor)')
 def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
     """Run the answer to an exercise and say what is right or what is missing.
 

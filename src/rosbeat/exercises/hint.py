@@ -7,6 +7,7 @@ from importlib.resources import files
 from textwrap import indent
 
 from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.errors import called_as
 from rosbeat.exercises.cards import HELP, code, framed, words
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.progress import Standing, progress_file
@@ -85,6 +86,7 @@ class Hint:
         return {"text/plain": str(self), "text/html": self.html()}
 
 
+@called_as('hint("03a")')
 def hint(exercise: str = "", *, again: bool = False) -> Hint:
     """Show one hint more at each call, and at last the answer.
 

@@ -19,8 +19,10 @@ from rosbeat.exercises.scenarios import (
     CommandMeaning,
     TypedIn,
     Workspace,
+    leave_first,
     look_at_terminal,
     look_at_workspace,
+    terminal_folders,
     typed_about,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
@@ -71,6 +73,7 @@ class FolderMaking:
             Empty where a page has no terminals.
         meaning: What the last of these lines has led to, if it is a known mistake.
         outside: A line that makes such a folder, in a cell that is run by no terminal.
+        standing: The folders that the terminals of the page are in.
     """
 
     workspace: Workspace
@@ -79,6 +82,7 @@ class FolderMaking:
     tried: tuple[tuple[str, str], ...] = ()
     meaning: CommandMeaning | None = None
     outside: str = ""
+    standing: tuple[str, ...] = ()
 
 
 #: This module is imported by the first cell of a page.
@@ -94,7 +98,8 @@ def _look_at_making(answer: Answer) -> FolderMaking:
         obstacle = "behind a link"
     is_older = place.is_dir() and place.stat().st_mtime < _PAGE_BEGAN
     outside = "" if tried else _typed_outside()
-    return FolderMaking(found, obstacle, is_older, tried, meaning, outside)
+    standing = terminal_folders(root)
+    return FolderMaking(found, obstacle, is_older, tried, meaning, outside, standing)
 
 
 def _typed_outside() -> str:
@@ -242,7 +247,7 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
     # Only what a suspect makes counts: a workspace keeps what was tried before, too.
     fit = [one for one in _SUSPECTS if near in one.model(None) and one.model(None).keys() <= there]
     found = name_mistake(fit[:1], Diagnosis(*_of_spelling(near, evidence)))
-    return Diagnosis(found.mistake, evidence, found.hint + _advice_to_remove(there, seen.workspace))
+    return Diagnosis(found.mistake, evidence, found.hint + _advice_to_remove(there, seen))
 
 
 def _of_spelling(near: str, evidence: str) -> tuple[str, str, str]:
@@ -266,10 +271,10 @@ def _nearness(folder: str) -> tuple[int, bool, int, str]:
     return close, _letters(folder) == _letters(_ALARM), folder.count("/"), folder
 
 
-def _advice_to_remove(near: set[str], seen: Workspace) -> str:
+def _advice_to_remove(near: set[str], seen: FolderMaking) -> str:
     """Return how to remove folders that lead nowhere; none of the page's, nor a package's."""
     known = (*FOLDERS, "resources", _RUNS_THROUGH)
-    packages = [f"{package.folder.as_posix()}/" for package in seen.packages.values()]
+    packages = [f"{package.folder.as_posix()}/" for package in seen.workspace.packages.values()]
     astray = set()
     for folder in near:
         names = folder.split("/")
@@ -282,9 +287,10 @@ def _advice_to_remove(near: set[str], seen: Workspace) -> str:
     if not astray:
         return ""
     listed = " and ".join(said for _, said in sorted(astray))
+    leave = next(filter(None, (leave_first(one, seen.standing) for one, _ in sorted(astray))), "")
     return (
-        f" You do not need {listed}: `rmdir` removes an empty folder, and `rm -r` one with all "
-        "that is in it."
+        f" {leave}You do not need {listed}: `rmdir` removes an empty folder, and `rm -r` one with "
+        "all that is in it."
     )
 
 

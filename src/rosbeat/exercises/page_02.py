@@ -18,7 +18,9 @@ from rosbeat.exercises.scenarios import (
     Answer,
     CommandMeaning,
     Workspace,
+    leave_first,
     look_at_workspace,
+    terminal_folders,
     typed_about,
 )
 from rosbeat.exercises.workspace_model import alike, diagnosis_of
@@ -205,17 +207,20 @@ class PackageMaking:
         workspace: What is in the workspace.
         tried: The last line that was to make a package; empty where a page has no terminals.
         meaning: What that line has led to, if it is a known mistake.
+        standing: The folders that the terminals of the page are in.
     """
 
     workspace: Workspace
     tried: str = ""
     meaning: CommandMeaning | None = None
+    standing: tuple[str, ...] = ()
 
 
 def _look_at_package_making(answer: Answer) -> PackageMaking:
     found = look_at_workspace(answer)
     typed, meaning = typed_about(Path(answer), lambda line: bool(_CREATES.search(line)))
-    return PackageMaking(found, typed[-1][1] if typed else "", meaning)
+    standing = terminal_folders(Path(answer))
+    return PackageMaking(found, typed[-1][1] if typed else "", meaning, standing)
 
 
 _CREATES = re.compile(r"\bpkg\s+create\b")
@@ -224,7 +229,7 @@ _CREATES = re.compile(r"\bpkg\s+create\b")
 def _judge_second(made: PackageMaking) -> Verdict:
     seen = made.workspace
     package = seen.packages.get(_SECOND)
-    slips = _slips_of_absence(seen) if package is None else _slips_of_package(seen, package)
+    slips = _slips_of_absence(made) if package is None else _slips_of_package(made, package)
     slip = next(slips, None)
     if slip:
         return slip
@@ -243,45 +248,50 @@ def _nothing_made(tried: str) -> Verdict:
     )
 
 
-def _misplaced(place: str) -> Diagnosis:
+def _misplaced(place: str, folder: str, standing: tuple[str, ...]) -> Diagnosis:
     return Diagnosis(
         "wrong-folder",
         f"{_SECOND} lies in {place}, and packages belong in src.",
-        "Remove it there (rm -r), go to src with cd, and make it again.",
+        f"{leave_first(folder, standing)}Remove it there (rm -r), go to src with cd, and make it "
+        "again.",
     )
 
 
-def _slips_of_absence(seen: Workspace) -> Iterator[Diagnosis]:
+def _slips_of_absence(made: PackageMaking) -> Iterator[Diagnosis]:
     """Generate what is there if the package is not: only its folder, or one nearly so called."""
+    seen = made.workspace
     inside = [one for one in seen.folders if one.rpartition("/")[2] == _SECOND]
     packages = [f"{one.folder.as_posix()}/" for one in seen.packages.values()]
     for folder in inside:
         place = folder.rpartition("/")[0]
         if place and any(f"{place}/".startswith(package) for package in packages):
-            yield _misplaced(place)
+            yield _misplaced(place, folder, made.standing)
     if inside:
         yield Diagnosis(
             "no-manifest",
             f"There is a folder {inside[0]}, and no package.xml in it.",
-            "`ros2 pkg create` makes the folder and all that belongs in it. Remove the folder "
-            "first: `rmdir` removes an empty one.",
+            "`ros2 pkg create` makes the folder and all that belongs in it. "
+            f"{leave_first(inside[0], made.standing)}Remove the folder first: `rmdir` removes an "
+            "empty one.",
         )
-    for name in seen.packages:
+    for name, package in seen.packages.items():
         if alike(name, _SECOND) and name != _FIRST:
             yield Diagnosis(
                 "package-misspelled",
                 f"There is a package {name}, and none called {_SECOND}.",
-                f"Names count letter by letter. Remove the folder (rm -r) of {name}, and make it "
-                "again.",
+                "Names count letter by letter. "
+                f"{leave_first(package.folder.as_posix(), made.standing)}Remove the folder (rm -r) "
+                f"of {name}, and make it again.",
             )
 
 
-def _slips_of_package(seen: Workspace, package: Package) -> Iterator[Diagnosis]:
+def _slips_of_package(made: PackageMaking, package: Package) -> Iterator[Diagnosis]:
     """Generate what is wrong with the package that is there."""
-    place, manifest = seen.place_of(_SECOND), package.manifest
-    again = f"Remove the folder (rm -r src/{_SECOND}) and make the package again, with "
+    place, manifest = made.workspace.place_of(_SECOND), package.manifest
+    leave = leave_first(f"src/{_SECOND}", made.standing)
+    again = f"{leave}Remove the folder (rm -r src/{_SECOND}) and make the package again, with "
     if place:
-        yield _misplaced(place)
+        yield _misplaced(place, package.folder.as_posix(), made.standing)
     yield from _slips_of_form(manifest, f"src/{_SECOND}/package.xml")
     if manifest.build_type != "ament_python":
         kind = manifest.build_type or "of an unknown kind"

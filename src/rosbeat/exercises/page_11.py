@@ -217,7 +217,7 @@ _RAISED = (
     ("ZeroDivisionError", "", "division-by-zero", "By what do you divide, and when is that 0?"),
     ("IndexError", "", "index-error",
      "Some bags hold only a few messages. How long is your list there?"),
-    ("TypeError", "argument: 'topic'", "argument-missing",
+    ("CallError", "without `topic`", "argument-missing",
      "A bag may hold several topics. How does the cell above ask for one of them?"),
     ("TypeError", "0 positional arguments", "argument-missing",
      "The check hands a bag over. Does the first line of your function have a name for it?"),

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from math import isclose, isnan
 from numbers import Real
 
+from rosbeat.errors import called_as
 from rosbeat.exercises.cards import OPEN, RIGHT, WRONG, framed, words
 
 # The one number, range, or yes or no, that a text says: `about 26`, `20-30`, `No, it does not`.
@@ -308,6 +309,7 @@ class Prediction:
         return {"text/plain": str(self), "text/html": self.html()}
 
 
+@called_as('predict("20-30", reading)')
 def predict(
     guess: object, happened: object, *, tolerance: float = 0.0, because: str = ""
 ) -> Prediction:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 from msgspec import Meta
 
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.errors import RecordError
+from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.registry import PAGES, Page
@@ -209,6 +209,7 @@ def _free_name(path: Path) -> Path:
 # `progress`: how far somebody is with the course, as a picture for the end of a page.
 
 
+@called_as("progress()")
 def progress() -> Picture:
     """Draw how far you are: every exercise of the course so far, page by page.
 

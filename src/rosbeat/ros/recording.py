@@ -12,6 +12,7 @@ import sys
 from array import array
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache, partial, wraps
 from importlib import import_module
@@ -23,7 +24,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from rclpy.clock import Clock
 from rclpy.duration import Duration
-from rclpy.exceptions import InvalidHandle, NotInitializedException
+from rclpy.exceptions import (
+    InvalidHandle,
+    InvalidTopicNameException,
+    NotInitializedException,
+)
 from rclpy.impl import rcutils_logger
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -38,6 +43,7 @@ from rclpy.qos import (
 )
 from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.utilities import get_default_context
+from rclpy.validate_node_name import validate_node_name
 
 from rosbeat.errors import NoSessionError, SessionError
 from rosbeat.records import CallbackRecord, Fault, LogRecord, Sample
@@ -505,6 +511,8 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
             if watcher is None or not isinstance(name, str) or isinstance(node, Unwatched):
                 _make_alone(partial(original, node, *args, **kwargs))
                 return
+            # For a wrong name rclpy raises the same, and warns on stderr of a failed cleanup.
+            validate_node_name(name)
             start, said = watcher.start, list(kwargs.get("cli_args") or ())
             if hasattr(context, "home") and context.ok():  # a program's: see `ProgramContext`
                 kwargs["context"] = context.home
@@ -547,6 +555,8 @@ def _watch_entity(original: Callable[..., Any], kind: str) -> Callable[..., Any]
                 return original(node, *args, **kwargs)
             _refuse_a_message(original.__name__, kwargs.get("msg_type", args[0] if args else None))
             watcher.entity_begins(node)
+            if kind == "subscription":
+                _refuse_second_type(node, watcher, *args, **kwargs)
             if watcher.counts_limits:
                 entity = make_stretched(partial(original, node), kind, args, kwargs)
             else:
@@ -566,6 +576,37 @@ def _refuse_a_message(call: str, kind: object) -> None:
             "rclpy notices nothing yet, and fails when the first message is to be sent.",
             "Hand over the class itself: nothing is sent at this line.",
         )
+
+
+def _refuse_second_type(
+    node: Node,
+    watcher: Watcher,
+    msg_type: object = None,
+    topic: object = None,
+    *_: object,
+    **__: object,
+) -> None:
+    """Refuse a subscription to a topic that a node of the session uses with another type.
+
+    The middleware would refuse it as well, and rcl would then fail to clean up: it prints ten lines
+    on file descriptor 2 and loses the reason.
+
+    Raises:
+        RCLError: As for a publisher, where the reason is not lost.
+    """
+    if not (isinstance(msg_type, type) and is_message_class(msg_type) and isinstance(topic, str)):
+        return  # rclpy says so itself
+    with suppress(InvalidTopicNameException):
+        topic = node.resolve_topic_name(topic)
+    for state in watcher.states():
+        for end in (*state.node.publishers, *state.node.subscriptions):
+            if end.topic_name == topic and end.msg_type is not msg_type:
+                package = msg_type.__module__.partition(".")[0]
+                raise rclpy_implementation.RCLError(
+                    "Failed to create subscription: create_subscription() called for existing "
+                    f"topic name rt{topic} with incompatible type "
+                    f"{package}::msg::dds_::{msg_type.__name__}_"
+                )
 
 
 def _install() -> None:

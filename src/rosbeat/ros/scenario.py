@@ -328,6 +328,8 @@ _TO_TIDY = 1.0
 #: Records of one kind in an observation, and in one that was broken off: a callback may publish or
 #: log without end.
 MOST_RECORDS, MOST_OF_BROKEN_OFF = 100_000, 2_000
+#: As many publishers on one topic, or timers, are made by a callback that makes one at each call.
+_MANY = 20
 #: Nodes in a system; a longer list is taken for a mistake.
 MOST_NODES = 30
 
@@ -493,6 +495,8 @@ class _Run:
         if deadline.passed:
             callback, known = self._expired
             text = f"still running after {deadline.seconds:g} s"
+            with Deadline(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
+                text = self._made_anew(*callback) or text
             now = self._world.now()
             # What was raised after the deadline was raised because of it.
             faults[known:] = [Fault(now, *callback, "DeadlinePassed", text, *deadline.place)]
@@ -514,6 +518,19 @@ class _Run:
             tuple(self._steps.replies),
             self._world.virtual.all_waits()[:most],
         )
+
+    def _made_anew(self, node: str, callback: str) -> str:
+        """Return what a callback has made call after call, until all was slow; or an empty text."""
+        calls = [one for one in self._world.recorder.callbacks()
+                 if (one.node, one.name) == (node, callback)]  # fmt: skip
+        state = self._world.named(node)
+        if state is None or len(calls) < _MANY:  # else it has made them in one call
+            return ""
+        made = Counter(f"publishers on {one.topic_name}" for one in state.node.publishers)
+        made.update(f"subscriptions to {one.topic_name}" for one in state.node.subscriptions)
+        made["timers"] = len(list(state.node.timers))
+        what, count = made.most_common(1)[0]
+        return f"{count} {what} in {len(calls)} calls" if count >= _MANY else ""
 
     def close(self) -> None:
         """End the session, whatever the nodes do against it."""

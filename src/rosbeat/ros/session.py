@@ -10,7 +10,7 @@ from weakref import finalize
 
 from rclpy.node import Node
 
-from rosbeat.errors import SessionError
+from rosbeat.errors import SessionError, called_as
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros import spinning
 from rosbeat.ros.context import install_learner_calls, show_briefly
@@ -49,6 +49,7 @@ class Session:
     The pages' own `Session` is a subclass; see `rosbeat.page_session`, also for the arguments.
     """
 
+    @called_as("Session(seed=7)")
     def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
         check_whole("seed", seed, 0, 2**63)
         if domain_id is not None:
@@ -101,6 +102,7 @@ class Session:
     def add(self, node: SomeNode, /) -> SomeNode: ...
     @overload
     def add(self, *nodes: object, threads: int = 1) -> tuple[Node, ...]: ...
+    @called_as("ros.add(TemperatureSensor)")
     def add(
         self,
         *nodes: Any,
@@ -178,6 +180,7 @@ class Session:
                 self._world.makers[node] = Maker(maker, start)
         return made
 
+    @called_as('ros.spawn("sensor.py")')
     def spawn(self, program: Any, *arguments: str) -> SimulatedProgram:  # noqa: ANN401 - unchecked input
         """Start a program: a Python file with a function `main`, run unchanged in virtual time.
 
@@ -205,6 +208,7 @@ class Session:
             made.start()
         return made
 
+    @called_as('ros.remove("sensor")')
     def remove(self, node: Node | str) -> None:
         """Destroy a node, given itself or by name.
 
@@ -214,6 +218,7 @@ class Session:
         self._check_open()
         self._world.destroy(find(self._world, node))
 
+    @called_as('ros.pause("sensor")')
     def pause(self, node: Node | str) -> None:
         """Run no callbacks of a node, given itself or by name, as if it were busy.
 
@@ -227,6 +232,7 @@ class Session:
         self._world.pause_node(state)
         state.paused = True
 
+    @called_as('ros.resume("sensor")')
     def resume(self, node: Node | str) -> None:
         """Run the callbacks of a paused node, given itself or by name, again.
 
@@ -243,6 +249,7 @@ class Session:
 
     # Time.
 
+    @called_as("ros.run(seconds=60)")
     def run(self, seconds: float, *, quiet: bool = False) -> None:
         """Advance virtual time and run every callback that is due.
 
@@ -271,6 +278,7 @@ class Session:
             finally:
                 self._world.console.end()
 
+    @called_as("ros.start()")
     def start(self) -> None:
         """Go live: run the nodes against the wall clock, in a background thread.
 
@@ -285,6 +293,7 @@ class Session:
         if not self.is_live:
             self._world.go_live()
 
+    @called_as("ros.wait(seconds=5)")
     def wait(
         self, seconds: float | None = None, *, until: Callable[[], object] | None = None
     ) -> bool:
@@ -323,6 +332,7 @@ class Session:
             self._world.show_news()
             self._world.console.end()
 
+    @called_as('ros.wait_for_nodes("sensor")')
     def wait_for_nodes(self, *names: str, timeout: float = 10.0) -> None:
         """Wait until nodes are in the graph, those of other processes too, as a terminal's.
 
@@ -342,6 +352,7 @@ class Session:
         seconds = duration_ns(timeout, "wait_for_nodes(timeout=...)") / 1e9
         wait_for_nodes(self._world, wanted, seconds)
 
+    @called_as("ros.stop()")
     def stop(self) -> None:
         """End live mode; virtual time goes on from here. Does nothing if the session is not live.
 
@@ -355,12 +366,14 @@ class Session:
         self._world.go_virtual()
         self._world.show_news()
 
+    @called_as("ros.close()")
     def close(self) -> None:
         """End the session: destroy its nodes and its ROS context. A second call does nothing."""
         self._finalizer()
 
     # What happened.
 
+    @called_as('ros.messages("temperature")')
     def messages(self, topic: str) -> tuple[Sample, ...]:
         """Return what was published on a topic, in order.
 
@@ -382,6 +395,7 @@ class Session:
             raise unknown_topic(name, known, self._world.graph())
         return tuple(self._world.recorder.samples(name))
 
+    @called_as('ros.logs("sensor")')
     def logs(self, node: Node | str | None = None) -> tuple[LogRecord, ...]:
         """Return what the nodes said, in order.
 
@@ -401,6 +415,7 @@ class Session:
         wanted = name.strip("/").replace("/", ".")
         return tuple(record for record in records if record.name == wanted)
 
+    @called_as("ros.graph()")
     def graph(self) -> GraphSnapshot:
         """Return the nodes, topics, services and timers as they are now, or were at the end.
 
@@ -410,6 +425,7 @@ class Session:
         self._world.show_faults()
         return self._world.graph()
 
+    @called_as("ros.observation()")
     def observation(self) -> Observation:
         """Return everything that was recorded so far, as plain data.
 

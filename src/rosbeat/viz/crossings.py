@@ -9,7 +9,7 @@ from typing import Any
 
 from matplotlib.path import Path
 
-from rosbeat.errors import PictureError
+from rosbeat.errors import PictureError, called_as
 from rosbeat.records import NANOSECONDS, LogRecord
 from rosbeat.viz import theme
 from rosbeat.viz.canvas import Canvas, Entry, Stroke, blank, lane_scale, line_height, text_width
@@ -166,6 +166,7 @@ def _links(here: Sequence[Line], there: Sequence[Line]) -> dict[int, int]:
 # The picture.
 
 
+@called_as("viz.crossing(sent, received)")
 def crossing(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Picture:
     """Draw which messages crossed from one process to another, from what both have logged.
 

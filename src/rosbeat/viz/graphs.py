@@ -15,7 +15,7 @@ from typing import Any
 from matplotlib.patches import Ellipse, FancyBboxPatch, Patch
 
 from rosbeat.diagnosis.silence import LINK, NEAR, NODE, TOPIC, TWINS, Explanation, Mark
-from rosbeat.errors import PictureError
+from rosbeat.errors import PictureError, called_as
 from rosbeat.records import GraphSnapshot
 from rosbeat.viz import sources, theme
 from rosbeat.viz.canvas import (
@@ -253,6 +253,7 @@ def _say_mark(mark: Mark) -> str:
 # The picture.
 
 
+@called_as("viz.graph(ros)")
 def graph(
     source: sources.Observed | GraphSnapshot | Explanation,
     highlight: str | Iterable[str] = (),
@@ -292,10 +293,11 @@ def graph(
             "The graph was taken before a node was added, or all of its nodes are hidden.",
             "Add a node to the session first.",
         )
-    names = [highlight] if isinstance(highlight, str) else list(highlight)
     offered = (offer.name for offer in shown.wiring.offers)
     known = (*shown.wiring.nodes, *shown.wiring.topics, *offered)
-    strong = {sources.known_name(name, known, "node or topic") for name in names}
+    strong = {
+        sources.known_name(name, known, "node or topic") for name in sources.names_in(highlight)
+    }
     if isinstance(source, Explanation):
         strong |= {source.topic} & set(shown.wiring.topics)
     layout = _layout(shown, strong)

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from rosbeat.comparisons import Comparison
-from rosbeat.errors import PictureError
+from rosbeat.errors import PictureError, called_as
 from rosbeat.records import Sample
 from rosbeat.viz import sources, theme
 from rosbeat.viz.canvas import Canvas, Entry, blank, line_height, text_width
@@ -31,6 +31,7 @@ _OTHER = theme.Style(theme.VERMILLION, "s", "--")
 _MISSING = theme.Style(theme.BLUE, "o", "")
 _EXTRA = theme.Style(theme.PURPLE, "D", "")
 _ODD = theme.Style(theme.INK, "x", "")
+_BANDS = 'For example `bands={"Low": (None, 20.0), "Normal": (20.0, 26.0)}`.'
 
 #: What a caller gives: from a name to lower and upper limit, None for an open end.
 Limits = Mapping[str, tuple[float | None, float | None]]
@@ -110,8 +111,15 @@ def read_bands(limits: Limits | None) -> tuple[Band, ...]:
     """Return bands in ascending order.
 
     Raises:
-        PictureError: If a band is not a pair, or its lower limit is not below its upper one.
+        PictureError: If they are no dictionary, a band is not a pair, or its lower limit is not
+            below its upper one.
     """
+    if not isinstance(limits, Mapping | None):
+        raise PictureError(
+            f"`bands` was given {limits!r}.",
+            "Bands are a dictionary that gives each name its limits.",
+            _BANDS,
+        )
     found = [_band(name, pair) for name, pair in (limits or {}).items()]
     return tuple(sorted(found, key=lambda band: float("-inf") if band.low is None else band.low))
 
@@ -124,10 +132,11 @@ def _band(name: str, pair: object) -> Band:
     raise PictureError(
         f"The band {name!r} has the limits {pair!r}.",
         "A band is a pair: a lower limit and a higher one, None where it is open.",
-        'For example `bands={"Low": (None, 20.0), "Normal": (20.0, 26.0)}`.',
+        _BANDS,
     )
 
 
+@called_as('viz.values(ros, "temperature")')
 def values(
     source: sources.Samples,
     topic: str | Iterable[str] | None = None,
@@ -295,6 +304,7 @@ def _say_range(finite: Sequence[float], tail: str) -> str:
 # Two runs over each other.
 
 
+@called_as("viz.differences(comparison)")
 def differences(
     comparison: Comparison, field: str | None = None, label: str | None = None, unit: str = ""
 ) -> Picture:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from matplotlib.patches import Rectangle
 
-from rosbeat.errors import PictureError
+from rosbeat.errors import PictureError, called_as
 from rosbeat.records import QueueStep
 from rosbeat.viz import theme
 from rosbeat.viz.canvas import ROOM, Canvas, Entry, blank, text_width
@@ -69,6 +69,7 @@ def moments(steps: Sequence[QueueStep]) -> list[Moment]:
 # The picture.
 
 
+@called_as("viz.queue(steps, depth=5)")
 def queue(steps: Sequence[QueueStep], depth: int) -> Picture:
     """Draw a queue filling, emptying and dropping.
 

@@ -70,12 +70,30 @@ def topic_names(wanted: str | Iterable[str] | None, known: Sequence[str]) -> tup
         known: The names that the source has.
 
     Raises:
-        PictureError: If a name is not among the known ones.
+        PictureError: If a name is not among the known ones, or is not a text.
     """
     if wanted is None:
         return tuple(name for name in known if name not in INFRASTRUCTURE_TOPICS)
-    names = [wanted] if isinstance(wanted, str) else list(wanted)
-    return tuple(dict.fromkeys(known_name(name, known, "topic") for name in names))
+    return tuple(dict.fromkeys(known_name(name, known, "topic") for name in names_in(wanted)))
+
+
+def names_in(wanted: str | Iterable[str]) -> list[str]:
+    """Return one name or several as a list.
+
+    Raises:
+        PictureError: If it is neither a text nor texts.
+    """
+    if isinstance(wanted, str):
+        return [wanted]
+    names = list(wanted) if isinstance(wanted, Iterable) else [wanted]
+    for name in names:
+        if not isinstance(name, str):
+            raise PictureError(
+                f"{name!r} is not the name of a topic or a node.",
+                "What a picture shows is chosen by name, and a name is a text.",
+                'Put it in quotation marks: `"temperature"`.',
+            )
+    return names
 
 
 def known_name(name: str, known: Sequence[str], kind: str) -> str:

@@ -16,7 +16,7 @@ from typing import Any
 
 from matplotlib.path import Path
 
-from rosbeat.errors import PictureError
+from rosbeat.errors import PictureError, called_as
 from rosbeat.records import (
     NANOSECONDS,
     CallbackRecord,
@@ -323,6 +323,7 @@ def _first_free(taken: set[int]) -> int:
 # The picture.
 
 
+@called_as("viz.timeline(ros)")
 def timeline(
     source: sources.Observed,
     topics: str | Iterable[str] | None = None,

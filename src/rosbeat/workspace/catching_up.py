@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
-from rosbeat.errors import WorkspaceError
+from rosbeat.errors import WorkspaceError, called_as
 from rosbeat.workspace.packages import find_packages, parse_manifest, read_package
 from rosbeat.workspace.place import workspace
 from rosbeat.workspace.saving import save, save_bytes, trouble
@@ -65,6 +65,7 @@ class Report:
     __repr__ = __str__
 
 
+@called_as('workspace.catch_up("05")')
 def catch_up(page: str, root: Path | None = None) -> Report:
     """Make what the pages before this one leave in the workspace, as far as it is missing.
 

@@ -12,6 +12,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from rosbeat.errors import called_as
+
 #: The name that the tutorial gives to the workspace.
 NAME = "ROS2_and_RL_Tutorials"
 SETTING = "ROSBEAT_WORKSPACE_IN"
@@ -44,6 +46,7 @@ def workspace_parent() -> Path:
     return course_root() or Path.cwd()
 
 
+@called_as("workspace.folder()")
 def workspace() -> Path:
     """Return the workspace, whether it exists or not."""
     return workspace_parent() / NAME

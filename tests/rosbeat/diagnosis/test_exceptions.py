@@ -107,6 +107,60 @@ def test_by_the_call_that_failed(mistake, asked):
     assert named("TypeError", "whatever it says", "x()", asked) == mistake
 
 
+TUPLE = "In Python 22,5 is a tuple of two numbers"
+DECIMAL_COMMAS = [
+    ("wrong-argument", "Random.uniform() takes 3 positional arguments but 5 were given",
+     "self.t += random.uniform(-0,5, 0,5)", "with a point: 0.5"),
+    ("wrong-argument", "sleep() takes 2 positional arguments but 3 were given", "sleep(0,5)",
+     "with a point: 0.5"),
+    ("wrong-argument", "float expected at most 1 argument, got 2", "x = float(22,5)", "22.5"),
+    ("wrong-argument", "round() takes at most 2 arguments (3 given)", "round(22,5, 1)", "22.5"),
+    ("wrong-argument", "Third element 5 at index 0 in parameters list is not a "
+     "ParameterDescriptor", 'self.declare_parameter("high", 26,5)', "26.5"),
+    ("decimal-comma", 'can only concatenate tuple (not "float") to tuple', "t += x", TUPLE),
+    ("decimal-comma", "'<' not supported between instances of 'tuple' and 'float'", "t < x", TUPLE),
+    ("decimal-comma", "unsupported operand type(s) for -: 'float' and 'tuple'", "x - t", TUPLE),
+    ("decimal-comma", "unsupported format string passed to tuple.__format__", "f'{t:.2f}'", TUPLE),
+    ("decimal-comma", "float() argument must be a string or a real number, not 'tuple'",
+     "float(t)", TUPLE),
+    ("decimal-comma", "type tuple doesn't define __round__ method", "round(t)", TUPLE),
+    ("decimal-comma", "bad operand type for abs(): 'tuple'", "abs(t)", TUPLE),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("mistake", "text", "code", "to_try"), DECIMAL_COMMAS)
+def test_a_decimal_comma(mistake, text, code, to_try):
+    found = diagnose_fault(fault("TypeError", text, code))
+    assert found.mistake == mistake
+    assert to_try in found.hint
+
+
+def test_a_decimal_comma_in_a_timer_s_period():
+    code, asked = "self.create_timer(0,5, self.tick)", "create_timer(int, int, method[tick(self)])"
+    found = diagnose_fault(fault("AttributeError", "'int' object", code, asked))
+    assert found.mistake == "wrong-argument"
+    assert "0,5 is not one number in Python, but two arguments: 0 and 5." in found.evidence
+    assert found.hint == "A decimal number is written with a point: 0.5."
+
+
+def test_a_field_that_got_two_numbers_tells_of_the_point():
+    text = "The 'data' field must be of type 'float'"
+    found = diagnose_fault(fault("AssertionError", text, "msg.data = self.t", "field(tuple)"))
+    assert found.mistake == "not-a-float"
+    assert TUPLE in found.hint
+
+
+@pytest.mark.parametrize(("text", "code"), [
+    ("f() takes 1 positional argument but 3 were given", "f(1, 2)"),
+    ("f() takes 1 positional argument but 4 were given", "f(1,2,3)"),
+    ("f() takes 1 positional argument but 2 were given", "f('1,5', 2)"),
+    ("boom", "f(0,5)"),
+])  # fmt: skip
+def test_two_numbers_that_are_no_decimal_comma(text, code):
+    found = diagnose_fault(fault("TypeError", text, code))
+    assert found is None or "two arguments" not in found.evidence
+
+
 UNREADY = "int() argument must be a string, a bytes-like object or a real number, not 'NoneType'"
 CREATED = "create_publisher(message_type[Float32], str, QoSProfile)"
 HEARD = "create_subscription(message_type[Float32], str, function[f(msg)], int)"
@@ -247,6 +301,18 @@ def test_what_is_said_beside_the_error_has_no_lead_of_its_own():
     assert "Never mind ROS 1" in meaning_of(one).beside_error
     two_types = fault("RCLError", "Failed to create subscription: invalid allocator, at /x.c:261")
     assert meaning_of(two_types).beside_error.startswith("The topic exists already")
+
+
+@pytest.mark.parametrize("what", ["publishers on /temperature", "subscriptions to /t", "timers"])
+def test_what_is_made_at_each_call_is_no_callback_that_does_not_return(what):
+    late = fault("DeadlinePassed", f"600 {what} in 599 calls", "self.create(x)")
+    found = diagnose_fault(late)
+    assert found.mistake == "made-anew"
+    assert found.evidence == (
+        f"tick made 600 {what} in 599 calls, and each one slows the node down. Line 4: "
+        "`self.create(x)`."
+    )
+    assert "once, in the constructor" in found.hint
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,23 @@ def test_what_to_remove_is_only_what_is_not_of_the_page(folder, left):
     assert (f"You do not need {left}:" in made(folder).hint) == bool(left)
 
 
+@pytest.mark.parametrize(
+    ("standing", "way"),
+    [
+        ("ressources", "cd .."),
+        ("ressources/sounds", "cd ../.."),
+        (".", ""),
+        ("ressources_2", ""),
+        ("/home/you", ""),
+    ],
+)
+def test_a_folder_that_a_terminal_is_in_is_left_before_it_is_removed(standing, way):
+    hint = made("ressources", "ressources/sounds", standing=("src", standing)).hint
+    leave = f"A terminal is in ressources: leave the folder first, with `{way}`. You do not need"
+    assert (leave in hint) == bool(way)
+    assert ("A terminal is in" in hint) == bool(way)
+
+
 def test_nothing_typed_and_nothing_made_is_nothing_tried():
     assert made().status == "not attempted"
 

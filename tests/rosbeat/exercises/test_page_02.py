@@ -1,11 +1,12 @@
 """Page 02: what the bank of answers cannot show of manifests and packages."""
 
 import re
+from dataclasses import replace
 
 import pytest
 from catkin_pkg.package import InvalidPackage, parse_package_string
 
-from rosbeat.exercises.page_02 import EXERCISES
+from rosbeat.exercises.page_02 import EXERCISES, PackageMaking
 from rosbeat.exercises.scenarios import Workspace
 from rosbeat.workspace.catching_up import finished
 from rosbeat.workspace.packages import read_package
@@ -55,6 +56,31 @@ def test_a_licence_that_programs_do_not_know_gets_a_remark(judged, text, said):
     assert said in "".join(outcome.remarks)
 
 
+@pytest.mark.parametrize(
+    ("folder", "has_manifest", "advice"),
+    [
+        ("room_display", True, "Remove it there"),
+        ("src/sensor_simulator/room_display", True, "Remove it there"),
+        ("src/room_display", False, "Remove the folder first"),
+        ("src/rom_display", True, "Remove the folder (rm -r) of rom_display"),
+        ("src/room_display", True, "Remove the folder (rm -r src/room_display)"),
+    ],
+)
+def test_a_package_that_a_terminal_is_in_is_left_before_it_is_removed(
+    tmp_path, folder, has_manifest, advice
+):
+    place = tmp_path / folder
+    (place / "inner").mkdir(parents=True)
+    if has_manifest:
+        text = XML.replace("<name>sensor_simulator<", f"<name>{place.name}<")
+        (place / "package.xml").write_text(text)
+    seen = second_02b.scenario(tmp_path)
+    assert seen.standing == ()
+    assert "A terminal is in" not in second_02b.judged(seen).hint
+    hint = second_02b.judged(replace(seen, standing=(f"{folder}/inner",))).hint
+    assert f"A terminal is in {folder}: leave the folder first, with `cd ../..`. {advice}" in hint
+
+
 @pytest.mark.parametrize(("text", "hint"), [(f"\n{XML}", "very first line"), (XML[:-9], "</tag>")])
 def test_xml_that_cannot_be_read_has_two_hints(judged, text, hint):
     assert hint in judged(text).hint
@@ -84,4 +110,4 @@ def test_a_package_by_its_folder_alone(tmp_path):
     (tmp_path / "room_display").mkdir()
     package = read_package(tmp_path / "room_display", tmp_path)
     seen = Workspace((), {"room_display": package})
-    assert second_02b.judged(seen).status == "failed"
+    assert second_02b.judged(PackageMaking(seen)).status == "failed"

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from rosbeat.errors import TerminalError
+from rosbeat.errors import TerminalError, called_as
 from rosbeat.workspace.place import workspace_parent
 from rosbeat.workspace.terminals import reaper
 from rosbeat.workspace.terminals.terminal import Terminal
@@ -113,6 +113,7 @@ def terminals_of(shell: Any) -> Terminals:  # noqa: ANN401 - IPython carries no 
     return held
 
 
+@called_as('workspace.terminal("sensor")')
 def terminal(name: str) -> Terminal:
     """Return a terminal of this kernel; it opens if it is not there.
 
