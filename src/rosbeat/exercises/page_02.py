@@ -218,12 +218,15 @@ class PackageMaking:
 
 def _look_at_package_making(answer: Answer) -> PackageMaking:
     found = look_at_workspace(answer)
-    typed, meaning = typed_about(Path(answer), lambda line: bool(_CREATES.search(line)))
+    typed, meaning = typed_about(Path(answer), _is_try)
     standing = terminal_folders(Path(answer))
     return PackageMaking(found, typed[-1][1] if typed else "", meaning, standing)
 
 
-_CREATES = re.compile(r"\bpkg\s+create\b")
+def _is_try(line: str) -> bool:
+    """Return whether a line is to make the second package, or one with nearly its name."""
+    creates = re.search(r"\bpkg\s+create\b", line)
+    return bool(creates) and any(alike(word, _SECOND) for word in re.split(r"[\s=,'\"]+", line))
 
 
 def _judge_second(made: PackageMaking) -> Verdict:
