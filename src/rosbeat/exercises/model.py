@@ -244,7 +244,7 @@ def status_of(value: float, low: float, high: float) -> str:
 
 
 #: What is wrong with `if value:` as a test for whether there is a value.
-ZERO_IS_FALSE = "Python takes 0 for false, so `if value:` does not ask whether there is one."
+ZERO_IS_FALSE = "Python treats 0 as false, so `if value:` does not ask whether there is a value."
 #: The words that `status_of` returns.
 STATUSES = ("High", "Low", "Normal")
 

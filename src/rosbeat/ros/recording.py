@@ -12,7 +12,6 @@ import sys
 from array import array
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache, partial, wraps
 from importlib import import_module
@@ -596,8 +595,10 @@ def _refuse_second_type(
     """
     if not (isinstance(msg_type, type) and is_message_class(msg_type) and isinstance(topic, str)):
         return  # rclpy says so itself
-    with suppress(InvalidTopicNameException):
+    try:
         topic = node.resolve_topic_name(topic)
+    except (InvalidTopicNameException, rclpy_implementation.RCLError):
+        return  # rclpy says so itself, with the name
     for state in watcher.states():
         for end in (*state.node.publishers, *state.node.subscriptions):
             if end.topic_name == topic and end.msg_type is not msg_type:
