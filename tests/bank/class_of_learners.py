@@ -36,6 +36,10 @@ def filled(page: nbformat.NotebookNode, answers: dict[str, str]) -> nbformat.Not
     return page
 
 
+#: Random numbers that no session seeds: an answer that draws them does something else each time.
+_OWN_CHANCE = ("SystemRandom", "Random()", "default_rng()")
+
+
 @cache
 def answers_to(exercise: str, status: str) -> tuple[Answer, ...]:
     """Return answers that define what the check cell hands over, in the bank's order."""
@@ -43,6 +47,7 @@ def answers_to(exercise: str, status: str) -> tuple[Answer, ...]:
         one
         for one in reading.answers()
         if (one.exercise, one.status, one.subject) == (exercise, status, subject(exercise))
+        and not any(chance in one.text for chance in _OWN_CHANCE)
         and not _SLOW & set(one.mistakes)
     )
 
