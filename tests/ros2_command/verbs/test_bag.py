@@ -46,6 +46,10 @@ def ended(process, number=signal.SIGINT):
     return process.returncode, out, error
 
 
+#: Named, so that `echo` waits for a player that has not begun, and does not ask for its type.
+NUMBER = "std_msgs/msg/Int32"
+
+
 @pytest.mark.ros
 def test_record_and_info(rich, tmp_path):
     folder = tmp_path / "run"
@@ -107,7 +111,7 @@ def test_play_tells_the_time_and_ends_at_ctrl_c(rich, tmp_path):
         ended(process)
     words = ("--loop", "--topics", "/house/number", "--clock", "50", "-m", "/house/number:=/again")
     with rich.running("bag", "play", tmp_path / "run", *words) as process:
-        assert rich.out("topic", "echo", "--once", "/again").startswith("data: ")
+        assert rich.out("topic", "echo", "--once", "/again", NUMBER).startswith("data: ")
         assert "/clock: rosgraph_msgs/msg/Clock" in rich.out("node", "info", "/rosbag2_player")
         assert ended(process) == (0, "", "")
 
