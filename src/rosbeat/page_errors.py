@@ -1,4 +1,4 @@
-"""What a page adds to Python's own `NameError`: which cells to run again."""
+"""Explain a `NameError` on a page: say which cells to run again."""
 
 from __future__ import annotations
 
@@ -52,11 +52,10 @@ def _explained(shell: InteractiveShell, error: NameError, trace: TracebackType) 
         return []
     known = [one for one in shell.user_ns if not one.startswith("_")]
     near = get_close_matches(name, known, 1)
-    run = "choose Run, Run All Above Selected Cell in the menu."
+    run = "Run, Run All Above Selected Cell in the menu."
+    to_try = f"Choose {run} If that does not help, check the spelling."
     if near:
-        to_try = f"Did you mean `{near[0]}`? If not, {run}"
-    else:
-        to_try = f"C{run[1:]} If that does not help, check the spelling."
+        to_try = f"Did you mean `{near[0]}`? If not, choose {run}"
     return [
         f"  What it means: No cell that has run since the kernel started defines `{name}`.",
         f"  What to try:   {to_try}",

@@ -6,7 +6,7 @@ fields that are not known are passed over, so a field can be added without a new
 
 msgspec's JSON has neither NaN and infinity, as messages may hold them, nor half of a surrogate
 pair, as a learner's text may. Python's own `json` has all three: what holds one of them is written
-and read by that module, in a third of the speed, and only the fields are checked by msgspec.
+and read by that module, at a third of the speed, and msgspec only checks the fields.
 """
 
 from __future__ import annotations

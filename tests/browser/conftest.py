@@ -33,7 +33,10 @@ def lab(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def browser(lab):
+def chromium():
+    """Start the browser of all tests: playwright runs once in a process."""
+    if browser_path() is None:
+        pytest.skip("no Chromium on this machine; ROSBEAT_BROWSER may name one")
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as tools:
@@ -44,9 +47,9 @@ def browser(lab):
 
 
 @pytest.fixture(scope="session")
-def context(browser):
+def context(chromium, lab):
     """One for all tests: JupyterLab is large, and the browser keeps it."""
-    made = browser.new_context(viewport={"width": 1280, "height": 1000})
+    made = chromium.new_context(viewport={"width": 1280, "height": 1000})
     made.set_default_timeout(PATIENCE)
     yield made
     made.close()

@@ -2,7 +2,6 @@
 
 import pytest
 
-from browser.notebook import browser_path
 from graded_classes import HOSTILE, a_class, hostile_learner, one_of_each
 from rosbeat.grading.feedback import feedback
 from rosbeat.grading.marks import Gradebook
@@ -19,19 +18,6 @@ REPORTS = {
     **{f"hostile {at}": lambda text=text: feedback(hostile_learner(text))
        for at, text in enumerate(HOSTILE)},
 }  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    """A browser without a JupyterLab."""
-    if browser_path() is None:
-        pytest.skip("no Chromium on this machine; ROSBEAT_BROWSER may name one")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as tools:
-        made = tools.chromium.launch(executable_path=browser_path(), args=["--no-sandbox"])
-        yield made
-        made.close()
 
 
 @pytest.fixture

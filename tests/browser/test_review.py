@@ -6,24 +6,10 @@ import time
 
 import pytest
 
-from browser.notebook import browser_path
 from reviewing import a_class_to_review, served
 
 LEARNERS = 200
 TOO_WIDE = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    """A browser without a JupyterLab."""
-    if browser_path() is None:
-        pytest.skip("no Chromium on this machine; ROSBEAT_BROWSER may name one")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as tools:
-        made = tools.chromium.launch(executable_path=browser_path(), args=["--no-sandbox"])
-        yield made
-        made.close()
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""What `ros2 topic hz`, `bw` and `delay` compute from the messages that they receive."""
+"""Compute what `ros2 topic hz`, `bw` and `delay` print of the messages that they receive."""
 
 from __future__ import annotations
 

@@ -291,8 +291,8 @@ def _vent_readings(numbers: Mapping[str, float], seed: int) -> Iterator[float]:
     # A limit that a Float32 cannot carry is met by no reading.
     top = opening if as_float32(opening) == opening else opening - _JUST
     bottom = closing if as_float32(closing) == closing else closing + _JUST
-    # How a vent stands before its first reading is up to the answer. Then it is hot again although
-    # the vent is open, and no limit is passed without need.
+    # Whether a vent says at first that it is closed is up to the answer: R10 may ask for it. After
+    # the second hot reading no command is due, because the vent is open already.
     yield from (some.hot, some.middle, some.hot, some.cold)
     yield from (some.middle, top, opening + _JUST, bottom)
     yield from (some.middle, bottom, closing - _JUST, some.middle)
@@ -369,8 +369,8 @@ def broken_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     day.hold(n["pump_seconds"] + 3 + next(more), cold, WET, "wet")
     # Time for a second alarm that nobody wants, and for a report without a single reading.
     long = max(2 * n["silent_seconds"] + react + 2, 2 * n["report_seconds"] + 1)
-    # Then time for one report at least, when some readings have come, and fewer than in as many
-    # seconds. It is colder than before, and so the mean shows which readings are in it.
+    # After each silence a report comes while there are fewer readings than seconds in its window.
+    # Each time it is colder than before, so the mean shows whether older readings are in it.
     every = n["report_seconds"]
     back = max(react + 4, every + 2)
     for name, humidity in (("temperature", WET), ("both", None)):

@@ -382,8 +382,8 @@ _BEATS = suspects(
     ),
     (
         "wrong-rate",
-        "Several come at one moment, and none in between. One timer with a shorter period, and "
-        "one message for each tick, spreads them evenly.",
+        "Several messages come at once, and none in between. One timer with a shorter period, "
+        "and one message for each tick, spreads them evenly.",
         lambda beat: (
             dict.fromkeys(_ticks(min(beat.done), beat.end), beat.done[min(beat.done)])
             if beat.done[min(beat.done)] > (1,)
@@ -392,7 +392,7 @@ _BEATS = suspects(
     ),
     (
         "wrong-rate",
-        "The rate is right, and some ticks publish nothing. Which condition leaves them out?",
+        "The timer is right, but some ticks publish nothing. Which condition skips them?",
         _with_gaps,
     ),
     ("wrong-rate", _COUNT, lambda beat: _ticks(min(beat.done), beat.end)),

@@ -65,8 +65,8 @@ FRIDGE_SUSPECTS = suspects(
      _each(lambda value: {"Warm": "Frost", "Frost": "Warm"}.get(_state(value), "Fine"))),
     ("wrong-state", "Whole degrees are too coarse: compare the reading as it comes.",
      _each(lambda value: _state(int(value))), _each(lambda value: _state(round(value)))),
-    ("wrong-state", "It compares the rounded number. Compare the reading as it comes, and round "
-     "only what is shown.", _each(lambda value: _state(round(value, 1))),
+    ("wrong-state", "Your node compares the rounded number. Compare the reading as it comes, "
+     "and round only what you show.", _each(lambda value: _state(round(value, 1))),
      _each(lambda value: _state(round(value, 2)))),
     ("wrong-state", "It is the state of the reading before. Which comes first, to keep a reading "
      "or to judge it?", lambda fed: _each(_state)([fed[0], *fed[:-1]])),
@@ -181,7 +181,7 @@ _EACH_ONE = "Each one should, whatever came before it."
 ROOM_SUSPECTS = suspects(
     ("boundary", _LIMITS_ARE_FINE, _alerts(25.999), _alerts(low=20.001), _alerts(25.999, 20.001),
      _alerts(25.999, -inf), _alerts(inf, 20.001)),
-    ("alert-missing", "It compares the rounded number. Compare the reading as it comes.",
+    ("alert-missing", "Your node compares the rounded number. Compare the reading as it comes.",
      *(lambda fed, digits=digits: _alerts()([round(one, digits) for one in fed])
        for digits in (0, 1, 2)), lambda fed: _alerts()([int(one) for one in fed])),
     ("alert-too-many", "The readings that are fine get the alerts. Which side of your condition "

@@ -308,7 +308,7 @@ class Tuning(NamedTuple):
     changes: tuple[tuple[int, str, float], ...]
 
 
-#: As far from a limit as two decimals do not show.
+#: A distance from a limit that two decimals do not show.
 _JUST = 1 / 256
 
 

@@ -393,7 +393,7 @@ _QUEUE = (
     "How many readings come while it is away, from all sensors together? They all wait in one "
     "queue."
 )
-_EQUAL = "Two sensors may read the same: each reading counts, and equal ones are two readings."
+_EQUAL = "Two sensors may report the same value, and equal readings are still two readings."
 _TWICE = "One subscription is enough, if it asks for no more than the poorest sensor offers."
 _WAITS = "A lifespan throws away what has waited longer. How long may a reading have to wait?"
 _READING_POLICIES = (
@@ -519,7 +519,7 @@ def _silences(draw: Draw) -> Silences:
 
 def _run_watchdog(answer: Answer, fed: Silences) -> Observation:
     qos = QoS(deadline_ns=round(LIMIT * NANOSECONDS))
-    # What a reading says does not matter, 0 neither: in Python it counts as false.
+    # The value does not matter: a reading of 0 is a reading, although Python treats 0 as false.
     readings = [(at, 0.0 if number > 2 else 21.5) for number, at in enumerate(fed.times)]
     return observe(answer, fed.end, steps=publishing(_TEMPERATURE, readings, qos))
 

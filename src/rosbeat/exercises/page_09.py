@@ -84,7 +84,7 @@ def _readings(draw: Draw) -> Readings:
 
 
 def _run_with_silences(answer: Answer, readings: Readings) -> Observation:
-    # What a reading says does not matter, 0 neither: in Python it counts as false.
+    # The value does not matter: a reading of 0 is a reading, although Python treats 0 as false.
     steps = publishing(_TEMPERATURE, zip(readings, cycle((0.0, 22.0, 22.0)), strict=False))
     return observe(answer, readings[-1] + _REST, steps=steps)
 
@@ -390,8 +390,8 @@ WORK_SUSPECTS = suspects(
      _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
     ("order-lost", f"Only the newest order is kept. {_WAITS}",
      _worker(put=lambda waiting, order: waiting.__setitem__(slice(None), [order]))),
-    ("order-lost", "The next work begins only when another order comes. When one order is done, "
-     "look whether another one waits.", _started_by_orders),
+    ("order-lost", "A waiting order begins only when another one comes. When an order is done, "
+     "check whether another is waiting.", _started_by_orders),
     ("order-lost", f"No order could wait. {_WAITS}", _worker(_keep(1))),
     ("order-lost", f"Only one order could wait. {_WAITS}", _worker(_keep(2))),
     ("order-lost", f"Only two orders could wait. {_WAITS}", _worker(_keep(3))),
@@ -509,7 +509,7 @@ class Place:
 Places = tuple[Place, Place, Place]
 
 
-#: As far from a limit as two decimals do not show; a float32 holds it beside each of them.
+#: A distance from a limit that two decimals do not show; a float32 holds each limit and this.
 _JUST = 1 / 256
 
 
@@ -531,7 +531,7 @@ def _places(draw: Draw) -> Places:
     )
     home = Place("", "/reading", "/status", draw.shuffled(readings))
 
-    # A limit of 0 is a limit, though Python counts it as false; and a unit calculates nothing.
+    # A limit of 0 is a limit, although Python treats 0 as false; and a unit is only a text.
     low, high = draw.one_of(0.0, -6.5, 5.5), number(34.0, 30.0, 38.0)
     space = draw.one_of("freezer", "cellar", "attic", "barn")
     name, topic = draw.one_of(("frost", "frost"), ("cold", "air"))

@@ -386,8 +386,8 @@ def _wrong_vent(seen: Observation, day: Day, numbers: Mapping[str, float]) -> Di
                 "wrong-state",
                 f"From {_stamp(begins)} on the temperature was {held.value:g}, and the vent moved "
                 f"at {' and '.join(map(_stamp, moves))}.",
-                "The second of two equal temperatures changes nothing. Which line moves the vent, "
-                "and does it look at how the vent stands?",
+                "The second of two equal temperatures changes nothing. Does the line that moves "
+                "the vent ask whether it is open already?",
             )
     return None
 
@@ -607,7 +607,7 @@ def _no_alarm(
     if words[1] == "back":
         hint = "The first message after a silence says that the sensor is back."
     elif both:
-        hint = "Both sensors are silent. Does the node look at each of them, and remember each?"
+        hint = "Both sensors are silent. Does the node watch each of them, with a memory for each?"
     return Diagnosis("alert-missing", evidence, hint)
 
 

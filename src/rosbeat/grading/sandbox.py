@@ -314,6 +314,9 @@ class Sandbox:
         """End everything in there but init; return the exit code of the work, or less a signal."""
         self._kill_all()
         _, status = os.waitpid(child, _ALL)
+        # Only now what it has started is init's, which waits until that is gone: processes that are
+        # still ending would count for the next work.
+        self._kill_all()
         while self._guests():
             self._kill_all()
             os.waitpid(-1, _ALL)

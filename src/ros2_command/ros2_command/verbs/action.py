@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser, Namespace
+from collections.abc import Callable
 
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
@@ -133,17 +134,25 @@ def _send_goal(args: Namespace) -> int:
 
 def _follow(graph: Graph, client: Untyped, goal: Untyped, feedback: bool) -> int:
     """Send a goal and wait for its end; Ctrl+C cancels it."""
+    early: list[Untyped] = []  # feedback that came together with the word that the goal is accepted
+    keep: Callable[[Untyped], None] = early.append
 
     def show(message: Untyped) -> None:
         print(f"Feedback:\n    {_yaml(message.feedback)}")
 
+    def take(message: Untyped) -> None:
+        keep(message)
+
     print(f"Sending goal:\n     {_yaml(goal)}")
-    handle = _wait(graph, client.send_goal_async(goal, show if feedback else None))
+    handle = _wait(graph, client.send_goal_async(goal, take if feedback else None))
     if not handle.accepted:
         print("Goal was rejected.")
         return 1
     try:
         print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+        keep = show
+        for message in early:
+            show(message)
         outcome = _wait(graph, handle.get_result_async())
     except KeyboardInterrupt:
         print("Canceling goal...")
