@@ -70,12 +70,14 @@ viz.graph(ros.graph())
 requirements()
 
 # %% [markdown]
-# Five things hold besides:
+# Six things hold besides:
 #
 # - whatever has to happen has two seconds to happen;
-# - `True` on `vent` opens it and `True` on `pump` starts it; until the first command both are off;
+# - `True` on `vent` opens it and `True` on `pump` starts it; until the first command both are off,
+#   and a node may begin by saying so;
 # - a limit itself is on the quiet side: exactly 28 opens nothing;
 # - without a temperature in 10 s there is no mean: the report may say nothing then, and its node goes on;
+# - a sensor is silent when nothing arrives. Whether nonsense ends a silence is up to you;
 # - an optional requirement gives its points, and you can pass without it.
 #
 # ## Look at the weather
