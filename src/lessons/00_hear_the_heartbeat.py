@@ -8,20 +8,21 @@
 # %% [markdown]
 # # Hear the heartbeat
 #
-# **Goal:** you run your first ROS 2 nodes and see how they talk without knowing each other.
+# **Goal:** run your first ROS 2 nodes, and see how they talk without knowing about each other.
 #
 # **Time:** 20 minutes. **You need:** a little Python: classes, methods, `self`.
 #
-# A page is made of **cells**. Click into the first one and press `Shift` + `Enter` to run it; go on
-# from top to bottom. A `[*]` beside a cell means that it is still running. If you get lost, choose
-# *Kernel, Restart Kernel* from the menu and begin again at the top.
+# A page is made of **cells**. Click the first one and press `Shift` + `Enter` to run it. Then work through the
+# page from top to bottom. While a cell is running, it shows `[*]`. If you get lost, choose
+# *Kernel, Restart Kernel* from the menu and start again at the top.
 
 # %% [markdown]
-# ## Send the first message
+# ## Send your first message
 #
-# A robot's software has many small parts that talk. In ROS 2 such a part is called a **node**. On a
-# robot it is often a program of its own; here, several can share a page. What one node sends to
-# others is a **message**. Here is a whole node. It plays a thermometer. Run the next three cells.
+# Robot software is built from many small parts that talk to each other. In ROS 2, each of these parts is called
+# a **node**. The data that one node sends to others is a **message**.
+#
+# Here is a complete node: a thermometer. Run the next three cells.
 
 # %%
 from rclpy.node import Node
@@ -46,15 +47,15 @@ ros.add(Thermometer)
 ros.run(seconds=3)
 
 # %% [markdown]
-# That is a heartbeat: one message a second. Each line is a **log** line, a note for people. The
-# number after `INFO` is the time in seconds, and the name after it is the node that speaks.
+# That's a heartbeat: one message every second. Each line you see is a **log** line, a note for humans. The
+# number after `INFO` is the time in seconds, and the name after it tells you which node is speaking.
 #
-# You did not wait three seconds. A `Session` runs real ROS nodes in **virtual time**: its clock
-# jumps from one event to the next. So a minute takes almost no time, and you get the same result as
-# everybody else.
+# You didn't have to wait three seconds. A `Session` runs real ROS nodes in **virtual time**: its clock
+# jumps straight from one event to the next. A minute takes almost no time, and everybody gets exactly the same
+# result.
 #
 # **Predict:** a second session runs the same thermometer for a whole minute. How many messages does it
-# send? Write a number in place of the blank, then run the cell. To be wrong costs nothing.
+# send? Replace the blank with a number and run the cell. A wrong guess costs nothing.
 
 # %% predict=true
 with Session() as minute:
@@ -69,38 +70,40 @@ predict("60", sent)
 # --- end
 
 # %% [markdown]
-# One each second. `with` closes the session at the end of the block, and `quiet=True` only keeps the log lines
-# off the page; the messages were sent, and a session records each of them. `ros.messages` gives them all. Here is
-# the first one of the first session: when it was sent (in nanoseconds, so a billion is one second), where, what
-# type, from whom, and the data.
+# One every second. The `with` statement closes the session at the end of the block. `quiet=True` hides the log
+# lines; the messages are sent all the same, and the session records every one of them.
 #
-# A session plays each node as a **process** of its own, which is a running program, and the messages go through
-# real ROS software: [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
+# `ros.messages` returns these records. Here is the first one from your first session. It says when the message
+# was sent (in nanoseconds: a billion of them make one second), on which topic, with which type, by which node,
+# and with what data.
+#
+# On a robot, a node usually runs in a **process** of its own, which is the operating system's word for a running
+# program. A session gives each node a simulated process, and the messages travel through real ROS software. If
+# you'd like to know more, read [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
 
 # %%
 ros.messages("temperature")[0]
 
 # %% [markdown]
-# ## Meet the newsroom
+# ## Visit the newsroom
 #
-# Think of a newsroom. Reporters write articles: one on sports, one on politics, one on the weather.
-# Readers follow what interests them. A reader of sports does not care about politics, and a reporter
-# need not know who reads.
+# Picture a newsroom. Reporters write articles about sports, politics or the weather. Readers follow the
+# subjects they're interested in. A sports reader doesn't care about politics, and a reporter doesn't
+# need to know who is reading.
 #
-# ROS 2 has a word for each of these:
+# ROS 2 has a word for each part of this picture:
 #
 # - a **topic** is a named channel, such as `weather`;
 # - a **publisher** sends messages to a topic;
-# - a **subscriber** receives the messages of a topic, each in a function called its **callback**.
+# - a **subscriber** receives the messages of a topic. ROS passes each one to a function called a **callback**.
 #
-# This is **publish and subscribe**, or pub/sub for short. On these pages the two sides need to agree
-# on two things: the topic's name, and the **message type**, which says what kind of data a message
-# carries.
+# This model is called **publish and subscribe**, or pub/sub for short. The two sides only have to agree on the
+# name of the topic and on the **message type**, which defines what kind of data a message carries.
 
 # %% [markdown]
-# Here is a reporter. It publishes text, which has the message type `String`, on a topic that you
-# choose. `create_timer(1.0, self.write)` makes a **timer**: it calls `write` every 1.0 seconds. What
-# the 10 means comes on a later page.
+# Here is a reporter. It publishes text, which has the message type `String`, on a topic of your choice.
+# `create_timer(1.0, self.write)` creates a **timer** that calls `write` every 1.0 seconds. A later page explains
+# the number 10.
 
 # %%
 class Reporter(Node):
@@ -114,7 +117,7 @@ class Reporter(Node):
         self.publisher.publish(String(data=self.article))
 
 # %% [markdown]
-# And a reader. It has no timer: it waits. ROS calls `read` whenever a message arrives.
+# And here is a reader. It has no timer; it simply waits. ROS calls `read` whenever a message arrives.
 
 # %%
 class Reader(Node):
@@ -126,10 +129,10 @@ class Reader(Node):
         self.get_logger().info(f"I read: {msg.data}")
 
 # %% [markdown]
-# `add` takes a class, as before, or a node that you make yourself, when its constructor needs
-# arguments. `ros.close()` ends the first session.
+# You can hand `add` a class, as you did before. If the constructor needs arguments, create the node yourself and
+# hand over the object. `ros.close()` ends the first session.
 #
-# **Predict:** three reporters write, two readers read. Nobody reads politics. Which lines appear?
+# **Predict:** there are three reporters and two readers, and nobody reads politics. Which lines appear?
 
 # %%
 ros.close()
@@ -142,32 +145,32 @@ newsroom.add(Reader("ben", "weather"))
 newsroom.run(seconds=2)
 
 # %% [markdown]
-# Ana gets sports, Ben gets the weather, and nobody gets anything else. The picture shows why:
-# ellipses are nodes, boxes are topics, and messages follow the arrows. The slash belongs to the full
-# name: `weather` and `/weather` are the same topic here.
+# Ana gets sports, Ben gets the weather, and neither gets anything else. The picture shows why:
+# ellipses are nodes, boxes are topics, and messages follow the arrows. The slash is part of a topic's full
+# name: here, `weather` and `/weather` are the same topic.
 
 # %%
 viz.graph(newsroom.graph())
 
 # %% [markdown]
-# Together, the nodes and their topics are called the **ROS graph**. Notice that no arrow leads from
-# a node to a node. All of them go through a topic.
+# Together, the nodes and their topics form the **ROS graph**. Notice that no arrow goes directly from one
+# node to another. Every message goes through a topic.
 
 # %%
 viz.timeline(newsroom.observation())
 
 # %% [markdown]
-# Time runs from left to right. Squares are timer callbacks, circles are subscription callbacks. The
-# messages on sports and weather arrive at the same instant of virtual time; on a robot it takes a
-# moment. The short arrows are politics: nobody takes them.
+# Time runs from left to right. Squares are timer callbacks; circles are subscription callbacks. In virtual time,
+# messages on sports and weather arrive at the instant they are sent; on a robot, this takes a moment. The short
+# arrows are messages on politics, which nobody receives.
 #
 # ## Take the newsroom apart
 #
-# Publishers and subscribers do not know each other. We say that they are **decoupled**. That is a
-# claim, and you can test it.
+# Publishers and subscribers don't know about each other: we say they are **decoupled**. That's a claim you can
+# test.
 #
 # **Does a publisher need a subscriber?** Nobody reads politics. **Predict:** how many messages were
-# published there?
+# published on that topic?
 
 # %% predict=true
 # --- answer
@@ -177,39 +180,39 @@ predict("2", len(newsroom.messages("politics")))
 # --- end
 
 # %% [markdown]
-# The politics reporter published two messages. It does not need to know whether anybody listens.
+# The politics reporter published two messages. It doesn't matter to a publisher whether anyone is listening.
 #
-# **Does a publisher notice when somebody comes?** Cleo joins late. No line of a reporter changes.
+# **Does a publisher notice a new subscriber?** Cleo joins late. Not a line of any reporter's code changes.
 
 # %%
 newsroom.add(Reader("cleo", "weather"))
 newsroom.run(seconds=1)
 
 # %% [markdown]
-# Cleo reads what is published from now on. She does not get earlier messages.
+# Cleo reads what is published after she joins. She doesn't get earlier messages.
 #
-# **Does a subscriber need a publisher?** Take the weather reporter out.
+# **Does a subscriber need a publisher?** Remove the weather reporter.
 
 # %%
 newsroom.remove("weather_reporter")
 newsroom.run(seconds=2)
 
 # %% [markdown]
-# Ben and Cleo hear nothing, and nothing breaks. They go on waiting, and Ana still reads her sports.
+# Ben and Cleo hear nothing more, but nothing breaks. They keep waiting, and Ana still reads her sports.
 # Nodes are decoupled in three ways:
 #
-# - **in name:** they know a topic, not each other;
-# - **in number:** none, one or many can be on either side;
-# - **in time:** each starts and stops by itself.
+# - **in name:** a node knows the topic, not the nodes on the other side;
+# - **in number:** either side can have no nodes, one, or many;
+# - **in time:** every node starts and stops on its own.
 #
-# So each part of a robot can be small, run beside the others, and be used again in another robot.
+# That's why each part of a robot can be small, run alongside the others, and be reused in another robot.
 
 # %% [markdown]
 # ## Try it: read the weather
 #
-# Replace the blank `____`, so that this reader gets the weather and nothing else. Run the cell, then
-# the check below it. If you are stuck, make a new cell with the `+` above the page and write `hint("00a")`
-# in it. Each time it tells you a little more.
+# Replace the blank `____` so that this reader gets the weather and nothing else. Run the cell, and then
+# the check below it. If you're stuck, add a cell with the `+` button above the page and run `hint("00a")`
+# in it. Each time, it tells you a little more.
 
 # %% exercise="00a"
 class WeatherReader(Node):
@@ -230,8 +233,8 @@ check("00a", WeatherReader)
 # %% [markdown]
 # ## Try it: report on sports
 #
-# Now the other side. This reporter publishes an article on `sports` every two seconds. There are two
-# blanks this time.
+# Now for the other side. This reporter should publish an article on `sports` every two seconds. This time there
+# are two blanks.
 
 # %% exercise="00b"
 class SportsReporter(Node):
@@ -261,9 +264,9 @@ newsroom.add(Reader("dan", "sport"))
 newsroom.run(seconds=1)
 
 # %% [markdown]
-# Nothing, and there is no error. That is the price of decoupling: a topic that nobody publishes on
-# looks just like a topic where nobody has spoken *yet*. Whenever a node stays silent, ask the session
-# why, and look at the graph:
+# Nothing, and there's no error message either. That's the price of decoupling: a topic that nobody publishes on
+# looks exactly like a topic on which nobody has said anything *yet*. Whenever a node stays silent, ask the
+# session to explain, and look at the graph:
 
 # %%
 why = newsroom.explain("sport")
@@ -271,9 +274,11 @@ print(why)
 viz.graph(why)
 
 # %% [markdown]
-# Dan listens to `/sport`, and no one is there: the topic is called `/sports`. Dashed arrows touch a topic that has
-# only one side, and the dashed line between the two boxes says that their names are almost the same. (What stands
-# in brackets behind the type comes on later pages.) The cure is one letter.
+# Dan subscribes to `/sport`, but the reporter publishes on `/sports`. A dashed arrow means that its topic has
+# only one side. The dashed line between the two boxes points out that their names are almost the same. The text
+# in brackets after the message type is the QoS profile; page 08 explains it.
+#
+# To fix it, correct one letter.
 
 # %%
 newsroom.add(Reader("dan", "sports"))
@@ -281,20 +286,19 @@ newsroom.run(seconds=1)
 newsroom.close()
 
 # %% [markdown]
-# In a session, a node replaces an older one of its name. On a robot both would run.
+# In a session, adding a node replaces an older node of the same name. On a robot, both would run.
 #
 # ## Remember
 #
-# - A **node** is a small part of a robot's software, with one job.
-# - A **publisher** sends messages to a **topic**; a **subscriber** gets them in its **callback**.
-# - They agree on the topic's name and the message type, and need not know each other.
+# - A **node** is a small part of a robot's software, with a single job.
+# - A **publisher** sends messages to a **topic**; a **subscriber** receives them in its **callback**.
+# - The two sides agree on the topic's name and the message type. They don't need to know about each other.
 # - When nothing arrives, ask `explain`, and look at the graph.
 #
-# Only clock and data are made up. These classes are ordinary ROS 2 code, and the messages
-# went through the **middleware** that robots use: the software that carries them.
+# Only the clock and the data are made up. The classes are ordinary ROS 2 code, and their messages
+# travel through the same **middleware** that robots use: the software that delivers messages.
 #
-# **Next:** [create a workspace](01_create_a_workspace.ipynb). The last cell draws how far you are; its last row
-# is for the end.
+# **Next:** [create a workspace](01_create_a_workspace.ipynb). The last cell of each page shows how far you've come.
 
 # %%
 progress()

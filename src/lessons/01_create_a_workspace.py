@@ -8,12 +8,12 @@
 # %% [markdown]
 # # Create a workspace
 #
-# **Goal:** you work in a real terminal and make the folder in which everything you build will live.
+# **Goal:** work in a real terminal, and create the folder that will hold everything you build.
 #
 # **Time:** 25 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
 #
-# So far your nodes lived on a page. To run by themselves, on a robot or on your computer, they need
-# files in a certain order. The folder for all of it is called a **workspace**.
+# So far, your nodes have lived on a page. To run as programs of their own, on a robot or on your computer, they
+# need files, arranged in a certain way. The folder that holds these files is called a **workspace**.
 #
 # ## Open a terminal
 #
@@ -23,26 +23,26 @@
 from rosbeat import check, hint, progress, workspace
 
 # %% [markdown]
-# A cell that begins with `%%terminal` and a name types its lines into the terminal of that name. It
-# is a real one, and it stays open from cell to cell. `pwd` means *print working directory*: it
-# says in which folder you are.
+# A cell that begins with `%%terminal` and a name types its lines into the terminal with that name. It's
+# a real terminal, and it stays open from one cell to the next. `pwd` is short for *print working directory*: it
+# prints the folder you're in.
 
 # %% terminal="one"
 # pwd
 
 # %% [markdown]
-# The line with the `$` is what was typed. In front of the `$` stands the folder, in short: here `~`,
-# which is how a terminal writes your home folder. The line below is the answer. Your own lines differ
-# a little: these terminals start in the folder of the course, wherever you put it.
+# The line with the `$` shows the command. The text before the `$` is the current folder, in short form: `~` is how
+# a terminal writes your home folder. The line below is the answer. Your own output may look a little different,
+# because your terminals start in the folder of the course, wherever you put it.
 #
-# JupyterLab has terminals of its own: *File, New, Terminal*. Everything that you type on these pages
-# you can type there, too.
+# JupyterLab has terminals of its own: choose *File, New, Terminal*. Everything you type on these pages
+# works there, too.
 #
 # ## Make the folder
 #
-# `mkdir` makes a folder (*make directory*), `cd` goes there (*change directory*). The course keeps the
-# place of your workspace under the name `ROS2_WORKSPACE`. `echo` prints, and `$` in front of a name
-# stands for what is kept under it.
+# `mkdir` (*make directory*) creates a folder, and `cd` (*change directory*) moves into it. The course stores the
+# location of your workspace under the name `ROS2_WORKSPACE`. `echo` prints text, and a `$` before a name
+# stands for the value stored under that name.
 
 # %% terminal="one"
 # echo $ROS2_WORKSPACE
@@ -51,49 +51,50 @@ from rosbeat import check, hint, progress, workspace
 # pwd
 
 # %% [markdown]
-# (The quotes keep a path together if there is a blank in it. What `-p` does, you see below.) The folder
-# appears in JupyterLab's file browser on the left, too: a click on the folder icon at the top goes up to
-# where it is. It is your own: nothing in this course deletes what you put there.
+# The quotes keep a path in one piece even if it contains a space. You'll see below what `-p` does.
 #
-# **Predict:** the next cell uses the same terminal. In which folder does it begin?
+# The new folder also appears in JupyterLab's file browser on the left; click the folder icon at the top of the file
+# browser to go up to it. This folder is yours: the course never deletes what you put there.
+#
+# **Predict:** the next cell uses the same terminal. Which folder does it start in?
 
 # %% terminal="one"
 # pwd
 
 # %% [markdown]
-# In the new one. The terminal remembers. Another terminal knows nothing of that:
+# In the new folder: a terminal remembers where it is. Another terminal isn't affected:
 
 # %% terminal="two"
 # pwd
 
 # %% [markdown]
-# Terminal `two` stands in a folder of its own. Later, one terminal will run the sensor and another
+# Terminal `two` is in a folder of its own. Later, one terminal will run the sensor and another will run
 # the monitor.
 #
-# ## Give it an order
+# ## Add the folders inside
 #
-# A workspace has a few folders. The tutorial that this course follows makes all of them in one line.
-# `ls` lists what is in a folder: with `-1` one name on each line, and with `-d` and these stars only the
-# folders here and in `resources`.
+# A workspace has a few standard folders, and the tutorial that this course follows creates all of them in one line.
+# `ls` lists what's in a folder. The option `-1` prints one name per line. With `-d` and these stars, `ls` lists
+# only the folders here and in `resources`.
 
 # %% terminal="one"
 # mkdir -p src docs scripts resources/images
 # ls -1d */ resources/*/
 
 # %% [markdown]
-# | folder | what goes in |
+# | folder | what it's for |
 # |---|---|
-# | `src` | source code: what you write, in the packages of the next page |
-# | `docs` | what you write about it |
-# | `scripts` | small helpers of your own |
+# | `src` | source code: the packages you'll create on the next page |
+# | `docs` | your documentation |
+# | `scripts` | small helper scripts |
 # | `resources/images` | pictures and other files |
 #
 # Only `src` matters to ROS. The others are for you, and for the people you work with.
 #
 # ## Understand `-p`
 #
-# `-p` stands for *parents*, the folders around a folder. It makes those that are missing, and it is
-# content if the folder is there already.
+# `-p` is short for *parents*, the folders that contain a folder. With `-p`, `mkdir` creates any missing parent
+# folders, and doesn't complain if a folder already exists.
 #
 # **Predict:** what happens without it?
 
@@ -101,9 +102,9 @@ from rosbeat import check, hint, progress, workspace
 # mkdir resources/maps/kitchen
 
 # %% [markdown]
-# It refuses: `resources/maps` does not exist. Every command ends with an **exit code**: 0 means that
-# all went well, any other number that it did not. Lines that begin with `#` are remarks of this course;
-# a bare terminal does not print them.
+# `mkdir` refuses, because `resources/maps` does not exist. Every command ends with an **exit code**: 0 means
+# success, and any other number means that something went wrong. Lines that begin with `#` are notes from this
+# course; an ordinary terminal doesn't print them.
 #
 # With `-p` it works:
 
@@ -114,18 +115,18 @@ from rosbeat import check, hint, progress, workspace
 # %% [markdown]
 # ## Find your way
 #
-# A **path** says where something is:
+# A **path** says where a file or folder is:
 #
 # | path | means |
 # |---|---|
-# | `src` | the folder `src` in the folder where you are |
-# | `..` | one folder up |
-# | `../docs` | one up, then into `docs` |
+# | `src` | the folder `src` inside the current folder |
+# | `..` | the folder one level up |
+# | `../docs` | one level up, then into `docs` |
 # | `~` | your home folder |
-# | `/` | the top of the whole disk |
+# | `/` | the top of the file system |
 #
-# Paths that begin with `/` or `~` mean the same place wherever you are: they are **absolute**. The
-# others begin where you are: they are **relative**.
+# A path that begins with `/` or `~` means the same place wherever you are: it's an **absolute** path. Any
+# other path starts from the current folder: it's a **relative** path.
 
 # %% terminal="one"
 # cd "$ROS2_WORKSPACE/resources/images"
@@ -135,8 +136,8 @@ from rosbeat import check, hint, progress, workspace
 # %% [markdown]
 # ## Try it: a folder in a folder
 #
-# The first line goes back to the workspace. Make the folder `resources/sounds/alarm` there with one
-# command. Replace the blank `____` with what is missing, and run both cells.
+# The first line goes back to the workspace. From there, create the folder `resources/sounds/alarm` with a single
+# command. Replace the blank `____` with what's missing, and run both cells.
 
 # %% terminal="one" exercise="01a"
 # cd "$ROS2_WORKSPACE"
@@ -168,22 +169,22 @@ check("01a", workspace.folder())
 check("01b", workspace.terminal("two"))
 
 # %% [markdown]
-# ## Ask whether ROS is there
+# ## Check that ROS is there
 #
-# `ROS2_WORKSPACE` is one of many names that a terminal keeps. All of them together are its
-# **environment**, and it hands them to every command. On a robot you would first type `source
-# /opt/ros/jazzy/setup.bash`, which fills the environment in, so that ROS is found. Here, every terminal
-# begins with that.
+# `ROS2_WORKSPACE` is one of many names that a terminal stores. Together they are called its
+# **environment**, and every command that you run receives a copy of it. On a robot, you would first type
+# `source /opt/ros/jazzy/setup.bash`, which sets up the environment so that ROS can be found. In this course, every
+# terminal starts with that already done.
 
 # %% terminal="one"
 # echo $ROS_DISTRO
 # ros2 pkg list | grep rclpy
 
 # %% [markdown]
-# `jazzy` is the version of ROS 2. `ros2` is its command-line tool: here it listed what is installed, and
-# `| grep rclpy` kept the lines in which `rclpy` stands, the ROS library for Python.
+# `jazzy` is the version of ROS 2, and `ros2` is its command-line tool. Here it lists the packages that are
+# installed. `| grep rclpy` keeps only the lines that contain `rclpy`, the ROS library for Python.
 #
-# You may put a name of your own into the environment, with `export`:
+# You can add a name of your own to the environment with `export`:
 
 # %% terminal="one"
 # export ROBOT=Rosie
@@ -196,13 +197,13 @@ check("01b", workspace.terminal("two"))
 # echo "I am $ROBOT"
 
 # %% [markdown]
-# Nothing: a name that is not there counts as empty, and there is no error. Each terminal has an
-# environment of its own. You meet this again with `source`.
+# An empty line: a name that hasn't been set counts as empty, and that's not an error. Each terminal has its own
+# environment. You'll see this again when you learn about `source`.
 #
 # ## Build an empty workspace
 #
-# `colcon` is the tool that builds a workspace: it looks for packages below the folder where you are,
-# makes programs of them that ROS can start, and puts the result into new folders.
+# `colcon` is the tool that builds a workspace. It looks for packages in the current folder and below, turns them
+# into programs that ROS can start, and puts the results into new folders.
 
 # %% terminal="one"
 # cd "$ROS2_WORKSPACE"
@@ -210,9 +211,9 @@ check("01b", workspace.terminal("two"))
 # ls
 
 # %% [markdown]
-# No package yet, so nothing was built. But three folders are there: `install` is the result, `build` is
-# colcon's workbench, and `log` its diary. You never edit them. You may delete all three at any time: the
-# next build makes them again.
+# There's no package yet, so there was nothing to build. But you now have three new folders: `install` holds the
+# result, `build` holds intermediate files, and `log` holds a record of each build. You never edit these folders. You
+# can delete all three at any time, because the next build creates them again.
 #
 # ## What went wrong: one character
 #
@@ -222,13 +223,13 @@ check("01b", workspace.terminal("two"))
 # mkdir /Documents/ROS2_and_RL_Tutorials/
 
 # %% [markdown]
-# **Symptom:** an error and exit code 1. **What shows it:** the path in the message. **Cause:** it begins
-# with `/`, so it begins at the top of the disk, and there is no folder `Documents` up there. **Cure:**
-# `~/Documents/...` was meant, in your home folder. One character decides.
+# **Symptom:** an error and exit code 1. **Where to look:** the path in the message. **Cause:** the path begins
+# with `/`, so it starts at the top of the file system, where there is no folder `Documents`. **Fix:**
+# the tutorial means `~/Documents/...`, in your home folder. A single character makes the difference.
 #
 # ## What went wrong: the wrong folder
 #
-# `colcon build` works wherever there may be packages, and that is a trap.
+# `colcon build` works in any folder, and that's a trap.
 
 # %% terminal="one"
 # cd "$ROS2_WORKSPACE/src"
@@ -236,9 +237,9 @@ check("01b", workspace.terminal("two"))
 # ls
 
 # %% [markdown]
-# Now the three folders are in `src`, too, where nobody looks for them. **Cure:** remove them, and build in
-# the workspace itself. `rm` removes files, and with `-r` folders and all that is in them. There is no bin
-# to get them back from, so read such a line twice before you run it.
+# Now the three folders are in `src` as well, where nothing looks for them. **Fix:** remove them, and build in
+# the workspace itself. `rm` removes files; `rm -r` removes folders and everything in them. There is no recycle
+# bin to get them back from, so read such a line twice before you run it.
 
 # %% terminal="one"
 # cd "$ROS2_WORKSPACE/src"
@@ -247,11 +248,11 @@ check("01b", workspace.terminal("two"))
 # %% [markdown]
 # ## Remember
 #
-# - A **workspace** is a folder; `src` in it holds the source code.
-# - `mkdir -p` makes folders, `cd` goes there, `pwd` says where you are, `ls` shows what is there.
-# - Exit code 0 means that all went well.
-# - Each terminal has its own folder and its own environment.
-# - `colcon build` is typed in the workspace, not in `src`.
+# - A **workspace** is a folder; its `src` folder holds the source code.
+# - `mkdir -p` creates folders, `cd` moves into one, `pwd` prints where you are, and `ls` lists what's there.
+# - Exit code 0 means success.
+# - Each terminal has its own current folder and its own environment.
+# - Run `colcon build` in the workspace, not in `src`.
 #
 # **Next:** [create a package](02_create_a_package.ipynb) in `src`.
 

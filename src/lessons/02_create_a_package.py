@@ -8,17 +8,15 @@
 # %% [markdown]
 # # Create a package
 #
-# **Goal:** you make the package that will hold the sensor and the monitor, you know what each of its
-# files is for, and you build and load it.
+# **Goal:** create the package that will hold the sensor and the monitor, learn what each of its files is for, then
+# build it and load it.
 #
 # **Time:** 30 minutes. **You need:** [create a workspace](01_create_a_workspace.ipynb).
 #
-# A **package** is a folder with code and a few files that say what it is. It is the smallest thing
-# that ROS can build, install and find, and it is what people share: a camera driver is a package, and
-# so is a set of messages.
+# A **package** is a folder that contains code and a few files that describe it. It's the smallest unit that ROS can
+# build, install and find, and it's what people share: a camera driver is a package, and so is a set of messages.
 #
-# The next cell makes the workspace of the last page if it is not there yet, and leaves it alone if it
-# is.
+# The next cell creates the workspace from the last page if it's missing. If you already have one, it stays as it is.
 
 # %%
 from rosbeat import check, hint, progress, workspace
@@ -26,9 +24,9 @@ from rosbeat import check, hint, progress, workspace
 workspace.catch_up("02")
 
 # %% [markdown]
-# ## Make it
+# ## Create it
 #
-# Packages live in `src`. One command makes one:
+# Packages live in `src`. A single command creates one:
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE/src"
@@ -37,40 +35,39 @@ workspace.catch_up("02")
 # %% [markdown]
 # Read the command piece by piece:
 #
-# | piece | means |
+# | piece | meaning |
 # |---|---|
 # | `ros2` | the command-line tool of ROS 2 |
-# | `pkg create` | make a new package |
-# | `--build-type ament_python` | a Python package, not C++ |
-# | `sensor_simulator` | its name: lower case, words joined by `_` |
-# | `--dependencies rclpy std_msgs` | what it needs: the Python library of ROS, and standard messages such as `Float32` and `String` |
+# | `pkg create` | create a new package |
+# | `--build-type ament_python` | a Python package, not a C++ one |
+# | `sensor_simulator` | the package's name: lower case, with words joined by `_` |
+# | `--dependencies rclpy std_msgs` | what the package needs: the ROS library for Python, and standard messages such as `Float32` and `String` |
 #
-# What follows `--dependencies` is only written down, not installed: a **dependency** is a package that
-# yours needs, and other tools read there what to install on a robot. The warning at the end is about
-# the licence. You choose one below.
+# A **dependency** is a package that yours needs. `--dependencies` doesn't install anything: it writes the names
+# into the package, where other tools can read what to install on a robot. The warning at the end is about the
+# licence, which you'll choose below.
 
 # %% terminal="build"
 # find sensor_simulator -type f | sort
 
 # %% [markdown]
-# `find ... -type f` lists files. There are eight, and you wrote none of them. Here is what they are for:
+# `find ... -type f` lists files. There are eight of them, and you didn't have to write any. This is what they are for:
 #
-# | file | what for |
+# | file | what it's for |
 # |---|---|
-# | `package.xml` | what the package is called, who looks after it, what it needs |
-# | `setup.py` | how Python installs it; page 05 is about this one |
-# | `setup.cfg` | where its programs are installed |
+# | `package.xml` | the package's name, who maintains it, and what it needs |
+# | `setup.py` | how Python installs the package; page 05 is about this file |
+# | `setup.cfg` | where the package's programs are installed |
 # | `resource/sensor_simulator` | the marker by which ROS finds the package |
 # | `sensor_simulator/__init__.py` | makes the inner folder a Python package |
-# | `test/test_*.py` | tests of style, run by `colcon test` |
+# | `test/test_*.py` | style checks, run by `colcon test` |
 #
-# There are two folders `sensor_simulator`. The outer one is the ROS package, the inner one is the
+# There are two folders called `sensor_simulator`. The outer one is the ROS package; the inner one is the
 # Python package. Your nodes go into the inner one.
 #
 # ## Look inside
 #
-# Three of the files are so small that you can look at them at once. `cat` shows a file, and `wc -c`
-# counts its bytes.
+# Three of the files are tiny, so look at them first. `cat` prints a file, and `wc -c` counts its bytes.
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE/src/sensor_simulator"
@@ -78,29 +75,30 @@ workspace.catch_up("02")
 # wc -c resource/sensor_simulator sensor_simulator/__init__.py
 
 # %% [markdown]
-# Both counted files are empty: that they are there is all that matters. `setup.cfg` says that
-# programs go to `lib/sensor_simulator`, because that is where `ros2 run` looks for them. Without
-# it, they would be installed where it never looks.
+# The two files that were counted are empty: all that matters is that they exist. `setup.cfg` says that programs are
+# installed in `lib/sensor_simulator`, which is where `ros2 run` looks for them. Without `setup.cfg`, they would be
+# installed somewhere else, and `ros2 run` wouldn't find them.
 #
-# Now the longest one:
+# Now for a longer one, `package.xml`:
 
 # %% terminal="build"
 # cat package.xml
 
 # %% [markdown]
-# This is the **manifest**: name, version, what it is, who looks after it, under which licence others
-# may use it (the tag is spelt `license`), and what it needs. `<depend>` names packages that it needs to run, `<test_depend>` those
-# that only its tests need. `<build_type>` tells colcon how to build it.
+# This is the **manifest**: it states the package's name, its version, a description, who maintains it, the licence
+# under which others may use it (the tag uses the American spelling, `license`), and what it needs. `<depend>`
+# names packages that it needs in order to run, and `<test_depend>` names packages that only its tests need.
+# `<build_type>` tells colcon how to build it.
 #
-# Two places say `TODO`. Nobody minds today, but a package that you share needs both: without a
-# licence, nobody else may use it. The name of the maintainer is a guess from this computer's settings.
+# Two entries still say `TODO`. That does no harm today, but a package that you share needs both: without a
+# licence, nobody else is allowed to use it. The maintainer's name is a guess, taken from this computer's settings.
 
 # %% [markdown]
-# ## Try it: fill in the manifest
+# ## Try it: complete the manifest
 #
-# A cell that begins with `%%save` becomes a file of your workspace. If that changes a file, the
-# version before is kept. Write a description of your own, and choose a licence: `Apache-2.0` is the
-# one that ROS itself uses. You may put in your name and address, too.
+# A cell that begins with `%%save` becomes a file in your workspace. If the file already exists and is different, the
+# course keeps the earlier version. Write a description of your own, and choose a licence: ROS itself uses
+# `Apache-2.0`. You can also fill in your name and email address.
 
 # %% save="src/sensor_simulator/package.xml" exercise="02a"
 # <?xml version="1.0"?>
@@ -146,10 +144,10 @@ check("02a", workspace.folder())
 # colcon build
 
 # %% [markdown]
-# colcon found the package by its `package.xml`, built it, and said so: started, finished. For a Python
-# package, building means copying, and making its programs: the code, the manifest and the marker go to
-# where ROS looks for them. A C++ package would be compiled as well. With many packages, colcon
-# builds those first that others depend on. The result is in `install`, one folder for each package:
+# colcon found the package by its `package.xml`, built it, and reported: started, finished. For a Python
+# package, building means copying the code, the manifest and the marker to the places where ROS looks for them, and
+# creating the programs. A C++ package would also be compiled. If there are several packages, colcon
+# builds a package's dependencies before the package itself. The result is in `install`, with one folder per package:
 
 # %% terminal="build"
 # ls -d install/*/
@@ -164,29 +162,28 @@ check("02a", workspace.folder())
 # %% [markdown]
 # ## Load it
 #
-# Not yet. This terminal's environment knows the packages that came with ROS, and nobody told it about
-# yours. `source` runs a file in this very shell, and that file adds your packages to the
-# environment:
+# Not yet. This terminal's environment lists the packages that came with ROS, but not yours. The command `source` runs
+# a file in the current terminal, and this file adds your packages to the terminal's environment:
 
 # %% terminal="build"
 # source install/setup.bash
 # ros2 pkg prefix sensor_simulator
 
 # %% [markdown]
-# Now it is found, and `ros2 pkg prefix` says where it is installed. Your workspace lies on top of ROS like
-# a transparent sheet, and that is what it is called: an **overlay**. It adds packages and leaves the
-# others as they are.
+# Now `ros2` finds the package, and `ros2 pkg prefix` prints where it's installed. This step is called **sourcing**
+# the workspace. Your workspace lies on top of ROS like a transparent sheet, so it's called an **overlay**. It adds
+# packages, and leaves those underneath as they are.
 #
-# `source` has changed this terminal and no other. **Predict:** what does a second terminal say?
+# Sourcing changed this terminal and no other. **Predict:** what does a second terminal say?
 
 # %% terminal="other"
 # ros2 pkg prefix sensor_simulator
 
 # %% [markdown]
-# It has to load the workspace itself. This is the most frequent surprise of the first weeks with ROS:
-# a package is built, and a new terminal does not find it. Whenever you read *Package not found*, ask
-# two questions. Is it built: is there a folder of its name in `install`? And is it loaded: did *this*
-# terminal run `source install/setup.bash`?
+# The second terminal has to source the workspace itself. This is the most common surprise in the first weeks with
+# ROS: a package is built, and a new terminal doesn't find it. Whenever you read *Package not found*, ask two
+# questions. Is it built? There should be a folder of its name in `install`. Is it loaded? *This* terminal should have
+# run `source install/setup.bash`.
 
 # %% terminal="other"
 # cd "$ROS2_WORKSPACE"
@@ -196,27 +193,27 @@ check("02a", workspace.folder())
 # %% [markdown]
 # ## Look for programs
 #
-# A package can bring programs that `ros2 run` starts. Which ones does yours have?
+# A package can contain programs, which you start with `ros2 run`. Which programs does yours have?
 
 # %% terminal="build"
 # ros2 pkg executables sensor_simulator
 
 # %% [markdown]
-# None, because there is no code in it. Compare with `std_msgs`, a package that comes with ROS: it brings
-# messages and no programs, and what a message looks like you can read. (In ROS a message type is one
-# kind of **interface**: what two nodes have to agree on.)
+# None, because there's no code in it yet. Compare it with `std_msgs`, a package that comes with ROS. It
+# provides message definitions rather than programs, and you can read each definition. In ROS, a message type is one
+# kind of **interface**: something that two nodes have to agree on.
 
 # %% terminal="build"
 # ros2 interface show std_msgs/msg/Float32
 
 # %% [markdown]
-# That is the message that your sensor will send: one field, `data`, a number with 32 bits. The lines
-# above it are a remark of its authors: it is here for examples, and for a robot of your own, messages with
-# more meaning are better.
+# This is the message that your sensor will send. It has one field, `data`, which is a 32-bit number. The lines
+# above it are a comment from its authors: they recommend this type for examples, and more meaningful messages for a
+# real robot.
 #
 # ## Try it: a second package
 #
-# Make a package `room_display` in `src`, a Python package that needs `rclpy` and `sensor_msgs`.
+# Create a package `room_display` in `src`: a Python package that depends on `rclpy` and `sensor_msgs`.
 # Replace the blanks.
 
 # %% terminal="build" exercise="02b"
@@ -231,34 +228,34 @@ check("02a", workspace.folder())
 check("02b", workspace.folder())
 
 # %% [markdown]
-# ## What went wrong: it exists already
+# ## What went wrong: it already exists
 #
-# **Predict:** what happens if you make `sensor_simulator` once more?
+# **Predict:** what happens if you create `sensor_simulator` a second time?
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE/src"
 # ros2 pkg create --build-type ament_python sensor_simulator
 
 # %% [markdown]
-# **Symptom:** *Aborted*, and exit code 1. **What shows it:** the path in the message. **Cause:** the
-# folder is there. **Cure:** use it as it is, or choose another name. The command never overwrites a
+# **Symptom:** *Aborted*, and exit code 1. **Where to look:** the path in the message. **Cause:** the
+# folder already exists. **Fix:** use the package you have, or choose another name. The command never overwrites a
 # package, so nothing was lost.
 #
-# Two more traps lie in this command. It makes the package in the folder where you are; that should be
-# `src`. And if you forget `--build-type ament_python`, a full ROS makes a C++ package, without a
-# `setup.py`. Then remove the folder and begin again. (The `ros2` of this course makes Python packages only,
-# and says so.)
+# There are two more traps in this command. First, it creates the package in the current folder, which should be
+# `src`. Second, if you forget `--build-type ament_python`, a full ROS installation creates a C++ package, which
+# has no `setup.py`. If that happens, remove the folder and start again. The `ros2` command of this course creates
+# Python packages only, and tells you so.
 
 # %% [markdown]
 # ## Remember
 #
-# - A **package** has a manifest, `package.xml`, and for Python a `setup.py`.
-# - `ros2 pkg create` makes one, in `src`.
-# - `colcon build`, in the workspace, builds what is in `src` and puts it into `install`.
-# - `source install/setup.bash` loads it, in one terminal.
+# - A **package** has a manifest, `package.xml`. A Python package also has a `setup.py`.
+# - `ros2 pkg create` creates a package; run it in `src`.
+# - `colcon build` builds the packages in `src` and puts the result into `install`; run it in the workspace.
+# - `source install/setup.bash` loads the result into one terminal.
 # - The workspace is an **overlay** on top of ROS.
 #
-# **Next:** [write a publisher](03_write_a_publisher.ipynb), the first node for this package.
+# **Next:** [write a publisher](03_write_a_publisher.ipynb), the first node of this package.
 
 # %%
 progress()
