@@ -8,28 +8,27 @@
 # %% [markdown]
 # # Write a publisher
 #
-# **Goal:** you write a node that plays a temperature sensor and publishes a new reading every
-# second, and save it in your package.
+# **Goal:** write a node that simulates a temperature sensor and publishes a new reading every second, and save it
+# in your package.
 #
-# **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb); a package
-# to put the node into comes from [create a package](02_create_a_package.ipynb).
+# **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb). To save the node into a
+# package, you also need [create a package](02_create_a_package.ipynb).
 #
-# On the way you meet every line of a real sensor node, from the imports to the last line that starts
-# the program.
+# You'll meet every line of a real sensor node, from the imports to the last line, which starts the program.
 
 # %% [markdown]
 # ## Import what you need
 #
-# A few imports do it:
+# The imports come first:
 #
-# - `rclpy` is the ROS client library for Python: everything that talks to ROS goes through it;
-# - `Node` is the class that every node builds on;
+# - `rclpy` is the ROS client library for Python. It connects your code to ROS;
+# - `Node` is the base class of every node;
 # - `Float32` is the message type: it carries one decimal number;
-# - `random` comes with Python and will make the temperature wander;
-# - `signal` does, too: further down it presses `Ctrl` + `C` for you.
+# - `random` is part of Python. It makes the temperature fluctuate;
+# - `signal` is part of Python, too. Further down, it presses `Ctrl` + `C` for you.
 #
-# The last line brings the session, the pictures and the checks of this course, and the workspace, into
-# which the node goes at the end. The file on a robot does not need them.
+# The last line imports what belongs to this course: the session, the pictures, the checks, and your workspace, where
+# you'll save the node. A robot doesn't need that line.
 
 # %%
 import random
@@ -44,9 +43,9 @@ from rosbeat import Session, check, hint, predict, progress, viz, workspace
 # %% [markdown]
 # ## Name the node
 #
-# A node is a class that inherits from `Node`. Its constructor, `__init__`, first calls the
-# constructor of `Node` and gives it the node's name. Without that call the object is not a working
-# node. `get_logger().info(...)` writes a line to the log; on a robot it appears in the terminal.
+# A node is a class that inherits from `Node`. Its constructor, `__init__`, starts by calling the
+# constructor of `Node` with the node's name. Without that call, the object isn't a working
+# node. `get_logger().info(...)` writes a line to the log; on a robot, it appears in the terminal.
 
 # %%
 class QuietSensor(Node):
@@ -55,8 +54,7 @@ class QuietSensor(Node):
         self.get_logger().info("Temperature Sensor Node Started")
 
 # %% [markdown]
-# **Predict:** what does this node say in ten seconds? (`with` closes the session at the end of the
-# block.)
+# **Predict:** what does this node say in ten seconds?
 
 # %%
 with Session() as ros:
@@ -64,18 +62,18 @@ with Session() as ros:
     ros.run(seconds=10)
 
 # %% [markdown]
-# One line, and it comes from the constructor. A node does nothing by itself. It needs something that
-# calls it. For a sensor, that is a timer.
+# One line, and it comes from the constructor. A node does nothing on its own: something has to call its methods. For
+# a sensor, that's a timer.
 #
 # ## Publish on every tick
 #
-# Two lines in the constructor give the node a voice and a beat:
+# Two lines in the constructor turn the node into a sensor that publishes regularly:
 #
-# - `create_publisher(Float32, "temperature", 10)` makes a publisher for one topic. The arguments are
-#   the message type, the topic's name, and the **queue depth**: how many of its newest messages the
-#   publisher keeps for delivery. The underscore in `publisher_` is only part of the name.
+# - `create_publisher(Float32, "temperature", 10)` creates a publisher for one topic. The arguments are
+#   the message type, the topic's name, and the **queue depth**: how many of the newest messages the
+#   publisher keeps for delivery. The underscore in `publisher_` is just part of the name;
 # - `create_timer(1.0, self.publish_temperature)` calls a method every 1.0 seconds. Notice that there
-#   are no brackets after the method's name: you hand it over, and the timer calls it.
+#   are no parentheses after the method's name: you hand over the method itself, and the timer calls it.
 
 # %%
 class SteadySensor(Node):
@@ -91,12 +89,12 @@ class SteadySensor(Node):
         self.publisher_.publish(msg)
 
 # %% [markdown]
-# `self.temperature = 22.0` is where it starts: room temperature, in degrees Celsius. The method makes
-# a new message, whose `data` is 0.0, puts the temperature in, and publishes it. The named parts of a
-# message are its **fields**; `Float32` has just this one. `Float32(data=22.0)` makes and fills a
+# `self.temperature = 22.0` is the initial value: room temperature, in degrees Celsius. The method creates
+# a new message, whose `data` is 0.0 at first, sets `data` to the temperature, and publishes the message. The named
+# parts of a message are its **fields**; `Float32` has only this one. `Float32(data=22.0)` creates and fills a
 # message in one step.
 #
-# **Predict:** the timer starts at zero seconds. At which second does the first message come?
+# **Predict:** the timer starts at zero seconds. At which second is the first message published?
 
 # %% predict=true
 with Session() as ros:
@@ -112,17 +110,17 @@ predict("1", readings[0].time)
 # --- end
 
 # %% [markdown]
-# The first one comes after one full period, not at once. A timer waits first and calls then.
+# After one full period, not immediately. A timer waits first, and then calls.
 #
-# ## Let the temperature wander
+# ## Let the temperature fluctuate
 #
-# A real sensor does not say the same thing every time. `random.uniform(-0.5, 0.5)` is a random number
-# between -0.5 and +0.5, and `+=` adds it to the old value. A value that changes by small random steps
-# makes a **random walk**.
+# A real sensor doesn't report the same value every time. `random.uniform(-0.5, 0.5)` returns a random number
+# between -0.5 and +0.5, and `+=` adds it to the old value. A value that changes by small random steps is called
+# a **random walk**.
 #
-# A random walk can go anywhere. So the tutorial that this course follows keeps it in a range with
-# `max(10.2, min(28.0, ...))`. Read it from the inside out: `min` cuts off what is above 28, `max` cuts
-# off what is below 10.2. This is called **clamping**.
+# A random walk can drift anywhere, so the tutorial that this course follows limits it to a range:
+# `max(10.2, min(28.0, ...))`. Read it from the inside out: `min` returns 28 for anything above 28, and `max` returns
+# 10.2 for anything below 10.2. This is called **clamping**.
 
 # %%
 class TemperatureSensor(Node):
@@ -143,8 +141,8 @@ class TemperatureSensor(Node):
         self.get_logger().info(f"Publishing: {self.temperature:.2f}C")
 
 # %% [markdown]
-# This is the complete sensor. The last line logs what was published. The `f` before the quotes puts
-# values where the braces are, and `:.2f` writes a number with two decimals. The log is for people,
+# This is the complete sensor. Its last line logs what it published. The `f` before the quotes inserts
+# values where the braces are, and `:.2f` formats a number with two decimals. The log is for people;
 # the message is for nodes.
 
 # %%
@@ -153,33 +151,31 @@ sensor = ros.add(TemperatureSensor)
 ros.run(seconds=5)
 
 # %% [markdown]
-# Each reading is at most half a degree from the one before. `seed=8` picks the random numbers: with
-# the same seed you get the same walk, today and tomorrow.
+# Each reading is at most half a degree away from the one before. `seed=8` selects the sequence of random numbers:
+# the same seed always gives the same walk.
 #
-# **Predict:** how does a quarter of an hour look? Will the walk reach a limit?
+# **Predict:** what does a quarter of an hour look like? Will the walk reach one of its limits?
 
 # %%
 ros.run(seconds=895, quiet=True)
 viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)})
 
 # %% [markdown]
-# The band is what the clamp allows, and the circles mark some of the readings. The walk meets the
-# upper limit several times, and goes along it until a step leads away. It never comes near the lower
-# one.
+# The band shows the range that the clamp allows, and the circles mark some of the readings. The walk reaches the
+# upper limit several times, and follows it until a step leads back down. It never comes close to the lower limit.
 #
-# What you see came out of real messages. Look at the last one, and at the node's own variable beside
-# it:
+# The picture was drawn from real messages. Compare the last message with the node's own variable:
 
 # %%
 ros.messages("temperature")[-1].value, sensor.temperature
 
 # %% [markdown]
-# They differ in the last digits. Python calculates with 64 bits, and a `Float32` carries 32. A
-# subscriber gets the rounded number. This is no mistake: it is what the message type promises.
+# They differ in the last digits. Python calculates with 64 bits, but a `Float32` carries only 32, so subscribers
+# receive a rounded number. That's not a mistake: the message type promises no more.
 #
 # ## Look at it from outside
 #
-# A publisher needs nobody. Here is the graph: a sensor, a topic, and no one on the other side yet.
+# A publisher doesn't need a subscriber. Here is the graph: a sensor, a topic, and nothing on the other side yet.
 
 # %%
 viz.graph(ros.graph())
@@ -187,15 +183,15 @@ viz.graph(ros.graph())
 # %% [markdown]
 # ## Turn the class into a program
 #
-# On a robot, the class has a file of its own, with a function `main`. The next cell has the tutorial's `main`,
-# letter by letter:
+# On a robot, the class is in a file of its own, together with a function called `main`. The next cell contains the
+# tutorial's `main`, letter for letter:
 #
-# - `rclpy.init()` starts ROS in this process; it must come before the first node. `args` may hold
+# - `rclpy.init()` initializes ROS in this process. It has to run before you create the first node. `args` can hold
 #   arguments from the command line;
-# - the next line makes the node: it runs `__init__`;
-# - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until it is stopped;
-# - `Ctrl` + `C` raises `KeyboardInterrupt`. `main` catches it; `pass` does nothing;
-# - at the end, `main` destroys the node and shuts ROS down.
+# - the next line creates the node, which runs `__init__`;
+# - `rclpy.spin(node)` waits for timers and messages and calls the callbacks, until the program is stopped;
+# - `Ctrl` + `C` raises `KeyboardInterrupt`. `main` catches it, and `pass` does nothing;
+# - finally, `main` destroys the node and shuts ROS down.
 #
 # `spawn` starts a whole program in a session, as a process of its own. **Predict:** what do you see?
 
@@ -215,10 +211,10 @@ with Session(seed=8) as robot:
     robot.spawn(main)
 
 # %% [markdown]
-# A `NameError`. The tutorial spells its class in two ways, `TemperatureSensor` and `TemperaturSensor`, and
-# Python compares names letter by letter, as ROS does with topics.
+# A `NameError`. The tutorial spells its class in two ways, `TemperatureSensor` and `TemperaturSensor`. Python
+# compares names letter by letter, just as ROS compares topics.
 #
-# The next cell gives the class its second name, too. After three seconds it presses `Ctrl` + `C`.
+# The next cell gives the class its second name as well, and presses `Ctrl` + `C` after three seconds.
 #
 # **Predict:** what is the exit code?
 
@@ -237,11 +233,11 @@ predict("1", program.returncode, because="Its last line failed.")
 # --- end
 
 # %% [markdown]
-# `main` caught the `KeyboardInterrupt`, and then its last line failed. rclpy shuts ROS down itself when you press
-# `Ctrl` + `C`, and a second `shutdown` is an error. `try_shutdown` shuts ROS down only if it still runs.
+# `main` caught the `KeyboardInterrupt`, but then its last line failed. When you press `Ctrl` + `C`, rclpy shuts ROS
+# down itself, and a second `shutdown` is an error. `try_shutdown` shuts ROS down only if it's still running.
 #
-# There is one more way to end. When the system asks a program to stop, it sends the signal `SIGTERM`, and
-# `spin` raises an `ExternalShutdownException`. So your `main` catches both exceptions.
+# There's another way to stop a program: the operating system can send it the signal `SIGTERM`. In that case, `spin`
+# raises an `ExternalShutdownException`. Your own `main` catches both exceptions.
 #
 # Here is the whole file. `%%save` writes it into your package and runs it.
 
@@ -288,10 +284,11 @@ if __name__ == "__main__":
     main()
 
 # %% [markdown]
-# The very first line tells the system to run the file with Python 3. The last two lines start it: they call `main` if the file is run as a program, and not if it is imported, nor here:
-# `main` would spin until you interrupt it. On a page, `ros.run(...)` does its work.
+# The very first line tells the system to run the file with Python 3. The last two lines call `main` if the file is
+# run as a program, but not if it's imported. They don't call it on this page either, because `main` would spin until
+# you interrupt it; on a page, you use `ros.run(...)` instead.
 #
-# **Predict:** how does the program in your file end?
+# **Predict:** what is the exit code of the program in your file?
 
 # %% predict=true
 file = workspace.folder() / "src/sensor_simulator/sensor_simulator/temperature_publisher.py"
@@ -308,17 +305,17 @@ predict("0", program.returncode)
 # --- end
 
 # %% [markdown]
-# The same numbers as before, and exit code 0. What you tried is what you will build. (The tutorial opens the
-# file with `nano`, an editor. Here, a double click in the file browser does.)
+# The numbers are the same as before, and the exit code is 0. The code you tried is the code you'll build. The
+# tutorial edits the file with `nano`, an editor; here, you can double-click the file in the file browser.
 #
-# **How the data flows:** `main` starts ROS and makes the node. The node makes its publisher and its
-# timer. Every second the timer calls `publish_temperature`, which takes a step, clamps it, publishes
-# a message and logs a line. This goes on until `Ctrl` + `C`.
+# **How the data flows:** `main` initializes ROS and creates the node. The node creates its publisher and its
+# timer. Every second, the timer calls `publish_temperature`, which takes a random step, clamps the temperature,
+# publishes a message and logs a line. This continues until you press `Ctrl` + `C`.
 #
 # ## Try it: another sensor
 #
-# Complete the constructor of a humidity sensor: it publishes `Float32` messages on the topic
-# `humidity`, with a queue depth of 5, and calls `publish_humidity` twice a second.
+# Complete the constructor of a humidity sensor. It publishes `Float32` messages on the topic
+# `humidity` with a queue depth of 5, and calls `publish_humidity` twice a second.
 
 # %% exercise="03a"
 class HumiditySensor(Node):
@@ -341,11 +338,11 @@ check("03a", HumiditySensor)
 # %% [markdown]
 # ## Try it: a living room
 #
-# 10.2 degrees is cold for a room. It is probably a slip in the tutorial: 18.0 was meant. And in a
-# room with thick walls the temperature moves slowly. Write the method yourself: take a random step
+# 10.2 degrees is cold for a room. It's probably a slip in the tutorial, which must have meant 18.0. And in a
+# room with thick walls, the temperature changes slowly. Write the method yourself: take a random step
 # of at most 0.3 degrees up or down, keep the temperature between 18.0 and 28.0, and publish it. Write
-# the decimal points: a `Float32` wants a float, and 18 is an int. The last blank may become several
-# lines.
+# the numbers with decimal points: a `Float32` needs a float, and 18 is an int. You may replace the last blank with
+# several lines.
 
 # %% exercise="03b"
 class RoomSensor(Node):
@@ -372,15 +369,15 @@ check("03b", RoomSensor)
 # %% [markdown]
 # ## Try it: a greenhouse, alone
 #
-# Now a node of your own, from the first line to the last. It is a sensor for a greenhouse where people
-# count in degrees Fahrenheit. It
+# Now write a node of your own, from the first line to the last. It's a sensor for a greenhouse in a country where
+# people measure in degrees Fahrenheit. The node
 #
-# - walks like the sensor of this page: it starts at 22.0 degrees Celsius, a step is at most 0.5 up or down,
+# - walks like the sensor on this page: it starts at 22.0 degrees Celsius, each step is at most 0.5 up or down,
 #   and it stays between 10.2 and 28.0;
-# - publishes in Fahrenheit, as a `Float32`: a number `c` in Celsius is `c * 9 / 5 + 32`;
-# - uses the topic `greenhouse/temperature`, four times a second.
+# - publishes the temperature in Fahrenheit, as a `Float32`: `c` degrees Celsius are `c * 9 / 5 + 32` Fahrenheit;
+# - publishes on the topic `greenhouse/temperature`, four times a second.
 #
-# All names inside are up to you, and you may add methods. If you are stuck, `hint("03c")` in a new cell helps.
+# Choose all other names yourself, and add methods if you like. If you're stuck, run `hint("03c")` in a new cell.
 
 # %% exercise="03c"
 class GreenhouseSensor(Node):
@@ -417,18 +414,18 @@ with Session() as ros:
     ros.run(seconds=3)
 
 # %% [markdown]
-# **Symptom:** a `TypeError`, and the node stops. **Instrument:** the error itself; it names the line,
-# what was expected and what it got. **Cause:** a publisher sends messages of its type, and `22.0` is
-# a plain Python number. **Cure:** make a `Float32` and put the number into its field `data`.
+# **Symptom:** a `TypeError`, and the node stops. **Where to look:** the error itself. It names the line,
+# what was expected, and what it got. **Cause:** a publisher sends messages of its type, and `22.0` is
+# a plain Python number. **Fix:** create a `Float32` and assign the number to its field `data`.
 #
 # ## Remember
 #
-# - `super().__init__("name")` makes the class a node.
-# - `create_publisher(type, topic, depth)` makes a publisher; `publish(msg)` sends.
-# - `create_timer(period, method)` calls the method once a period, first after one period.
+# - `super().__init__("name")` makes the object a node.
+# - `create_publisher(type, topic, depth)` creates a publisher; `publish(msg)` sends a message.
+# - `create_timer(period, method)` calls the method once per period, for the first time after one full period.
 # - `rclpy.init`, `rclpy.spin` and `try_shutdown` belong to the program around the node.
 #
-# The file `temperature_publisher.py` in your package holds this class, unchanged.
+# The file `temperature_publisher.py` in your package contains this class, unchanged.
 #
 # **Next:** [write a subscriber](04_write_a_subscriber.ipynb) that listens to this sensor.
 

@@ -8,7 +8,7 @@
 # %% [markdown]
 # # Write a subscriber
 #
-# **Goal:** you write a node that listens to the temperature sensor and says whether the room is too
+# **Goal:** write a node that listens to the temperature sensor and reports whether the room is too
 # hot, too cold or just right.
 #
 # **Time:** 40 minutes. **You need:** [write a publisher](03_write_a_publisher.ipynb).
@@ -25,13 +25,13 @@ from rosbeat import Session, check, hint, predict, progress, viz, workspace
 from rosbeat.records import queue_steps
 
 # %% [markdown]
-# The first lines are the publisher's. A subscriber must use the message type that the publisher uses,
-# or the two sides do not understand each other. In a file of its own the monitor needs no `random`;
-# here the sensor does. `signal`, `String` and `queue_steps` are used further down.
+# The first imports are the same as the publisher's. A subscriber has to use the publisher's message type;
+# otherwise, no messages arrive. In a file of its own, the monitor doesn't need `random`; on this page, the sensor
+# does. You'll use `signal`, `String` and `queue_steps` further down.
 #
 # ## Bring a sensor
 #
-# To have something to listen to, here is the sensor of the last page, without its log lines.
+# To give the monitor something to listen to, here is the sensor from the last page, without its log lines.
 
 # %%
 class TemperatureSensor(Node):
@@ -49,15 +49,15 @@ class TemperatureSensor(Node):
 # %% [markdown]
 # ## Listen to a topic
 #
-# One call in the constructor does it. `create_subscription` takes four arguments:
+# To subscribe, the constructor makes a single call. `create_subscription` takes four arguments:
 #
-# - `Float32`, the type of message to expect;
+# - `Float32`, the message type to expect;
 # - `"temperature"`, the name of the topic;
 # - `self.temperature_callback`, the **callback**: the method to call when a message arrives;
 # - `10`, the queue depth: how many messages are kept while the node is busy.
 #
-# You never call the callback yourself. ROS calls it, once for each message, and hands the message
-# over as `msg`. So this method has two parameters: `self` and the message.
+# You never call the callback yourself. ROS calls it once for each message, and passes the message as `msg`. That's
+# why the method has two parameters: `self` and the message.
 
 # %%
 class Listener(Node):
@@ -71,7 +71,7 @@ class Listener(Node):
         self.get_logger().info(f"I heard {msg.data:.2f}")
 
 # %% [markdown]
-# **Predict:** first the listener runs alone for five seconds, then a sensor joins for three. What
+# **Predict:** the listener first runs alone for five seconds; then a sensor joins for three. What
 # is logged, and when?
 
 # %%
@@ -82,13 +82,13 @@ with Session(seed=8) as ros:
     ros.run(seconds=3)
 
 # %% [markdown]
-# Nothing for five seconds, then one line a second. A publisher acts: its timer drives it. A
-# subscriber is passive: it **reacts**, and only a message wakes it. It does not ask whether there is
-# something new, and it does not mind that the sensor came after it. Waiting costs almost nothing.
+# Nothing for five seconds, then one line per second. A publisher is active: its timer drives it. A
+# subscriber is passive: it **reacts**, and only a message makes it run. It doesn't keep asking whether there's
+# anything new, and it doesn't matter that the sensor started later. Waiting costs almost nothing.
 #
-# ## Judge what you hear
+# ## Judge the temperature
 #
-# The monitor says *High* above 26 degrees, *Low* below 20, and *Normal* in between.
+# The monitor reports *High* above 26 degrees, *Low* below 20, and *Normal* in between.
 
 # %%
 class TemperatureMonitor(Node):
@@ -112,11 +112,11 @@ class TemperatureMonitor(Node):
 # %% [markdown]
 # This is the complete monitor. Read the callback from top to bottom:
 #
-# - `temp = msg.data` takes the number out of the message;
-# - `if`, `elif` and `else` are tried in this order, and the first that fits wins, so every number
+# - `temp = msg.data` gets the number from the message;
+# - Python tries `if`, `elif` and `else` in this order and takes the first branch that fits, so every number
 #   gets exactly one status;
-# - `>` and `<` leave the limits themselves out: exactly 26.0 is *Normal*, and so is exactly 20.0;
-# - the last line reports what was found, with two decimals.
+# - `>` and `<` exclude the limits themselves: exactly 26.0 is *Normal*, and so is exactly 20.0;
+# - the last line logs the temperature with two decimals, and the status.
 
 # %%
 ros = Session(seed=8)
@@ -125,8 +125,8 @@ ros.add(TemperatureMonitor)
 ros.run(seconds=4)
 
 # %% [markdown]
-# Four readings, four times *Normal*. Now count the words over ten minutes, and draw the readings with
-# the three states as bands. `status_of` cuts the word out of a log line; you need not read it closely.
+# Four readings, and four times *Normal*. Now count each status over ten minutes, and draw the readings with
+# the three states as bands. `status_of` extracts the status from a log line; you don't need to study it.
 
 # %%
 ros.run(seconds=596, quiet=True)
@@ -143,10 +143,10 @@ limits = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
 viz.values(ros.observation(), "temperature", bands=limits)
 
 # %% [markdown]
-# Near a border, a small step is enough to change the status. *Low* would happen too if the sensor's
-# lower limit were 18.0, as was probably meant: it begins below 20.
+# Near a limit, a small step is enough to change the status. *Low*, which begins below 20, would be possible even if
+# the sensor's lower limit were 18.0, as the tutorial probably meant.
 #
-# **Predict:** how often does the status change in these ten minutes? Roughly is good enough.
+# **Predict:** how often does the status change in these ten minutes? A rough guess is good enough.
 
 # %% predict=true
 changes = sum(a != b for a, b in zip(statuses, statuses[1:]))
@@ -157,13 +157,13 @@ predict("26", changes, tolerance=5)
 # --- end
 
 # %% [markdown]
-# 26 changes, for a line that crosses a border only a few times for good. Most of them come in groups:
+# 26 changes, although the line crosses a limit for good only a few times. Most of the changes come in groups:
 # the status flickers.
 #
 # ## See the two together
 #
-# In the graph, sensor and monitor stand on the two sides of one topic. A second monitor would be one
-# more ellipse on the right, and the sensor would not change.
+# In the graph, the sensor and the monitor are on the two sides of one topic. A second monitor would add another
+# ellipse on the right, and the sensor wouldn't change at all.
 
 # %%
 viz.graph(ros.graph())
@@ -172,18 +172,18 @@ viz.graph(ros.graph())
 viz.timeline(ros.observation(), until=3)
 
 # %% [markdown]
-# Each tick of the sensor's timer sends a message, and the message starts the monitor's callback.
+# Each tick of the sensor's timer sends a message, and the message triggers the monitor's callback.
 # Neither node's code mentions the other. Any node that publishes a `Float32` on `temperature` would do.
 #
 # ## Let messages wait
 #
-# What if the monitor is busy for a while? Its messages wait in a **queue**. The 10 in
-# `create_subscription` is the length of that queue. (The publisher's 10 is another queue; a busy
-# callback fills the subscriber's.) `ros.pause` plays the busy node: it takes no messages until
-# `ros.resume`. The last lines of the cell only count.
+# What if the monitor is busy for a while? Its messages wait in a **queue**, and the 10 in
+# `create_subscription` is the length of that queue. The publisher's 10 belongs to another queue, at the publisher;
+# messages for a busy callback wait in the subscriber's queue. `ros.pause` simulates the busy node: it takes no
+# messages until `ros.resume`. The last lines of the cell only count readings.
 #
 # **Predict:** the monitor is paused for 15 seconds while the sensor publishes once a second. How
-# many readings does it get when it comes back?
+# many readings does the monitor get when it resumes?
 
 # %% predict=true
 with Session(seed=8) as ros:
@@ -203,9 +203,9 @@ predict("10", waited)
 # --- end
 
 # %% [markdown]
-# Ten. The picture shows the queue. The numbers are readings, and time runs to the right: up to 15
-# seconds, each column is one second. Then the monitor is back and takes ten readings at once, one
-# column each.
+# Ten. The picture shows the queue. The numbers are readings, and time runs from left to right. In the first 15
+# seconds, each column is one second. Then the monitor resumes and takes ten readings at the same instant, one per
+# column.
 
 # %%
 arrivals = [sample.time_ns for sample in seen.samples]
@@ -213,15 +213,15 @@ takes = [call.time_ns for call in seen.callbacks if call.kind == "subscription"]
 viz.queue(queue_steps(arrivals, takes, depth=10), depth=10)
 
 # %% [markdown]
-# When the queue is full, each new reading pushes the oldest one out. So the depth has nothing to do
-# with ten messages per second, and the sensor never waits for anybody. It does not even know that
-# five readings were lost. For a temperature that is fine: the newest readings matter most.
+# When the queue is full, each new reading pushes out the oldest one. The depth has nothing to do with ten messages
+# per second, and the sensor never waits for anyone. It doesn't even notice that five readings were lost. For a
+# temperature, that's fine: the newest readings matter most.
 #
 # ## Turn the class into a program
 #
-# The monitor's `main` is the sensor's, with another class in it. `rclpy.init` starts ROS,
-# `TemperatureMonitor()` makes the node, and `rclpy.spin` keeps the program alive and calls the
-# callback whenever a message has arrived. The whole file goes into your package:
+# The monitor's `main` is the sensor's `main` with another class in it. `rclpy.init` initializes ROS,
+# `TemperatureMonitor()` creates the node, and `rclpy.spin` keeps the program running and calls the
+# callback whenever a message arrives. Save the whole file into your package:
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_subscriber.py"
 #!/usr/bin/env python3
@@ -265,8 +265,8 @@ if __name__ == "__main__":
     main()
 
 # %% [markdown]
-# The tutorial's own `main` leaves out two lines: it neither destroys the node nor shuts ROS down. Here it is,
-# beside a sensor.
+# The tutorial's own `main` leaves out two lines: it doesn't destroy the node, and it doesn't shut ROS down. Here it
+# is, next to a sensor.
 #
 # **Predict:** what is its exit code after `Ctrl` + `C`?
 
@@ -293,29 +293,30 @@ predict("0", program.returncode)
 # --- end
 
 # %% [markdown]
-# The program ends, and the system takes back what it held. Tidy up all the same: sometimes it matters.
+# The program ends, and the operating system releases everything it used. Clean up all the same: in larger programs,
+# it matters.
 #
-# **How the data flows:** `main` makes the node, and the node its subscription. `rclpy.spin` waits.
-# A message arrives, the callback judges its number and logs the status, and the waiting goes on until
-# `Ctrl` + `C`.
+# **How the data flows:** `main` creates the node, and the node creates its subscription. `rclpy.spin` waits.
+# When a message arrives, the callback evaluates the temperature and logs the status. Then `spin` waits again, until
+# you press `Ctrl` + `C`.
 #
 # ## Compare the two
 #
 # | | publisher | subscriber |
 # |---|---|---|
 # | what it does | sends data | receives data |
-# | made with | `create_publisher()` | `create_subscription()` |
-# | driven by | a timer: it acts | a message: it reacts |
-# | its method | is called by the timer and calls `publish()` | is called by ROS with a message |
-# | the data | is made here | is used here |
+# | created with | `create_publisher()` | `create_subscription()` |
+# | driven by | a timer: it's proactive | messages: it's reactive |
+# | its method | is called by the timer, and calls `publish()` | is called by ROS with a message |
+# | the data | is generated here | is processed here |
 #
-# A node may do both, as in the last two exercises.
+# A node can do both, as in the last two exercises.
 #
 # ## Try it: watch a fridge
 #
-# A fridge has limits of its own. Above 8 degrees it is *Warm*, below 2 degrees it is *Frost*, and in
-# between all is *Fine*. Exactly 8.0 and exactly 2.0 are still *Fine*. Write the decision; it may
-# take more lines than the blank.
+# A fridge has limits of its own. Above 8 degrees it's *Warm*, below 2 degrees it's *Frost*, and in
+# between it's *Fine*. Exactly 8.0 and exactly 2.0 are still *Fine*. Write the decision; you may replace the blank
+# with several lines.
 
 # %% exercise="04a"
 class FridgeMonitor(Node):
@@ -343,9 +344,9 @@ check("04a", FridgeMonitor)
 # %% [markdown]
 # ## Try it: raise the alarm
 #
-# This node sits in the middle: it listens to `temperature` and publishes a `String` on the topic
-# `alert`, but only if a reading is above 26 or below 20. What the text says is up to you. Other nodes
-# can listen to `alert` and need not know any limit.
+# This node is in the middle: it subscribes to `temperature` and publishes a `String` on the topic
+# `alert`, but only if a reading is above 26 or below 20. The text is up to you. Other nodes can
+# subscribe to `alert` without knowing any limits.
 
 # %% exercise="04b"
 class Alarm(Node):
@@ -373,15 +374,15 @@ check("04b", Alarm)
 # %% [markdown]
 # ## Try it: a calm monitor, alone
 #
-# Near a border, the status flickers. So real monitors have two borders: one to go over, and another to come
-# back. This is called **hysteresis**. Write a node that listens to `temperature` and publishes
+# Near a limit, the status flickers. That's why real monitors use two limits: one to enter a state, and another to
+# leave it. This is called **hysteresis**. Write a node that listens to `temperature` and publishes
 #
-# - on `mean`, for each reading, the mean of the last five readings, as a `Float32` (of those that there are,
-#   while there are fewer);
-# - on `status`, as a `String`, the status, but only when it changes. It begins as `Normal`.
+# - on `mean`, for each reading, the mean of the last five readings, as a `Float32`. While there are fewer than five,
+#   it's the mean of all of them;
+# - on `status`, as a `String`, the status, but only when it changes. The status begins as `Normal`.
 #
-# A reading above 26 is `High` and one below 20 is `Low`, whatever was before. From `High` it goes back to
-# `Normal` only below 25, from `Low` only above 21.
+# A reading above 26 is `High` and a reading below 20 is `Low`, whatever the status was before. From `High`, the
+# status returns to `Normal` only below 25; from `Low`, only above 21.
 
 # %% exercise="04c"
 class CalmMonitor(Node):
@@ -421,7 +422,7 @@ check("04c", CalmMonitor)
 # %% [markdown]
 # ## What went wrong: the callback is called too early
 #
-# Two small brackets too many, in the line that subscribes. **Predict:** when does this fail: at the
+# The line that subscribes has one pair of parentheses too many. **Predict:** when does this fail: at the
 # first message, or before?
 
 # %%
@@ -438,21 +439,21 @@ with Session() as ros:
     ros.add(EagerMonitor)
 
 # %% [markdown]
-# **Symptom:** the constructor fails, before any message. **Instrument:** the line that the error
-# names. **Cause:** the brackets call the method at once, without a message, so Python misses `msg`.
-# **Cure:** hand over the method itself, without brackets.
+# **Symptom:** the constructor fails, before any message. **Where to look:** the line that the error
+# names. **Cause:** the parentheses call the method at once, without a message, so Python reports that `msg` is
+# missing. **Fix:** hand over the method itself, without parentheses.
 #
 # ## Remember
 #
-# - `create_subscription(type, topic, callback, depth)` listens; ROS calls the callback.
-# - `msg.data` takes the value out of the message.
-# - A queue keeps the newest messages for a slow subscriber, as many as its depth.
-# - A publisher acts, a subscriber reacts, and a node may do both.
+# - `create_subscription(type, topic, callback, depth)` subscribes; ROS calls the callback.
+# - `msg.data` gets the value from the message.
+# - A queue keeps the newest messages for a slow subscriber, up to its depth.
+# - A publisher acts, a subscriber reacts, and a node can do both.
 #
-# The file `temperature_subscriber.py` in your package holds this class, unchanged. You now have both
-# halves of a system, and neither knows the other.
+# The file `temperature_subscriber.py` in your package contains this class, unchanged. You now have both
+# halves of a system, and neither knows about the other.
 #
-# **Next:** [set the entry points](05_set_the_entry_points.ipynb), so that `ros2 run` finds them.
+# **Next:** [set the entry points](05_set_the_entry_points.ipynb), so that `ros2 run` finds the two programs.
 
 # %%
 progress()
