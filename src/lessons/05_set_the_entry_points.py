@@ -8,14 +8,14 @@
 # %% [markdown]
 # # Set the entry points
 #
-# **Goal:** you turn the two files of your package into programs that `ros2 run` can start.
+# **Goal:** turn the two files in your package into programs that `ros2 run` can start.
 #
 # **Time:** 30 minutes. **You need:** [create a package](02_create_a_package.ipynb),
 # [write a publisher](03_write_a_publisher.ipynb) and [write a subscriber](04_write_a_subscriber.ipynb).
 #
-# The files are there, and nobody knows yet that they are programs. What is missing is one entry for
-# each in `setup.py`. The next cell makes what earlier pages would have left here, if it is not there.
-# (The star in the commands below stands for any text.)
+# The two files are in your package, but nothing marks them as programs yet. For that, `setup.py` needs one entry
+# for each. The next cell creates whatever earlier pages would have left here, unless it's there already. In the
+# commands below, a star stands for any text.
 
 # %%
 from rosbeat import check, hint, predict, progress, workspace
@@ -29,18 +29,18 @@ workspace.catch_up("05")
 # %% [markdown]
 # ## Make a file executable
 #
-# A file is data until the system is told that it may be run. That permission is one letter, `x`, for
-# *execute*. `stat` shows what is known of a file, here its permissions and its name.
+# A file is just data until the system is told that it may be run. That permission is shown as one letter, `x`, for
+# *execute*. `stat` prints facts about a file: here, its permissions and its name.
 
 # %% terminal="build"
 # stat -c "%A %n" temperature_*.py
 
 # %% [markdown]
-# The first character says what it is: `-` stands for a file, `d` would be a folder. Then come three
-# times three: `r` is *read*, `w` is *write*, first for you, then for your group, then for all
-# others. There is no `x`. You can start such a file with `python3 temperature_publisher.py`, because then
-# Python only reads it. To start it by its own name it needs the `x`. `chmod` means *change mode*, and
-# `+x` adds it:
+# The first character is the kind: `-` for a file, `d` for a folder. Then come three groups of three characters.
+# `r` is *read*, `w` is *write*, and `x` is *execute*: first for you, then for your group, then for everyone
+# else. There is no `x` yet. You can still start the file with `python3 temperature_publisher.py`, because then
+# it's only read, by Python. To start it by its own name, it needs the `x`. `chmod` is short for *change mode*, and
+# `+x` adds the permission:
 
 # %% terminal="build"
 # chmod +x temperature_publisher.py
@@ -48,17 +48,17 @@ workspace.catch_up("05")
 # stat -c "%A %n" temperature_*.py
 
 # %% [markdown]
-# Now the sensor starts by itself. `./` means *in this folder*: the shell does not look for programs here
-# of its own accord. The first line of the file, `#!/usr/bin/env python3`, says who runs it. A sensor never
-# ends, so this cell only watches until a reading appears, and the program goes on in its terminal.
+# Now you can start the sensor directly. `./` means *in this folder*; without it, the shell doesn't look for programs
+# in the current folder. The first line of the file, `#!/usr/bin/env python3`, says which program runs it. A sensor
+# never ends, so this cell waits only until a reading appears, while the program keeps running in its terminal.
 
 # %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # ./temperature_publisher.py
 
 # %% [markdown]
-# A real node, running by itself. In a bare terminal you would press `Ctrl` + `C` to end it. A page has a
-# command for that: `%terminal`, with one percent sign, types nothing.
+# A real node, running on its own. In an ordinary terminal, you'd press `Ctrl` + `C` to stop it. On a page, a
+# command does this for you: `%terminal`, with one percent sign, presses keys instead of typing a command.
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
@@ -66,13 +66,13 @@ workspace.catch_up("05")
 workspace.terminal("sensor").exit_code
 
 # %% [markdown]
-# Exit code 0: `main` caught the interrupt and tidied up. A program that does not catch it ends with another
-# one, and with a traceback on the screen.
+# Exit code 0: `main` caught the interrupt and cleaned up. A program that doesn't catch it ends with a different exit
+# code, and prints a traceback.
 #
 # ## See what `chmod` does not do
 #
-# The tutorial says that after `chmod +x` the programs can be started with `ros2 run`. Try it. First the
-# package is built and loaded, as on page 02.
+# The tutorial says that after `chmod +x`, `ros2 run` can execute the scripts. Try it. First, build and source the
+# workspace, as on page 02.
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE"
@@ -80,17 +80,17 @@ workspace.terminal("sensor").exit_code
 # source install/setup.bash
 
 # %% [markdown]
-# `--packages-select` builds one package and leaves the others alone. **Predict:** does `ros2 run` find
+# `--packages-select` builds one package and ignores the others. **Predict:** does `ros2 run` find
 # the sensor?
 
 # %% terminal="build --for 5"
 # ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
-# It does not. `ros2 run` never looks at your files in `src`, and their permissions do not matter to it.
-# There is a good reason: on a robot there may be no `src` at all, only what was installed. `ros2 run`
-# looks for programs in one folder of the installed package, and there are none. (`ros2 pkg executables`
-# would list them.)
+# No. `ros2 run` never looks at your files in `src`, and their permissions make no difference to it.
+# There's a good reason: a robot may not have `src` at all, only what was installed. `ros2 run`
+# looks for programs in one folder of the installed package, and there are none. `ros2 pkg executables`
+# lists what's there.
 
 # %% terminal="build"
 # ros2 pkg executables sensor_simulator
@@ -98,7 +98,7 @@ workspace.terminal("sensor").exit_code
 # %% [markdown]
 # ## Read setup.py
 #
-# `setup.py` tells Python how to install your package. It is the instruction manual that colcon follows.
+# `setup.py` tells Python how to install your package. It's the instruction manual that colcon follows.
 
 # %% terminal="build"
 # cat src/sensor_simulator/setup.py
@@ -106,45 +106,45 @@ workspace.terminal("sensor").exit_code
 # %% [markdown]
 # | piece | what it says |
 # |---|---|
-# | `name`, `version` | the package's name, as in `package.xml` |
-# | `packages=find_packages(...)` | which folders with Python code to install: all but `test` |
+# | `name`, `version` | the package's name and version, as in `package.xml` |
+# | `packages=find_packages(...)` | which folders of Python code to install: all except `test` |
 # | `data_files` | what else to copy: the marker and the manifest |
-# | `install_requires` | what Python itself needs for it |
-# | `zip_safe` | whether it would run from a zip file |
-# | `maintainer`, `description`, `license` | the same as in `package.xml`; nobody compares the two, so you do |
+# | `install_requires` | which Python packages it needs |
+# | `zip_safe` | whether it could run from a zip file |
+# | `maintainer`, `description`, `license` | the same as in `package.xml`; no tool compares the two, so you should |
 # | `extras_require` | what its tests need |
 # | `entry_points` | which functions become programs |
 #
-# Two of them are easy to get wrong. A folder without an `__init__.py` is no Python package, so
-# `find_packages` does not see it, and its code is not installed. And a file that is not code, such as a
-# picture or a settings file, is installed only if `data_files` names it.
+# Two of these are easy to get wrong. A folder without an `__init__.py` isn't a Python package: `find_packages`
+# skips it, and its code isn't installed. And a file that isn't code, such as a picture or a settings file, is
+# installed only if `data_files` lists it.
 #
 # The last piece matters most here.
 
 # %% [markdown]
 # ## Understand an entry point
 #
-# An **entry point** is one line of text. `ros2 run` starts the name before the equals sign, and that
-# program calls the function behind the colon:
+# An **entry point** is one line of text. The part before the equals sign is the name of a program, and that
+# program calls the function named after the colon:
 #
 # | `talk = rosie.voice:start` | |
 # |---|---|
 # | `talk` | the executable: what you type after `ros2 run rosie` |
-# | `rosie.voice` | the module: the file `rosie/voice.py`, without `.py`, with dots |
-# | `start` | the function in it |
+# | `rosie.voice` | the module: the file `rosie/voice.py`, written with a dot and without `.py` |
+# | `start` | the function in that module |
 #
-# So you type `ros2 run rosie talk`. Three names meet here, and they need not be equal. The
-# *executable* is what you type. The *module* is the file in which the code is. The *node's name* stands in
-# `super().__init__(...)`; it is what others see in the graph, and `ros2 run` does not know it. For our
-# sensor, executable and module are both called `temperature_publisher`, and the node calls itself
+# To run it, you type `ros2 run rosie talk`. Three names are involved, and they can all be different. The
+# *executable* is what you type. The *module* is the file that contains the code. The *node name* is set in
+# `super().__init__(...)`; it's what others see in the graph, and `ros2 run` doesn't use it. For our
+# sensor, the executable and the module are both called `temperature_publisher`, while the node is called
 # `temperature_sensor`.
 
 # %% [markdown]
 # ## Try it: two programs
 #
 # Write the two entries. The executables are called `temperature_publisher` and `temperature_subscriber`,
-# like their files in the Python package `sensor_simulator`, and each of them calls `main`. Mind the
-# comma after each line. You may put your own description and licence in, as in your `package.xml`.
+# like their files in the Python package `sensor_simulator`, and each entry calls `main`. Don't forget the
+# comma after each line. You can also fill in your own description and licence, to match your `package.xml`.
 
 # %% save="src/sensor_simulator/setup.py" exercise="05a"
 from setuptools import find_packages, setup
@@ -184,7 +184,7 @@ setup(
 check("05a", workspace.folder())
 
 # %% [markdown]
-# `setup.py` is saved and not run: colcon runs it. What you changed in `src` is not yet in `install`, so
+# The cell saves `setup.py` but doesn't run it: colcon runs it. What you changed in `src` isn't in `install` yet, so
 # build again.
 
 # %% terminal="build"
@@ -193,8 +193,8 @@ check("05a", workspace.folder())
 # ros2 pkg executables sensor_simulator
 
 # %% [markdown]
-# There they are. colcon has made two small programs out of two lines of text. Each of them imports its
-# module and calls its function, and the folder they are in is the one that `setup.cfg` names.
+# There they are. From two lines of text, colcon has created two small programs. Each one imports its
+# module and calls its function, and both are in the folder that `setup.cfg` names.
 
 # %% terminal="build"
 # ls install/sensor_simulator/lib/sensor_simulator
@@ -202,7 +202,7 @@ check("05a", workspace.folder())
 # %% [markdown]
 # ## Try it: write entry points
 #
-# Complete the function: it returns the text of an entry point.
+# Complete the function so that it returns the text of an entry point.
 
 # %% exercise="05b"
 def entry_point(executable, package, module, function="main"):
@@ -218,7 +218,7 @@ check("05b", entry_point)
 # %% [markdown]
 # ## What went wrong: a comma is missing
 #
-# Two texts side by side, without a comma. **Predict:** how many entries does Python see?
+# Here are two texts, one after the other, without a comma. **Predict:** how many entries does Python see?
 
 # %% predict=true
 entries = [
@@ -233,10 +233,10 @@ predict("1", len(entries))
 # --- end
 
 # %% [markdown]
-# One. Python glues texts together that stand side by side. **Symptom:** colcon stops with *setup() was never
-# called*, which does not mention a comma. **What shows it:** the list, line by line. **Cause:** the glued
-# line is no entry point. **Cure:** a comma after each. And as the build failed, `ros2 run` goes on
-# starting what was built before.
+# One. Python joins two strings if nothing separates them. **Symptom:** colcon stops with *setup() was never
+# called*, which doesn't mention a comma. **Where to look:** the list, line by line. **Cause:** the joined
+# line isn't a valid entry point. **Fix:** put a comma after each entry. Because the build failed, `ros2 run` still
+# starts what was built before.
 #
 # ## What went wrong: one letter
 
@@ -244,19 +244,20 @@ predict("1", len(entries))
 # ros2 run sensor_simulator temprature_publisher
 
 # %% [markdown]
-# **Symptom:** *No executable found*. **What shows it:** `ros2 pkg executables`. **Cause:** executables are
-# compared letter by letter, like topics. **Cure:** type it as it stands in `setup.py`.
+# **Symptom:** *No executable found*. **Where to look:** `ros2 pkg executables`. **Cause:** the names of executables,
+# like those of topics, have to match letter for letter. **Fix:** type the name exactly as it is in `setup.py`.
 #
-# An entry point that names a module or a function that does not exist is worse: the build succeeds, and
-# the error comes when you run it. `.py` in the module's name does that. (`:main()` with brackets stops the
-# build, with the text of the missing comma.) If an error names a module, compare it with the file.
+# It's worse if an entry point names a module or a function that doesn't exist: the build succeeds, and
+# the error appears only when you run the program. One way to cause this is to write `.py` after the module's name.
+# If an error names a module, compare it with the file's name. `:main()` with parentheses stops the build instead,
+# with the same message as a missing comma.
 
 # %% [markdown]
 # ## Remember
 #
-# - An **entry point** makes a function an executable: `name = package.module:function`.
-# - `ros2 run` looks in `install`, so build after every change of `setup.py`.
-# - `chmod +x` lets you start a file directly; `ros2 run` does not need it.
+# - An **entry point** turns a function into an executable: `name = package.module:function`.
+# - `ros2 run` looks in `install`, so build again after every change to `setup.py`.
+# - `chmod +x` lets you start a file directly; `ros2 run` doesn't need it.
 #
 # **Next:** [build, source, run](06_build_source_run.ipynb): both programs, at the same time.
 

@@ -8,14 +8,14 @@
 # %% [markdown]
 # # Build, source, run
 #
-# **Goal:** you start the sensor in one terminal and the monitor in another, and see messages cross from
+# **Goal:** start the sensor in one terminal and the monitor in another, and watch messages travel from
 # one process to the other.
 #
 # **Time:** 35 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
 #
-# A process is a running program. It has memory of its own, and no other process can look into it.
-# Two nodes in two processes share nothing but what ROS carries between them. The next cell makes
-# what earlier pages would have left here, if it is missing.
+# A process is a running program. It has its own memory, which no other process can read. Two nodes in two processes
+# share nothing but the messages that ROS carries between them. The next cell creates whatever earlier pages would
+# have left here, if it's missing.
 
 # %%
 import os
@@ -28,10 +28,10 @@ workspace.catch_up("06")
 # %% [markdown]
 # ## Build
 #
-# In the workspace, not in `src`. `--packages-select` builds only the package that it names, which
-# saves time in a workspace with many. Three commands, always in this order: **build** puts your code
-# into `install`, **source** makes a terminal know it, **run** starts it. After a change you build
-# again, and a terminal that is loaded already stays loaded.
+# Build in the workspace, not in `src`. `--packages-select` builds only the package that you name, which
+# saves time in a workspace with many packages. There are three steps, always in this order: **build** puts your code
+# into `install`, **source** adds it to a terminal's environment, and **run** starts it. After a change, build
+# again; a terminal that has sourced the workspace doesn't need to do so again.
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE"
@@ -39,13 +39,13 @@ workspace.catch_up("06")
 # ros2 node list
 
 # %% [markdown]
-# `ros2 node list` shows which nodes run. There is none. (If yours shows one, it still runs on another page
-# or in another terminal: end it there with `Ctrl` + `C`, or it will talk, too.)
+# `ros2 node list` prints the nodes that are running: none, so far. If it lists one, that node is still running on
+# another page or in another terminal. Stop it there with `Ctrl` + `C`; otherwise, its messages will appear here, too.
 #
 # ## Start the sensor
 #
-# A new terminal knows nothing of your workspace, so `source` comes first. The cell watches until three
-# readings have appeared. Then the page goes on, and so does the sensor.
+# A new terminal doesn't know your workspace, so `source` comes first. The cell waits until three
+# readings have appeared. Then the page continues, and the sensor keeps running.
 
 # %% terminal="sensor --until Publishing --lines 3" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE"
@@ -53,9 +53,9 @@ workspace.catch_up("06")
 # ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
-# On your screen, each line has a level, a time, the node's name and the text. (Pages with stored outputs
-# leave the time out.) It is the real time, in seconds since 1970: there is no session here that could
-# make it jump, so this page really waits.
+# On your screen, each line has a level, a time, the node's name and the text. Stored copies of this page leave out
+# the time. It's the real time, in seconds since 1970: no session is involved that could jump ahead, so this page
+# really waits.
 #
 # ## Start the monitor
 #
@@ -67,17 +67,17 @@ workspace.catch_up("06")
 # ros2 run sensor_simulator temperature_subscriber
 
 # %% [markdown]
-# The next one that was published. What was sent before it came is gone: a topic is no archive.
+# The next one published after it connects. The earlier readings are gone: a topic doesn't store old messages.
 #
-# (The tutorial does not load the workspace in its second terminal. If a new terminal of yours finds the
-# package without that, something loads it when the terminal opens.)
+# The tutorial doesn't source the workspace in its second terminal. If a new terminal of yours finds the package
+# anyway, something sources it automatically when the terminal opens.
 #
-# Both go on while you read this.
+# Both programs keep running while you read this.
 #
-# ## See what crossed
+# ## See which messages crossed
 #
 # Both programs log what they do. `logs()` reads those lines from a terminal, and `viz.crossing` draws
-# them: one row for each process, and an arrow for each reading that is in both.
+# them: one row per process, and an arrow for each reading that appears in both.
 
 # %%
 sensor, monitor = workspace.terminal("sensor"), workspace.terminal("monitor")
@@ -89,12 +89,13 @@ sent = sensor.logs()
 viz.crossing(sent, heard)
 
 # %% [markdown]
-# The arrows are almost upright: a message needs a few thousandths of a second. The first readings have no
-# arrow: nobody was there to hear them.
+# The arrows are almost vertical, because a message takes only a few thousandths of a second. The first readings have
+# no arrow: there was no subscriber yet.
 #
-# Now compare the numbers themselves: `numbers` takes them out of the lines, and the two lines at the end look
-# whether the ten stand side by side anywhere among those that were sent. (To a hundredth: a `Float32` may round
-# the last digit the other way.) **Predict:** once the monitor hears the sensor, does it miss a reading?
+# Now compare the numbers themselves. `numbers` extracts them from the log lines. The last two lines of the cell look
+# for the monitor's ten readings, in a row, among the readings that were sent. They allow a difference of one
+# hundredth, because a `Float32` may round the last digit the other way. **Predict:** once the monitor receives
+# readings, does it miss any?
 
 # %% predict=true
 def numbers(lines):
@@ -110,15 +111,15 @@ predict("no", not fits)
 # --- end
 
 # %% [markdown]
-# Ten readings, the same ten, in the same order. They were made in one process and judged in another. How
-# did they cross? The publisher handed each message to the middleware in its own process. That turned it
-# into a few bytes, and the middleware of the other process made a message of them again.
+# Ten readings, the same ten, in the same order. They were generated in one process and evaluated in another. How
+# did they get there? The publisher passed each message to the middleware in its own process, which turned it
+# into a few bytes. The middleware in the other process turned those bytes back into a message.
 #
-# ## Look from here
+# ## Look from this page
 #
-# The page is a third process, and a session on it sees nothing of this: it is in a **domain** of its own.
-# A domain is a number. Nodes with the same number find each other, nodes with different numbers never do.
-# Your terminals have one in their environment, and a session can join it:
+# This page is a third process. A session on it sees none of these nodes, because it's in a **domain** of its own.
+# A domain is identified by a number: nodes in the same domain find each other, and nodes in different domains never
+# do. Your terminals have a domain number in their environment, and a session can join that domain:
 
 # %%
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
@@ -127,14 +128,14 @@ ros.wait_for_nodes("temperature_sensor", "temperature_monitor")
 viz.graph(ros.graph())
 
 # %% [markdown]
-# You know this graph from the first pages. There a session played both nodes, here two programs run them, and
-# the picture is the same: nodes do not care where the others run. On a robot they may even run on
-# different computers. And no program in the middle keeps a list of them: each process tells the others
-# what it has and what it wants. That is called **discovery**.
+# You know this graph from the first pages. There, a session simulated both processes; here, two real programs run
+# them, and the picture is the same. Nodes don't depend on where the other nodes run: on a robot, they may even run on
+# different computers. There's also no central program that keeps a list of nodes: each process tells the others
+# what it offers and what it needs. This is called **discovery**.
 #
 # ## Stop one of them
 #
-# **Predict:** the sensor ends. What does the monitor do?
+# **Predict:** the sensor stops. What does the monitor do?
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
@@ -144,8 +145,8 @@ viz.graph(ros.graph())
 sensor.exit_code, monitor.busy
 
 # %% [markdown]
-# The sensor ended with exit code 0, in good order. The monitor got no error, its lines only stop: it is still
-# busy, and waits. For a subscriber, silence is nothing special. Start the sensor again:
+# The sensor ended normally, with exit code 0. The monitor got no error; it just prints no more lines. It's still
+# running, and waiting. To a subscriber, silence isn't unusual. Start the sensor again:
 
 # %% terminal="sensor --until Publishing --lines 2" tags=["nbval-ignore-output"]
 # ros2 run sensor_simulator temperature_publisher
@@ -153,15 +154,15 @@ sensor.exit_code, monitor.busy
 # %% terminal="monitor --until Status --lines 2" tags=["nbval-ignore-output"]
 
 # %% [markdown]
-# The monitor goes on as if nothing had happened. The first reading may be missing: the two have to find each
-# other first. The terminal `sensor` is in the right folder and has loaded the workspace, so one line was
-# enough to start it.
+# The monitor continues as if nothing had happened. It may miss the first reading, because the two have to discover
+# each other first. The terminal `sensor` is still in the right folder and has already sourced the workspace, so a
+# single line was enough to start the sensor.
 #
 # ## Try it: one more monitor
 #
-# Start a second monitor in a third terminal. Nobody has to ask the sensor. Two nodes should not have
-# the same name, or people mix them up. What follows `--ros-args` is for ROS: `-r` stands for *remap*, and
-# with `__node` (two underscores) it gives the node another name. Fill in what is run.
+# Start a second monitor in a third terminal. The sensor doesn't have to change for that. Two nodes shouldn't have
+# the same name, because you couldn't tell them apart. Everything after `--ros-args` is meant for ROS: `-r` is short
+# for *remap*, and with `__node` (two underscores) it gives the node another name. Fill in what to run.
 
 # %% terminal="third --until Status" exercise="06a" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE"
@@ -178,23 +179,22 @@ check("06a", workspace.terminal("third"))
 # %% [markdown]
 # ## Know what is installed
 #
-# For `ros2 run`, only `install` counts, and colcon has **copied** your files to it. `diff` compares a file
-# with its copy (the star stands for any text), and `echo` speaks only if both are the same, which is what
-# `&&` means:
+# `ros2 run` uses only what is in `install`, and colcon has **copied** your files there. `diff` compares a file
+# with its copy; the star stands for any text. `&&` runs `echo` only if both files are the same:
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE"
 # diff src/sensor_simulator/sensor_simulator/temperature_publisher.py install/sensor_simulator/lib/python3*/site-packages/sensor_simulator/ && echo "the same"
 
 # %% [markdown]
-# The same, for now. If you change the file in `src` and run, the *old* program runs, and ROS does not tell
-# you. That costs everybody an afternoon once. Build after each change, or let colcon make a link
-# instead of a copy: then a change counts the next time that the program starts. Only what `setup.py` says
-# still needs a build.
+# They're the same, for now. If you change the file in `src` and run the program, you run the *old* code, and ROS
+# doesn't tell you. Sooner or later, this costs everyone an afternoon. Either build after each change, or let colcon
+# create a link instead of a copy: then a change takes effect the next time the program starts. Changes to
+# `setup.py` still need a build.
 #
 # ## Try it: link instead of copy
 #
-# Build `sensor_simulator` once more, with links. colcon itself knows what the option is called:
+# Build `sensor_simulator` once more, with links. colcon itself can tell you what the option is called:
 
 # %% terminal="build"
 # colcon build --help | grep symlink
@@ -210,13 +210,13 @@ check("06a", workspace.terminal("third"))
 check("06b", workspace.folder())
 
 # %% [markdown]
-# A link lies in another place than a copy. So, this once, terminals that are open already have to load the
-# workspace again: `source install/setup.bash`.
+# The linked files are in a different folder from the copies. So this once, terminals that are already open have to
+# source the workspace again: `source install/setup.bash`.
 #
 # ## Test the package
 #
-# `ros2 pkg create` has put three tests into `test`. `colcon test` runs them: two look at the style of your
-# code, and the third, about copyright notes, is skipped.
+# `ros2 pkg create` put three tests into the folder `test`, and `colcon test` runs them. Two of them check the style
+# of your code, and the third, about copyright notices, is skipped.
 
 # %% terminal="build --timeout 120"
 # colcon test --packages-select sensor_simulator
@@ -231,13 +231,13 @@ check("06b", workspace.folder())
 # ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
-# **Symptom:** *Package not found*. **What shows it:** the question whether *this* terminal has loaded the
-# workspace. **Cause:** it has not. **Cure:** `source install/setup.bash`, in the workspace.
+# **Symptom:** *Package not found*. **Where to look:** has *this* terminal sourced the
+# workspace? **Cause:** it hasn't. **Fix:** `source install/setup.bash`, in the workspace.
 #
 # ## Clean up
 #
-# Press `Ctrl` + `C` in every terminal. The tutorial's own sensor would show a traceback here, as you saw on the
-# page about publishers. Your programs say nothing and end with 0.
+# Press `Ctrl` + `C` in every terminal. The tutorial's own sensor would print a traceback here, as you saw on the
+# page about publishers. Your programs print nothing and end with exit code 0.
 
 # %% tags=["nbval-ignore-output"]
 for name in ("sensor", "monitor", "third"):
@@ -251,9 +251,9 @@ sensor.exit_code, monitor.exit_code
 # ## Rehearse in a session
 #
 # To try out a change, you need neither terminals nor a build. A session can run the same two files in virtual
-# time, each as a process of its own, and press `Ctrl` + `C` as well.
+# time, each as a process of its own, and it can press `Ctrl` + `C`, too.
 #
-# **Predict:** both start at the same instant. How many of the first three readings does the monitor hear?
+# **Predict:** both programs start at the same instant. How many of the first three readings does the monitor receive?
 
 # %% predict=true
 package = workspace.folder() / "src/sensor_simulator/sensor_simulator"
@@ -274,18 +274,18 @@ predict("3", len(judged))
 # --- end
 
 # %% [markdown]
-# All three: a session connects them at once. Real programs need a moment to find each other.
+# All three: a session connects the programs immediately. Real programs need a moment to discover each other.
 #
 # ## Remember
 #
 # - **Build** in the workspace, **source** in each terminal, then **run**.
-# - Messages cross from process to process; nodes share nothing else.
-# - One node can end and come back, and the other need not notice.
+# - Messages travel from process to process; the nodes share nothing else.
+# - A node can stop and come back, and the other one keeps running.
 # - `ros2 run` starts what is installed, not what is in `src`.
 #
-# In JupyterLab, open two terminals with *File, New, Terminal*, and do the same there by hand. Then you have
-# done all that the tutorial does, on your own. One more check looks at everything at once: in a new cell,
-# `check("system", workspace.folder())` builds your package elsewhere, runs both programs and compares.
+# In JupyterLab, open two terminals with *File, New, Terminal*, and repeat the steps there by hand. Then you'll have
+# done everything in the tutorial on your own. One more check looks at the whole system: in a new cell,
+# `check("system", workspace.folder())` builds your package in another place, runs both programs and compares them.
 
 # %%
 progress()
