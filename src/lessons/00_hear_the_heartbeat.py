@@ -8,7 +8,15 @@
 # %% [markdown]
 # # Hear the heartbeat
 #
-# **Goal:** run your first ROS 2 nodes, and see how they talk without knowing about each other.
+# **After this page, you can:**
+#
+# - run a ROS 2 node and read what it says (00.2);
+# - explain what nodes, topics, messages, publishers and subscribers are (00.1);
+# - subscribe to a topic (00a), and publish on one (00b);
+# - find out why a node receives nothing (00.3).
+#
+# This course follows a tutorial, *The Heartbeat of Robotics: Understanding ROS2's Publisher-Subscriber System*. You'll
+# run every step of it, and test everything it claims.
 #
 # **Time:** 20 minutes. **You need:** a little Python: classes, methods, `self`.
 #
@@ -205,7 +213,20 @@ newsroom.run(seconds=2)
 # - **in number:** either side can have no nodes, one, or many;
 # - **in time:** every node starts and stops on its own.
 #
-# That's why each part of a robot can be small, run alongside the others, and be reused in another robot.
+# ## See what this is good for
+#
+# In most programming languages, the first program prints *Hello World*. In ROS 2, a publisher and a subscriber play
+# that role. They are the smallest system that shows how you create nodes, how data flows through the graph, and
+# what you need for it: a client library (here `rclpy`, for Python) and message types. Services and actions, the
+# other two ways in which nodes talk, come later.
+#
+# The tutorial names five benefits of publish and subscribe. Page 09 puts each of them to the test:
+#
+# - **modularity:** a large system is made of small nodes, each with a single task;
+# - **decentralization:** if one node crashes, the others can often carry on;
+# - **scalability:** you can add nodes without changing existing code;
+# - **concurrency:** nodes run independently, often at the same time;
+# - **re-usability:** the same node can work in another robot.
 
 # %% [markdown]
 # ## Try it: read the weather

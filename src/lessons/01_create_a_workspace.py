@@ -8,7 +8,11 @@
 # %% [markdown]
 # # Create a workspace
 #
-# **Goal:** work in a real terminal, and create the folder that will hold everything you build.
+# **After this page, you can:**
+#
+# - create nested folders with one command (01a, 01.2);
+# - move around with absolute and relative paths (01b, 01.1);
+# - explain why two terminals can behave differently (01.3).
 #
 # **Time:** 25 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
 #

@@ -8,8 +8,11 @@
 # %% [markdown]
 # # Create a package
 #
-# **Goal:** create the package that will hold the sensor and the monitor, learn what each of its files is for, then
-# build it and load it.
+# **After this page, you can:**
+#
+# - create a Python package, and name what each of its files is for (02b, 02.1);
+# - describe a package in its manifest (02a, 02.3);
+# - build a workspace and source it, and tell when one of the two is missing (02.2).
 #
 # **Time:** 30 minutes. **You need:** [create a workspace](01_create_a_workspace.ipynb).
 #

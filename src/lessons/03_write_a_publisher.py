@@ -8,8 +8,12 @@
 # %% [markdown]
 # # Write a publisher
 #
-# **Goal:** write a node that simulates a temperature sensor and publishes a new reading every second, and save it
-# in your package.
+# **After this page, you can:**
+#
+# - publish readings at a steady rate with a timer (03a, 03.1);
+# - simulate a sensor with a clamped random walk (03b);
+# - write a whole publisher, and turn it into a program (03c, 03.3);
+# - explain why a subscriber sees other digits than the publisher (03.2).
 #
 # **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb). To save the node into a
 # package, you also need [create a package](02_create_a_package.ipynb).

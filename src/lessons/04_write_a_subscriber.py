@@ -8,8 +8,12 @@
 # %% [markdown]
 # # Write a subscriber
 #
-# **Goal:** write a node that listens to the temperature sensor and reports whether the room is too
-# hot, too cold or just right.
+# **After this page, you can:**
+#
+# - subscribe to a topic and act on each message (04a, 04.3);
+# - write a node that subscribes and publishes (04b);
+# - keep a status calm with two limits (04c);
+# - predict what a queue keeps, and what a late subscriber receives (04.1, 04.2).
 #
 # **Time:** 40 minutes. **You need:** [write a publisher](03_write_a_publisher.ipynb).
 

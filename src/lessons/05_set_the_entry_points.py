@@ -8,7 +8,11 @@
 # %% [markdown]
 # # Set the entry points
 #
-# **Goal:** turn the two files in your package into programs that `ros2 run` can start.
+# **After this page, you can:**
+#
+# - declare a program in `setup.py` (05a, 05.3);
+# - read and write an entry point (05b, 05.1);
+# - tell what `chmod +x` does, and what it does not do (05.2).
 #
 # **Time:** 30 minutes. **You need:** [create a package](02_create_a_package.ipynb),
 # [write a publisher](03_write_a_publisher.ipynb) and [write a subscriber](04_write_a_subscriber.ipynb).

@@ -8,8 +8,12 @@
 # %% [markdown]
 # # Build, source, run
 #
-# **Goal:** start the sensor in one terminal and the monitor in another, and watch messages travel from
-# one process to the other.
+# **After this page, you can:**
+#
+# - build, source and run two programs that talk to each other (06a, 06.3);
+# - give a node another name when you start it (06a);
+# - explain why a change has no effect yet, and cure that (06b, 06.1);
+# - predict what happens when one of two programs stops (06.2).
 #
 # **Time:** 35 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
 #
