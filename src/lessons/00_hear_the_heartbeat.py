@@ -36,7 +36,7 @@
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, viz
+from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
 # %%
 class Thermometer(Node):
@@ -309,6 +309,17 @@ newsroom.close()
 # %% [markdown]
 # In a session, adding a node replaces an older node of the same name. On a robot, both would run.
 #
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("00")
+
+# %% only="solution"
+quiz("00", "b", "a", "c")
+
+# %% [markdown]
 # ## Remember
 #
 # - A **node** is a small part of a robot's software, with a single job.

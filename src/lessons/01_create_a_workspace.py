@@ -24,7 +24,7 @@
 # People who work with ROS type commands into a **terminal**. This cell brings terminals to your page:
 
 # %%
-from rosbeat import check, hint, progress, workspace
+from rosbeat import check, hint, progress, quiz, workspace
 
 # %% [markdown]
 # A cell that begins with `%%terminal` and a name types its lines into the terminal with that name. It's
@@ -248,6 +248,17 @@ check("01b", workspace.terminal("two"))
 # %% terminal="one"
 # cd "$ROS2_WORKSPACE/src"
 # rm -r build install log
+
+# %% [markdown]
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("01")
+
+# %% only="solution"
+quiz("01", "b", "c", "a")
 
 # %% [markdown]
 # ## Remember

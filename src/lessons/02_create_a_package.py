@@ -22,7 +22,7 @@
 # The next cell creates the workspace from the last page if it's missing. If you already have one, it stays as it is.
 
 # %%
-from rosbeat import check, hint, progress, workspace
+from rosbeat import check, hint, progress, quiz, workspace
 
 workspace.catch_up("02")
 
@@ -248,6 +248,17 @@ check("02b", workspace.folder())
 # `src`. Second, if you forget `--build-type ament_python`, a full ROS installation creates a C++ package, which
 # has no `setup.py`. If that happens, remove the folder and start again. The `ros2` command of this course creates
 # Python packages only, and tells you so.
+
+# %% [markdown]
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("02")
+
+# %% only="solution"
+quiz("02", "c", "a", "b")
 
 # %% [markdown]
 # ## Remember

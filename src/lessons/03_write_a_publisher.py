@@ -42,7 +42,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32
 
-from rosbeat import Session, check, hint, predict, progress, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
 # %% [markdown]
 # ## Name the node
@@ -422,6 +422,17 @@ with Session() as ros:
 # what was expected, and what it got. **Cause:** a publisher sends messages of its type, and `22.0` is
 # a plain Python number. **Fix:** create a `Float32` and assign the number to its field `data`.
 #
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("03")
+
+# %% only="solution"
+quiz("03", "b", "c", "a")
+
+# %% [markdown]
 # ## Remember
 #
 # - `super().__init__("name")` makes the object a node.

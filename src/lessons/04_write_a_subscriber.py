@@ -25,7 +25,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.records import queue_steps
 
 # %% [markdown]
@@ -447,6 +447,17 @@ with Session() as ros:
 # names. **Cause:** the parentheses call the method at once, without a message, so Python reports that `msg` is
 # missing. **Fix:** hand over the method itself, without parentheses.
 #
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("04")
+
+# %% only="solution"
+quiz("04", "b", "c", "a")
+
+# %% [markdown]
 # ## Remember
 #
 # - `create_subscription(type, topic, callback, depth)` subscribes; ROS calls the callback.

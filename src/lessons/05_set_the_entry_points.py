@@ -22,7 +22,7 @@
 # commands below, a star stands for any text.
 
 # %%
-from rosbeat import check, hint, predict, progress, workspace
+from rosbeat import check, hint, predict, progress, quiz, workspace
 
 workspace.catch_up("05")
 
@@ -255,6 +255,17 @@ predict("1", len(entries))
 # the error appears only when you run the program. One way to cause this is to write `.py` after the module's name.
 # If an error names a module, compare it with the file's name. `:main()` with parentheses stops the build instead,
 # with the same message as a missing comma.
+
+# %% [markdown]
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("05")
+
+# %% only="solution"
+quiz("05", "b", "a", "c")
 
 # %% [markdown]
 # ## Remember

@@ -25,7 +25,7 @@
 import os
 import signal
 
-from rosbeat import Session, check, hint, predict, progress, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
 workspace.catch_up("06")
 
@@ -280,6 +280,17 @@ predict("3", len(judged))
 # %% [markdown]
 # All three: a session connects the programs immediately. Real programs need a moment to discover each other.
 #
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("06")
+
+# %% only="solution"
+quiz("06", "b", "a", "c")
+
+# %% [markdown]
 # ## Remember
 #
 # - **Build** in the workspace, **source** in each terminal, then **run**.

@@ -1,9 +1,10 @@
 """rosbeat: learn how robots talk.
 
-A learner needs nine names from here: `Session` runs nodes, `viz` draws what a session recorded,
+A learner needs ten names from here: `Session` runs nodes, `viz` draws what a session recorded,
 `predict` compares what you expect with what happens, `check` looks at the answer to an exercise,
-`hint` helps with it, `progress` shows how far you are, `workspace` is where packages are built,
-`bags` keeps recordings of runs, `clinic` has broken systems to examine.
+`hint` helps with it, `quiz` asks the questions of a page, `progress` shows how far you are,
+`workspace` is where packages are built, `bags` keeps recordings of runs, `clinic` has broken
+systems to examine.
 Importing the package is quick and does not import ROS: names load when they are first used
 (PEP 562), so that tools which only build or check pages work where ROS is not installed.
 """
@@ -26,10 +27,14 @@ if TYPE_CHECKING:
     from rosbeat.exercises.hint import hint as hint
     from rosbeat.exercises.predict import predict as predict
     from rosbeat.exercises.progress import progress as progress
+    from rosbeat.exercises.quiz import quiz as quiz
     from rosbeat.page_session import Session as Session
 
 __version__ = "0.1.0"
-__all__ = ["Session", "bags", "check", "clinic", "hint", "predict", "progress", "viz", "workspace"]
+__all__ = [
+    *("Session", "bags", "check", "clinic", "hint", "predict", "progress", "quiz", "viz"),
+    "workspace",
+]
 
 # Before any message class is imported: the field checks are read at that moment.
 environment.apply()
@@ -47,6 +52,7 @@ _HOMES = {
     "hint": ("rosbeat.exercises.hint", "hint"),
     "predict": ("rosbeat.exercises.predict", "predict"),
     "progress": ("rosbeat.exercises.progress", "progress"),
+    "quiz": ("rosbeat.exercises.quiz", "quiz"),
     "viz": ("rosbeat.viz", None),
     "workspace": ("rosbeat.workspace", None),
 }

@@ -1,0 +1,152 @@
+"""Ask the questions at the end of a page, and say at once what is right: `quiz`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from string import ascii_lowercase
+from typing import Any
+
+from rosbeat.errors import ExerciseError, called_as
+from rosbeat.exercises.cards import OPEN, RIGHT, WRONG, framed, words
+from rosbeat.exercises.predict import is_blank
+from rosbeat.exercises.questions import QUESTIONS, Choice, Question
+from rosbeat.exercises.registry import this_page
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Hold a question with the choice that was made.
+
+    Attributes:
+        question: The question.
+        chosen: Index of the choice, or None if the question is still open.
+    """
+
+    question: Question
+    chosen: int | None = None
+
+    @property
+    def choice(self) -> Choice | None:
+        """Return the choice that was made, or None."""
+        return None if self.chosen is None else self.question.choices[self.chosen]
+
+    @property
+    def sign(self) -> str:
+        """Return the sign of the outcome: right, wrong or open."""
+        if self.choice is None:
+            return OPEN
+        return RIGHT if self.choice.right else WRONG
+
+
+@dataclass(frozen=True)
+class Quiz:
+    """Hold the questions of a page, as Jupyter and a terminal show them.
+
+    Attributes:
+        page: Number of the page.
+        asked: The questions, in order.
+    """
+
+    page: str
+    asked: tuple[Asked, ...]
+
+    def __str__(self) -> str:
+        return "\n".join(["\n\n".join("\n".join(_lines(one)) for one in self.asked), *self._way()])
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def html(self) -> str:
+        """Return the questions as HTML."""
+        cards = [framed(one.sign, *_rows(one)) for one in self.asked]
+        return "".join([*cards, *(f"<div>{words(line)}</div>" for line in self._way() if line)])
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return {"text/plain": str(self), "text/html": self.html()}
+
+    def _way(self) -> Iterator[str]:
+        """Generate how to answer, unless all answers are right."""
+        if all(one.sign == RIGHT for one in self.asked):
+            return
+        letters = ", ".join(
+            f'"{ascii_lowercase[n if one.chosen is None else one.chosen]}"'
+            for n, one in enumerate(self.asked)
+        )
+        yield ""
+        call = f'quiz("{self.page}", {letters})'
+        yield f"To answer, write a letter for each question, such as `{call}`."
+
+
+@called_as('quiz("03", "b", "a", "c")')
+def quiz(page: str = "", *answers: str) -> Quiz:
+    """Ask the questions of a page, or say which of the answers are right, and why.
+
+    Args:
+        page: Number of the page, such as `"03"`; the page at hand if it is left out.
+        answers: A letter for each question, in order. A blank or a missing one leaves its
+            question open.
+
+    Returns:
+        The questions, which Jupyter shows.
+
+    Raises:
+        ExerciseError: If there is no such page, if there are more answers than questions, or if
+            an answer is no letter of its question.
+    """
+    here = this_page()
+    number = str(page).strip() or (here.number if here else "")
+    questions = QUESTIONS.get(number.zfill(2)) if number else None
+    if questions is None:
+        raise ExerciseError(
+            f"There are no questions for page {page!r}." if number else "Which page is meant?",
+            f"There are questions for the pages {', '.join(QUESTIONS)}.",
+            'Write the number of a page, as in quiz("03").',
+        )
+    if len(answers) > len(questions):
+        raise ExerciseError(
+            f"`quiz` was given {len(answers)} answers.",
+            f"Page {questions[0].page} has {len(questions)} questions.",
+            "Write one letter for each question, in order.",
+        )
+    chosen = [_index(*pair) for pair in zip(questions, answers, strict=False)]
+    chosen += [None] * (len(questions) - len(answers))
+    return Quiz(questions[0].page, tuple(map(Asked, questions, chosen)))
+
+
+def _index(question: Question, answer: object) -> int | None:
+    """Return the index of the choice that an answer names."""
+    if is_blank(answer):
+        return None
+    letters = ascii_lowercase[: len(question.choices)]
+    letter = str(answer).strip().strip("()").lower()
+    if len(letter) != 1 or letter not in letters:
+        raise ExerciseError(
+            f"{answer!r} is not an answer to question {question.id}.",
+            f"The choices are {', '.join(letters)}.",
+            f'Write the letter of your choice in quotes, such as "{letters[0]}".',
+        )
+    return letters.index(letter)
+
+
+def _lines(asked: Asked) -> Iterator[str]:
+    """Generate a question as lines of text: with all choices, or with the one that was made."""
+    yield f"{asked.sign} Question {asked.question.id}: {asked.question.text}"
+    for letter, choice in _shown(asked):
+        yield f"  {letter}) {choice.text}"
+    if asked.choice:
+        yield f"  {asked.choice.reason}"
+
+
+def _rows(asked: Asked) -> Iterator[str]:
+    """Generate the same as rows of HTML."""
+    yield words(f"{asked.sign} Question {asked.question.id}: {asked.question.text}", "strong")
+    for letter, choice in _shown(asked):
+        yield words(f"{letter}) {choice.text}")
+    if asked.choice:
+        yield words(asked.choice.reason, "em")
+
+
+def _shown(asked: Asked) -> list[tuple[str, Choice]]:
+    every = list(zip(ascii_lowercase, asked.question.choices, strict=False))
+    return every if asked.chosen is None else [every[asked.chosen]]

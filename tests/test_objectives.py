@@ -1,0 +1,40 @@
+"""What a page promises is practised on it: each objective names an exercise or a question."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from rosbeat.exercises.questions import QUESTIONS
+from rosbeat.exercises.registry import PAGES
+
+LESSONS = Path(__file__).resolve().parents[1] / "src" / "lessons"
+HEAD = "# **After this page, you can:**\n#\n"
+#: The pages that state their objectives.
+STATED = sorted(path for path in LESSONS.glob("*.py") if HEAD in path.read_text("utf-8"))
+
+
+def objectives(path):
+    listed = path.read_text("utf-8").split(HEAD, 1)[1].split("#\n", 1)[0]
+    return re.findall(r"(?m)^# - ((?:.*\n)(?:#   .*\n)*)", listed)
+
+
+def test_every_page_states_what_one_can_do_after_it():
+    assert sorted(LESSONS.glob("*.py")) == STATED
+
+
+@pytest.mark.parametrize("path", STATED, ids=lambda path: path.stem)
+def test_each_objective_is_practised_on_the_page(path):
+    number = path.name[:2]
+    (page,) = [one for one in PAGES if one.number == number]
+    exercises = {one.id for one in page.exercises}
+    questions = {one.id for one in QUESTIONS[number]}
+    items = objectives(path)
+    assert 3 <= len(items) <= 5
+    named = []
+    for item in items:
+        ids = {one for said in re.findall(r"\(([^()]*)\)", item) for one in said.split(", ")}
+        assert ids
+        assert ids <= exercises | questions
+        named += ids
+    assert exercises <= set(named)
