@@ -2,20 +2,20 @@
 # title: Look inside the graph
 # minutes: 45
 # needs: ["00", "04", "06"]
-# summary: Ask a running system what it is made of, with an instrument for each question: nodes, topics, rates, log lines, parameters.
+# summary: Find out what a running system is made of, with a command for each question: nodes, topics, rates, log lines, parameters.
 # ---
 
 # %% [markdown]
 # # Look inside the graph
 #
-# **Goal:** you ask a running system that you did not write what it is made of, and find its fault.
+# **Goal:** find out what a running system is made of, without reading its code, and find its fault.
 #
 # **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [build, source, run](06_build_source_run.ipynb).
 #
-# A greenhouse is running. Nobody shows you its code. But nodes hide little from those who ask, and there
-# is an instrument for each question: *Who is there? What do they talk about, and how often? How are they
-# set, and what do they say?*
+# A greenhouse is running, and you can't see its code. You don't need to: ROS 2 has a command for each question
+# about a running system. *Which nodes are there? What do they publish, and how often? How are they configured, and
+# what do they log?*
 
 # %%
 import os
@@ -34,18 +34,19 @@ ros.start()
 workspace.catch_up("07")
 
 # %% [markdown]
-# The session joins the domain of your terminals, `greenhouse` puts its nodes in, and `start` runs them in
-# real time: from now on, terminals see them as they see any other nodes. The last line makes what earlier
-# pages would have left in your workspace.
+# The session joins the domain of your terminals. `greenhouse` adds its nodes to the session, and `start` runs them
+# in real time. From now on, your terminals see these nodes like any others. The last line creates whatever is still
+# missing in your workspace from earlier pages.
 #
-# ## Who is there?
+# ## Which nodes are running?
 
 # %% terminal="look"
 # ros2 node list
 
 # %% [markdown]
-# Five nodes. Now start the sensor of your own package beside them. Its executable is called
-# `temperature_publisher`. **Predict:** which name will the list show?
+# Five nodes. Now start the sensor from your own package as well. Its executable is called `temperature_publisher`.
+#
+# **Predict:** which name will the list show for it?
 
 # %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE"
@@ -57,15 +58,20 @@ workspace.catch_up("07")
 # ros2 topic list -t
 
 # %% [markdown]
-# `/temperature_sensor`: the name that the node gives itself. The graph knows nothing of executables or
-# processes. Five of these nodes live in this page and one in a terminal, and the list does not tell.
+# `/temperature_sensor`: the name that the node gives itself. The graph contains nodes, not executables or
+# processes. Five of these nodes run on this page and one runs in a terminal, but the list doesn't tell you that.
 #
-# ## What do they talk about?
+# ## Which topics do they use?
 #
-# `topic list -t` names the topics and their types. Every node brings two of them along: `/rosout`, which
-# you meet below, and `/parameter_events`. A topic is in the list as soon as anybody *uses* it; a lonely
-# subscriber is enough. So ask about one of them: `topic info` counts both sides, `interface show` prints
-# what a type is made of, and `echo` shows real messages, with `--once` only one.
+# `ros2 topic list -t` lists the topics with their types. Two of them come with every node: `/rosout`, which you'll
+# meet below, and `/parameter_events`. A topic appears in the list as soon as any node *uses* it; a single
+# subscriber is enough.
+#
+# To learn more about a topic, ask about it directly:
+#
+# - `ros2 topic info` counts its publishers and its subscriptions;
+# - `ros2 interface show` prints the definition of its message type;
+# - `ros2 topic echo` prints its messages. With `--once`, it prints one message and stops.
 
 # %% terminal="look"
 # ros2 topic info /temperature
@@ -73,14 +79,16 @@ workspace.catch_up("07")
 # ros2 topic echo --once /lights
 
 # %% [markdown]
-# Two publishers on `/temperature`! The weather station of the greenhouse uses that name, and so does your
-# sensor. (`info --verbose` says who.) A message has one field, `data`, and the type carries a remark that
-# it is for trying things out.
+# Two publishers on `/temperature`! The weather station of the greenhouse publishes there, and so does your sensor.
+# With `--verbose`, `ros2 topic info` names them both. The message has one field, `data`. The comments above it say
+# that the type was made as an example.
 #
-# ## How often?
+# ## How often do messages arrive?
 #
-# `hz` counts messages a second. It never ends by itself, so the cell watches until there are four lines.
-# **Predict:** the weather station sends twice a second, your sensor once. What will it say?
+# `ros2 topic hz` measures how many messages arrive per second. It runs until you stop it, so the next cell only
+# watches until it has printed four averages.
+#
+# **Predict:** the weather station publishes twice a second, and your sensor once. Which rate will it measure?
 
 # %% terminal="rate --until average --lines 4" tags=["nbval-ignore-output"]
 # ros2 topic hz /temperature
@@ -97,25 +105,25 @@ predict("3", round(float(rate)))
 # --- end
 
 # %% [markdown]
-# Three: `hz` measures what *arrives at its own ears*, from all publishers together. What was lost on the
-# way is not counted, and on a silent topic `hz` is silent, too. The cell has also ended both programs.
+# Three: `ros2 topic hz` measures the messages that *it* receives, from all publishers together. It doesn't count
+# messages that were lost on the way, and while a topic is silent, it prints nothing. The last cell has also stopped
+# both programs, `hz` and the sensor.
 #
-# ## What does one node do?
+# ## What belongs to one node?
 #
-# `node info` turns the question around: one node, and all that it has.
+# `ros2 node info` looks at the graph from the other side: it lists everything that belongs to one node.
 
 # %% terminal="look"
 # ros2 node info /window
 
 # %% [markdown]
-# The window listens to `/temperature` and speaks on `/window_state`. A **service** answers questions;
-# those in the list come with every node, and most of them are about parameters. (What clients and actions
-# are stands on page 12.)
+# The window subscribes to `/temperature` and publishes on `/window_state`. It also has several services. A
+# **service** answers requests. The services in this list come with every node, and most of them are about
+# parameters. Page 12 covers clients and actions.
 #
-# ## How is it set?
+# ## How is it configured?
 #
-# A **parameter** is a value of a node that has a name, and that others can read and change while the node
-# runs.
+# A **parameter** is a named value of a node that others can read and change while the node is running.
 
 # %% terminal="look"
 # ros2 param list /window
@@ -123,9 +131,11 @@ predict("3", round(float(rate)))
 # ros2 topic echo --once /window_state
 
 # %% [markdown]
-# It opens above 25 degrees (*double* is a decimal number), and the weather station measures 23. (The other
-# two parameters come with every node.) **Predict:** which of the next two commands counts, and what does
-# the window say then?
+# The window opens above 25 degrees, and the weather station measures 23. *Double* is the type of a decimal number.
+# The other two parameters come with every node.
+#
+# **Predict:** the next cell sets the parameter twice. Which of the two commands takes effect, and what does the
+# window publish then?
 
 # %% terminal="look"
 # ros2 param set /window open_above 22
@@ -133,37 +143,41 @@ predict("3", round(float(rate)))
 # ros2 topic echo --once /window_state
 
 # %% [markdown]
-# A whole number is refused where a decimal one belongs. The second command counts at the next reading, and
-# nobody has touched the code. The change lasts until the node ends.
+# A decimal parameter doesn't accept a whole number, so the first command fails. The second one takes effect at the
+# next reading, and nobody has touched the code. The new value lasts until the node ends.
 #
-# ## What do they say?
+# ## What do they log?
 #
-# Log lines are messages, too. Each node publishes its own on `/rosout`, with type `Log`: who speaks
-# stands in the field `name`, what is said in `msg`, and how bad it is in `level`, a number: 10 `DEBUG`,
-# 20 `INFO`, 30 `WARN`, 40 `ERROR`, 50 `FATAL`. So you can listen with `echo`: here only to warnings and
-# worse (in the filter, `m` is the message), and of those only to one field.
+# Log lines are messages, too. Every node publishes its own on `/rosout`, with the message type `Log`. The field
+# `name` says who logged the line, and `msg` holds the text. `level` is a number that says how serious it is: 10 is
+# `DEBUG`, 20 is `INFO`, 30 is `WARN`, 40 is `ERROR`, and 50 is `FATAL`.
+#
+# Because log lines are messages, `ros2 topic echo` can print them. In the next cell, `--filter` lets only warnings
+# and worse through; in it, `m` stands for the message. `--field msg` prints only the text.
 
 # %% terminal="look"
 # ros2 topic echo --once /rosout --filter "m.level >= 30" --field msg
 
 # %% [markdown]
-# Somebody has a problem. You will find out who.
+# One of the nodes has a problem. You'll find out which.
 #
-# ## What an instrument cannot see
+# ## What a command can't show you
 #
-# | instrument | shows | does not show |
+# | command | shows | doesn't show |
 # |---|---|---|
 # | `ros2 node list` | names | executables, processes, whether a node still does anything |
-# | `ros2 topic list -t` | names, types | whether anybody publishes |
-# | `ros2 topic info --verbose` | both sides | how long their queues are |
-# | `ros2 topic echo` | values | who has sent them |
+# | `ros2 topic list -t` | names and types | whether anybody publishes |
+# | `ros2 topic info --verbose` | publishers and subscriptions | how long their queues are |
+# | `ros2 topic echo` | values | which node sent them |
 # | `ros2 topic hz` | what arrives here | what was lost |
-# | `ros2 node info` | all that a node has | whether its callbacks run |
+# | `ros2 node info` | everything that a node has | whether its callbacks run |
 # | `ros2 param get` | a value | what the code does with it |
 #
-# The depth of a queue, for example, stays in the process that has the queue. A terminal is told nothing
-# (`grep -E "a|b"` keeps the lines with either text); the session, in whose process these nodes live, knows.
-# Each `end` is one subscription, and `qos` holds how it was made, with its depth:
+# Take the depth of a queue. Only the process that has the queue knows it, so a terminal can't tell you. In the
+# first cell below, `grep -E "a|b"` keeps the lines that contain either text.
+#
+# The greenhouse's nodes live in the process of the session, so the session knows. In the second cell, each `end` is
+# one subscription. Its `qos` holds the settings that it was created with, including the depth.
 
 # %% terminal="look"
 # ros2 topic info --verbose /temperature | grep -E "name:|Depth"
@@ -175,10 +189,12 @@ for end in ros.graph().on("/temperature", "subscription"):
 # %% [markdown]
 # ## Try it: a system of strangers
 #
-# Find out the rest. Type your questions into the terminal `look`, in new cells that begin with
-# `%%terminal look`, and write what you find in place of the blanks: names in quotes, numbers without. You
-# may check after each one. What does not end by itself gets a terminal of its own: `%%terminal rate --for 5`
-# watches for five seconds, and `%terminal rate --ctrl-c` ends it.
+# Now find out the rest. Type your commands into the terminal `look`, in new cells that begin with
+# `%%terminal look`. Replace the blanks with what you find: names in quotes, numbers without. You can run the check
+# after each answer.
+#
+# A command that doesn't end by itself needs a terminal of its own: `%%terminal rate --for 5` watches it for five
+# seconds, and `%terminal rate --ctrl-c` ends it.
 
 # %% exercise="07a"
 def findings():
@@ -208,12 +224,13 @@ def findings():
 check("07a", findings)
 
 # %% [markdown]
-# ## What went wrong: the lamp is in the dark
+# ## What went wrong: the lamp gets no readings
 #
-# If you have not found all of it, here it comes. **Symptom:** the lamp warns that it does not know how
-# bright it is. It has a subscription, and nothing arrives. **Instrument:** `explain` puts all the others
-# together. The whole text is long: `print(why)` shows it, and so does `rosbeat explain light` in a
-# terminal.
+# If you haven't found everything yet, this section gives some of the answers away.
+#
+# **Symptom:** the lamp warns that it doesn't know how bright it is. It has a subscription, but nothing arrives.
+# **Where to look:** `explain` combines what all the other commands show. Its full report is long: `print(why)`
+# prints it, and so does `rosbeat explain light` in a terminal.
 
 # %%
 why = ros.explain("light", seconds=1)
@@ -222,10 +239,12 @@ print(why.diagnoses[0].evidence)
 viz.graph(why)
 
 # %% [markdown]
-# **Cause:** one letter. **Cure:** the author mends the name of the topic. Until then, you can start the
-# lamp with another name in its place, as `ros2 run` does with `-r light:=lights`. The code stays as it is.
-# The new lamp takes the place of the old one. The cell shows what was logged, and waits until `explain` is
-# content.
+# **Cause:** the two names differ in one letter. **Fix:** the author corrects the name of the topic. Until then, you
+# can remap it: start the lamp with another topic name in place of its own, as `ros2 run` does with
+# `-r light:=lights`. The code stays as it is.
+#
+# The new lamp replaces the old one, which has the same name. The cell waits until `explain` finds nothing wrong,
+# and shows what the nodes have logged.
 
 # %% tags=["nbval-ignore-output"]
 (lamp,) = [node for node in ros.nodes if node.get_name() == "lamp"]
@@ -236,17 +255,17 @@ ros.wait(20, until=lambda: ros.explain("lights", seconds=1).is_well)
 ros.explain("lights", seconds=1).is_well, [sample.value for sample in ros.messages("lights")[-3:]]
 
 # %% [markdown]
-# The lamp is not in the dark any more. (07a asks for the greenhouse as you found it; now somebody listens
-# to `/lights`.)
+# The lamp gets its readings now, and `/lights` has a subscriber. Exercise 07a is still about the greenhouse as you
+# found it.
 #
-# ## Try it: limits to turn
+# ## Try it: limits that you can set
 #
-# In code, a parameter is **declared** in the constructor, with its name and its first value:
-# `self.declare_parameter("open_above", 25.0)`. That value also decides about the type. Wherever the value
-# is needed, `self.get_parameter("open_above").value` asks for it.
+# In code, you **declare** a parameter in the constructor, with its name and its default value:
+# `self.declare_parameter("open_above", 25.0)`. The default value also determines the type. Wherever you need the
+# current value, `self.get_parameter("open_above").value` returns it.
 #
-# This monitor publishes `High`, `Low` or `Normal` for each reading. Give it the parameters `low` and
-# `high`, at first 20.0 and 26.0. What is set while it runs counts from the next reading on.
+# This monitor publishes `High`, `Low` or `Normal` for each reading. Give it the parameters `low` and `high`, with
+# the default values 20.0 and 26.0. A value that is set while the node runs takes effect from the next reading on.
 
 # %% exercise="07b"
 class TunableMonitor(Node):
@@ -278,12 +297,13 @@ check("07b", TunableMonitor)
 # %% [markdown]
 # ## Try it: a log watcher
 #
-# Write a node that listens to `/rosout`. For each line that is a warning or worse, it publishes the name
-# of whoever said it on the topic `warnings`, as a `String`. Each line counts, also of a name that was
-# there before. The type `Log` is imported above, and `Log.WARN` is the number 30.
+# Write a node that subscribes to `/rosout`. For each line that is a warning or worse, it publishes a `String` on
+# the topic `warnings`: the name of whoever logged the line, exactly as it is in the message. Every such line
+# counts, even if its name has been published before. The type `Log` is imported above, and `Log.WARN` is the number
+# 30.
 #
-# Take care: your node's own log lines go over `/rosout`, too. If it logs each line that it hears, it hears
-# itself, and never stops.
+# Be careful: your node's own log lines go to `/rosout`, too. If it logs every line that it hears, it hears itself
+# and never stops.
 
 # %% exercise="07c"
 class LogWatcher(Node):
@@ -304,12 +324,15 @@ class LogWatcher(Node):
 check("07c", LogWatcher)
 
 # %% [markdown]
-# ## See it all at once
+# ## Watch everything at once
 #
-# In JupyterLab, the next cell opens the **instrument panel** of the session: the graph, with a pulse on an
-# arrow for each message, the values as curves, and the log lines of a node or from a level on. It also has
-# controls: pause, stop and start a node, publish a value of your own, keep nodes busy, or lose messages on
-# purpose. What does the window do when you publish 20 degrees? Where no browser can show the panel, it is a still picture.
+# In JupyterLab, the next cell opens the **instrument panel** of the session. It shows the graph, with a pulse on an
+# arrow for each message, the values as curves, and the log lines. You can filter the log lines by node and by
+# level.
+#
+# The panel also has controls: you can pause, stop and start a node, publish a value of your own, keep nodes busy,
+# or lose messages on purpose. What does the window do when you publish 20 degrees? Where no browser can show the
+# panel, you see a still picture instead.
 
 # %%
 ros.panel()
@@ -317,14 +340,14 @@ ros.panel()
 # %% [markdown]
 # ## Remember
 #
-# - `ros2 node`, `ros2 topic`, `ros2 interface` and `ros2 param` ask a running system; it need not be yours.
-# - A topic is listed as soon as anybody uses it, and `hz` counts what arrives here.
+# - `ros2 node`, `ros2 topic`, `ros2 interface` and `ros2 param` examine any running system, not only your own.
+# - A topic is listed as soon as any node uses it. `ros2 topic hz` measures the messages that it receives.
 # - **Log lines** are messages on `/rosout`.
-# - A **parameter** is declared once, and its value asked for wherever it is needed.
+# - A **parameter** is declared once. Get its value wherever you need it.
 # - When a topic stays silent, `explain` compares both sides.
 #
-# All commands of this page work in any terminal of a robot, without a session. `rosbeat explain` comes
-# with this course.
+# All `ros2` commands on this page work in any terminal of a robot, without a session. `rosbeat explain` comes with
+# this course.
 #
 # **Next:** [tune quality of service](08_tune_quality_of_service.ipynb).
 

@@ -2,24 +2,27 @@
 # title: Tune quality of service
 # minutes: 45
 # needs: ["04", "07"]
-# summary: Decide what happens to messages that wait, come late or never come.
+# summary: Decide what happens to messages that wait, get lost, come too late or never come.
 # ---
 
 # %% [markdown]
 # # Tune quality of service
 #
-# **Goal:** you decide what happens to messages that wait, get lost, come late or never come.
+# **Goal:** decide what happens to messages that wait, get lost, come too late or never come.
 #
 # **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [look inside the graph](07_look_inside_the_graph.ipynb).
 #
-# | what may happen to a message | the policy that decides |
+# You can choose how ROS 2 delivers messages. These settings are called **quality of service**, or QoS for short.
+# Each of them is a **policy**:
+#
+# | what can happen to a message | the policy that decides |
 # |---|---|
 # | it waits for a busy node | **depth** |
 # | it gets lost on the way | **reliability** |
-# | somebody comes after it | **durability** |
-# | it does not come in time | **deadline** |
-# | it is too old when it is read | **lifespan** |
+# | a subscriber joins after it was sent | **durability** |
+# | it doesn't come in time | **deadline** |
+# | it's too old when it's read | **lifespan** |
 
 # %%
 from rclpy.duration import Duration
@@ -33,15 +36,17 @@ from rosbeat import Session, check, hint, predict, progress, viz, workspace
 from rosbeat.records import queue_steps
 
 # %% [markdown]
-# All of these together are the **quality of service**, QoS for short. Each end of a topic has one: each
-# publisher, and each subscription. You have given it every time: the `10` is short for
-# `QoSProfile(depth=10)`, and what you leave out has a default.
+# Each publisher and each subscription is an **endpoint** of its topic. Every endpoint has a **QoS profile**, which
+# holds one value for each policy. You've passed a profile every time: the `10` is short for `QoSProfile(depth=10)`,
+# and the policies that you leave out have default values.
 #
-# ## Bring a source and a collector
+# ## Create a source and a collector
 #
-# The source counts, one number a second, so that you see which one is missing. The collector keeps what
-# it gets in a list. Both are handed their QoS. (Further down, `lambda: Source(10)` is a small function
-# without a name: the session calls it to make the node.)
+# The source publishes one number a second, counting up, so you can see which number is missing. The collector
+# stores what it receives in a list. Both take their QoS as an argument.
+#
+# The `lambda: Source(10)` in the next cells is a small function without a name. The session calls it to create the
+# node.
 
 # %%
 class Source(Node):
@@ -75,14 +80,15 @@ with Session() as ros:
             print(f"{kind:13}", qos.reliability, qos.durability, qos.history, qos.depth)
 
 # %% [markdown]
-# This is the default: `RELIABLE`, `VOLATILE`, and `KEEP_LAST` with a depth. You meet these words one by
-# one.
+# These are the defaults: `RELIABLE`, `VOLATILE`, and `KEEP_LAST` with a depth. You'll meet them one at a time.
 #
-# ## Depth: which queue drops?
+# ## Depth: which queue drops messages?
 #
-# The tutorial says of the publisher's 10 that it "keeps last 10 messages if subscribers are slow", and of
-# the subscriber's 10 nearly the same. Is it true of both? The next function lets a collector be busy for
-# 20 seconds while 20 numbers are published. `offers` is the publisher's QoS, `asks` the subscriber's.
+# The tutorial says that the publisher's 10 "keeps last 10 messages if subscribers are slow", and it says nearly the
+# same about the subscriber's 10. Is it true of both?
+#
+# The next function keeps a collector busy for 20 seconds while 20 numbers are published. `offers` is the
+# publisher's QoS, and `asks` is the subscriber's.
 
 # %%
 def busy(offers, asks):
@@ -96,7 +102,7 @@ def busy(offers, asks):
         return collector.got, ros.observation()
 
 # %% [markdown]
-# **Predict:** the publisher's depth is 1, the subscriber's is 20. How many of the 20 numbers arrive?
+# **Predict:** the publisher's depth is 1, and the subscriber's is 20. How many of the 20 numbers arrive?
 
 # %% predict=true
 got, seen = busy(1, 20)
@@ -117,23 +123,25 @@ takes = [call.time_ns for call in seen.callbacks if call.kind == "subscription"]
 viz.queue(queue_steps(arrivals, takes, depth=5), depth=5)
 
 # %% [markdown]
-# Only the subscriber's depth counts. The tutorial is right about the subscriber, and about the publisher
-# it is not: a slow subscriber fills a queue of its own. The picture shows that queue with depth 5. From 6
-# seconds on, each number pushes the oldest one out: that is `KEEP_LAST`.
+# Only the subscriber's depth makes a difference. The tutorial is right about the subscriber, but not about the
+# publisher: messages for a slow subscriber wait in the subscriber's own queue. The picture shows that queue, with a
+# depth of 5. From 6 seconds on, each new number pushes the oldest one out. That's what `KEEP_LAST` means.
 #
-# What is the publisher's depth good for, then? For those who come late; you see that in a moment. And for
-# messages that the middleware cannot deliver yet: the network is slow, or the subscriber's whole process stands
-# still. In a session every message is delivered at once, so this page cannot show that.
+# What is the publisher's depth good for, then? It matters to subscribers that join late, as you'll see soon. It
+# also matters when the middleware can't deliver messages yet, because the network is slow or the subscriber's whole
+# process is suspended. This page can't show that, because a session delivers every message at once.
 
 # %% [markdown]
-# ## Reliability: offer and ask
+# ## Reliability: offer and request
 #
-# A `RELIABLE` publisher sends a message again if it gets lost. A `BEST_EFFORT` one sends it once: good
-# for a camera, where the next picture comes anyway. The publisher **offers** one, the subscription
-# **asks** for one.
+# If a message gets lost, a `RELIABLE` publisher sends it again. A `BEST_EFFORT` publisher sends it only once.
+# That's fine for a camera, where the next picture comes anyway.
 #
-# **Predict:** the publisher offers best effort, and the subscription asks for reliable. Both have depth 10. How
-# many numbers does the busy collector get?
+# A publisher **offers** one of the two. A subscription **requests** one: in the words of this course, it *asks for*
+# it.
+#
+# **Predict:** the publisher offers best effort, and the subscription asks for reliable. Both have a depth of 10.
+# How many numbers does the busy collector get?
 
 # %% predict=true
 RELIABLE, BEST_EFFORT = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
@@ -152,16 +160,19 @@ for offers in (again, once):
         print(names, f"{len(busy(offers, asks)[0]):2} arrive")
 
 # %% [markdown]
-# Nothing gets lost in one process, so three rows are alike. In the third, the two are not connected. The rule
-# is: **the publisher must offer at least what the subscriber asks for.** If it does not, there is silence, and
-# no error.
+# Nothing gets lost within one process, so three of the rows are alike. In the third row, the two endpoints aren't
+# connected, because their QoS is **incompatible**. The rule is: **the publisher must offer at least what the
+# subscription asks for.** If it doesn't, no messages arrive, and there's no error.
 #
-# ## Durability: who comes late
+# ## Durability: what a late subscriber gets
 #
-# A `VOLATILE` publisher keeps nothing for those who come late. A `TRANSIENT_LOCAL` one does: as many
-# messages as its depth. The next collector comes after 8 seconds and stays for 2.
+# A subscription is **late-joining** if it's created after messages have been published. A `VOLATILE` publisher
+# stores nothing for late-joining subscriptions. A `TRANSIENT_LOCAL` publisher stores as many messages as its depth.
 #
-# **Predict:** both sides say `TRANSIENT_LOCAL`, with depth 5. Which is the first number that it gets?
+# The next collector joins after 8 seconds and stays for 2.
+#
+# **Predict:** both sides use `TRANSIENT_LOCAL`, with a depth of 5. Which is the first number that the collector
+# gets?
 
 # %% predict=true
 def late(offers, asks):
@@ -191,18 +202,18 @@ for offers, asks in ((5, 10), (1, 10), (10, 1)):
     print(f"publisher's depth {offers:2}, subscription's {asks:2}", got)
 
 # %% [markdown]
-# Upper part: only if *both* say so does anything old arrive. And the same rule again: who asks for more
-# than is offered gets nothing at all, not even what is new.
+# Look at the first four rows. Stored messages arrive only if *both* sides use `TRANSIENT_LOCAL`. The same rule
+# applies: a subscription that asks for more than the publisher offers gets nothing at all, not even new messages.
 #
-# Lower part: here the publisher's depth counts, and the subscription's, too. The smaller one wins.
+# In the last three rows, the publisher's depth counts, and so does the subscription's. The smaller one wins.
 #
-# ## Try it: the last word waits
+# ## Try it: the current mode
 #
-# A robot has a mode: first `idle`, then whatever comes on `command`. Displays come and go. Write the node
-# so that
+# A robot has a mode. The first one is `idle`; after that, it's whatever arrives on `command`. Displays come and go.
+# Complete the node so that
 #
-# - it publishes the mode on `mode` at once and at each change, and not if the mode stays as it is;
-# - a display that comes late and asks for it gets the mode of that moment, and no older one.
+# - it publishes the mode on `mode`, at once when it starts and at each change, but not if the mode stays as it is;
+# - a late-joining display that asks for stored messages gets the mode of that moment, and no older one.
 
 # %% exercise="08a"
 class ModeKeeper(Node):
@@ -235,9 +246,9 @@ check("08a", ModeKeeper)
 # %% [markdown]
 # ## Try it: listen to everybody
 #
-# An archive copies each reading from `reading` to `archive`. There are two sensors on that topic, and each
-# publishes once a second. The old one offers reliable, the new one best effort. Now and then the
-# archive is busy for 8 seconds. Choose its QoS so that it hears both and loses nothing.
+# An archive copies each reading from `reading` to `archive`. Two sensors publish on `reading`, each of them once a
+# second. The old sensor offers reliable, and the new one offers best effort. Now and then, the archive is busy for
+# 8 seconds. Choose its QoS so that it hears both sensors and loses nothing.
 
 # %% exercise="08b"
 class Archive(Node):
@@ -258,12 +269,14 @@ class Archive(Node):
 check("08b", Archive)
 
 # %% [markdown]
-# ## Deadline: silence is news
+# ## Deadline: notice a silence
 #
-# A subscriber reacts to messages. So how does it notice that none come? With a **deadline**: the longest
-# time from one message to the next. The publisher promises one, the subscription asks for one, and the
-# rule is the same: a promise of 1.5 seconds is good enough for 2. If time runs out, the
-# middleware calls a method of yours. Such a call is an **event**, and `event_callbacks` says what to call.
+# A subscriber reacts to messages. So how does it notice that none are coming? With a **deadline**: the longest time
+# allowed between one message and the next. The publisher offers one, which is a promise, and the subscription asks
+# for one. The rule is the same: a promise of 1.5 seconds is good enough for a subscription that asks for 2.
+#
+# When a deadline is missed, the middleware reports an **event**, and ROS calls a method of yours. `event_callbacks`
+# says which one.
 
 # %%
 class Guard(Node):
@@ -279,7 +292,7 @@ class Guard(Node):
         self.get_logger().warning(f"missed {event.total_count}")
 
 # %% [markdown]
-# **Predict:** the source rests from 3 seconds to 9.5. How often is the deadline of 2 seconds missed?
+# **Predict:** the source is paused from 3 seconds to 9.5. How often is the deadline of 2 seconds missed?
 
 # %% predict=true
 with Session() as ros:
@@ -299,13 +312,14 @@ predict(3, len(missed), because=f"The events came at {missed} s.")
 # --- end
 
 # %% [markdown]
-# The event comes in each further period, so a node that wants to say it once has to remember. The
-# publisher can be told, too, when it breaks its own promise: with `PublisherEventCallbacks(deadline=...)`.
+# The event repeats after each further period of silence. To report a silence only once, the node must remember that
+# it already has. A publisher can find out, too, that it has broken its own promise: pass it
+# `PublisherEventCallbacks(deadline=...)`.
 #
-# ## Lifespan: too old to be read
+# ## Lifespan: drop old messages
 #
-# A **lifespan** says how long a message is good. Whatever is older is dropped from the queue of the end
-# that has one. Here is the busy collector again, with room for all 20 numbers.
+# A **lifespan** says how long a message is valid. Each endpoint with a lifespan drops older messages from its own
+# queue. Here is the busy collector again, with room for all 20 numbers.
 #
 # **Predict:** the subscription has a lifespan of 3.5 seconds. How many of the 20 numbers does it get?
 
@@ -324,20 +338,21 @@ print(len(busy(kept_shortly, 20)[0]), "arrive if the publisher has the lifespan"
 print(late(kept_shortly, QoSProfile(depth=20, durability=KEPT)), "for a late collector")
 
 # %% [markdown]
-# The others were too old. And it is two queues again: the publisher's lifespan is for what it keeps for
-# those who come late, and what has reached a subscription stays there. (That is what Fast DDS does, the
-# middleware that runs here. Others may differ.)
+# The other numbers were too old. And again, there are two queues. A publisher's lifespan applies to the messages
+# that it stores for late-joining subscriptions. It doesn't affect messages that have already reached a
+# subscription. That's how Fast DDS, the middleware that runs here, does it. Others may differ.
 #
-# The session's clock counts deadlines and lifespans. Liveliness, one more policy, is watched by the middleware
-# itself, in real time: [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
+# In a session, deadlines and lifespans are measured by the session's clock. One more policy, liveliness, is about
+# whether a publisher is still alive. The middleware watches it in real time; see
+# [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
 #
-# ## Try it: silence is news
+# ## Try it: report a silence
 #
-# A sensor on `temperature` promises a reading every 2 seconds, and does not always keep its promise. Write
-# a watchdog that publishes on `health`
+# A sensor on `temperature` offers a deadline of 2 seconds, but it doesn't always keep this promise. Complete the
+# watchdog so that it publishes on `health`
 #
-# - `lost`, once, when nothing has come for 2 seconds;
-# - `back`, once, when readings come again.
+# - `lost`, once in each silence, when nothing has come for 2 seconds;
+# - `back`, once after each silence, when readings come again.
 
 # %% exercise="08c"
 class Watchdog(Node):
@@ -375,10 +390,10 @@ class Watchdog(Node):
 check("08c", Watchdog)
 
 # %% [markdown]
-# ## What went wrong: two defaults that do not fit
+# ## What went wrong: two defaults that don't fit
 #
-# rclpy brings ready-made profiles. `SENSOR_DATA` is made for cameras, laser scanners and the like. A monitor
-# that is written with `10`, as ever, is to listen to one of these.
+# rclpy comes with ready-made profiles. `SENSOR_DATA` is made for cameras, laser scanners and similar sensors. Here,
+# a collector with the usual `10` subscribes to a source that uses this profile.
 
 # %%
 for name in ("SENSOR_DATA", "SERVICES_DEFAULT", "PARAMETER_EVENTS"):
@@ -396,12 +411,12 @@ with Session() as ros:
 why
 
 # %% [markdown]
-# **Symptom:** silence, and no error. **Instruments:** both nodes are in the graph, on the same topic, and
-# `matched` is 0; `ros.explain` says which policy. **Cause:** the subscription asks for more than is
-# offered. **Cure:** ask for less.
+# **Symptom:** silence, and no error. **Where to look:** both nodes are in the graph, on the same topic, but each is
+# connected to 0 others. `ros.explain` tells you which policy doesn't fit. **Cause:** the subscription asks for more
+# than the publisher offers. **Fix:** ask for less.
 #
-# Between two processes there is one more sign. There is an event for this, too, `incompatible_qos`, and if
-# you give it no callback, rclpy writes a warning:
+# Between two real processes, there's one more sign. Incompatible QoS is an event, too, called `incompatible_qos`.
+# If you don't pass a callback for it, rclpy logs a warning:
 
 # %% terminal="sensor --until publishing" tags=["nbval-ignore-output"]
 # ros2 topic pub --rate 5 --qos-profile sensor_data /number std_msgs/msg/Int32 "{data: 1}"
@@ -418,29 +433,30 @@ for name in ("sensor", "listener"):
 print(warning.level, warning.text)
 
 # %% [markdown]
-# Among many lines, this one is soon out of sight. (Without an option, `ros2 topic echo` looks at the
-# publisher first, and asks for what it offers.)
+# Among many other lines, this one is easy to miss. Without the option, `ros2 topic echo` first looks at what the
+# publisher offers, and asks for that.
 #
-# ## Choose
+# ## Choose your policies
 #
 # | what you want | policy | what it costs |
 # |---|---|---|
-# | nothing lost while I am busy | a deeper queue at the **subscription** | memory, and old news when I am back |
-# | nothing lost on the way | reliable on both sides | some messages are sent twice |
-# | to hear everybody | ask for best effort | what gets lost is lost |
-# | the last word for those who come late | transient local on both sides, depth 1 at the publisher | the publisher keeps it as long as it lives |
-# | to notice silence | a deadline on both sides, and an event | a promise that has to be kept |
-# | no old news | a lifespan, where they would wait | what nobody reads in time is gone |
+# | nothing is lost while a subscriber is busy | a deeper queue at the **subscription** | memory, and old messages afterwards |
+# | nothing is lost on the way | reliable on both sides | some messages are sent twice |
+# | every publisher is heard | ask for best effort | a lost message stays lost |
+# | late-joining subscriptions get the last message | transient local on both sides, depth 1 at the publisher | the publisher stores it as long as it lives |
+# | silence is noticed | a deadline on both sides, and an event callback | a promise that has to be kept |
+# | no old messages | a lifespan at the endpoint where they would wait | messages that nobody reads in time are gone |
 #
 # ## Remember
 #
-# - The publisher must offer at least what the subscription asks for, or there is silence.
-# - A slow subscriber has a queue of its own. The publisher's depth is for those who come late.
-# - `TRANSIENT_LOCAL` on both sides gives them the last messages.
-# - A deadline makes silence an event.
+# - The publisher must offer at least what the subscription asks for. If it doesn't, nothing arrives.
+# - Messages for a slow subscriber wait in its own queue. The publisher's depth matters to late-joining
+#   subscriptions.
+# - With `TRANSIENT_LOCAL` on both sides, a late-joining subscription gets the last messages.
+# - A deadline turns silence into an event.
 #
-# **Outside of the notebook**, `ros2 topic info --verbose` shows what each end offers or asks for, and
-# `ros2 topic echo` can ask for what you like:
+# **Outside the notebook**, `ros2 topic info --verbose` shows what each endpoint offers or asks for, and
+# `ros2 topic echo` can ask for the QoS that you choose:
 #
 # ```bash
 # ros2 topic info --verbose /temperature

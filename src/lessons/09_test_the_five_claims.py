@@ -8,15 +8,21 @@
 # %% [markdown]
 # # Test the five claims
 #
-# **Goal:** you put five claims about publish and subscribe to the test, and find where each one ends.
+# **Goal:** test five claims about publish and subscribe, and find the limits of each one.
 #
 # **Time:** 50 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [build, source, run](06_build_source_run.ipynb).
 #
-# The tutorial that this course follows claims: **modularity**, many small parts; **decentralization**, no
-# single point of failure; **scalability**, more nodes without a change to old code; **concurrency**, nodes
-# run in parallel; **re-usability**, the same node elsewhere. A claim is worth what an experiment says. Here
-# are five, with the sensor and the monitor that you know.
+# The tutorial claims that publish and subscribe has five benefits:
+#
+# - **modularity:** a large system is made of many small parts;
+# - **decentralization:** there is no single point of failure;
+# - **scalability:** you can add nodes without changing existing code;
+# - **concurrency:** nodes run in parallel;
+# - **re-usability:** the same node works elsewhere.
+#
+# A claim is worth as much as the experiment that supports it. Here are five, with the sensor and the monitor that
+# you know.
 
 # %%
 import math
@@ -56,13 +62,13 @@ class TemperatureMonitor(Node):
         self.get_logger().info(f"Temperature: {msg.data:.2f}C - Status:{status}")
 
 # %% [markdown]
-# One thing is new: `declare_parameter("start", 22.0)`. The start is a **parameter**, which can be set from
-# outside. You need it for the fifth claim.
+# One thing is new: `declare_parameter("start", 22.0)`. The initial temperature is a **parameter**, a named value
+# that can be set from outside. You'll need it for the fifth claim.
 #
 # ## 1. Modularity: replace a part
 #
-# Somebody else writes a sensor. Nothing in it is like yours, except for the topic and the type. It can
-# also count in Fahrenheit, where 22 °C are 71.6 °F.
+# Somebody else has written a sensor. It has nothing in common with yours, except for the topic and the message
+# type. It can also measure in Fahrenheit, where 22 °C is 71.6 °F.
 #
 # **Predict:** how many of the American sensor's three readings does your monitor call *High*?
 
@@ -96,14 +102,17 @@ predict("3", high, because="Each of them is a number near 75, and 75 is more tha
 # --- end
 
 # %% [markdown]
-# **Found: true, for what ROS compares:** topic, type, quality of service. What a number *means*, nobody
-# compares: the last run is well in every respect, and wrong. The unit is a part of the contract that no
-# type holds. Write it down where both sides read it.
+# **Result: true for what ROS compares:** topic, type and quality of service. ROS doesn't compare what a number
+# *means*. In the last run, `explain` finds nothing wrong, but every status is wrong. The unit is part of the
+# agreement between the two sides, but the message type doesn't hold it. Write it down where the authors of both
+# sides will read it.
 #
 # ## 2. Decentralization: take a part away
 #
-# *If one node crashes, the others can often continue operating.* **Predict:** the sensor is gone for five
-# seconds and comes back. How many lines does the monitor write meanwhile, warnings included?
+# *If one node crashes, the others can often continue operating.*
+#
+# **Predict:** the sensor is gone for five seconds, and then it comes back. How many lines does the monitor log in
+# the meantime, including warnings?
 
 # %% predict=true
 ros = Session(seed=8)
@@ -126,10 +135,11 @@ predict("0", meanwhile)
 # --- end
 
 # %% [markdown]
-# Nobody had to connect the two again. And when the monitor goes, the sensor goes on: 10, 11, 12.
+# Nobody had to connect the two again. And when the monitor is gone, the sensor continues: it publishes at 10, 11
+# and 12 seconds.
 #
-# Does it hold for a real crash, too? `kill -9` ends a process at once, in the middle of anything. Here are
-# two of them. Python can run the files of your package directly, without a build.
+# Does this also hold for a real crash? `kill -9` ends a process immediately, whatever it's doing. The next two
+# cells start two processes. Python can run the files of your package directly, without a build.
 
 # %% terminal="sensor --until Publishing --lines 2" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
@@ -149,20 +159,20 @@ for terminal in (sensor, monitor):
     terminal.close()
 
 # %% [markdown]
-# **Found: partly true.** No program in the middle had to be alive, and the others went on. But the monitor
-# went on *without work*, and said nothing: silence is no message. A single point of failure is left wherever
-# only one node knows something. So somebody has to notice.
+# **Result: partly true.** There is no central program that has to stay alive, and the monitor kept running. But it
+# ran *without readings*, and it didn't say so, because silence isn't a message. Wherever only one node knows
+# something, that node is still a single point of failure. So some other node has to notice when it's gone.
 #
 # ## Try it: notice the silence
 #
-# Write a node that listens to `temperature` and publishes on `status`, as a `String`:
+# Write a node that subscribes to `temperature` and publishes on `status`, as a `String`:
 #
-# - `lost`, once, when no reading has come for 3 seconds;
-# - `back`, once, when one comes again.
+# - `lost`, once in each silence, when no reading has come for 3 seconds;
+# - `back`, once after each silence, when a reading comes again.
 #
-# Either may come up to a second late. Before the first reading it says nothing. Count by the node's own
-# clock, `self.get_clock().now().nanoseconds`, or with timers; `reset()` begins a timer's period anew,
-# `cancel()` stops it.
+# Either may come up to a second late. Before the first reading, the node publishes nothing. Measure time with the
+# node's own clock, `self.get_clock().now().nanoseconds`, or with timers. A timer's `reset()` starts its period
+# again, and `cancel()` stops the timer.
 
 # %% exercise="09a"
 class Watchman(Node):
@@ -203,9 +213,10 @@ check("09a", Watchman)
 # %% [markdown]
 # ## 3. Scalability: add nodes
 #
-# **Predict:** a sensor runs for 60 seconds with 50 monitors. How many messages does it publish, and how many
-# arrive in all? (Write two numbers: `[..., ...]`.) Then comes what it costs: the time that the processor is
-# busy.
+# **Predict:** a sensor runs for 60 seconds with 50 monitors. How many messages does it publish, and how many arrive
+# in total? Write two numbers: `[..., ...]`.
+#
+# The cell after that measures the cost: how long the processor is busy.
 
 # %% predict=true
 class Counter(Node):
@@ -242,18 +253,19 @@ for size, cost in costs.items():
 costs[50] > 2 * costs[1]
 
 # %% [markdown]
-# **Found: true for the code**, which nobody touched. **Not for the cost:** it grows with the number of
-# listeners, for each takes and unpacks each message. Large messages, such as pictures, make you feel it.
+# **Result: true for the code**, which nobody had to change. **Not for the cost:** it grows with the number of
+# subscribers, because each of them takes and unpacks every message. You'll notice it most with large messages, such
+# as pictures.
 #
 # ## 4. Concurrency: do two things at once
 #
 # *Nodes run independently, often in parallel.* Within a process, an **executor** calls the callbacks. The usual
-# one, the **SingleThreadedExecutor**, calls one at a time.
+# one, the **SingleThreadedExecutor**, calls one callback at a time.
 #
-# A heart beats once a second. A worker needs 3 seconds for an order: it sleeps, which takes virtual time
-# here. `ros.add(BusyWorker, Heart)` starts both nodes in *one* process, with one executor.
+# The heart publishes a beat once a second. The worker needs 3 seconds for an order: it sleeps, which takes virtual
+# time here. `ros.add(BusyWorker, Heart)` starts both nodes in *one* process, with one executor.
 #
-# **Predict:** an order comes at 2.5 s. When does the beat come that follows the one at 2 s?
+# **Predict:** there's a beat at 2 s, and an order arrives at 2.5 s. At what time does the next beat come?
 
 # %% predict=true
 class Boss(Node):
@@ -292,11 +304,12 @@ predict("5.5", ros.messages("beat")[2].time)
 # --- end
 
 # %% [markdown]
-# The bar is the callback that sleeps, and the frame is the process. The heart's timer is due at 3 s, but it
-# has to wait until the other node's callback returns.
+# The bar is the sleeping callback, and the frame is the process. The heart's timer is due at 3 s, but it has to
+# wait until the other node's callback returns.
 #
-# Now each node gets a process of its own, as if you had typed `ros2 run` three times. **Predict:** when does
-# that beat come?
+# Now each node gets a process of its own, as if you had typed `ros2 run` three times.
+#
+# **Predict:** at what time does that beat come now?
 
 # %% predict=true
 ros = Session(seed=8)
@@ -311,15 +324,15 @@ predict("3", ros.messages("beat")[2].time)
 # --- end
 
 # %% [markdown]
-# On time: processes do not wait for each other. Nobody listens to the beats here, so their arrows end in
-# nothing.
+# On time: processes don't wait for each other. Nobody subscribes to the beats here, so their arrows lead nowhere.
 #
-# ## Try it: work, and go on beating
+# ## Try it: work, and keep beating
 #
-# Write a worker that listens to `order` (`Int32`), works on each for 3 seconds, and then publishes its number
-# on `done` (`Int32`). On `beat` it publishes any `String` each second, whatever it does. Orders that come
-# meanwhile wait, and are done in order, one after the other. Do not sleep: the beat would wait. And start no
-# threads: they count real time.
+# Complete the worker. It subscribes to `order` (`Int32`), works on each order for 3 seconds, and then publishes the
+# order's number on `done` (`Int32`). Every second, it publishes any `String` on `beat`, whatever else it's doing.
+# Orders that arrive in the meantime wait. The worker does them one after the other, in the order they came.
+#
+# Don't sleep, because the beat would have to wait. And don't start any threads, because they run in real time.
 
 # %% exercise="09b"
 class SteadyWorker(Node):
@@ -359,14 +372,16 @@ class SteadyWorker(Node):
 check("09b", SteadyWorker)
 
 # %% [markdown]
-# There is another way: a **MultiThreadedExecutor** runs callbacks in several threads. But all callbacks of a node
-# are in one **callback group** by default, and that is *mutually exclusive*: it runs one callback at a time. You
-# have to ask for other groups. In a *reentrant* group, callbacks may overlap, even a callback with itself.
+# There's another way: a **MultiThreadedExecutor** runs callbacks in several threads. But that alone isn't enough.
+# By default, all callbacks of a node belong to one **callback group**, which decides whether they may run at the
+# same time. The default group is **mutually exclusive**: it runs one callback at a time. You can create other
+# groups. In a **reentrant** group, callbacks may overlap, and a callback may even overlap with itself.
 #
-# Here one node works and beats. `threads=4` gives its process such an executor, and two orders come at 2.5 s.
+# Here, a single node works and beats. `threads=4` gives its process a MultiThreadedExecutor, and two orders arrive
+# at 2.5 s.
 #
-# **Predict:** when does the third beat come with the default group, with two exclusive groups, and with a
-# reentrant one? Write three numbers.
+# **Predict:** at what time does the third beat come with the default group, with two mutually exclusive groups, and
+# with a reentrant one? Write three numbers: `[..., ..., ...]`.
 
 # %% predict=true
 class Worker(Node):
@@ -398,13 +413,15 @@ predict("[5.5, 3, 3]", beats)
 # --- end
 
 # %% [markdown]
-# With two groups, the beat is on time. In the reentrant group, the two orders overlap as well: both are done at
-# 5.5 s.
+# With two groups, the beat is on time. In the reentrant group, the two orders overlap as well: both are done at 5.5
+# seconds.
 #
-# Do real programs do the same? `pulse.py` starts the nodes that you name, with one `SingleThreadedExecutor`, and
-# ends after 4.8 seconds. First it runs both nodes in one process, then each in a process of its own.
+# Do real programs behave the same? `pulse.py` starts the nodes that you name, with one `SingleThreadedExecutor`,
+# and ends after 4.8 seconds. The cell first runs both nodes in one process, and then each node in a process of its
+# own.
 #
-# **Predict:** is the heart silent while the worker sleeps? Write two words, `yes` or `no`.
+# **Predict:** is the heart silent while the worker sleeps? Write `yes` or `no` for each run, with a comma in
+# between.
 
 # %% terminal="pulse --timeout 60" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE/scripts" && cat > pulse.py <<'EOF'
@@ -448,8 +465,8 @@ predict("yes, no", ", ".join(silent))
 # --- end
 
 # %% [markdown]
-# They do. So threads can *wait* at the same time. Can they *calculate* at the same time, on two cores? Here is
-# the same sum, twice; of three tries, the fastest counts:
+# Yes, they do. So threads can *wait* at the same time. Can they also *calculate* at the same time, on two cores?
+# The next cell computes the same sum twice, in three different ways. Of three tries, the fastest counts.
 
 # %% tags=["nbval-ignore-output"]
 task = "sum(n * n for n in range(3_000_000))"
@@ -483,18 +500,24 @@ for way in (one_after_the_other, two_threads, two_processes):
 one != other, first == second == str(eval(task))
 
 # %% [markdown]
-# **Found: partly true.** Two processes have two numbers and two cores, and take about half the time if both
-# are free. (A busy machine blurs it; run the cell again.) Two threads gain nothing: in one process, one thread
-# at a time runs Python. So give heavy work a process of its own: another `ros2 run`.
+# **Result: partly true.** The two processes have different process IDs and can use two cores. They take about half
+# the time if both cores are free. If your machine is busy, run the cell again. Two threads gain nothing: within a
+# process, Python's **global interpreter lock** lets only one thread at a time run Python code. So give heavy work a
+# process of its own: another `ros2 run`.
 #
 # ## 5. Re-usability: take a node elsewhere
 #
-# In the greenhouse, the same two classes shall measure humidity, 40 to 70 percent. The session starts
-# them as `ros2 run` would: with another name, a namespace, **remapped** topics and parameters.
+# In the greenhouse, the same two classes should measure humidity, where 40 to 70 percent is normal. The session
+# starts them as `ros2 run` would:
 #
-# (`**here` hands over each entry of a dict as an argument.)
+# - with another name;
+# - in a **namespace**, a prefix for the names of its nodes and topics;
+# - with **remapped** topics: another name takes the place of the one in the code;
+# - with parameters.
 #
-# **Predict:** what does the monitor say of 55 percent: *High*, *Low* or *Normal*?
+# In the code, `**here` passes each entry of a dictionary as an argument.
+#
+# **Predict:** what does the monitor say about 55 percent: *High*, *Low* or *Normal*?
 
 # %% predict=true
 with Session(seed=8) as ros:
@@ -511,22 +534,27 @@ predict("High", said)
 # --- end
 
 # %% [markdown]
-# **Found: partly true.** The names moved, and the sensor's start. The monitor's limits and its *C* stand in its
-# code. A node is as re-usable as its author made it: names without a slash in front, called **relative**,
-# parameters, and no unit in the code. In a terminal, the same start is
+# **Result: partly true.** You could change the names from outside, and the sensor's initial value. But the
+# monitor's limits and its *C* are fixed in its code. A node is as re-usable as its author makes it: with
+# parameters, without a unit in the code, and with **relative** names, which don't begin with a slash. In a
+# terminal, you would start the monitor like this:
 #
 # ```bash
 # ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=humidity_monitor \
 #     -r __ns:=/greenhouse -r temperature:=humidity
 # ```
 #
-# and `-p low:=40.0` sets a parameter, if the node has declared it.
+# Adding `-p low:=40.0` sets a parameter, if the node has declared it.
 #
 # ## Try it: a monitor for any place
 #
-# It listens to `reading` (`Float32`) and declares `low` (20.0), `high` (26.0) and `unit` (`"C"`). For each reading
-# it publishes a `String` on `status`: `High`, `Low` or `Normal`, then the reading with a decimal or more and
-# the unit, as in `High 27.5 C`.
+# Write a monitor that subscribes to `reading` (`Float32`) and declares the parameters `low` (20.0), `high` (26.0)
+# and `unit` (`"C"`). For each reading, it publishes a `String` on `status`, such as `High 27.5 C`. This text has
+# three parts, with a space between them:
+#
+# - `High` above the upper limit, `Low` below the lower one, or else `Normal`;
+# - the reading, with at least one decimal;
+# - the unit.
 
 # %% exercise="09c"
 class AnyMonitor(Node):
@@ -554,9 +582,9 @@ class AnyMonitor(Node):
 check("09c", AnyMonitor)
 
 # %% [markdown]
-# ## What went wrong: a name that stays behind
+# ## What went wrong: a name that ignores the namespace
 #
-# The stranger's sensor moves into the greenhouse, too. Its monitor there hears nothing.
+# This time, the other author's sensor runs in the greenhouse, and the monitor there hears nothing.
 
 # %%
 with Session(seed=8) as ros:
@@ -566,21 +594,21 @@ with Session(seed=8) as ros:
     print(ros.explain("greenhouse/temperature"))
 
 # %% [markdown]
-# **Symptom:** silence. **Instrument:** `explain`, which sees two topics. **Cause:** the slash in `"/temperature"`:
-# a name that begins with one is **absolute**, and no namespace moves it. **Cure:** leave the slash out, or
-# remap the whole name: `-r /temperature:=/greenhouse/temperature`.
+# **Symptom:** silence. **Where to look:** `explain`, which finds two topics. **Cause:** the slash in
+# `"/temperature"`. A name that begins with a slash is **absolute**, and no namespace changes it. **Fix:** leave the
+# slash out, or remap the whole name: `-r /temperature:=/greenhouse/temperature`.
 #
 # ## Remember
 #
-# | claim | found |
+# | claim | result |
 # |---|---|
-# | modularity | true for topic, type and QoS; the meaning is yours to keep |
-# | decentralization | the others go on; somebody has to notice |
-# | scalability | no code changes; the cost grows with the listeners |
-# | concurrency | processes do; one executor does one thing at a time; threads share one Python |
-# | re-usability | as far as names are relative and values are parameters |
+# | modularity | true for topic, type and QoS; both sides must agree on the meaning |
+# | decentralization | the other nodes continue; one of them has to notice the silence |
+# | scalability | no code changes; the cost grows with the number of subscribers |
+# | concurrency | processes run in parallel; a SingleThreadedExecutor runs one callback at a time; threads share one Python interpreter |
+# | re-usability | true as far as names are relative and values are parameters |
 #
-# **Next:** [find the fault](10_find_the_fault.ipynb), with what you know of all this.
+# **Next:** [find the fault](10_find_the_fault.ipynb), with everything that you've learned.
 
 # %%
 progress()

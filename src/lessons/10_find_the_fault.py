@@ -8,12 +8,18 @@
 # %% [markdown]
 # # Find the fault
 #
-# **Goal:** you find out what is wrong with systems that you have not written, with instruments and
-# without a look at their code.
+# **After this page, you can:**
+#
+# - find a fault step by step, by halving the system (10a, 10.1);
+# - choose the instrument that answers your question (10a, 10b);
+# - tell a symptom from its cause (10.2);
+# - find a second fault that hides behind the first (10c, 10.3).
 #
 # **Time:** 60 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb),
 # [look inside the graph](07_look_inside_the_graph.ipynb) and
 # [tune quality of service](08_tune_quality_of_service.ipynb).
+#
+# On this page, you examine systems that somebody else wrote, without looking at their code.
 
 # %%
 from rclpy.node import Node
@@ -25,13 +31,12 @@ from rosbeat import Session, check, clinic, hint, predict, progress, viz
 # %% [markdown]
 # ## Meet a patient
 #
-# You know most mistakes already. What is hard is to see which one it is. A **symptom** is what
-# somebody notices: the lamp stays dark. A **cause** is what has to be mended. A **diagnosis** says
-# what the cause is, and where.
+# You already know most of the mistakes. The hard part is finding out which one you're looking at. A **symptom** is
+# what somebody notices: the lamp stays dark. A **cause** is what has to be fixed. A **diagnosis** names the cause
+# and its place.
 #
-# The first patient has three nodes. A sensor publishes readings, a guard makes a status of each, and
-# a lamp shows the status. Here you see the code, so that you can mend it later. Try not to search it
-# for the fault.
+# The first patient has three nodes. A sensor publishes readings, a guard turns each reading into a status, and
+# a lamp shows the status. You can see the code here, because you'll fix it later. Try not to search it for the fault.
 
 # %%
 class Sensor(Node):
@@ -70,19 +75,19 @@ ros.run(seconds=20)
 ros.logs("lamp")
 
 # %% [markdown]
-# Twenty seconds, and not one line. **The complaint:** "The lamp stays dark."
+# Twenty seconds, and not a single line. **The complaint:** "The lamp stays dark."
 #
 # ## Halve the system
 #
-# It is tempting to change something and hope. Ask instead, from the sensor on, and let each answer cross
-# out half of what is left:
+# It's tempting to change something and hope for the best. Instead, follow the data from the sensor to the lamp and
+# ask four questions. Each answer rules out part of the system:
 #
 # 1. Is it **published**? `ros.messages(topic)`
 # 2. Is it **matched**? `ros.graph()`, `ros.explain(topic)`
 # 3. Is it **taken**? `ros.logs(node)`, `viz.timeline`
 # 4. Is the **value right**? `viz.values`, and the messages themselves
 #
-# Begin in the middle. **Predict:** how many messages has the guard published on `status`?
+# Start in the middle. **Predict:** how many messages has the guard published on `status`?
 
 # %% predict=true
 said = ros.messages("status")
@@ -93,10 +98,10 @@ predict("20", len(said), because="One reading a second reaches the guard, and ea
 # --- end
 
 # %% [markdown]
-# They are published. One question, and the sensor, the topic `temperature` and the guard are all crossed
-# out: whatever the guard needs must be fine too. The fault lies between the guard and the lamp.
+# They are published. With one question, you've ruled out the sensor, the topic `temperature` and the guard:
+# whatever the guard needs must be working, too. The fault is somewhere between the guard and the lamp.
 #
-# Are these two matched?
+# Do these two match?
 
 # %%
 ros.explain("status")
@@ -105,11 +110,11 @@ ros.explain("status")
 viz.graph(ros.explain("status"))
 
 # %% [markdown]
-# That rules the names out, too: both sides use one topic. The line to the lamp is broken, since the lamp
-# asks for stored messages, and the guard keeps none.
+# The names aren't the problem: both sides use the same topic. The line to the lamp is broken, because the lamp
+# asks for stored messages and the guard doesn't store any.
 #
-# **Diagnosis:** `qos-mismatch` at `/status`. **Cure:** both sides get the same QoS. A diagnosis is a guess
-# until the cure works. So prove it: mend the class, add it again, run.
+# **Diagnosis:** `qos-mismatch` at `/status`. **Fix:** give both sides the same QoS profile. A diagnosis is only a
+# guess until the fix works. To prove it, correct the class, add it again, and run.
 
 # %%
 class Lamp(Node):
@@ -130,29 +135,29 @@ ros.run(seconds=2)
 #
 # | symptom | instrument | what it shows |
 # |---|---|---|
-# | silence | `ros.explain(topic)` | who is on both sides, whether they fit, who has ended |
-# | silence, and all seems well | `ros.graph()` | each name, letter by letter; who listens where |
-# | it stopped | `ros.messages(topic)[-1]` | when the last message came, and from whom |
-# | something is missing | `ros.logs(node)` | what a node has heard, and when it began |
-# | too many, too few | `ros.explain(topic)` | messages a second, for each publisher |
-# | odd numbers | `viz.values(ros.observation(), topic)` | each reading, with its limits as bands |
-# | odd order | `viz.timeline(ros.observation())` | what caused what |
+# | silence | `ros.explain(topic)` | who is on each side, whether the sides match, and who has ended |
+# | silence, though everything seems fine | `ros.graph()` | each name, letter by letter, and who subscribes to what |
+# | it stopped | `ros.messages(topic)[-1]` | when the last message came, and from which node |
+# | something is missing | `ros.logs(node)` | what a node received, and since when |
+# | too many or too few | `ros.explain(topic)` | messages per second, for each publisher |
+# | strange numbers | `viz.values(ros.observation(), topic)` | each reading, with its limits as bands |
+# | strange order | `viz.timeline(ros.observation())` | what caused what |
 #
-# And where does which cause show? The four questions again, with the names of the causes:
+# And which question reveals which cause? Here are the four questions again, with the names of the causes:
 #
-# | question | causes that answer it with no |
+# | question | causes that make the answer "no" |
 # |---|---|
 # | published? | `never-published`, `gone-quiet`, `node-ended`, `not-spun`, `callback-blocks` |
 # | matched? | `topic-misspelled`, `wrong-namespace`, `wrong-topic`, `qos-mismatch`, `type-mismatch` |
 # | taken? | `not-spun`, `depth-too-small`, `first-messages-lost` |
 # | right? | `wrong-unit`, `never-changes`, `no-clamp`, `clamped-too-early`, `boundary`, `two-sources`, `run-twice`, `wrong-rate` |
 #
-# `clinic.names()`, further down, explains each of these ids.
+# `clinic.names()`, further down, explains each of these names.
 
 # %% [markdown]
 # ## Walk through the ward
 #
-# Eleven patients wait. All are real nodes that have run for a minute. Their code stays closed.
+# Eleven patients are waiting. They are all real nodes that have run for a minute. You can't see their code.
 
 # %%
 ward = clinic.Ward(seed=7)
@@ -160,26 +165,26 @@ patient = ward.patient(1)
 patient
 
 # %% [markdown]
-# The owner's words come first: they tell no cause, and what they call *fine* is fine. `Ordered` is how the
-# system should be: who publishes on which topic, who listens, and what the numbers mean. `patient.ros` is
-# an ordinary session, so every instrument fits.
+# First come the owner's words. They don't name a cause, but you can trust them: whatever they call *fine* is fine.
+# `Ordered` describes how the system should be: who publishes on which topic, who subscribes to it, and what the
+# numbers mean. `patient.ros` is an ordinary session, so you can use every instrument on it.
 
 # %%
 viz.graph(patient.ros.graph())
 
 # %% [markdown]
-# Go along the order with a finger, and look for each name in the picture. Is every node there? Does
-# each stand at the topic that was ordered?
+# Go through the order line by line, and look for each name in the picture. Is every node there? Is
+# each one connected to the topic that was ordered?
 #
-# One caution about `ros.explain`: it speaks of one topic only. Ask it first about the topic where the
-# silence begins, seen from the sensor. Of a topic further down it may say that the guard has published
-# nothing. That is true, and yet the guard may be healthy, with nothing to talk about. What looks like a
-# fault there is a symptom.
+# Be careful with `ros.explain`: it covers a single topic. Ask first about the topic, counted from the sensor, on
+# which the silence begins. About a later topic, it may say that the guard has published
+# nothing. That's true, but the guard may be healthy and simply have nothing to report. What looks like a
+# fault there is only a symptom.
 
 # %% [markdown]
-# A diagnosis is an id and a place. The place is the full name of the node or of the topic where the
-# fault is, not where it hurts. If a fault lies between two nodes, the topic is a good answer. The clinic
-# knows twenty ids, and not all of them occur:
+# A diagnosis is a name and a place. The place is the full name of the node or of the topic that has the
+# fault, which isn't always where you notice the symptom. If the fault is between two nodes, name the topic. The clinic
+# knows twenty causes, and not all of them occur here:
 
 # %%
 clinic.names()
@@ -187,15 +192,15 @@ clinic.names()
 # %% [markdown]
 # ## Try it: something is silent
 #
-# Patients 1 to 4 have one fault each. Here are the other three.
+# Patients 1 to 4 have one fault each. You've met patient 1; here are the other three.
 
 # %%
 for number in (2, 3, 4):
     print(ward.patient(number))
 
 # %% [markdown]
-# Examine one after the other: change the number below, add cells, use any instrument. Write down what each
-# of them rules out. `hint("10a")` costs nothing. It is only counted.
+# Examine one patient after the other: change the number below, add cells, use any instrument. Write down what each
+# answer rules out. `hint("10a")` costs nothing; hints are only counted.
 
 # %%
 patient = ward.patient(2)
@@ -221,12 +226,12 @@ def diagnoses():
 check("10a", diagnoses)
 
 # %% [markdown]
-# A wrong diagnosis is told what speaks against it. You may check as often as you like, and with some
-# patients left blank.
+# If a diagnosis is wrong, the check says what speaks against it. Check as often as you like, even while some
+# patients are still blank.
 #
 # ## Try it: nothing is silent
 #
-# Patients 5 to 8 are harder. Every message arrives, and `ros.explain` says that all is well. Something is
+# Patients 5 to 8 are harder. Every message arrives, and `ros.explain` finds no fault. Something is
 # wrong all the same.
 
 # %%
@@ -239,10 +244,10 @@ limits = {"as ordered": (23, 31)}
 viz.values(patient.ros.observation(), "pool_temperature", bands=limits)
 
 # %% [markdown]
-# The picture tells more than a hundred log lines: the band is what was ordered, and the readings are what
-# came. The last question of the four is the one that counts here: is the value right? Compare what you
-# see with what was ordered, number by number: limits, steps, rate, and who speaks. `ros.graph()` is still
-# of use, for a node that listens to the wrong topic hears something, too.
+# The picture says more than a hundred log lines: the band shows what was ordered, and the line shows the readings.
+# For these patients, the last of the four questions counts: is the value right? Compare what you see with the order,
+# number by number: limits, steps, the rate, and who publishes. `ros.graph()` is still useful, because a node that
+# subscribes to the wrong topic receives messages, too.
 
 # %% exercise="10b"
 def diagnoses():
@@ -264,10 +269,10 @@ def diagnoses():
 check("10b", diagnoses)
 
 # %% [markdown]
-# ## What went wrong: cured, and still dark
+# ## What went wrong: fixed, but still dark
 #
-# The first patient again, with its mended lamp and another guard. Its owner has found a fault, the topic's
-# name, and is sure: mend it, and the lamp shines. **Predict:** does it?
+# Here is the first patient again, with its repaired lamp and a different guard. Its owner has found a fault in a
+# topic's name, and is sure: fix it, and the lamp will shine. **Predict:** will it?
 
 # %%
 class Guard(Node):
@@ -293,13 +298,14 @@ ros.run(seconds=10)
 ros.explain("status")
 
 # %% [markdown]
-# **Symptom:** the cure is right, and nothing changes. **Instrument:** the same questions once more, from
-# the sensor on. **Cause:** a second fault hid behind the first. A deaf guard cannot show that it is also
-# mute: no number is above 28 *and* below 20. **Cure:** after each cure, look at the whole system again.
+# **Symptom:** the fix is right, but nothing changes. **Where to look:** ask the same questions once more, from
+# the sensor on. **Cause:** a second fault was hidden behind the first. While the guard received nothing, you couldn't
+# see that it would never publish: no number is above 28 *and* below 20. **Fix:** after each repair, examine the whole
+# system again.
 #
 # ## Try it: two faults
 #
-# Patients 9 to 11 have two faults each, at different places. The order does not matter.
+# Patients 9 to 11 have two faults each, at different places. The order doesn't matter.
 
 # %%
 for number in (9, 10, 11):
@@ -323,26 +329,26 @@ def diagnoses():
 check("10c", diagnoses)
 
 # %% [markdown] only="solution"
-# **How it can be found.** In the stable, the logger listens to a name that nobody else uses, and the lamp
-# asks for stored messages: both show in `viz.graph`. In the server room the diary has taken two of every
-# five readings, `ros.logs` says, and 290 degrees are Kelvin. In the beehive the sensor publishes every two
-# seconds instead of one, and the logger has ended: `ros.explain` says both.
+# **How you can find them.** In the stable, the logger subscribes to a name that nobody else uses, and the lamp
+# asks for stored messages: `viz.graph` shows both. In the server room, `ros.logs` shows that the diary has taken two
+# of every five readings, and 290 degrees must be Kelvin. In the beehive, the sensor publishes every two
+# seconds instead of every second, and the logger has ended: `ros.explain` says both.
 
 # %% [markdown]
 # ## Remember
 #
-# - A symptom is where it hurts; the cause may be elsewhere. Do not mend where it hurts.
+# - The symptom is where you notice a fault; the cause may be elsewhere. Fix the cause.
 # - Halve the system: published, matched, taken, value right?
-# - What works is a clue too: it crosses out all that it needs.
-# - A diagnosis is proved by its cure. Then look again: faults hide behind faults.
+# - What works is a clue, too: everything it depends on must be working.
+# - Only a fix that works proves a diagnosis. Then look again, because one fault can hide another.
 #
-# **The same outside of the notebook:** `ros2 node list`, `ros2 topic info -v /status` (both sides and their
-# QoS), `ros2 topic hz /status`, `ros2 topic echo /status`, and `rosbeat explain status`.
+# **The same tools outside this notebook:** `ros2 node list`, `ros2 topic info -v /status` (which shows both sides and
+# their QoS), `ros2 topic hz /status`, `ros2 topic echo /status`, and `rosbeat explain status`.
 #
-# More to examine: `clinic.Ward(seed=8)` is another ward. Begin your dict with `"ward": 8`, and the
-# checks judge that one.
+# Would you like more patients? `clinic.Ward(seed=8)` is another ward. If your dictionary begins with `"ward": 8`, the
+# checks judge that ward.
 #
-# **Next:** [record and replay](11_record_and_replay.ipynb), to look at one run as often as you like.
+# **Next:** [record and replay](11_record_and_replay.ipynb), to look at the same run as often as you like.
 
 # %%
 progress()

@@ -8,19 +8,24 @@
 # %% [markdown]
 # # Record and replay
 #
-# **Goal:** you keep a run of the sensor in a file, play it to the monitor again, break it on purpose, and
-# write nodes that notice.
+# **After this page, you can:**
+#
+# - record a run in a bag, and read the messages in it (11a, 11.1);
+# - replay a run to a node that you changed, and compare (11.2);
+# - put faults into a replay, and write nodes that notice them (11b);
+# - recognize a drift by comparing two sensors (11c);
+# - handle NaN correctly (11.3).
 #
 # **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [look inside the graph](07_look_inside_the_graph.ipynb).
 #
-# A fault that happened once, on a robot, yesterday, is hard to find. A fault that you can play again is
-# not. This is where you are going:
+# A fault that occurred once, yesterday, on a robot, is hard to find. A fault that you can replay is much easier. This
+# is what you'll build:
 #
 # ```text
 # sensor ---> bag ---> replay ---> monitor
 #                        ^
-#                        faults, put in by you
+#                        faults, added by you
 # ```
 
 # %%
@@ -37,7 +42,7 @@ from rosbeat import Session, bags, check, hint, predict, progress, viz, workspac
 # %% [markdown]
 # ## Bring both nodes
 #
-# The sensor is that of page 03, the monitor that of page 04. The sensor does not log here.
+# The sensor comes from page 03 and the monitor from page 04. This sensor doesn't log.
 
 # %%
 class TemperatureSensor(Node):
@@ -71,8 +76,8 @@ class TemperatureMonitor(Node):
 # %% [markdown]
 # ## Record a run
 #
-# ROS calls a recording a **bag**. It holds every message that was published, and when. `bags.record` writes
-# one from a session. It goes into your workspace, which `catch_up` makes if it is missing.
+# In ROS, a recording is called a **bag**. It contains every message that was published, and when. `bags.record` writes
+# the messages of a session to a bag in your workspace. If you have no workspace yet, `catch_up` creates it.
 
 # %%
 workspace.catch_up("02")
@@ -88,9 +93,9 @@ bag = bags.record(first, folder / "first_run", keep_old=True)
 bag
 
 # %% [markdown]
-# 300 messages on one topic, with their type, their publisher and its quality of service. (If you run the
-# cell again, `keep_old=True` renames the older bag.) What the monitor logged is not in it: by default only
-# topics of your own are recorded.
+# 300 messages on one topic, with their type, their publisher and its QoS profile. If you run the
+# cell again, `keep_old=True` renames the older bag. The monitor's log lines aren't in the bag: by default, it contains
+# only the topics that your own nodes use.
 #
 # A bag is a folder with two files:
 
@@ -102,11 +107,11 @@ about = (bag.folder / "metadata.yaml").read_text()
 print(about[about.index("  storage_identifier"):about.index("      offered_qos")])
 
 # %% [markdown]
-# `metadata.yaml` says in plain text what the bag holds. The messages are in the other file, in a format
-# called **MCAP**, which ROS 2 Jazzy uses by default. It also keeps what a `Float32` is made of, so a
-# program that has never heard of it can read it.
+# `metadata.yaml` is a text file that describes what's in the bag. The messages are in the other file, in a format
+# called **MCAP**, the default format of ROS 2 Jazzy. This file also contains the definition of `Float32`, so even a
+# program that doesn't know this type can read it.
 #
-# `messages` gives them back, each with its time in seconds and its value:
+# `messages` returns the messages, each with its time in seconds and its value:
 
 # %%
 [(one.time, one.value) for one in bag.messages("temperature")[:3]]
@@ -114,8 +119,8 @@ print(about[about.index("  storage_identifier"):about.index("      offered_qos")
 # %% [markdown]
 # ## Read it with another tool
 #
-# Is it all there? Do not ask the library that wrote it. The other format for bags is a **SQLite** database,
-# and Python brings a reader of its own for these. A bag can be recorded from a bag:
+# Is the recording complete? Don't ask the library that wrote it. Bags have a second format, an **SQLite** database,
+# and Python comes with a module that reads SQLite. You can record a bag from another bag:
 
 # %%
 copy = bags.record(bag, folder / "first_run_sqlite", storage="sqlite3", keep_old=True)
@@ -126,9 +131,9 @@ database.close()
 len(rows), rows[0]
 
 # %% [markdown]
-# Each row has a time in nanoseconds, and a message as it crosses the wire: four bytes that say how it is
-# written, and four for the number. `struct` makes a number of those: `"<f"` means a float with its last byte
-# first. **Predict** `yes` or `no`: are all 300 times and values the same as above?
+# Each row has a time in nanoseconds, and a message in the form in which it is sent: four bytes that describe the
+# encoding, and four bytes for the number. `struct` turns these four bytes into a number: `"<f"` means a float whose
+# least significant byte comes first. **Predict** `yes` or `no`: are all 300 times and values the same as above?
 
 # %% predict=true
 found = [(at / 1e9, struct.unpack("<f", data[4:])[0]) for at, data in rows]
@@ -140,12 +145,12 @@ predict("yes", found == kept)
 # --- end
 
 # %% [markdown]
-# Not one bit is lost.
+# Yes: not a single bit is lost.
 #
 # ## Replay it
 #
-# `bags.replay` makes a node that publishes a recording again, each message at its time. The function below
-# plays the bag to a monitor and gives back what was observed; `lines` takes the log out of it.
+# `bags.replay` creates a node that publishes a recording again, each message at its original time. The function below
+# plays the bag to a monitor and returns what was observed; `lines` extracts the log lines.
 
 # %%
 def play(monitor, *faults, speed=1):
@@ -162,7 +167,7 @@ again = play(TemperatureMonitor)
 viz.graph(again.graph)
 
 # %% [markdown]
-# Another node stands in the sensor's place, and nothing in this session is random. **Predict:** does the
+# Another node has taken the sensor's place, and nothing in this session is random. **Predict:** does the
 # monitor log the same 300 lines as in the first run?
 
 # %% predict=true
@@ -174,8 +179,8 @@ predict("yes", lines(again) == lines(first))
 # --- end
 
 # %% [markdown]
-# It cannot tell the difference: a subscriber knows a topic, not who publishes there. Faster works, too. With
-# `speed=10` the five minutes take 30 seconds of virtual time:
+# It does. A monitor can't tell the difference, because a subscriber knows the topic, but not the publisher. You can
+# also replay faster. With `speed=10`, the five minutes take 30 seconds of virtual time:
 
 # %%
 fast = play(TemperatureMonitor, speed=10)
@@ -184,8 +189,8 @@ fast.time, lines(fast) == lines(first)
 # %% [markdown]
 # ## Compare two runs
 #
-# `bags.compare` puts two runs side by side. Here is the bag beside its replay, and then beside a new run
-# with other random numbers.
+# `bags.compare` compares two runs message by message: first the bag with its replay, and then the bag with a new run
+# that uses other random numbers.
 
 # %%
 print(bags.compare(bag, again, "temperature", names=("the bag", "the replay")))
@@ -198,8 +203,8 @@ seeds = bags.compare(bag, other, "temperature", names=("seed 8", "seed 9"))
 viz.differences(seeds, label="temperature", unit="°C")
 
 # %% [markdown]
-# A new run answers another question. If you change the *monitor*, replay the old run: whatever differs then
-# comes from your change. Here *High* begins at 25 degrees instead of 26. How many lines does that change?
+# A new run is a different experiment. If you change the *monitor*, replay the old run instead: then every difference
+# comes from your change. Here, *High* begins at 25 degrees instead of 26. How many lines does that change?
 
 # %%
 class StrictMonitor(TemperatureMonitor):
@@ -214,13 +219,13 @@ len(changed), changed[0]
 # %% [markdown]
 # ## Break it on purpose
 #
-# Sensors fail. A fault goes into the replay, and the bag stays as it is (all times are in seconds):
+# Sensors fail. You can add faults to the replay; the bag itself doesn't change. All times are in seconds:
 #
 # - `stuck`: the sensor hangs and repeats its last reading;
-# - `dropouts`: messages get lost on the way, some at random, or all in a span of time;
-# - `drift`: each reading is off by more and more, by so many degrees each second;
-# - `with_nan`: the reading is **NaN**, "not a number". That is what floats have for a result that there is
-#   not, and many drivers send it if a measurement fails.
+# - `dropouts`: messages get lost on the way, either some at random or all within a time span;
+# - `drift`: the error of each reading grows by a fixed number of degrees per second;
+# - `with_nan`: the reading is **NaN**, "not a number". NaN is the floating-point value for an undefined result,
+#   and many drivers send it when a measurement fails.
 
 # %%
 sick = play(
@@ -234,10 +239,10 @@ broken = bags.compare(bag, sick, "temperature", names=("the bag", "with faults")
 viz.differences(broken, label="temperature", unit="°C")
 
 # %% [markdown]
-# From left to right: a flat line, rings where messages are missing, crosses for NaN, and a line that leaves the
-# other one.
+# From left to right, you see a flat line, rings where messages are missing, crosses for NaN, and a line that drifts
+# away from the other one.
 #
-# Now each fault alone. What does the monitor make of it? **Predict:** which status does it log for a NaN?
+# Now apply each fault by itself. What does the monitor make of it? **Predict:** which status does it log for a NaN?
 
 # %% predict=true
 def statuses(*faults):
@@ -256,13 +261,13 @@ predict("Normal", lines(play(TemperatureMonitor, bags.with_nan(at=0)))[0].split(
 # --- end
 
 # %% [markdown]
-# The monitor never complains. A hanging sensor looks perfectly well. A drift looks like weather. A lost
-# message is no message, so nobody is called. And a dead sensor, NaN for five minutes, is *Normal* 300 times:
-# `nan > 26.0` is false, `nan < 20.0` is false, and `else` gets the rest.
+# The monitor never complains. A hanging sensor looks perfectly healthy. A drift looks like weather. A lost
+# message doesn't call any callback. And a dead sensor, which sends NaN for five minutes, is *Normal* 300 times:
+# `nan > 26.0` is false, `nan < 20.0` is false, and `else` gets everything that remains.
 #
 # ## What went wrong: NaN is not equal to NaN
 #
-# Somebody writes a monitor that only looks for NaN. **Predict:** how many of the 300 NaN does this monitor notice?
+# Somebody writes a monitor that only looks for NaN. **Predict:** how many of the 300 NaN readings does it notice?
 
 # %% predict=true
 class HopefulMonitor(TemperatureMonitor):
@@ -279,18 +284,18 @@ predict("0", len(noticed))
 # --- end
 
 # %% [markdown]
-# **Symptom:** a condition that is never true. **Instrument:** a replay with `with_nan`. **Cause:** `<`, `>`
-# and `==` are false whenever one side is NaN, even if both are. **Cure:** `math.isnan(value)`.
+# **Symptom:** a condition that is never true. **Where to look:** a replay with `with_nan`. **Cause:** `<`, `>`
+# and `==` are false whenever one side is NaN, even if both sides are. **Fix:** `math.isnan(value)`.
 #
 # ## Try it: look into a bag
 #
-# Complete a function that is given a bag. It finds three things about the topic `temperature`:
+# Complete a function that receives a bag. It returns three facts about the topic `temperature`:
 #
-# - `messages`: how many there are, NaN included;
-# - `gap`: the longest time between two messages that follow each other, in seconds;
+# - `messages`: how many messages there are, including NaN;
+# - `gap`: the longest time between two consecutive messages, in seconds;
 # - `mean`: the mean of all readings that are numbers.
 #
-# The check hands over bags that you have not seen.
+# The check uses bags that you haven't seen.
 
 # %% exercise="11a"
 def look_into(bag):
@@ -308,16 +313,16 @@ def look_into(bag):
 check("11a", look_into)
 
 # %% [markdown]
-# ## Try it: notice a sick sensor
+# ## Try it: notice a faulty sensor
 #
-# This node publishes one word on `fault` at each of these:
+# This node publishes one word on `fault` for each of these events:
 #
-# - `nan`: for each reading that is no number;
-# - `jump`: a reading is more than 5 degrees away from the last number before it;
-# - `stuck`: the last of five readings in a row that are exactly equal; then not again until the reading has
-#   changed.
+# - `nan`: for each reading that is NaN;
+# - `jump`: for each reading that differs by more than 5 degrees from the last number before it;
+# - `stuck`: when five readings in a row are exactly equal, at the fifth of them. It isn't published again until the
+#   reading has changed.
 #
-# The very first reading is never a fault unless it is NaN.
+# The very first reading is never a fault, unless it's NaN.
 
 # %% exercise="11b"
 class Watchdog(Node):
@@ -352,13 +357,13 @@ check("11b", Watchdog)
 # %% [markdown]
 # ## Try it: compare two sensors, alone
 #
-# Nobody can see a drift in one sensor. With a second one you can. Write a node that listens to `temperature`
-# and to `reference`. Each reading of `temperature` makes a pair with the newest reading of `reference`, if
-# there was one. A pair with NaN does not count.
+# With a single sensor, nobody can recognize a drift. With a second one, you can. Write a node that listens to
+# `temperature` and to `reference`. Each reading of `temperature` forms a pair with the newest reading of `reference`,
+# if there has been one. A pair that contains NaN doesn't count.
 #
-# The difference in a pair is the temperature minus the reference. When the mean of the last ten differences
-# is more than 1 degree away from 0, the sensor drifts: publish `drift` on `fault`, once. Publish it again
-# only after the mean has been back within 1 degree. With fewer than ten pairs nothing is said.
+# The difference of a pair is the temperature minus the reference. When the mean of the last ten differences
+# is more than 1 degree away from 0, the sensor is drifting: publish `drift` on `fault`, once. Publish it again
+# only after the mean has been back within 1 degree. While there are fewer than ten pairs, publish nothing.
 
 # %% exercise="11c"
 class DriftWatch(Node):
@@ -395,14 +400,14 @@ check("11c", DriftWatch)
 # %% [markdown]
 # ## Remember
 #
-# - A bag keeps every message with its time; a replay publishes them again.
-# - Same recording, same readings: what differs comes from your change.
-# - A recording with faults in it is a test that you can keep.
-# - NaN is neither above nor below nor equal to anything. Ask with `math.isnan`.
+# - A bag contains every message with its time; a replay publishes the messages again.
+# - With the same recording, every difference comes from your change.
+# - A recording with added faults is a test that you can keep.
+# - NaN is neither above nor below nor equal to anything. Test for it with `math.isnan`.
 #
-# ## Outside of the notebook
+# ## Outside this notebook
 #
-# In a terminal these commands do the same, in this course and on a full ROS 2 installation:
+# In a terminal, these commands do the same, both in this course and in a full ROS 2 installation:
 #
 # ```bash
 # ros2 bag record -o first_run /temperature
@@ -410,9 +415,9 @@ check("11c", DriftWatch)
 # ros2 bag play first_run --rate 10
 # ```
 #
-# Your bag has the format that they use: version 9 of rosbag2, as in Jazzy.
+# Your bag has the format that these commands use: version 9 of rosbag2, as in Jazzy.
 #
-# **Next:** [beyond topics](12_beyond_topics.ipynb): ask and be answered.
+# **Next:** [beyond topics](12_beyond_topics.ipynb), where nodes ask questions and get answers.
 
 # %%
 progress()

@@ -8,8 +8,13 @@
 # %% [markdown]
 # # Go beyond topics
 #
-# **Goal:** you make a thermostat that can be asked, set and sent to work, and you see what such
-# conversations have in common with topics.
+# **After this page, you can:**
+#
+# - offer a service, and call one (12a, 12.1);
+# - check new parameter values before they take effect (12b);
+# - offer an action that accepts, reports, finishes and can be canceled (12c);
+# - choose between a topic, a service, a parameter and an action (12.2);
+# - explain why a callback must not wait (12.3).
 #
 # **Time:** 50 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [look inside the graph](07_look_inside_the_graph.ipynb).
@@ -28,28 +33,28 @@ from test_msgs.srv import BasicTypes
 from rosbeat import Session, check, hint, predict, progress, viz, workspace
 
 # %% [markdown]
-# A topic is a stream: whoever publishes never learns who heard it. That is right for readings. It is
-# not enough for a request ("set the limit to 24"), nor for work that takes time ("heat to 22
-# degrees"). ROS has three more ways to talk:
+# A topic is a stream: the publisher never learns who received a message. That's right for readings, but it isn't
+# enough for a request ("set the limit to 24") or for work that takes time ("heat to 22 degrees"). ROS has three more
+# ways to communicate:
 #
 # | | topic | service | parameter | action |
 # |---|---|---|---|---|
 # | for | a stream of data | a quick request | a setting | work that takes time |
 # | direction | one way | there and back | there and back | there, reports, back |
-# | answer | none | one | yes, or no and why | feedback, then a result |
-# | can be stopped | | no | no | yes |
+# | answer | none | one | yes, or no with a reason | feedback, then a result |
+# | can be canceled | | no | no | yes |
 # | how many | any to any | any clients, one server | any clients, one node | any clients, one server |
 
 # %% [markdown]
 # ## Ask: a service
 #
-# A **service** is a question with one answer. It has a name and a type, as a topic has. Its type holds
-# two messages: a request and a response. One node offers the service, others are its **clients**.
+# A **service** is a question with one answer. Like a topic, it has a name and a type. The type consists of
+# two messages, a request and a response. One node offers the service, and other nodes are its **clients**.
 #
-# Types of your own have to be compiled, which takes a C compiler. So this page borrows ready ones
-# from `test_msgs`: of `BasicTypes` it uses a number in the request, `float32_value`, and two fields of
-# the response, `bool_value` and `string_value`. In a project of your own, define your own: names that
-# say what they mean are worth it.
+# Defining a type of your own takes a C compiler, so this page borrows existing types from the package
+# `test_msgs`. From `BasicTypes`, it uses one number in the request, `float32_value`, and two fields of
+# the response, `bool_value` and `string_value`. In a project of your own, define your own types: names that
+# say what they mean are worth the effort.
 
 # %%
 class Window(Node):
@@ -67,11 +72,11 @@ class Window(Node):
         return response
 
 # %% [markdown]
-# ROS hands the callback the request and an empty response. The callback fills it and **returns** it.
+# ROS passes the request and an empty response to the callback. The callback fills in the response and **returns** it.
 #
-# A client first waits until the service is there; `wait_for_service` says whether it is. `call_async` sends the
-# request and gives you a **future**: a response that is still to come. `spin_until_future_complete` runs callbacks
-# until it has come.
+# A client first waits for the service; `wait_for_service` returns whether it's available. `call_async` sends the
+# request and returns a **future**: an object that will hold the response once it arrives.
+# `spin_until_future_complete` runs callbacks until then.
 
 # %%
 ros = Session(seed=8)
@@ -85,11 +90,11 @@ rclpy.spin_until_future_complete(guest, future)
 future.result().bool_value, window.percent
 
 # %% [markdown]
-# The official tutorial on clients has the same lines. `client.call` sends a request and waits for the response in
-# one step. In a cell that is handy, because the session runs the nodes meanwhile. In a callback it can wait for
-# ever, as you see at the end of this page.
+# The official tutorial on clients uses the same lines. `client.call` sends a request and waits for the response in
+# a single step. In a cell that's convenient, because the session keeps running the nodes. In a callback, it can wait
+# forever, as you'll see at the end of this page.
 #
-# **Predict:** the next requests are for 250 percent and for NaN, "not a number". How far is the window open
+# **Predict:** the next requests are for 250 percent and for NaN, "not a number". How far open is the window
 # after that?
 
 # %% predict=true
@@ -102,13 +107,15 @@ predict("30", window.percent)
 # --- end
 
 # %% [markdown]
-# Both were refused, with a reason, and changed nothing. Every comparison with NaN is False, and the code asks
-# whether a value is *good*. A test for what is bad, `value < 0 or value > 100`, lets NaN pass.
+# Both requests were refused with a reason, and neither changed anything. Every comparison with NaN is false. The code
+# asks whether a value is *valid*, so it refuses NaN. A test for invalid values, `value < 0 or value > 100`, would
+# accept it.
 #
 # ## Try it: a threshold behind a service
 #
-# Offer a service `set_high` of the type `BasicTypes`. A threshold from 10 to 40 is kept, and `bool_value`
-# says so. Anything else is refused: `bool_value` is False, `string_value` says why, nothing changes.
+# Offer a service `set_high` of the type `BasicTypes`. If the requested threshold is from 10 to 40, keep it, and set
+# `bool_value` to True. Refuse anything else: `bool_value` is False, `string_value` gives the reason, and nothing
+# changes.
 
 # %% exercise="12a"
 class AdjustableMonitor(Node):
@@ -143,11 +150,11 @@ class AdjustableMonitor(Node):
 check("12a", AdjustableMonitor)
 
 # %% [markdown]
-# ## Set: a parameter that is checked
+# ## Set: a parameter with a check
 #
-# A **parameter** is a setting that a node declares. Anybody can set it, so the node should look first.
-# `add_on_set_parameters_callback` registers a callback that is asked before anything changes. It gets a
-# list of the new values, and returns a `SetParametersResult`.
+# A **parameter** is a setting that a node declares. Anybody can set it, so the node should check new values first.
+# `add_on_set_parameters_callback` registers a callback that ROS calls before anything changes. It receives a
+# list of the new values and returns a `SetParametersResult`.
 
 # %%
 class Lamp(Node):
@@ -168,8 +175,9 @@ results = [lamp.set_parameters([Parameter("watts", value=watts)])[0] for watts i
 # %% [markdown]
 # ## Try it: two limits that belong together
 #
-# `high` must be above `low`, whoever changes what. Both may be in one list: then only the new values
-# count, so that 20 and 26 can become 28 and 30 at once. Refuse the rest, NaN too, with a reason.
+# `high` must be above `low`, whichever of them changes. Both may be in the same list. In that case, only the new
+# values count, so that 20 and 26 can become 28 and 30 in one step. Refuse everything else, including NaN, with a
+# reason.
 
 # %% exercise="12b"
 class CarefulMonitor(Node):
@@ -207,11 +215,11 @@ check("12b", CarefulMonitor)
 # %% [markdown]
 # ## Send to work: an action
 #
-# An **action** is for work that takes time. A client sends a **goal**; the server accepts or rejects it. While it
-# works, it sends **feedback**, and in the end a **result**. Meanwhile the client may **cancel**.
+# An **action** is for work that takes time. A client sends a **goal**, and the server accepts or rejects it. While it
+# works, the server sends **feedback**; at the end, it sends a **result**. In between, the client can **cancel**.
 #
-# `Fibonacci`, borrowed again, has a whole number `order` in its goal, and a list `sequence` of whole numbers
-# in feedback and result. Here `order` says for how many seconds the room is aired.
+# `Fibonacci`, another borrowed type, has an integer `order` in its goal, and a list of integers, `sequence`,
+# in its feedback and its result. Here, `order` says for how many seconds to air the room.
 
 # %%
 class Airing(Node):
@@ -234,9 +242,9 @@ class Airing(Node):
         return CancelResponse.ACCEPT
 
 # %% [markdown]
-# `decide` judges a goal, `agree` a wish to cancel; without it, every cancel is refused. `tick`
-# is a future that the timer fulfils each second. The work is in `air`, which joins the class afterwards (one cell
-# would be too long). Its `goal_handle` is the server's end of one goal:
+# `decide` accepts or rejects a goal. `agree` accepts a request to cancel; without it, every such request is rejected.
+# `tick` is a future that the timer completes every second. The work itself is done in `air`, which is added to the
+# class afterwards, because a single cell would be too long. `goal_handle` is the server's view of one goal:
 
 # %%
 async def air(self, goal_handle):
@@ -255,11 +263,12 @@ Airing.air = air
 airing = ros.add(Airing)
 
 # %% [markdown]
-# `async` and `await` are the trick: at `await` the work rests until the future has its result, and the node's
-# callbacks run (an `async` callback of a subscription would hold the others up: they share a group). With
-# `time.sleep` there, nothing else would run, no cancel either.
+# `async` and `await` are the key: at `await`, the work pauses until the future has its result, and meanwhile the node
+# runs its other callbacks. With `time.sleep` instead, nothing else would run, not even a request to cancel. This
+# works in an action server. An `async` callback of a subscription would hold up the other subscriptions and timers,
+# because they share a callback group.
 #
-# A client takes everything by callbacks. **Predict:** it cancels after 2.5 seconds. How many
+# A client receives everything through callbacks. **Predict:** it cancels after 2.5 seconds. How many
 # seconds are in the result?
 
 # %% predict=true
@@ -289,15 +298,15 @@ predict("3", len(guest.result), because="The work looks whether it was canceled 
 # %% [markdown]
 # ## Look underneath
 #
-# The tutorial says that services and actions *build upon* topics. Is that so? Ask the graph what the
+# The tutorial says that services and actions *build upon* topics. Is that true? Ask the graph what the
 # action `air` is made of.
 
 # %%
 [(end.kind, end.name) for end in ros.graph().endpoints if end.node == "/airing" and "/air/" in end.name]
 
 # %% [markdown]
-# Three services and two topics. Their names are hidden: a part of them begins with `_`. So an action **is** built
-# on topics, and an ordinary subscription hears the feedback:
+# Three services and two topics. Their names are hidden, because a part of each name begins with `_`. An action
+# really **is** built on topics, and an ordinary subscription can receive the feedback:
 
 # %%
 feedback = []
@@ -309,25 +318,25 @@ ros.run(seconds=4)
 [list(message.feedback.sequence) for message in feedback]
 
 # %% [markdown]
-# And services? No ROS topic carries them: you cannot subscribe to `/open_window`. But go one level
-# down, to DDS, on which ROS stands. With `no_demangle` you see its names as they are:
+# What about services? No ROS topic carries them: you can't subscribe to `/open_window`. But go one level
+# down, to DDS, the middleware underneath ROS. With `no_demangle`, you see the names that DDS uses:
 
 # %%
 names = [name for name, _ in guest.get_topic_names_and_types(no_demangle=True)]
 [name for name in names if "open_window" in name or "/air/" in name]
 
 # %% [markdown]
-# A ROS topic is one DDS topic (`rt`). A service is two: one for requests (`rq`), one for responses (`rr`).
+# A ROS topic is one DDS topic (`rt`). A service is two: one for requests (`rq`) and one for responses (`rr`).
 #
-# So the claim is half true. Actions are built on ROS topics and services. Services are no ROS topics, but both
-# stand on the same DDS topics. And parameters? They are services. Each node offers six for its
+# The claim is half true. Actions are built on ROS topics and services. Services aren't ROS topics, but both
+# are built on DDS topics. And parameters? They are services: each node offers six of them for its
 # parameters, and one that describes types:
 
 # %%
 [end.name for end in ros.graph().endpoints if end.node == "/lamp" and end.kind == "server"]
 
 # %% [markdown]
-# Pictures leave these out, and the parts of an action, too. An arrow leads from who asks to who answers:
+# Pictures leave these services out, as well as the parts of an action. An arrow leads from the client to the server:
 
 # %%
 viz.graph(ros.graph())
@@ -335,11 +344,12 @@ viz.graph(ros.graph())
 # %% [markdown]
 # ## Try it: heat to a target
 #
-# After `True` on `heater` the room gets a degree warmer each second, until `False` comes. The goal's `order` is the target, and goals
-# from 10 to 26 make sense. Each second, feedback holds the temperatures read so far; so does the
-# result. Whether reached or canceled, the heater is off within a second.
+# After `True` on `heater`, the room gets one degree warmer every second, until the heater receives `False`. The goal's
+# `order` is the target temperature; accept goals from 10 to 26. Every second, publish feedback with all temperatures
+# read so far. The result contains them, too. Whether the target is reached or the goal is canceled, turn the heater
+# off within a second.
 #
-# `await self.reading` gives the next temperature, a whole number.
+# `await self.reading` returns the next temperature, an integer.
 
 # %% exercise="12c"
 class Thermostat(Node):
@@ -385,10 +395,9 @@ class Thermostat(Node):
 check("12c", Thermostat)
 
 # %% [markdown]
-# ## What went wrong: everybody waits
+# ## What went wrong: everything waits
 #
-# This node asks in a callback, and waits there for the answer. **Predict:** what does it say after
-# three seconds?
+# This node asks in a callback, and waits there for the answer. **Predict:** what does it log in three seconds?
 
 # %% terminal="asker"
 # mkdir -p "$ROS2_WORKSPACE/scripts"
@@ -414,11 +423,12 @@ check("12c", Thermostat)
 # timeout --signal=KILL 3 python3 deadlock.py
 
 # %% [markdown]
-# **Symptom:** it asks once, and nothing comes any more. **Instrument:** a deadline, here `timeout`, and exit code
-# 137. **Cause:** a **deadlock**. `call` waits until another callback takes the response, and the executor runs no
-# other callback until this one returns. **Cure:** `call_async`, and a done callback or an `await`.
+# **Symptom:** it asks once, and then nothing more happens. **Where to look:** run it with a time limit (`timeout`);
+# exit code 137 means that the program had to be killed. **Cause:** a **deadlock**. `call` waits until another
+# callback takes the response, but the executor can't run another callback until this one returns. **Fix:**
+# `call_async`, with a done callback or an `await`.
 #
-# A session says so once, and then does what a robot does: the callback waits for ever, and its node is silent.
+# A session says so once, and then behaves like a robot: the callback waits forever, and its node stays silent.
 
 # %%
 class Asker(Node):
@@ -438,11 +448,11 @@ ros.run(seconds=3)
 # %% [markdown]
 # ## Remember
 #
-# - A topic streams, a service answers once, a parameter keeps a setting, an action works, reports and
-#   can be stopped.
-# - A service's callback fills the response and returns it.
-# - Look first, keep afterwards, and give a reason when you refuse.
-# - Never wait inside a callback: await, or be called back.
+# - A topic streams, a service answers once, a parameter holds a setting, and an action works, reports and can be
+#   canceled.
+# - A service's callback fills in the response and returns it.
+# - Check a value before you keep it, and give a reason when you refuse it.
+# - Never wait inside a callback: use `await`, or a done callback.
 #
 # In a terminal:
 #

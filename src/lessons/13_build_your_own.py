@@ -8,16 +8,21 @@
 # %% [markdown]
 # # Build your own
 #
-# **Goal:** you design a greenhouse of at least four nodes, build it, and have it tested on good days and on
-# bad ones.
+# **After this page, you can:**
+#
+# - turn requirements into a design of small nodes (13b, 13.1);
+# - write a controller with parameters and a latched output (13a);
+# - measure a silence with the node's clock (13b, 13.2);
+# - test a single requirement with an input made for it (13b, 13.3).
 #
 # **Time:** 90 minutes, in as many sittings as you like. **You need:**
 # [write a subscriber](04_write_a_subscriber.ipynb), [look inside the graph](07_look_inside_the_graph.ipynb),
 # [tune quality of service](08_tune_quality_of_service.ipynb) and
 # [test the five claims](09_test_the_five_claims.ipynb).
 #
-# This page has no lines to complete. It has requirements: sentences that say what must be true when you are
-# done. How you get there is your decision.
+# You'll design a greenhouse with at least four nodes, build it, and have it tested on good days and bad ones. This
+# page has no lines to complete. Instead, it has requirements: sentences that have to be true when you're
+# done. How you get there is up to you.
 
 # %%
 from rclpy.node import Node
@@ -28,13 +33,13 @@ from rosbeat import Session, check, hint, predict, progress, viz
 from rosbeat.exercises.greenhouse import requirements, weather
 
 # %% [markdown]
-# ## Agree on the edge
+# ## Agree on the interface
 #
-# A greenhouse has a thermometer and a hygrometer, which measures humidity. Both speak once a second. On the
+# A greenhouse has a thermometer and a hygrometer, which measures humidity. Both publish once a second. On the
 # other side are a vent, a pump, a display for alarms and a display for reports. The names and types of these
-# six topics are the **interface**: what both sides have agreed on. Nothing else is.
+# six topics are the **interface**: what both sides have agreed on. They agree on nothing else.
 #
-# Here is the interface as one node, an empty box.
+# Here is the interface as a single node, an empty box.
 
 # %%
 class Box(Node):
@@ -48,7 +53,7 @@ class Box(Node):
         self.create_publisher(Float32, "report", 10)
 
 # %% [markdown]
-# `weather()` gives you the two sensors, as classes. They say the same each time. Their plain day lasts 170
+# `weather()` returns the two sensors, as classes. They publish the same values in every run. Their plain day lasts 170
 # seconds.
 
 # %%
@@ -60,25 +65,26 @@ ros.run(seconds=171)
 viz.graph(ros.graph())
 
 # %% [markdown]
-# Two topics go in, four come out. You will take the box apart, into at least four nodes.
+# Two topics go in, and four come out. You'll divide the box into at least four nodes.
 #
-# ## Read what is required
+# ## Read the requirements
 #
-# The same list is what the check judges, sentence by sentence, with these points.
+# The check judges exactly this list, sentence by sentence, and gives these points.
 
 # %%
 requirements()
 
 # %% [markdown]
-# Six things hold besides:
+# Six more rules apply:
 #
-# - whatever has to happen has two seconds to happen;
-# - `True` on `vent` opens it and `True` on `pump` starts it; until the first command both are off,
-#   and a node may begin by saying so;
-# - a limit itself is on the quiet side: exactly 28 opens nothing;
-# - without a temperature in 10 s there is no mean: the report may say nothing then, and its node goes on;
+# - your nodes have two seconds to do whatever is required;
+# - `True` on `vent` opens the vent, and `True` on `pump` starts the pump. Until the first command, both are off, and a
+#   node may begin by saying so;
+# - a limit itself doesn't count as crossed: at exactly 28, the vent doesn't open;
+# - if there was no temperature in the last 10 s, there is no mean. The report may then say nothing, but its node
+#   keeps running;
 # - a sensor is silent when nothing arrives. Whether nonsense ends a silence is up to you;
-# - an optional requirement gives its points, and you can pass without it.
+# - an optional requirement earns its points, but you can pass without it.
 #
 # ## Look at the weather
 #
@@ -92,9 +98,9 @@ viz.values(ros.observation(), "temperature", bands=limits)
 viz.values(ros.observation(), "humidity", bands={"dry": (None, 40.0)})
 
 # %% [markdown]
-# The other day is for R4 and R5: its sensors talk nonsense, then one is silent for a while, and then both.
+# The other day is for R4 and R5: its sensors send nonsense, then one of them is silent for a while, and then both.
 #
-# **Predict:** the longest pause between two temperatures, in seconds. R4 says what the least is.
+# **Predict:** how long is the longest pause between two temperatures, in seconds? R4 tells you the minimum.
 
 # %% predict=true
 with Session() as ros:
@@ -113,36 +119,36 @@ predict("10-30", longest)
 # --- end
 
 # %% [markdown]
-# Long enough for an alarm, for a second one that nobody wants, and for a report without a single reading.
-# `nan` means *not a number*. It is neither above nor below anything: `<`, `>` and `==` with it give False.
+# That's long enough for an alarm, for a second alarm that nobody wants, and for a report without a single reading.
+# `nan` means *not a number*. It's neither above nor below anything: any comparison with `<`, `>` or `==` is False.
 
 # %% [markdown]
 # ## Draw before you write
 #
-# Take a sheet of paper. Draw the six topics at the edges and your nodes in the middle. For each node write down
-# three things: what it hears, what it says, and its one task. These questions help:
+# Take a sheet of paper. Draw the six topics at the edges and your nodes in the middle. For each node, write down
+# three things: what it subscribes to, what it publishes, and its one task. These questions help:
 #
-# - Which requirement belongs to which node? (R8 wants each output to have its own.)
-# - Which node has to know what another one has decided? Along which topic?
-# - Who looks whether a reading can be? One node for all, or each for itself?
-# - If this node ends, who else stops? (R9)
+# - Which requirement belongs to which node? R8 wants each output to have a node of its own.
+# - Which node has to know what another node decided? On which topic does it find out?
+# - Which node checks that a reading is plausible? One for all, or each for itself?
+# - If this node ends, which others stop working? That's R9.
 
 # %% [markdown]
 # A table says the same as a drawing. This one describes pages 03 and 04; make one for your greenhouse.
 #
-# | node | hears | says | task |
+# | node | subscribes to | publishes | task |
 # |---|---|---|---|
 # | `temperature_sensor` | | `temperature` | measures once a second |
-# | `temperature_monitor` | `temperature` | | tells whether it is too hot |
+# | `temperature_monitor` | `temperature` | | reports whether it's too hot |
 
 # %% [markdown]
 # ## Try it: the vent alone
 #
-# Begin with one box. This node has R1 and R7 to meet, and two lines prepare it for more:
+# Begin with a single node. It has to meet R1 and R7, and two details prepare it for more:
 #
-# - its limits are **parameters**, as on page 07: values that whoever starts a node can change. `declare_parameter`
-#   gives one its name and default, `get_parameter(...).value` asks for it;
-# - `LATCHED` is a profile that keeps the last message for subscribers that come late and ask for it (page 08).
+# - its limits are **parameters**, as on page 07: values that can be changed when the node is started.
+#   `declare_parameter` sets the name and the default, and `get_parameter(...).value` returns the value;
+# - `LATCHED` is a QoS profile that keeps the last message for late-joining subscribers that ask for it (page 08).
 #
 # Write the rest of the callback.
 
@@ -180,8 +186,8 @@ class VentControl(Node):
 check("13a", VentControl)
 
 # %% [markdown]
-# You can give the weather yourself, and that is how you try one requirement at a time: a short day that asks one
-# question. None is a second of silence. **Predict:** when does the vent get which command?
+# You can also define the weather yourself. That's how you test one requirement at a time: with a short day that asks
+# a single question. None means a second of silence. **Predict:** when does the vent get which command?
 
 # %%
 with Session() as ros:
@@ -194,8 +200,8 @@ with Session() as ros:
 # %% [markdown]
 # ## Measure a silence
 #
-# When a sensor is silent, no callback runs: nothing happens. So something else must look, once in a while. A node
-# has a clock. Two of its times have a difference, and that is a duration.
+# When a sensor is silent, no callback runs, so something else has to check from time to time: a timer. Every node
+# has a clock, `get_clock()`. Subtracting one of its times from another gives a duration.
 
 # %%
 class Stopwatch(Node):
@@ -219,19 +225,19 @@ with Session() as ros:
     ros.run(seconds=12)
 
 # %% [markdown]
-# The sensor stopped after three seconds, and the timer noticed. Ask the node's clock and not `time.time()`: these
-# twelve seconds took no time on your computer. `timer.reset()` begins a timer's period anew; with it a timer
-# can also run out, like an egg timer. It then runs again and again, until you `cancel()` it.
+# The sensor stopped after three seconds, and the timer noticed. Use the node's clock rather than `time.time()`: these
+# twelve seconds took almost no time on your computer. `timer.reset()` restarts a timer's period, so you can also use a
+# timer like an egg timer. Unlike an egg timer, it rings again and again, until you call `cancel()`.
 
 # %% [markdown]
 # ## Try it: the whole greenhouse
 #
-# Write your nodes into the next cells, or into new ones beside them. `greenhouse` at the end returns the list of
-# what is to be started, as a launch file does. A member is a class, or a pair of a class and how to start it, with
-# what `ros.add` knows: `name`, `namespace`, `remappings`, `parameters`. For example
+# Write your nodes in the next cells, or add cells of your own. The function `greenhouse` at the end returns the list
+# of what to start, like a launch file. Each item is a class, or a pair of a class and the options for starting it.
+# The options are those of `ros.add`: `name`, `namespace`, `remappings`, `parameters`. For example:
 # `(Monitor, {"remappings": {"temperature": "checked/temperature"}})`.
 #
-# Check early: a greenhouse of one node gives its points, too. If you are stuck, `hint("13b")` helps.
+# Check early: even a greenhouse with one node earns some points. If you're stuck, `hint("13b")` helps.
 
 # %% exercise="13b"
 # --- answer
@@ -359,8 +365,8 @@ def greenhouse():
 check("13b", greenhouse)
 
 # %% [markdown] only="solution"
-# One greenhouse among many. Here five nodes do it: `guard` keeps nonsense away from three others, which need not
-# know of it: their topic is renamed where they are started. `watch` listens to the sensors themselves, since
+# This is one greenhouse of many. It uses five nodes. `guard` keeps nonsense away from three others, which don't need to
+# know about it: their topics are remapped when they are started. `watch` subscribes to the sensors directly, because
 # nonsense is a sign of life, too.
 
 # %% only="solution"
@@ -377,7 +383,7 @@ viz.graph(seen.graph)
 # %% [markdown]
 # ## What went wrong: two controllers, one vent
 #
-# It rains into the greenhouse. So somebody adds a node that closes the vent when the air is very humid, and
+# It rains into the greenhouse, so somebody adds a node that closes the vent when the air is very humid, and
 # changes nothing else. **Predict:** how many commands does the vent get in ten hot and
 # humid seconds?
 
@@ -418,22 +424,22 @@ print([one.value for one in commands])
 print([end.node for end in graph.on("/vent", "publisher")])
 
 # %% [markdown]
-# **Symptom:** the vent opens and closes every second, and ends up closed on a hot day. Neither node has a fault.
-# **Instrument:** the graph, where two nodes publish on `vent`. **Cause:** a topic may have many publishers, and a
-# subscriber obeys whoever spoke last; nobody decides between them. **Cure:** one node decides. The others tell it
+# **Symptom:** the vent opens and closes every second, and ends up closed on a hot day. Neither node has a fault of its
+# own. **Where to look:** the graph, where two nodes publish on `vent`. **Cause:** a topic can have many publishers, and
+# the vent obeys the last message; nothing decides between them. **Fix:** let one node decide. The others tell it
 # what they want, on topics of their own.
 
 # %% [markdown]
 # ## Make it real
 #
-# Nothing in your nodes belongs to this page. They become a package like the one of pages 02 to 06:
+# Nothing in your nodes depends on this page. You can turn them into a package, as on pages 02 to 06:
 #
 # ```
 # cd "$ROS2_WORKSPACE/src"
 # ros2 pkg create greenhouse --build-type ament_python --dependencies rclpy std_msgs
 # ```
 #
-# Each node gets a file with a `main`, and a line in `entry_points`. A **launch file** starts them all, and says
+# Each node gets a file with a `main`, and a line in `entry_points`. A **launch file** starts all of them, and says
 # what your list says:
 #
 # ```python
@@ -448,21 +454,22 @@ print([end.node for end in graph.on("/vent", "publisher")])
 #     ])
 # ```
 #
-# Where `launch_ros` is installed (this course leaves it out), `ros2 launch greenhouse greenhouse.launch.py` runs it. Then only the sensors
-# are pretend: a driver that publishes a `Float32` on `temperature` takes their place, and no other node notices.
+# With a full ROS 2 installation, `ros2 launch greenhouse greenhouse.launch.py` runs it. `ros2 launch` isn't available on
+# PyPI, so this course doesn't have it. Now only the sensors are simulated: if a driver publishes a `Float32` on
+# `temperature` instead, no other node notices the difference.
 
 # %% [markdown]
 # ## Remember
 #
 # - First the interface, then the requirements, then the drawing, then the code.
-# - One task, one node; one actuator, one node that decides.
-# - A silence is no event: a timer looks.
-# - A reading is believed after somebody has looked at it.
-# - Try one requirement at a time, with a day that asks for it.
+# - One task per node, and for each actuator one node that decides.
+# - A silence doesn't trigger a callback: use a timer to detect it.
+# - Check a reading before you believe it.
+# - Test one requirement at a time, with a day made for it.
 #
-# **Next:** your own robot. The [documentation of ROS 2](https://docs.ros.org/en/jazzy/) goes on where this course
-# ends: [launch files](https://docs.ros.org/en/jazzy/Tutorials/Intermediate/Launch/Launch-Main.html), and
-# [robots you can simulate](https://docs.ros.org/en/jazzy/Tutorials/Advanced/Simulators/Simulation-Main.html).
+# **Next:** your own robot. The [documentation of ROS 2](https://docs.ros.org/en/jazzy/) continues where this course
+# ends: with [launch files](https://docs.ros.org/en/jazzy/Tutorials/Intermediate/Launch/Launch-Main.html), and with
+# [simulated robots](https://docs.ros.org/en/jazzy/Tutorials/Advanced/Simulators/Simulation-Main.html).
 
 # %%
 progress()
