@@ -8,7 +8,11 @@
 # %% [markdown]
 # # Look inside the graph
 #
-# **Goal:** find out what a running system is made of, without reading its code, and find its fault.
+# **After this page, you can:**
+#
+# - list the nodes, topics, types and rates of a running system (07a, 07.1, 07.2);
+# - read and set parameters, and write a node that has them (07b, 07.3);
+# - follow the log lines of all nodes (07c).
 #
 # **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [build, source, run](06_build_source_run.ipynb).
@@ -24,7 +28,7 @@ from rcl_interfaces.msg import Log
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.scenarios.stranger import greenhouse
 
 # %%
@@ -336,6 +340,17 @@ check("07c", LogWatcher)
 
 # %%
 ros.panel()
+
+# %% [markdown]
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("07")
+
+# %% only="solution"
+quiz("07", "c", "a", "b")
 
 # %% [markdown]
 # ## Remember

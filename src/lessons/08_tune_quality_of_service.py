@@ -8,7 +8,12 @@
 # %% [markdown]
 # # Tune quality of service
 #
-# **Goal:** decide what happens to messages that wait, get lost, come too late or never come.
+# **After this page, you can:**
+#
+# - choose the depth of a queue for a busy subscriber (08.3);
+# - predict whether two endpoints fit (08b, 08.1);
+# - keep the last message for late-joining subscriptions (08a, 08.2);
+# - report a silence with a deadline (08c).
 #
 # **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [look inside the graph](07_look_inside_the_graph.ipynb).
@@ -32,7 +37,7 @@ from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, QoSProfile, Reliabili
 from rclpy.qos import qos_profile_sensor_data
 from std_msgs.msg import Float32, Int32, String
 
-from rosbeat import Session, check, hint, predict, progress, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.records import queue_steps
 
 # %% [markdown]
@@ -447,6 +452,17 @@ print(warning.level, warning.text)
 # | silence is noticed | a deadline on both sides, and an event callback | a promise that has to be kept |
 # | no old messages | a lifespan at the endpoint where they would wait | messages that nobody reads in time are gone |
 #
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("08")
+
+# %% only="solution"
+quiz("08", "c", "a", "b")
+
+# %% [markdown]
 # ## Remember
 #
 # - The publisher must offer at least what the subscription asks for. If it doesn't, nothing arrives.

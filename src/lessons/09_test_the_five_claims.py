@@ -8,7 +8,12 @@
 # %% [markdown]
 # # Test the five claims
 #
-# **Goal:** test five claims about publish and subscribe, and find the limits of each one.
+# **After this page, you can:**
+#
+# - say how far each of the five claims is true (09.1);
+# - write a node that notices when another one is gone (09a);
+# - keep a node responsive while it works (09b, 09.2);
+# - write a node that can be used anywhere (09c, 09.3).
 #
 # **Time:** 50 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [build, source, run](06_build_source_run.ipynb).
@@ -36,7 +41,7 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallb
 from rclpy.node import Node
 from std_msgs.msg import Float32, Int32, String
 
-from rosbeat import Session, check, hint, predict, progress, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
 workspace.catch_up("05")
 
@@ -598,6 +603,17 @@ with Session(seed=8) as ros:
 # `"/temperature"`. A name that begins with a slash is **absolute**, and no namespace changes it. **Fix:** leave the
 # slash out, or remap the whole name: `-r /temperature:=/greenhouse/temperature`.
 #
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("09")
+
+# %% only="solution"
+quiz("09", "a", "b", "c")
+
+# %% [markdown]
 # ## Remember
 #
 # | claim | result |

@@ -26,7 +26,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, clinic, hint, predict, progress, viz
+from rosbeat import Session, check, clinic, hint, predict, progress, quiz, viz
 
 # %% [markdown]
 # ## Meet a patient
@@ -333,6 +333,17 @@ check("10c", diagnoses)
 # asks for stored messages: `viz.graph` shows both. In the server room, `ros.logs` shows that the diary has taken two
 # of every five readings, and 290 degrees must be Kelvin. In the beehive, the sensor publishes every two
 # seconds instead of every second, and the logger has ended: `ros.explain` says both.
+
+# %% [markdown]
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("10")
+
+# %% only="solution"
+quiz("10", "b", "a", "c")
 
 # %% [markdown]
 # ## Remember

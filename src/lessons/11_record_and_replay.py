@@ -37,7 +37,7 @@ import struct
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, bags, check, hint, predict, progress, viz, workspace
+from rosbeat import Session, bags, check, hint, predict, progress, quiz, viz, workspace
 
 # %% [markdown]
 # ## Bring both nodes
@@ -396,6 +396,17 @@ class DriftWatch(Node):
 
 # %% check="11c"
 check("11c", DriftWatch)
+
+# %% [markdown]
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("11")
+
+# %% only="solution"
+quiz("11", "c", "b", "a")
 
 # %% [markdown]
 # ## Remember

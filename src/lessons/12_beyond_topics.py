@@ -30,7 +30,7 @@ from std_msgs.msg import Bool, Float32, String
 from test_msgs.action import Fibonacci
 from test_msgs.srv import BasicTypes
 
-from rosbeat import Session, check, hint, predict, progress, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
 # %% [markdown]
 # A topic is a stream: the publisher never learns who received a message. That's right for readings, but it isn't
@@ -444,6 +444,17 @@ class Asker(Node):
 
 ros.add(Asker)
 ros.run(seconds=3)
+
+# %% [markdown]
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("12")
+
+# %% only="solution"
+quiz("12", "b", "c", "a")
 
 # %% [markdown]
 # ## Remember

@@ -29,7 +29,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Bool, Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, viz
+from rosbeat import Session, check, hint, predict, progress, quiz, viz
 from rosbeat.exercises.greenhouse import requirements, weather
 
 # %% [markdown]
@@ -457,6 +457,17 @@ print([end.node for end in graph.on("/vent", "publisher")])
 # With a full ROS 2 installation, `ros2 launch greenhouse greenhouse.launch.py` runs it. `ros2 launch` isn't available on
 # PyPI, so this course doesn't have it. Now only the sensors are simulated: if a driver publishes a `Float32` on
 # `temperature` instead, no other node notices the difference.
+
+# %% [markdown]
+# ## Three questions
+#
+# Choose the best answer to each question. You can try as often as you like.
+
+# %% only="notebook"
+quiz("13")
+
+# %% only="solution"
+quiz("13", "b", "c", "a")
 
 # %% [markdown]
 # ## Remember

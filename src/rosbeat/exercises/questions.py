@@ -416,6 +416,359 @@ _QUESTIONS = (
             "This is discovery. Programs in different domains don't see each other.",
         ),
     ),
+    _ask(
+        "07.1",
+        "`ros2 topic list` shows a topic. What do you know for sure?",
+        _no(
+            "A node publishes on it",
+            "One subscription is enough for a topic to be listed.",
+        ),
+        _no(
+            "Messages arrive on it",
+            "The list says nothing about messages. `ros2 topic hz` measures them.",
+        ),
+        _yes(
+            "Some node uses it, as a publisher or as a subscriber",
+            "That's all. `ros2 topic info` counts both sides.",
+        ),
+    ),
+    _ask(
+        "07.2",
+        "Two sensors publish on `/temperature`, one twice a second and one once a second. What "
+        "does `ros2 topic hz` measure?",
+        _yes(
+            "About 3 messages a second",
+            "It subscribes to the topic, and receives the messages of both.",
+        ),
+        _no(
+            "About 2, the rate of the faster one",
+            "A subscriber hears all publishers of a topic; it can't choose one.",
+        ),
+        _no(
+            "Two rates, one for each sensor",
+            "A message doesn't tell `hz` who sent it. `ros2 topic info --verbose` lists the "
+            "publishers.",
+        ),
+    ),
+    _ask(
+        "07.3",
+        "`ros2 param set` changes a limit, but the node still uses the old one. What is a likely "
+        "cause?",
+        _no(
+            "The package has to be built again",
+            "Parameters are values of the running node. They have nothing to do with building.",
+        ),
+        _yes(
+            "The node gets the parameter only once, in its constructor",
+            "The parameter has changed, but the copy in the node's variable hasn't. Get the value "
+            "wherever you need it.",
+        ),
+        _no(
+            "Parameters can be set only before a node starts",
+            "They can be changed at any time; that's what `ros2 param set` is for.",
+        ),
+    ),
+    _ask(
+        "08.1",
+        "A publisher offers `BEST_EFFORT`, and a subscription asks for `RELIABLE`. What happens?",
+        _no(
+            "The subscription gets most of the messages",
+            "Less than the subscription asks for isn't delivered at all.",
+        ),
+        _no(
+            "The publisher switches to `RELIABLE`",
+            "Nobody changes a profile afterwards. The two sides fit, or they don't.",
+        ),
+        _yes(
+            "No message arrives",
+            "The publisher must offer at least what the subscription asks for. The other way "
+            "round, the two would be connected.",
+        ),
+    ),
+    _ask(
+        "08.2",
+        "A display starts late and should show the last value at once. What does it take?",
+        _yes(
+            "`TRANSIENT_LOCAL` on both sides",
+            "The publisher stores its last messages, and the display asks for them.",
+        ),
+        _no(
+            "A deeper queue at the display",
+            "A queue holds what arrives after the subscription was created.",
+        ),
+        _no(
+            "`TRANSIENT_LOCAL` at the display alone",
+            "Then it asks for more than the publisher offers, and gets nothing at all.",
+        ),
+    ),
+    _ask(
+        "08.3",
+        "A slow subscriber loses messages. Which setting helps?",
+        _no(
+            "A larger depth at the publisher",
+            "Messages for a slow subscriber wait in the subscriber's own queue.",
+        ),
+        _yes(
+            "A larger depth at the subscription",
+            "Its queue then holds more messages while the callback is busy.",
+        ),
+        _no(
+            "A lifespan at the subscription",
+            "A lifespan drops messages that have waited too long.",
+        ),
+    ),
+    _ask(
+        "09.1",
+        "A sensor that measures in Fahrenheit replaces one in Celsius. What does ROS do about it?",
+        _yes(
+            "Nothing: name, type and QoS fit, so the messages flow",
+            "ROS doesn't know what a number means. The unit is an agreement between people.",
+        ),
+        _no(
+            "It converts the values",
+            "No part of ROS knows the unit of a `Float32`.",
+        ),
+        _no(
+            "It refuses the connection",
+            "Only topic, type and quality of service are compared.",
+        ),
+    ),
+    _ask(
+        "09.2",
+        "A node's only subscription and its timer share the default callback group. The "
+        "subscription's callback takes 3 seconds. What does the timer do meanwhile?",
+        _no(
+            "It calls its method in another thread",
+            "The default group is mutually exclusive: it never runs two callbacks at once, with "
+            "any executor.",
+        ),
+        _yes(
+            "It waits until the callback returns",
+            "The timer is due, but its callback may not start yet. Split the work, or use groups "
+            "and threads.",
+        ),
+        _no(
+            "It interrupts the callback",
+            "Nothing interrupts a callback. It ends when it returns.",
+        ),
+    ),
+    _ask(
+        "09.3",
+        "A node publishes on `/temperature` and is started in the namespace `/greenhouse`. Which "
+        "topic does it use?",
+        _no(
+            "`/greenhouse/temperature`",
+            "That would be true of `temperature`, without the slash.",
+        ),
+        _no(
+            "Both topics",
+            "A publisher has exactly one topic.",
+        ),
+        _yes(
+            "`/temperature`",
+            "A name that begins with a slash is absolute, and no namespace changes it.",
+        ),
+    ),
+    _ask(
+        "10.1",
+        "A lamp stays dark. A guard feeds it, and a sensor feeds the guard. You find that the guard "
+        "publishes a status every second. What have you ruled out?",
+        _no(
+            "Only the guard",
+            "The guard can't publish a status without readings, so what comes before it works, "
+            "too.",
+        ),
+        _yes(
+            "The sensor, the topic between sensor and guard, and the guard",
+            "Everything that the guard depends on must be working. The fault comes later.",
+        ),
+        _no(
+            "The lamp",
+            "The lamp comes after the guard, and is still a suspect.",
+        ),
+    ),
+    _ask(
+        "10.2",
+        "`ros.explain` says that a guard has published nothing. Is the guard broken?",
+        _yes(
+            "Not necessarily: perhaps it receives nothing, or has nothing to report",
+            "Silence further down can be a symptom of a fault further up.",
+        ),
+        _no(
+            "Yes: a node that publishes nothing has a fault",
+            "A guard that reports alarms is silent on a good day.",
+        ),
+        _no(
+            "No: `ros.explain` would have named the fault",
+            "It covers a single topic, and can't see into the guard's code.",
+        ),
+    ),
+    _ask(
+        "10.3",
+        "You fix a fault, and the symptom is still there. What does that tell you?",
+        _no(
+            "The diagnosis was wrong: undo the fix",
+            "The fix may be right, and a second fault may have been hidden behind the first.",
+        ),
+        _no(
+            "The fix needs some time to take effect",
+            "Waiting rules out nothing. Ask the four questions again.",
+        ),
+        _yes(
+            "There may be a second fault: examine the whole system again",
+            "The first fault can hide the second one. Start again from the sensor.",
+        ),
+    ),
+    _ask(
+        "11.1",
+        "What does a bag contain?",
+        _no(
+            "The code of the nodes that were running",
+            "A bag knows nothing of the code. That's why you can replay it to other nodes.",
+        ),
+        _no(
+            "Only the last message of each topic",
+            "It contains all of them.",
+        ),
+        _yes(
+            "The messages of the recorded topics, each with its time and type",
+            "With the QoS profiles of their publishers, that's enough to publish them again.",
+        ),
+    ),
+    _ask(
+        "11.2",
+        "You change the monitor and want to know what is different now. Which input do you use?",
+        _no(
+            "A new run of the sensor",
+            "Then the readings differ as well, and you can't tell what comes from your change.",
+        ),
+        _yes(
+            "A replay of the old run",
+            "The input is the same, so every difference comes from your change.",
+        ),
+        _no(
+            "No input: compare the two programs' texts",
+            "That shows what you wrote, and not what it does.",
+        ),
+    ),
+    _ask(
+        "11.3",
+        "A reading is NaN. Which of these is True?",
+        _yes(
+            "`math.isnan(reading)`",
+            "That's the test to use.",
+        ),
+        _no(
+            "`reading == math.nan`",
+            "NaN isn't equal to anything, not even to itself.",
+        ),
+        _no(
+            "`reading > 26.0 or reading <= 26.0`",
+            "Every comparison with NaN is False, so both sides are False.",
+        ),
+    ),
+    _ask(
+        "12.1",
+        "What must the callback of a service return?",
+        _no(
+            "True or False",
+            "Whether a request was granted is a field of the response, if its type has one.",
+        ),
+        _yes(
+            "The response that it was given, filled in",
+            "ROS sends it to the client.",
+        ),
+        _no(
+            "Nothing: the client reads the fields of the node",
+            "The client may be in another process. It sees only the response.",
+        ),
+    ),
+    _ask(
+        "12.2",
+        "A robot arm needs ten seconds to reach a position, and the operator wants to see how far "
+        "it is and may want to stop it. Which pattern fits?",
+        _no(
+            "A service",
+            "A service answers once. It has no feedback, and a request can't be canceled.",
+        ),
+        _no(
+            "A parameter",
+            "A parameter is a setting. It doesn't report what became of it.",
+        ),
+        _yes(
+            "An action",
+            "Goal, feedback, result and cancel: an action is made for work that takes time.",
+        ),
+    ),
+    _ask(
+        "12.3",
+        "A timer's callback uses `client.call(request)` in a node with a SingleThreadedExecutor. "
+        "What happens?",
+        _yes(
+            "It waits forever",
+            "Another callback would have to take the response, and the executor runs none until "
+            "this one returns.",
+        ),
+        _no(
+            "It gets the response, a little later",
+            "Nothing can take the response while the callback waits. Use `call_async`.",
+        ),
+        _no(
+            "It raises an exception at once",
+            "There's no error, and that makes a deadlock hard to find.",
+        ),
+    ),
+    _ask(
+        "13.1",
+        "Two nodes may open and close the same vent. How do you keep them from working against "
+        "each other?",
+        _no(
+            "Both publish on `vent`, and the more important one publishes more often",
+            "The vent obeys the last message, so it would open and close all the time.",
+        ),
+        _yes(
+            "One node decides, and the others send it their wishes on topics of their own",
+            "There's one decision, in one place.",
+        ),
+        _no(
+            "A deeper queue at the vent",
+            "All commands would still arrive, in the same order.",
+        ),
+    ),
+    _ask(
+        "13.2",
+        "A node should notice that a sensor has been silent for 5 seconds. Where does the code for "
+        "that go?",
+        _no(
+            "Into the sensor's callback",
+            "During a silence, this callback never runs.",
+        ),
+        _no(
+            "Into a loop that sleeps until a message comes",
+            "While the loop runs, the node can't run any other callback.",
+        ),
+        _yes(
+            "Into the callback of a timer",
+            "A timer runs whether messages come or not, and can compare the node's clock with the "
+            "time of the last message.",
+        ),
+    ),
+    _ask(
+        "13.3",
+        "Your greenhouse fails one requirement. What is the best next step?",
+        _yes(
+            "Write a short day of weather that puts just this requirement to the test",
+            "A small input has few causes. You see at once what your nodes do with it.",
+        ),
+        _no(
+            "Change a limit, and run the check again",
+            "That may hide the fault, and you still don't know the cause.",
+        ),
+        _no(
+            "Start all over, with a new design",
+            "The design may be fine. First find out which node does something else than you think.",
+        ),
+    ),
 )
 
 QUESTIONS: dict[str, tuple[Question, ...]] = {
