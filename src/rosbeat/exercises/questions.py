@@ -571,8 +571,8 @@ _QUESTIONS = (
     ),
     _ask(
         "10.1",
-        "A lamp stays dark. A guard feeds it, and a sensor feeds the guard. You find that the guard "
-        "publishes a status every second. What have you ruled out?",
+        "A lamp stays dark. A guard feeds it, and a sensor feeds the guard. The guard "
+        "turns out to publish a status every second. What have you ruled out?",
         _no(
             "Only the guard",
             "The guard can't publish a status without readings, so what comes before it works, "
