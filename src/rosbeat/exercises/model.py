@@ -376,6 +376,12 @@ _BEATS = suspects(
         lambda beat: dict.fromkeys(beat.right, beat.done.get(min(beat.right), (2,))),
     ),
     (
+        "made-anew",
+        "Each call makes another timer, and a timer repeats by itself. Make it once, in the "
+        "constructor.",
+        lambda beat: {at: (2**call,) for call, at in enumerate(beat.right)},
+    ),
+    (
         "wrong-rate",
         "Two timers publish, each with a period of its own. Where does the other one come from?",
         lambda beat: _together(beat.right, _ticks(_first_extra(beat), beat.end)),
