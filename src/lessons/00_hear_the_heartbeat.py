@@ -27,8 +27,9 @@
 # %% [markdown]
 # ## Send your first message
 #
-# Robot software is built from many small parts that talk to each other. In ROS 2, each of these parts is called
-# a **node**. The data that one node sends to others is a **message**.
+# Robot software is built from many small parts that talk to each other. In ROS 2, each of these parts is called a
+# [**node**](../docs/glossary.md#node). The data that one node sends to others is a
+# [**message**](../docs/glossary.md#message).
 #
 # Here is a complete node: a thermometer. Run the next three cells.
 
@@ -55,12 +56,13 @@ ros.add(Thermometer)
 ros.run(seconds=3)
 
 # %% [markdown]
-# That's a heartbeat: one message every second. Each line you see is a **log** line, a note for humans. The
-# number after `INFO` is the time in seconds, and the name after it tells you which node is speaking.
+# That's a heartbeat: one message every second. Each line you see is a [**log**](../docs/glossary.md#log) line, a
+# note for humans. The number after `INFO` is the time in seconds, and the name after it tells you which node is
+# speaking.
 #
-# You didn't have to wait three seconds. A `Session` runs real ROS nodes in **virtual time**: its clock
-# jumps straight from one event to the next. A minute takes almost no time, and everybody gets exactly the same
-# result.
+# You didn't have to wait three seconds. A `Session` runs real ROS nodes in [**virtual
+# time**](../docs/glossary.md#virtual-time): its clock jumps straight from one event to the next. A minute takes
+# almost no time, and everybody gets exactly the same result.
 #
 # **Predict:** a second session runs the same thermometer for a whole minute. How many messages does it
 # send? Replace the blank with a number and run the cell. A wrong guess costs nothing.
@@ -85,9 +87,10 @@ predict("60", sent)
 # was sent (in nanoseconds: a billion of them make one second), on which topic, with which type, by which node,
 # and with what data.
 #
-# On a robot, a node usually runs in a **process** of its own, which is the operating system's word for a running
-# program. A session gives each node a simulated process, and the messages travel through real ROS software. If
-# you'd like to know more, read [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
+# On a robot, a node usually runs in a [**process**](../docs/glossary.md#process) of its own, which is the operating
+# system's word for a running program. A session gives each node a simulated process, and the messages travel
+# through real ROS software. If you'd like to know more, read [what is simulated, and
+# how](../docs/architecture.md#what-is-simulated-and-how).
 
 # %%
 ros.messages("temperature")[0]
@@ -101,17 +104,19 @@ ros.messages("temperature")[0]
 #
 # ROS 2 has a word for each part of this picture:
 #
-# - a **topic** is a named channel, such as `weather`;
-# - a **publisher** sends messages to a topic;
-# - a **subscriber** receives the messages of a topic. ROS passes each one to a function called a **callback**.
+# - a [**topic**](../docs/glossary.md#topic) is a named channel, such as `weather`;
+# - a [**publisher**](../docs/glossary.md#publisher) sends messages to a topic;
+# - a [**subscriber**](../docs/glossary.md#subscriber) receives the messages of a topic. ROS passes each one to a
+#   function called a [**callback**](../docs/glossary.md#callback).
 #
-# This model is called **publish and subscribe**, or pub/sub for short. The two sides only have to agree on the
-# name of the topic and on the **message type**, which defines what kind of data a message carries.
+# This model is called [**publish and subscribe**](../docs/glossary.md#publish-and-subscribe), or pub/sub for short.
+# The two sides only have to agree on the name of the topic and on the [**message
+# type**](../docs/glossary.md#message-type), which defines what kind of data a message carries.
 
 # %% [markdown]
 # Here is a reporter. It publishes text, which has the message type `String`, on a topic of your choice.
-# `create_timer(1.0, self.write)` creates a **timer** that calls `write` every 1.0 seconds. A later page explains
-# the number 10.
+# `create_timer(1.0, self.write)` creates a [**timer**](../docs/glossary.md#timer) that calls `write` every 1.0
+# seconds. A later page explains the number 10.
 
 # %%
 class Reporter(Node):
@@ -161,8 +166,8 @@ newsroom.run(seconds=2)
 viz.graph(newsroom.graph())
 
 # %% [markdown]
-# Together, the nodes and their topics form the **ROS graph**. Notice that no arrow goes directly from one
-# node to another. Every message goes through a topic.
+# Together, the nodes and their topics form the [**ROS graph**](../docs/glossary.md#ros-graph). Notice that no arrow
+# goes directly from one node to another. Every message goes through a topic.
 
 # %%
 viz.timeline(newsroom.observation())
@@ -174,8 +179,8 @@ viz.timeline(newsroom.observation())
 #
 # ## Take the newsroom apart
 #
-# Publishers and subscribers don't know about each other: we say they are **decoupled**. That's a claim you can
-# test.
+# Publishers and subscribers don't know about each other: we say they are
+# [**decoupled**](../docs/glossary.md#decoupled). That's a claim you can test.
 #
 # **Does a publisher need a subscriber?** Nobody reads politics. **Predict:** how many messages were
 # published on that topic?
@@ -327,8 +332,8 @@ quiz("00", "b", "a", "c")
 # - The two sides agree on the topic's name and the message type. They don't need to know about each other.
 # - When nothing arrives, ask `explain`, and look at the graph.
 #
-# Only the clock and the data are made up. The classes are ordinary ROS 2 code, and their messages
-# travel through the same **middleware** that robots use: the software that delivers messages.
+# Only the clock and the data are made up. The classes are ordinary ROS 2 code, and their messages travel through
+# the same [**middleware**](../docs/glossary.md#middleware) that robots use: the software that delivers messages.
 #
 # **Next:** [create a workspace](01_create_a_workspace.ipynb). The last cell of each page shows how far you've come.
 

@@ -17,11 +17,13 @@
 # **Time:** 25 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb).
 #
 # So far, your nodes have lived on a page. To run as programs of their own, on a robot or on your computer, they
-# need files, arranged in a certain way. The folder that holds these files is called a **workspace**.
+# need files, arranged in a certain way. The folder that holds these files is called a
+# [**workspace**](../docs/glossary.md#workspace).
 #
 # ## Open a terminal
 #
-# People who work with ROS type commands into a **terminal**. This cell brings terminals to your page:
+# People who work with ROS type commands into a [**terminal**](../docs/glossary.md#terminal). This cell brings
+# terminals to your page:
 
 # %%
 from rosbeat import check, hint, progress, quiz, workspace
@@ -106,9 +108,9 @@ from rosbeat import check, hint, progress, quiz, workspace
 # mkdir resources/maps/kitchen
 
 # %% [markdown]
-# `mkdir` refuses, because `resources/maps` does not exist. Every command ends with an **exit code**: 0 means
-# success, and any other number means that something went wrong. Lines that begin with `#` are notes from this
-# course; an ordinary terminal doesn't print them.
+# `mkdir` refuses, because `resources/maps` does not exist. Every command ends with an [**exit
+# code**](../docs/glossary.md#exit-code): 0 means success, and any other number means that something went wrong.
+# Lines that begin with `#` are notes from this course; an ordinary terminal doesn't print them.
 #
 # With `-p` it works:
 
@@ -119,7 +121,7 @@ from rosbeat import check, hint, progress, quiz, workspace
 # %% [markdown]
 # ## Find your way
 #
-# A **path** says where a file or folder is:
+# A [**path**](../docs/glossary.md#path) says where a file or folder is:
 #
 # | path | means |
 # |---|---|
@@ -129,8 +131,9 @@ from rosbeat import check, hint, progress, quiz, workspace
 # | `~` | your home folder |
 # | `/` | the top of the file system |
 #
-# A path that begins with `/` or `~` means the same place wherever you are: it's an **absolute** path. Any
-# other path starts from the current folder: it's a **relative** path.
+# A path that begins with `/` or `~` means the same place wherever you are: it's an
+# [**absolute**](../docs/glossary.md#absolute-path) path. Any other path starts from the current folder: it's a
+# [**relative**](../docs/glossary.md#relative-path) path.
 
 # %% terminal="one"
 # cd "$ROS2_WORKSPACE/resources/images"
@@ -176,9 +179,9 @@ check("01b", workspace.terminal("two"))
 # ## Check that ROS is there
 #
 # `ROS2_WORKSPACE` is one of many names that a terminal stores. Together they are called its
-# **environment**, and every command that you run receives a copy of it. On a robot, you would first type
-# `source /opt/ros/jazzy/setup.bash`, which sets up the environment so that ROS can be found. In this course, every
-# terminal starts with that already done.
+# [**environment**](../docs/glossary.md#environment), and every command that you run receives a copy of it. On a
+# robot, you would first type `source /opt/ros/jazzy/setup.bash`, which sets up the environment so that ROS can be
+# found. In this course, every terminal starts with that already done.
 
 # %% terminal="one"
 # echo $ROS_DISTRO

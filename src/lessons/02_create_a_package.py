@@ -16,8 +16,9 @@
 #
 # **Time:** 30 minutes. **You need:** [create a workspace](01_create_a_workspace.ipynb).
 #
-# A **package** is a folder that contains code and a few files that describe it. It's the smallest unit that ROS can
-# build, install and find, and it's what people share: a camera driver is a package, and so is a set of messages.
+# A [**package**](../docs/glossary.md#package) is a folder that contains code and a few files that describe it. It's
+# the smallest unit that ROS can build, install and find, and it's what people share: a camera driver is a package,
+# and so is a set of messages.
 #
 # The next cell creates the workspace from the last page if it's missing. If you already have one, it stays as it is.
 
@@ -46,9 +47,9 @@ workspace.catch_up("02")
 # | `sensor_simulator` | the package's name: lower case, with words joined by `_` |
 # | `--dependencies rclpy std_msgs` | what the package needs: the ROS library for Python, and standard messages such as `Float32` and `String` |
 #
-# A **dependency** is a package that yours needs. `--dependencies` doesn't install anything: it writes the names
-# into the package, where other tools can read what to install on a robot. The warning at the end is about the
-# licence, which you'll choose below.
+# A [**dependency**](../docs/glossary.md#dependency) is a package that yours needs. `--dependencies` doesn't install
+# anything: it writes the names into the package, where other tools can read what to install on a robot. The warning
+# at the end is about the licence, which you'll choose below.
 
 # %% terminal="build"
 # find sensor_simulator -type f | sort
@@ -88,10 +89,10 @@ workspace.catch_up("02")
 # cat package.xml
 
 # %% [markdown]
-# This is the **manifest**: it states the package's name, its version, a description, who maintains it, the licence
-# under which others may use it (the tag uses the American spelling, `license`), and what it needs. `<depend>`
-# names packages that it needs in order to run, and `<test_depend>` names packages that only its tests need.
-# `<build_type>` tells colcon how to build it.
+# This is the [**manifest**](../docs/glossary.md#manifest): it states the package's name, its version, a
+# description, who maintains it, the licence under which others may use it (the tag uses the American spelling,
+# `license`), and what it needs. `<depend>` names packages that it needs in order to run, and `<test_depend>` names
+# packages that only its tests need. `<build_type>` tells colcon how to build it.
 #
 # Two entries still say `TODO`. That does no harm today, but a package that you share needs both: without a
 # licence, nobody else is allowed to use it. The maintainer's name is a guess, taken from this computer's settings.
@@ -173,9 +174,10 @@ check("02a", workspace.folder())
 # ros2 pkg prefix sensor_simulator
 
 # %% [markdown]
-# Now `ros2` finds the package, and `ros2 pkg prefix` prints where it's installed. This step is called **sourcing**
-# the workspace. Your workspace lies on top of ROS like a transparent sheet, so it's called an **overlay**. It adds
-# packages, and leaves those underneath as they are.
+# Now `ros2` finds the package, and `ros2 pkg prefix` prints where it's installed. This step is called
+# [**sourcing**](../docs/glossary.md#sourcing) the workspace. Your workspace lies on top of ROS like a transparent
+# sheet, so it's called an [**overlay**](../docs/glossary.md#overlay). It adds packages, and leaves those underneath
+# as they are.
 #
 # Sourcing changed this terminal and no other. **Predict:** what does a second terminal say?
 
@@ -204,7 +206,7 @@ check("02a", workspace.folder())
 # %% [markdown]
 # None, because there's no code in it yet. Compare it with `std_msgs`, a package that comes with ROS. It
 # provides message definitions rather than programs, and you can read each definition. In ROS, a message type is one
-# kind of **interface**: something that two nodes have to agree on.
+# kind of [**interface**](../docs/glossary.md#interface): something that two nodes have to agree on.
 
 # %% terminal="build"
 # ros2 interface show std_msgs/msg/Float32

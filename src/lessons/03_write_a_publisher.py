@@ -93,10 +93,10 @@ class SteadySensor(Node):
         self.publisher_.publish(msg)
 
 # %% [markdown]
-# `self.temperature = 22.0` is the initial value: room temperature, in degrees Celsius. The method creates
-# a new message, whose `data` is 0.0 at first, sets `data` to the temperature, and publishes the message. The named
-# parts of a message are its **fields**; `Float32` has only this one. `Float32(data=22.0)` creates and fills a
-# message in one step.
+# `self.temperature = 22.0` is the initial value: room temperature, in degrees Celsius. The method creates a new
+# message, whose `data` is 0.0 at first, sets `data` to the temperature, and publishes the message. The named parts
+# of a message are its [**fields**](../docs/glossary.md#field); `Float32` has only this one. `Float32(data=22.0)`
+# creates and fills a message in one step.
 #
 # **Predict:** the timer starts at zero seconds. At which second is the first message published?
 
@@ -120,11 +120,11 @@ predict("1", readings[0].time)
 #
 # A real sensor doesn't report the same value every time. `random.uniform(-0.5, 0.5)` returns a random number
 # between -0.5 and +0.5, and `+=` adds it to the old value. A value that changes by small random steps is called
-# a **random walk**.
+# a [**random walk**](../docs/glossary.md#random-walk).
 #
 # A random walk can drift anywhere, so the tutorial that this course follows limits it to a range:
 # `max(10.2, min(28.0, ...))`. Read it from the inside out: `min` returns 28 for anything above 28, and `max` returns
-# 10.2 for anything below 10.2. This is called **clamping**.
+# 10.2 for anything below 10.2. This is called [**clamping**](../docs/glossary.md#clamping).
 
 # %%
 class TemperatureSensor(Node):

@@ -181,7 +181,7 @@ viz.timeline(ros.observation(), until=3)
 #
 # ## Let messages wait
 #
-# What if the monitor is busy for a while? Its messages wait in a **queue**, and the 10 in
+# What if the monitor is busy for a while? Its messages wait in a [**queue**](../docs/glossary.md#queue), and the 10 in
 # `create_subscription` is the length of that queue. The publisher's 10 belongs to another queue, at the publisher;
 # messages for a busy callback wait in the subscriber's queue. `ros.pause` simulates the busy node: it takes no
 # messages until `ros.resume`. The last lines of the cell only count readings.
@@ -379,7 +379,8 @@ check("04b", Alarm)
 # ## Try it: a calm monitor, alone
 #
 # Near a limit, the status flickers. That's why real monitors use two limits: one to enter a state, and another to
-# leave it. This is called **hysteresis**. Write a node that listens to `temperature` and publishes
+# leave it. This is called [**hysteresis**](../docs/glossary.md#hysteresis). Write a node that listens to
+# `temperature` and publishes
 #
 # - on `mean`, for each reading, the mean of the last five readings, as a `Float32`. While there are fewer than five,
 #   it's the mean of all of them;

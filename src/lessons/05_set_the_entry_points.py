@@ -128,8 +128,8 @@ workspace.terminal("sensor").exit_code
 # %% [markdown]
 # ## Understand an entry point
 #
-# An **entry point** is one line of text. The part before the equals sign is the name of a program, and that
-# program calls the function named after the colon:
+# An [**entry point**](../docs/glossary.md#entry-point) is one line of text. The part before the equals sign is the
+# name of a program, and that program calls the function named after the colon:
 #
 # | `talk = rosie.voice:start` | |
 # |---|---|

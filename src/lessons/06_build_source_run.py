@@ -121,9 +121,10 @@ predict("no", not fits)
 #
 # ## Look from this page
 #
-# This page is a third process. A session on it sees none of these nodes, because it's in a **domain** of its own.
-# A domain is identified by a number: nodes in the same domain find each other, and nodes in different domains never
-# do. Your terminals have a domain number in their environment, and a session can join that domain:
+# This page is a third process. A session on it sees none of these nodes, because it's in a
+# [**domain**](../docs/glossary.md#domain) of its own. A domain is identified by a number: nodes in the same domain
+# find each other, and nodes in different domains never do. Your terminals have a domain number in their
+# environment, and a session can join that domain:
 
 # %%
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
@@ -135,7 +136,7 @@ viz.graph(ros.graph())
 # You know this graph from the first pages. There, a session simulated both processes; here, two real programs run
 # them, and the picture is the same. Nodes don't depend on where the other nodes run: on a robot, they may even run on
 # different computers. There's also no central program that keeps a list of nodes: each process tells the others
-# what it offers and what it needs. This is called **discovery**.
+# what it offers and what it needs. This is called [**discovery**](../docs/glossary.md#discovery).
 #
 # ## Stop one of them
 #

@@ -127,7 +127,8 @@ predict("3", round(float(rate)))
 #
 # ## How is it configured?
 #
-# A **parameter** is a named value of a node that others can read and change while the node is running.
+# A [**parameter**](../docs/glossary.md#parameter) is a named value of a node that others can read and change while
+# the node is running.
 
 # %% terminal="look"
 # ros2 param list /window

@@ -18,16 +18,17 @@
 # **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [look inside the graph](07_look_inside_the_graph.ipynb).
 #
-# You can choose how ROS 2 delivers messages. These settings are called **quality of service**, or QoS for short.
-# Each of them is a **policy**:
+# You can choose how ROS 2 delivers messages. These settings are called [**quality of
+# service**](../docs/glossary.md#quality-of-service), or QoS for short. Each of them is a
+# [**policy**](../docs/glossary.md#policy):
 #
 # | what can happen to a message | the policy that decides |
 # |---|---|
-# | it waits for a busy node | **depth** |
-# | it gets lost on the way | **reliability** |
-# | a subscriber joins after it was sent | **durability** |
-# | it doesn't come in time | **deadline** |
-# | it's too old when it's read | **lifespan** |
+# | it waits for a busy node | [**depth**](../docs/glossary.md#depth) |
+# | it gets lost on the way | [**reliability**](../docs/glossary.md#reliability) |
+# | a subscriber joins after it was sent | [**durability**](../docs/glossary.md#durability) |
+# | it doesn't come in time | [**deadline**](../docs/glossary.md#deadline) |
+# | it's too old when it's read | [**lifespan**](../docs/glossary.md#lifespan) |
 
 # %%
 from rclpy.duration import Duration
@@ -41,9 +42,10 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspac
 from rosbeat.records import queue_steps
 
 # %% [markdown]
-# Each publisher and each subscription is an **endpoint** of its topic. Every endpoint has a **QoS profile**, which
-# holds one value for each policy. You've passed a profile every time: the `10` is short for `QoSProfile(depth=10)`,
-# and the policies that you leave out have default values.
+# Each publisher and each subscription is an [**endpoint**](../docs/glossary.md#endpoint) of its topic. Every
+# endpoint has a [**QoS profile**](../docs/glossary.md#qos-profile), which holds one value for each policy. You've
+# passed a profile every time: the `10` is short for `QoSProfile(depth=10)`, and the policies that you leave out
+# have default values.
 #
 # ## Create a source and a collector
 #
@@ -166,13 +168,14 @@ for offers in (again, once):
 
 # %% [markdown]
 # Nothing gets lost within one process, so three of the rows are alike. In the third row, the two endpoints aren't
-# connected, because their QoS is **incompatible**. The rule is: **the publisher must offer at least what the
-# subscription asks for.** If it doesn't, no messages arrive, and there's no error.
+# connected, because their QoS is [**incompatible**](../docs/glossary.md#incompatible). The rule is: **the publisher
+# must offer at least what the subscription asks for.** If it doesn't, no messages arrive, and there's no error.
 #
 # ## Durability: what a late subscriber gets
 #
-# A subscription is **late-joining** if it's created after messages have been published. A `VOLATILE` publisher
-# stores nothing for late-joining subscriptions. A `TRANSIENT_LOCAL` publisher stores as many messages as its depth.
+# A subscription is [**late-joining**](../docs/glossary.md#late-joining) if it's created after messages have been
+# published. A `VOLATILE` publisher stores nothing for late-joining subscriptions. A `TRANSIENT_LOCAL` publisher
+# stores as many messages as its depth.
 #
 # The next collector joins after 8 seconds and stays for 2.
 #
@@ -280,8 +283,8 @@ check("08b", Archive)
 # allowed between one message and the next. The publisher offers one, which is a promise, and the subscription asks
 # for one. The rule is the same: a promise of 1.5 seconds is good enough for a subscription that asks for 2.
 #
-# When a deadline is missed, the middleware reports an **event**, and ROS calls a method of yours. `event_callbacks`
-# says which one.
+# When a deadline is missed, the middleware reports an [**event**](../docs/glossary.md#event), and ROS calls a
+# method of yours. `event_callbacks` says which one.
 
 # %%
 class Guard(Node):
@@ -445,7 +448,7 @@ print(warning.level, warning.text)
 #
 # | what you want | policy | what it costs |
 # |---|---|---|
-# | nothing is lost while a subscriber is busy | a deeper queue at the **subscription** | memory, and old messages afterwards |
+# | nothing is lost while a subscriber is busy | a deeper queue at the [**subscription**](../docs/glossary.md#subscription) | memory, and old messages afterwards |
 # | nothing is lost on the way | reliable on both sides | some messages are sent twice |
 # | every publisher is heard | ask for best effort | a lost message stays lost |
 # | late-joining subscriptions get the last message | transient local on both sides, depth 1 at the publisher | the publisher stores it as long as it lives |

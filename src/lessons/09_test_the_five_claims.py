@@ -264,8 +264,8 @@ costs[50] > 2 * costs[1]
 #
 # ## 4. Concurrency: do two things at once
 #
-# *Nodes run independently, often in parallel.* Within a process, an **executor** calls the callbacks. The usual
-# one, the **SingleThreadedExecutor**, calls one callback at a time.
+# *Nodes run independently, often in parallel.* Within a process, an [**executor**](../docs/glossary.md#executor)
+# calls the callbacks. The usual one, the **SingleThreadedExecutor**, calls one callback at a time.
 #
 # The heart publishes a beat once a second. The worker needs 3 seconds for an order: it sleeps, which takes virtual
 # time here. `ros.add(BusyWorker, Heart)` starts both nodes in *one* process, with one executor.
@@ -378,9 +378,10 @@ check("09b", SteadyWorker)
 
 # %% [markdown]
 # There's another way: a **MultiThreadedExecutor** runs callbacks in several threads. But that alone isn't enough.
-# By default, all callbacks of a node belong to one **callback group**, which decides whether they may run at the
-# same time. The default group is **mutually exclusive**: it runs one callback at a time. You can create other
-# groups. In a **reentrant** group, callbacks may overlap, and a callback may even overlap with itself.
+# By default, all callbacks of a node belong to one [**callback group**](../docs/glossary.md#callback-group), which
+# decides whether they may run at the same time. The default group is **mutually exclusive**: it runs one callback
+# at a time. You can create other groups. In a **reentrant** group, callbacks may overlap, and a callback may even
+# overlap with itself.
 #
 # Here, a single node works and beats. `threads=4` gives its process a MultiThreadedExecutor, and two orders arrive
 # at 2.5 s.
@@ -507,8 +508,8 @@ one != other, first == second == str(eval(task))
 # %% [markdown]
 # **Result: partly true.** The two processes have different process IDs and can use two cores. They take about half
 # the time if both cores are free. If your machine is busy, run the cell again. Two threads gain nothing: within a
-# process, Python's **global interpreter lock** lets only one thread at a time run Python code. So give heavy work a
-# process of its own: another `ros2 run`.
+# process, Python's [**global interpreter lock**](../docs/glossary.md#global-interpreter-lock) lets only one thread
+# at a time run Python code. So give heavy work a process of its own: another `ros2 run`.
 #
 # ## 5. Re-usability: take a node elsewhere
 #
@@ -516,8 +517,8 @@ one != other, first == second == str(eval(task))
 # starts them as `ros2 run` would:
 #
 # - with another name;
-# - in a **namespace**, a prefix for the names of its nodes and topics;
-# - with **remapped** topics: another name takes the place of the one in the code;
+# - in a [**namespace**](../docs/glossary.md#namespace), a prefix for the names of its nodes and topics;
+# - with [**remapped**](../docs/glossary.md#remapping) topics: another name takes the place of the one in the code;
 # - with parameters.
 #
 # In the code, `**here` passes each entry of a dictionary as an argument.
@@ -541,8 +542,8 @@ predict("High", said)
 # %% [markdown]
 # **Result: partly true.** You could change the names from outside, and the sensor's initial value. But the
 # monitor's limits and its *C* are fixed in its code. A node is as re-usable as its author makes it: with
-# parameters, without a unit in the code, and with **relative** names, which don't begin with a slash. In a
-# terminal, you would start the monitor like this:
+# parameters, without a unit in the code, and with [**relative**](../docs/glossary.md#relative-name) names, which
+# don't begin with a slash. In a terminal, you would start the monitor like this:
 #
 # ```bash
 # ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=humidity_monitor \
@@ -600,8 +601,9 @@ with Session(seed=8) as ros:
 
 # %% [markdown]
 # **Symptom:** silence. **Where to look:** `explain`, which finds two topics. **Cause:** the slash in
-# `"/temperature"`. A name that begins with a slash is **absolute**, and no namespace changes it. **Fix:** leave the
-# slash out, or remap the whole name: `-r /temperature:=/greenhouse/temperature`.
+# `"/temperature"`. A name that begins with a slash is [**absolute**](../docs/glossary.md#absolute-name), and no
+# namespace changes it. **Fix:** leave the slash out, or remap the whole name: `-r
+# /temperature:=/greenhouse/temperature`.
 #
 # ## Three questions
 #

@@ -76,8 +76,9 @@ class TemperatureMonitor(Node):
 # %% [markdown]
 # ## Record a run
 #
-# In ROS, a recording is called a **bag**. It contains every message that was published, and when. `bags.record` writes
-# the messages of a session to a bag in your workspace. If you have no workspace yet, `catch_up` creates it.
+# In ROS, a recording is called a [**bag**](../docs/glossary.md#bag). It contains every message that was published,
+# and when. `bags.record` writes the messages of a session to a bag in your workspace. If you have no workspace yet,
+# `catch_up` creates it.
 
 # %%
 workspace.catch_up("02")
@@ -224,8 +225,8 @@ len(changed), changed[0]
 # - `stuck`: the sensor hangs and repeats its last reading;
 # - `dropouts`: messages get lost on the way, either some at random or all within a time span;
 # - `drift`: the error of each reading grows by a fixed number of degrees per second;
-# - `with_nan`: the reading is **NaN**, "not a number". NaN is the floating-point value for an undefined result,
-#   and many drivers send it when a measurement fails.
+# - `with_nan`: the reading is [**NaN**](../docs/glossary.md#nan), "not a number". NaN is the floating-point value
+#   for an undefined result, and many drivers send it when a measurement fails.
 
 # %%
 sick = play(

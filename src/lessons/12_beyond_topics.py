@@ -48,8 +48,9 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspac
 # %% [markdown]
 # ## Ask: a service
 #
-# A **service** is a question with one answer. Like a topic, it has a name and a type. The type consists of
-# two messages, a request and a response. One node offers the service, and other nodes are its **clients**.
+# A [**service**](../docs/glossary.md#service) is a question with one answer. Like a topic, it has a name and a
+# type. The type consists of two messages, a request and a response. One node offers the service, and other nodes
+# are its [**clients**](../docs/glossary.md#client).
 #
 # Defining a type of your own takes a C compiler, so this page borrows existing types from the package
 # `test_msgs`. From `BasicTypes`, it uses one number in the request, `float32_value`, and two fields of
@@ -75,7 +76,7 @@ class Window(Node):
 # ROS passes the request and an empty response to the callback. The callback fills in the response and **returns** it.
 #
 # A client first waits for the service; `wait_for_service` returns whether it's available. `call_async` sends the
-# request and returns a **future**: an object that will hold the response once it arrives.
+# request and returns a [**future**](../docs/glossary.md#future): an object that will hold the response once it arrives.
 # `spin_until_future_complete` runs callbacks until then.
 
 # %%
@@ -215,8 +216,10 @@ check("12b", CarefulMonitor)
 # %% [markdown]
 # ## Send to work: an action
 #
-# An **action** is for work that takes time. A client sends a **goal**, and the server accepts or rejects it. While it
-# works, the server sends **feedback**; at the end, it sends a **result**. In between, the client can **cancel**.
+# An [**action**](../docs/glossary.md#action) is for work that takes time. A client sends a
+# [**goal**](../docs/glossary.md#goal), and the server accepts or rejects it. While it works, the server sends
+# [**feedback**](../docs/glossary.md#feedback); at the end, it sends a [**result**](../docs/glossary.md#result). In
+# between, the client can **cancel**.
 #
 # `Fibonacci`, another borrowed type, has an integer `order` in its goal, and a list of integers, `sequence`,
 # in its feedback and its result. Here, `order` says for how many seconds to air the room.
@@ -424,9 +427,9 @@ check("12c", Thermostat)
 
 # %% [markdown]
 # **Symptom:** it asks once, and then nothing more happens. **Where to look:** run it with a time limit (`timeout`);
-# exit code 137 means that the program had to be killed. **Cause:** a **deadlock**. `call` waits until another
-# callback takes the response, but the executor can't run another callback until this one returns. **Fix:**
-# `call_async`, with a done callback or an `await`.
+# exit code 137 means that the program had to be killed. **Cause:** a [**deadlock**](../docs/glossary.md#deadlock).
+# `call` waits until another callback takes the response, but the executor can't run another callback until this one
+# returns. **Fix:** `call_async`, with a done callback or an `await`.
 #
 # A session says so once, and then behaves like a robot: the callback waits forever, and its node stays silent.
 

@@ -439,8 +439,8 @@ print([end.node for end in graph.on("/vent", "publisher")])
 # ros2 pkg create greenhouse --build-type ament_python --dependencies rclpy std_msgs
 # ```
 #
-# Each node gets a file with a `main`, and a line in `entry_points`. A **launch file** starts all of them, and says
-# what your list says:
+# Each node gets a file with a `main`, and a line in `entry_points`. A [**launch
+# file**](../docs/glossary.md#launch-file) starts all of them, and says what your list says:
 #
 # ```python
 # from launch import LaunchDescription
