@@ -119,9 +119,24 @@ predict("no", not fits)
 # did they get there? The publisher passed each message to the middleware in its own process, which turned it
 # into a few bytes. The middleware in the other process turned those bytes back into a message.
 #
+# ## Look from another terminal
+#
+# A third terminal can look at the running programs, too. `ros2 topic list` prints the topics that are in use, and
+# `ros2 topic echo` prints the messages on one of them. With `--once`, it stops after the first message. Both
+# commands come with ROS, so this terminal doesn't have to source your workspace.
+
+# %% terminal="look" tags=["nbval-ignore-output"]
+# ros2 topic list
+# ros2 topic echo --once /temperature
+
+# %% [markdown]
+# `echo` subscribed to the topic, received one message, and stopped. The other two topics come with every node:
+# `/rosout` carries log lines, and `/parameter_events` reports changes of parameters. You'll use these commands on
+# page 07.
+#
 # ## Look from this page
 #
-# This page is a third process. A session on it sees none of these nodes, because it's in a
+# This page is a process as well. A session on it sees none of these nodes, because it's in a
 # [**domain**](../docs/glossary.md#domain) of its own. A domain is identified by a number: nodes in the same domain
 # find each other, and nodes in different domains never do. Your terminals have a domain number in their
 # environment, and a session can join that domain:
@@ -281,6 +296,41 @@ predict("3", len(judged))
 # %% [markdown]
 # All three: a session connects the programs immediately. Real programs need a moment to discover each other.
 #
+# ## Try it: leave the notebook
+#
+# Now do it all without this page. JupyterLab has an editor and terminals of its own.
+#
+# 1. In the file browser, open the folder of your workspace, then `src`, `sensor_simulator` and `sensor_simulator`.
+#    Double-click `temperature_publisher.py`, change the period of the timer from 1.0 to 0.5, and save the file with
+#    `Ctrl` + `S`.
+# 2. Open a terminal with *File, New, Terminal*. Build, source and run the sensor:
+#
+#    ```bash
+#    cd "$ROS2_WORKSPACE"
+#    colcon build --symlink-install --packages-select sensor_simulator
+#    source install/setup.bash
+#    ros2 run sensor_simulator temperature_publisher
+#    ```
+#
+# 3. Open another terminal, and run the monitor there:
+#
+#    ```bash
+#    cd "$ROS2_WORKSPACE"
+#    source install/setup.bash
+#    ros2 run sensor_simulator temperature_subscriber
+#    ```
+#
+# 4. The monitor now prints two lines per second. Stop both programs with `Ctrl` + `C`, and change the period back
+#    to 1.0.
+#
+# You've now done everything that the tutorial does, on your own. The last check looks at the whole system: it
+# builds your package in another place, runs both programs, and checks what they publish, what they log, and how they
+# end. It takes up to half a minute.
+
+# %% tags=["nbval-ignore-output"]
+check("system", workspace.folder())
+
+# %% [markdown]
 # ## Three questions
 #
 # Choose the best answer to each question. You can try as often as you like.
@@ -299,9 +349,11 @@ quiz("06", "b", "a", "c")
 # - A node can stop and come back, and the other one keeps running.
 # - `ros2 run` starts what is installed, not what is in `src`.
 #
-# In JupyterLab, open two terminals with *File, New, Terminal*, and repeat the steps there by hand. Then you'll have
-# done everything in the tutorial on your own. One more check looks at the whole system: in a new cell,
-# `check("system", workspace.folder())` builds your package in another place, runs both programs and compares them.
+# Topics are the first of three patterns. **Services** are for questions that have an answer, and **actions** are for
+# work that takes time. You can meet both on page 12.
+#
+# This is the end of the tutorial, and of the core of the course. The pages from 07 on are electives: take the ones
+# that you like. **Next:** [look inside the graph](07_look_inside_the_graph.ipynb), where you examine a running system.
 
 # %%
 progress()
