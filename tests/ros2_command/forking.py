@@ -12,6 +12,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+from contextlib import ExitStack
 from pathlib import Path
 
 _MOST = 1 << 17  # bytes of a request; most of them are the environment
@@ -44,15 +45,15 @@ class Forks:
         """Run a command and return the completed process."""
         self._socket.settimeout(timeout)
         request = {"words": words, "environment": environment, "cwd": str(cwd or Path.cwd())}
-        with tempfile.TemporaryFile() as given, tempfile.TemporaryFile() as out:
-            with tempfile.TemporaryFile() as error:
-                given.write((stdin or "").encode())
-                given.seek(0)
-                streams = [one.fileno() for one in (given, out, error)]
-                socket.send_fds(self._socket, [json.dumps(request).encode()], streams)
-                code = int(self._socket.recv(64))
-                said = [os.pread(one, os.fstat(one).st_size, 0).decode() for one in streams[1:]]
-        return subprocess.CompletedProcess(words, code, *said)
+        with ExitStack() as stack:
+            given, *said = (stack.enter_context(tempfile.TemporaryFile()) for _ in range(3))
+            given.write((stdin or "").encode())
+            given.seek(0)
+            streams = [one.fileno() for one in (given, *said)]
+            socket.send_fds(self._socket, [json.dumps(request).encode()], streams)
+            code = int(self._socket.recv(64))
+            texts = [os.pread(one, os.fstat(one).st_size, 0).decode() for one in streams[1:]]
+        return subprocess.CompletedProcess(words, code, *texts)
 
 
 def serve(requests):

@@ -1,8 +1,8 @@
 """A node for the tests of `ros2` that offers what `demo_node.py` does not.
 
 It has a service that tells of its calls, an action, parameters with limits, a stamped topic, a
-hidden one, and a `/clock` that is ten times as fast as the wall's. Says `ready` when it is there, and ends when its standard
-input does.
+hidden one, and a `/clock` that is ten times as fast as the wall's. Says `ready` when it is there,
+and ends when its standard input does.
 """
 
 import sys
