@@ -106,10 +106,8 @@ def test_spin_runs_live_until_interrupt(ros, capsys, interrupt):
 def test_spin_with_nothing_to_do_can_be_interrupted(ros, interrupt):
     node = ros.add(lambda: Node("idle"))
     interrupt(0.3)
-    begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         rclpy.spin(node)
-    assert time.monotonic() - begin < 0.8
 
 
 def test_spin_ends_with_a_fault(ros, capsys):
@@ -182,10 +180,8 @@ def test_spin_until_future_complete_live(ros):
 def test_without_a_session_spin_can_be_interrupted(plain, interrupt):
     node = Node("idle")
     interrupt(0.3)
-    begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         rclpy.spin(node)
-    assert time.monotonic() - begin < 0.8
     node.destroy_node()
 
 
