@@ -81,8 +81,8 @@ class Virtual:
     def __init__(self, session: Session) -> None:
         self.session = session
 
-    def make(self, kind: Callable[..., Any], *args: Any) -> Any:
-        return self.session.add(lambda: kind(*args))
+    def make(self, kind: Callable[..., Any], *args: Any, **options: Any) -> Any:
+        return self.session.add(lambda: kind(*args, **options))
 
     def pass_time(self, seconds: float) -> None:
         self.session.run(seconds, quiet=True)
@@ -95,10 +95,12 @@ class Virtual:
         raise AssertionError("it never happened")
 
     @contextmanager
-    def busy(self, node: Node) -> Iterator[None]:
-        self.session.pause(node)
+    def busy(self, *nodes: Node) -> Iterator[None]:
+        for node in nodes:
+            self.session.pause(node)
         yield
-        self.session.resume(node)
+        for node in nodes:
+            self.session.resume(node)
         self.session.run(0)
 
 
@@ -110,8 +112,8 @@ class ByTheWall:
         self.executor = SingleThreadedExecutor(context=context)
         self.nodes: list[Node] = []
 
-    def make(self, kind: Callable[..., Any], *args: Any) -> Any:
-        made = kind(*args, context=self.context)
+    def make(self, kind: Callable[..., Any], *args: Any, **options: Any) -> Any:
+        made = kind(*args, context=self.context, **options)
         self.nodes.append(made)
         self.executor.add_node(made)
         self.pass_time(0.2)  # endpoints of one process are matched at once
@@ -129,10 +131,12 @@ class ByTheWall:
             self.executor.spin_once(timeout_sec=0.01)
 
     @contextmanager
-    def busy(self, node: Node) -> Iterator[None]:
-        self.executor.remove_node(node)
+    def busy(self, *nodes: Node) -> Iterator[None]:
+        for node in nodes:
+            self.executor.remove_node(node)
         yield
-        self.executor.add_node(node)
+        for node in nodes:
+            self.executor.add_node(node)
         self.pass_time(0.2)
 
 

@@ -56,7 +56,8 @@ def served(out, judged):
     write(apply_manual(judged, read_manual(out / "manual.csv")))
     write_template(out / "manual.csv", judged)
     with ReviewServer(Review(out, judged, write)) as server:
-        thread = threading.Thread(target=server.serve_forever)
+        # Asked to stop, it notices at once; half a second later would be soon enough for a person.
+        thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.005})
         thread.start()
         try:
             yield server

@@ -16,6 +16,20 @@ def ros() -> Iterator[Session]:
 
 
 @pytest.fixture
+def slept(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """Note for how long somebody really sleeps; a session that is made later is noticed, too."""
+    spans: list[float] = []
+    really = time.sleep
+
+    def sleep(seconds: float) -> None:
+        spans.append(seconds)
+        really(seconds)
+
+    monkeypatch.setattr(time, "sleep", sleep)
+    return spans
+
+
+@pytest.fixture
 def eventually() -> Callable[[Callable[[], object], float], None]:
     """Wait until a predicate is true; fail when the deadline comes first."""
 

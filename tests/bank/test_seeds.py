@@ -35,7 +35,7 @@ def test_evidence_of_a_right_answer_does_not_pass_with_another_seed(exercise):
     judged, seen = (getattr(EXERCISES[exercise], name) for name in ("judged", "observed"))
     evidence = seen(eval(pages.subject(exercise), space))
     assert judged(evidence).status == "passed"
-    assert {judged(evidence, seed).status for seed in range(1, 50)} == {"failed"}
+    assert {judged(evidence, seed).status for seed in range(1, 11)} == {"failed"}
 
 
 @pytest.mark.thorough

@@ -19,8 +19,8 @@ from rosbeat.records_json import digest
 
 TESTS = Path(six_nodes.__file__).parent
 #: The lead runs 200; a test suite does not need to.
-RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "25"))
-PROCESSES = int(os.environ.get("ROSBEAT_DETERMINISM_PROCESSES", "4"))
+RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "20"))
+PROCESSES = int(os.environ.get("ROSBEAT_DETERMINISM_PROCESSES", "2"))
 
 
 def _burn() -> None:
@@ -56,9 +56,10 @@ def test_runs_in_one_process():
     assert {digest(six_nodes.observe()) for _ in range(RUNS)} == {six_nodes.DIGEST}
 
 
-def test_runs_while_all_cores_are_busy():
+def test_runs_and_late_joiners_while_all_cores_are_busy():
     with busy_cores():
         assert {digest(six_nodes.observe()) for _ in range(RUNS // 5)} == {six_nodes.DIGEST}
+        assert all(late() == [16, 17, 18, 19, 20] for _ in range(RUNS // 5))
 
 
 def test_runs_in_fresh_processes():
@@ -92,12 +93,7 @@ def late(published=20, stores=5, wants=10):
 
 
 def test_a_late_joiner_gets_exactly_what_is_stored():
-    assert all(late() == [16, 17, 18, 19, 20] for _ in range(100))
-
-
-def test_a_late_joiner_while_all_cores_are_busy():
-    with busy_cores():
-        assert all(late() == [16, 17, 18, 19, 20] for _ in range(20))
+    assert all(late() == [16, 17, 18, 19, 20] for _ in range(RUNS))
 
 
 @pytest.mark.parametrize(
@@ -116,18 +112,16 @@ def test_a_volatile_late_joiner_gets_nothing(ros):
     assert listener.heard == []
 
 
-def test_a_publisher_that_is_gone_stores_nothing(ros):
-    import time
-
+def test_a_publisher_that_is_gone_stores_nothing(ros, monkeypatch):
+    for limit in ("_UNACKNOWLEDGED", "_LIMIT"):  # a wait would last longer than the test may
+        monkeypatch.setattr(f"rosbeat.ros.qos_events.{limit}", 1_000.0)
     talker = ros.add(partial(Talker, qos=stored(5)))
     ros.run(5)
     talker.destroy_publisher(talker.publisher)
     talker.timer.cancel()
-    begin = time.monotonic()
     listener = ros.add(partial(Listener, qos=stored(5)))
     ros.run(1)
     assert listener.heard == []
-    assert time.monotonic() - begin < 1.0
 
 
 def test_keep_all_gets_all_that_is_stored(ros):

@@ -13,6 +13,8 @@ from std_srvs.srv import Trigger
 from failed_calls import failed_call
 from nodes import Doer, Listener, Server, Speaker, Talker, Ticker
 from rosbeat.errors import SessionError
+from rosbeat.records import Fault
+from rosbeat.ros.console import fault_text
 from rosbeat.ros.faults import asked_by, asking, fault_of, suggestion
 from rosbeat.ros.faults import failed_call as described
 
@@ -381,3 +383,7 @@ def test_a_text_that_raises():
             raise RuntimeError
 
     assert fault_of(OddError(), 0, "/a", "tick").text == ""
+
+
+def test_a_fault_without_a_line_names_none():
+    assert "line" not in fault_text(Fault(0, "/n", "cb", "KeyError", "x", 0, "")).splitlines()[1]

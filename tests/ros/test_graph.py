@@ -185,7 +185,7 @@ def test_a_node_that_does_not_come_gets_three_parts(joined, says):
     begin = time.monotonic()
     with pytest.raises(SessionError) as caught:
         joined.wait_for_nodes("talker", "talkr", timeout=0.5)
-    assert 0.5 <= time.monotonic() - begin < 20
+    assert time.monotonic() - begin >= 0.5
     says(caught.value, "/talkr is not there after 0.5 s", "/listener, /server, /talker")
     assert caught.value.to_try == "Did you mean /talker?"
     with pytest.raises(SessionError) as caught:

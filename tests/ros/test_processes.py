@@ -421,12 +421,11 @@ def test_a_session_can_be_closed_in_another_thread_while_a_callback_waits():
 
 def test_a_cell_waits_for_a_service_in_virtual_time(ros):
     client = ros.add(lambda: Node("guest")).create_client(Trigger, "ask")
-    begin = time.monotonic()
-    assert not client.wait_for_service(timeout_sec=30.0)
-    assert (ros.time, time.monotonic() - begin < 5) == (30, True)
+    assert not client.wait_for_service(timeout_sec=1_000.0)  # more than the test may take
+    assert ros.time == 1_000
     ros.add(Server)
     assert client.wait_for_service(timeout_sec=30.0)
-    assert ros.time == 30
+    assert ros.time == 1_000
 
 
 def test_explain_knows_a_deadlock(capsys):

@@ -477,6 +477,20 @@ def test_logs_of_a_removed_node_can_be_read(ros):
     assert len(ros.logs(speaker)) == 1
 
 
+class Ear:
+    """Hears as an object that is called."""
+
+    def __call__(self, message):
+        pass
+
+
+def test_a_callback_that_is_an_object_goes_by_its_class(ros):
+    node = ros.add(Talker)
+    node.create_subscription(Int32, "count", Ear(), 10)
+    ros.run(1)
+    assert "Ear" in {one.name for one in ros.observation().callbacks}
+
+
 # The C part of message types, loaded ahead.
 
 

@@ -178,12 +178,11 @@ class Sleeper(Echo):
         self.get_logger().info("tick")
 
 
-def test_a_node_that_sleeps_in_a_callback_is_late_and_the_others_go_on():
+def test_a_node_that_sleeps_in_a_callback_is_late_and_the_others_go_on(slept):
     feeds = [
         feeder("f", "in", "std_msgs/msg/Float32", [float(n) for n in range(1, 8)]),
         feeder("g", "nap", "std_msgs/msg/Float32", [2.5], period=1.5),
     ]
-    begin = time.monotonic()
     seen = observe(Sleeper, 6, others=feeds)
     again = observe(Sleeper, 6, others=feeds)
     assert not seen.faults
@@ -193,7 +192,7 @@ def test_a_node_that_sleeps_in_a_callback_is_late_and_the_others_go_on():
     assert echoed == [(1, 1), (4, 2), (4, 3), (4, 4), (5, 5), (6, 6)]
     assert [log.time for log in seen.logs] == [1, 4, 5, 6]
     assert seen == again
-    assert time.monotonic() - begin < 5  # two times 2.5 s were slept, and not here
+    assert 2.5 not in slept
 
 
 def test_steps_happen_while_a_node_sleeps():

@@ -1,6 +1,7 @@
-"""The door: what a session takes and what it leaves behind."""
+"""What a learner does with a session: add nodes, ask for what they did, end it, and mistype."""
 
 import gc
+import re
 import threading
 from functools import partial
 
@@ -9,9 +10,9 @@ import pytest
 from rclpy.node import Node
 from std_msgs.msg import String
 
-from nodes import Listener, Speaker, Talker, Ticker
+from nodes import Doer, Listener, Speaker, Talker, Ticker
 from rosbeat import Session
-from rosbeat.errors import NodeClassError
+from rosbeat.errors import DurationError, NodeClassError, SessionError, UnknownTopicError
 
 
 def names(session):
@@ -138,3 +139,135 @@ def test_namespaces(ros):
     ros.add(Named)
     assert ros.graph().nodes == ("/room/one/sensor",)
     ros.remove("room/one/sensor")
+
+
+# What it prints in the cell.
+
+
+def test_printed_logs_are_the_records(ros, capfd):
+    ros.add(Speaker)
+    ros.add(partial(Speaker, "other", 0.5))
+    ros.run(2)
+    printed = capfd.readouterr()
+    assert printed.err == ""
+    lines = [f"[{line.level}] [{line.time:.3f}] [{line.name}]: {line.text}" for line in ros.logs()]
+    assert printed.out.splitlines() == lines
+    assert len(lines) == 6
+    assert [line.name for line in ros.logs("other")] == ["other"] * 4
+
+
+def test_a_printed_time_is_never_later_than_the_record_s(ros, capfd):
+    ros.add(partial(Speaker, "late", 1.234_567_89))
+    ros.run(2)
+    assert capfd.readouterr().out == "[INFO] [1.234] [late]: here is late\n"
+
+
+def test_quiet_prints_nothing_and_a_flood_is_counted(ros, capsys):
+    ros.add(partial(Speaker, "flood", 0.001))
+    ros.run(1, quiet=True)
+    assert capsys.readouterr().out == ""
+    ros.run(1)
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 101
+    assert re.fullmatch(r"\.\.\. and 900 more lines; logs\(\) has them all\.", lines[-1])
+    assert len(ros.logs()) == 2000
+
+
+# What it is asked for wrongly.
+
+
+@pytest.mark.parametrize("seconds", [-1, -1e-9, float("nan"), float("inf"), "5", None, 1e12, True])
+def test_durations_are_checked(ros, says, seconds):
+    with pytest.raises(DurationError) as caught:
+        ros.run(seconds)
+    says(caught.value, "run(seconds=...)")
+    assert ros.time == 0
+
+
+def test_a_duration_beyond_all_numbers(ros, says):
+    with pytest.raises(DurationError) as caught:
+        ros.run(10**400)
+    says(caught.value)
+
+
+def test_time_ends_after_292_years(ros, says):
+    for _ in range(9):
+        ros.run(1e9)
+    with pytest.raises(DurationError) as caught:
+        ros.run(1e9)
+    says(caught.value, "292 years")
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"seed": -1}, {"seed": 1.5}, {"seed": "7"}, {"seed": True}, {"domain_id": 102},
+     {"domain_id": -1}, {"domain_id": "5"}],
+)  # fmt: skip
+def test_options_are_checked(options, says):
+    with pytest.raises(SessionError) as caught:
+        Session(**options)
+    says(caught.value, next(iter(options)))
+
+
+def test_an_unknown_topic_and_its_nearest(ros, says):
+    ros.add(partial(Talker, topic="temperature"))
+    ros.add(partial(Listener, topic="temprature"))
+    ros.run(1)
+    with pytest.raises(UnknownTopicError) as caught:
+        ros.messages("temprature")
+    says(caught.value, "/listener listens there", "Did you mean /temperature? If not, add")
+    ros.add(partial(Listener, topic="temperature"), name="other")
+    with pytest.raises(UnknownTopicError) as caught:
+        ros.messages("temprature")
+    says(caught.value, "Add the publishing node first")  # /temperature has both sides
+    with pytest.raises(UnknownTopicError) as caught:
+        ros.messages("zebra")
+    says(caught.value, "Published topics: /temperature")
+    assert [sample.value for sample in ros.messages("/temperature")] == [1]
+    with pytest.raises(UnknownTopicError, match="Nobody has published"):
+        ros.messages("parameter_events")
+
+
+def test_an_unknown_node_and_its_nearest(ros, says):
+    ros.add(Talker)
+    with pytest.raises(SessionError) as caught:
+        ros.pause("talkr")
+    says(caught.value, "Did you mean /talker?")
+
+
+def test_a_topic_with_a_blank_in_its_name(ros, says):
+    with pytest.raises(SessionError) as caught:
+        ros.explain("/a b")
+    says(caught.value, "characters other than alphanumerics, '_', or '/'.")
+
+
+@pytest.mark.parametrize("call", ["messages", "logs"])
+def test_names_are_texts(ros, says, call):
+    with pytest.raises(SessionError) as caught:
+        getattr(ros, call)(5)
+    says(caught.value, "quotation marks")
+
+
+def test_run_in_a_callback_is_refused(ros, capsys):
+    ros.add(partial(Doer, lambda _: ros.run(1)))
+    ros.run(1)
+    (fault,) = ros.observation().faults
+    assert fault.kind == "SessionError"
+    assert "`ros.run` was called from inside a callback" in fault.text
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize("call", ["start", "stop", "wait"])
+def test_live_calls_in_a_callback_are_refused(ros, call, capsys):
+    ros.add(partial(Doer, lambda _: getattr(ros, call)()))
+    ros.run(1)
+    assert [fault.kind for fault in ros.observation().faults] == ["SessionError"]
+    capsys.readouterr()
+
+
+def test_adding_in_a_callback_is_refused(ros, capsys):
+    ros.add(partial(Doer, lambda _: ros.add(Talker)))
+    ros.run(1)
+    assert [fault.kind for fault in ros.observation().faults] == ["SessionError"]
+    assert names(ros) == ["doer"]
+    capsys.readouterr()

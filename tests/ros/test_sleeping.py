@@ -54,8 +54,7 @@ def times(ros, topic):
     return [one.time for one in ros.messages(topic)]
 
 
-def test_a_page_and_a_check_see_the_same(ros):
-    begin = time.monotonic()
+def test_a_page_and_a_check_see_the_same(slept, ros):
     for node in (Boss, Beat, Worker):
         ros.add(node)
     ros.run(seconds=8)
@@ -65,7 +64,7 @@ def test_a_page_and_a_check_see_the_same(ros):
     seen = observe(Worker, 8, others=[Boss, Beat])
     assert seen.samples == ros.observation().samples
     assert seen.callbacks == ros.observation().callbacks
-    assert time.monotonic() - begin < 3  # twice 3 s were slept, and not here
+    assert 3.0 not in slept
 
 
 def test_a_callback_that_sleeps_at_the_end_of_a_run_goes_on_in_the_next(ros):
@@ -120,18 +119,16 @@ def rclpy_seconds(number):
     return Duration(seconds=number)
 
 
-def test_a_constructor_sleeps_in_virtual_time_and_the_others_go_on(ros):
+def test_a_constructor_sleeps_in_virtual_time_and_the_others_go_on(slept, ros):
     class Slow(Beat):
         def __init__(self):
             time.sleep(2.5)
             super().__init__("slow")
 
     ros.add(Beat)
-    begin = time.monotonic()
     ros.add(Slow)
     assert (ros.time, times(ros, "beat")) == (2.5, [1, 2])
-    assert time.monotonic() - begin < 2
-    assert time.sleep is sleep
+    assert 2.5 not in slept
 
 
 def test_live_a_sleep_is_a_sleep(ros):
@@ -177,35 +174,31 @@ def test_waiting_for_a_future_sleeps_in_virtual_time_too(ros):
     client = server.create_client(Trigger, "go")
 
     def answer(_, response):
-        time.sleep(30)
+        time.sleep(1_000)  # more than the test may take
         return response
 
     helper = ros.add(lambda: Node("helper"))
     helper.create_service(Trigger, "go", answer)
     future = client.call_async(Trigger.Request())
-    begin = time.monotonic()
     rclpy.spin_until_future_complete(server, future)
     assert future.done()
-    assert ros.time == 30
-    assert time.monotonic() - begin < 5
+    assert ros.time == 1_000
 
 
 class Index:
     """A whole number of a library's own, as NumPy has some."""
 
     def __index__(self):
-        return 2
+        return 1_000
 
 
-@pytest.mark.parametrize("span", [2, 2.0, np.int64(2), np.float64(2), Index()])
+@pytest.mark.parametrize("span", [1_000, 1e3, np.int64(1_000), np.float64(1_000), Index()])
 def test_what_python_sleeps_for_takes_virtual_time(ros, span):
-    begin = time.monotonic()
-    sleeper = ros.spawn(lambda: time.sleep(span))
-    ros.run(1.9)
+    sleeper = ros.spawn(lambda: time.sleep(span))  # for longer than the test may take
+    ros.run(999.9)
     assert sleeper.returncode is None
     ros.run(0.1)
     assert sleeper.returncode == 0
-    assert time.monotonic() - begin < 1
 
 
 @pytest.mark.parametrize(

@@ -14,9 +14,15 @@ HERE = Path(__file__).parent
 
 
 class Ros2:
-    """The command, with an environment."""
+    """The command, with an environment.
 
-    def __init__(self, **environment):
+    Args:
+        forks: Run commands that end by themselves; without them, each is a new process.
+        environment: What differs from this process's.
+    """
+
+    def __init__(self, forks=None, **environment):
+        self._forks = forks
         paths = [str(SOURCE), os.environ.get("PYTHONPATH", "")]
         self.environment = os.environ | {
             "PYTHONPATH": os.pathsep.join(filter(None, paths)),
@@ -31,11 +37,16 @@ class Ros2:
 
     def __call__(self, *words, cwd=None, stdin=None, code=0, timeout=100, **environment):
         """Run to the end, compare the exit code, and return the completed process."""
-        done = subprocess.run(
-            self.words(*words), env=self.environment | environment, cwd=cwd, input=stdin,
-            stdin=subprocess.DEVNULL if stdin is None else None,
-            capture_output=True, text=True, timeout=timeout, check=False,
-        )  # fmt: skip
+        if self._forks and "PYTHONPATH" not in environment:  # theirs is read already
+            done = self._forks.run(
+                list(map(str, words)), self.environment | environment, cwd, stdin, timeout
+            )
+        else:
+            done = subprocess.run(
+                self.words(*words), env=self.environment | environment, cwd=cwd, input=stdin,
+                stdin=subprocess.DEVNULL if stdin is None else None,
+                capture_output=True, text=True, timeout=timeout, check=False,
+            )  # fmt: skip
         assert "Traceback" not in done.stderr, done.stderr
         assert done.returncode == code, (done.stdout, done.stderr)
         return done
@@ -95,10 +106,11 @@ def empty_domain(stack):
 
 
 @contextmanager
-def own_graph(*nodes, file="demo_node.py", **environment):
+def own_graph(*nodes, file="demo_node.py", forks=None, **environment):
     """Run nodes, each with its arguments, in a domain that nobody else has."""
     with ExitStack() as stack:
         quick = Ros2(
+            forks,
             ROS_DOMAIN_ID=str(empty_domain(stack)),
             FASTRTPS_DEFAULT_PROFILES_FILE=str(PROFILE),
             **environment,

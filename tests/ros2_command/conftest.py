@@ -10,11 +10,18 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[1] / "src" / "ros2_command"), str(HERE)]
 
 from as_typed import Ros2, demo_node, own_graph  # noqa: E402
+from forking import Forks  # noqa: E402
 
 
 @pytest.fixture(scope="session")
-def ros2():
-    return Ros2()
+def forks():
+    with Forks(Ros2().environment) as forks:
+        yield forks
+
+
+@pytest.fixture(scope="session")
+def ros2(forks):
+    return Ros2(forks)
 
 
 @pytest.fixture
@@ -23,15 +30,19 @@ def another_node():
     return demo_node
 
 
-@pytest.fixture(scope="session")
-def graph():
+# Nodes that nobody asks any more would cost the other tests their time.
+
+
+@pytest.fixture(scope="module")
+def graph(forks):
     """In a domain where `/one` publishes on `/temperature`, and `/ns_two` on `/slow`."""
-    with own_graph(("one", "temperature", 0.05), ("ns_two", "slow", 1.0)) as graph:
+    nodes = (("one", "temperature", 0.05), ("ns_two", "slow", 1.0))
+    with own_graph(*nodes, forks=forks) as graph:
         yield graph
 
 
-@pytest.fixture(scope="session")
-def rich():
+@pytest.fixture(scope="module")
+def rich(forks):
     """In a domain with `rich_node.py` alone."""
-    with own_graph((), file="rich_node.py") as graph:
+    with own_graph((), file="rich_node.py", forks=forks) as graph:
         yield graph

@@ -1,7 +1,7 @@
 """Each misunderstanding shows in what the scenarios feed: no suspect is right, or another one."""
 
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 
 import pytest
 
@@ -14,8 +14,9 @@ from rosbeat.records import QoS
 SECOND = 10**9
 
 
+@cache
 def fed(exercise, seed=0):
-    """Return what an exercise draws."""
+    """Return what an exercise draws, once for all tests: a draw simulates each suspect."""
     (drawn,) = EXERCISES[exercise].inputs(seed)
     return drawn
 
@@ -67,15 +68,14 @@ TABLES = {
 }
 DRAWN = {name: table for name, table in TABLES.items() if isinstance(table[0], str)}
 #: Seeds that are tried of each exercise; the first one is the page's.
-SEEDS = range(1_001)
-FEW_SEEDS = range(101)
-#: Seeds of exercises whose nodes hear several hundred messages: a draw simulates each of them.
-SLOW = {"11b": range(101), "11c": range(51), "13a": range(101), "13b": range(101)}
+SEEDS = range(101)
+#: Ten times as many, a few minutes, in a thorough run.
+MANY = pytest.param(range(1_001), marks=[pytest.mark.thorough, pytest.mark.timeout(3_600)])
 
 
+@pytest.mark.parametrize("seeds", [SEEDS, MANY], ids=len)
 @pytest.mark.parametrize("exercise", [one.id for one in EXERCISES.values() if one.draw])
-def test_evidence_that_was_made_in_advance_does_not_fit(exercise):
-    seeds = SLOW.get(exercise, SEEDS)
+def test_evidence_that_was_made_in_advance_does_not_fit(exercise, seeds):
     assert len({repr(fed(exercise, seed)) for seed in seeds}) > 0.99 * len(seeds)
 
 
@@ -84,45 +84,32 @@ def test_each_suspect_differs_from_the_right_model_and_from_other_mistakes(name)
     assert tells_apart(*TABLES[name])
 
 
+@pytest.mark.parametrize("seeds", [SEEDS, MANY], ids=len)
 @pytest.mark.parametrize("name", DRAWN)
-def test_whatever_is_drawn_tells_each_suspect_from_the_right_model_and_from_other_mistakes(name):
+def test_whatever_is_drawn_tells_each_suspect_from_the_right_model_and_from_other_mistakes(
+    name, seeds
+):
     exercise, *models = DRAWN[name]
-    seeds = SLOW.get(exercise, SEEDS)
     assert all(tells_apart(fed(exercise, seed), *models) for seed in seeds)
-
-
-@pytest.mark.thorough
-@pytest.mark.timeout(3_600)
-@pytest.mark.parametrize("name", sorted(DRAWN.keys() & SLOW.keys()))
-def test_whatever_is_drawn_for_slow_exercises_tells_suspects_apart(name):
-    exercise, *models = DRAWN[name]
-    assert all(tells_apart(fed(exercise, seed), *models) for seed in SEEDS)
-
-
-@pytest.mark.thorough
-@pytest.mark.timeout(3_600)
-@pytest.mark.parametrize("exercise", SLOW)
-def test_evidence_for_slow_exercises_that_was_made_in_advance_does_not_fit(exercise):
-    assert len({repr(fed(exercise, seed)) for seed in SEEDS}) > 0.99 * len(SEEDS)
 
 
 @pytest.mark.parametrize("suspect", [page_09.TOO_SHORT, page_09.TOO_LONG])
 def test_work_of_another_length_is_not_right(suspect):
-    for work in (fed("09b", seed) for seed in FEW_SEEDS):
+    for work in (fed("09b", seed) for seed in SEEDS):
         assert suspect.model(work._replace(each=WORK + 1)) != suspect.model(work)
 
 
 @pytest.mark.parametrize("place", [0, 2])
 def test_limits_that_no_parameter_changes_are_right_where_they_are_the_defaults(place):
     fixed = [one for one in page_09.PLACE_SUSPECTS if one.mistake == "limits-fixed"]
-    for places in (fed("09c", seed) for seed in FEW_SEEDS):
+    for places in (fed("09c", seed) for seed in SEEDS):
         at_default = replace(places[place], low=20.0, high=26.0)
         assert all(one.model(at_default) == page_09._words()(at_default) for one in fixed)
 
 
 def test_other_limits_show_wherever_a_monitor_is_told_of_them():
     right = page_09._words()
-    for _, greenhouse, _ in (fed("09c", seed) for seed in FEW_SEEDS):
+    for _, greenhouse, _ in (fed("09c", seed) for seed in SEEDS):
         assert tells_apart(greenhouse, right, page_09.PLACE_SUSPECTS)
 
 
@@ -150,7 +137,7 @@ def drawn_modes(seed):
 )
 def test_each_policy_of_a_publisher_of_modes_shows_in_what_displays_hear(wrong, mistake):
     offers = replace(ONE, **wrong)
-    for modes in map(drawn_modes, FEW_SEEDS):
+    for modes in map(drawn_modes, SEEDS):
         done = page_08._heard_by_displays(modes, offers)
         assert not agree(done, page_08._heard_by_displays(modes, ONE))
         found = matching(modes, done, page_08.offer_suspects(modes, offers))
@@ -170,7 +157,7 @@ def test_each_policy_of_a_publisher_of_modes_shows_in_what_displays_hear(wrong, 
 )
 def test_each_policy_of_an_archive_shows_in_what_it_holds(wrong, mistake):
     asks = replace(ROOMY, **wrong)
-    for sensors in (fed("08b", seed) for seed in FEW_SEEDS):
+    for sensors in (fed("08b", seed) for seed in SEEDS):
         done = page_08._archive(sensors, asks)
         assert not agree(done, page_08._archive(sensors, ROOMY))
         found = matching(sensors, done, page_08.archive_suspects(sensors, [asks]))

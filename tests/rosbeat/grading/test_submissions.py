@@ -10,11 +10,14 @@ from datetime import datetime
 
 import pytest
 
-from grading_files import PAGE_03, PAGE_04, cell, notebook, page, zipped
+from grading_files import BLANK, PAGE_03, PAGE_04, cell, notebook, page, zipped
 from rosbeat.errors import GradingError
 from rosbeat.grading import uploads
+from rosbeat.grading.course_pages import course_pages, which_page
 from rosbeat.grading.deadlines import mark_late, read_due
 from rosbeat.grading.ledger import FILE as LEDGER
+from rosbeat.grading.notebook import read_notebook
+from rosbeat.grading.remarks import printable
 from rosbeat.grading.submissions import (
     MARKER,
     Owner,
@@ -568,3 +571,79 @@ def test_results_do_not_lie_among_submissions(tmp_path, out, is_apart, says):
     with pytest.raises(GradingError) as caught:
         require_apart(tmp_path / "class", tmp_path / out)
     says(caught.value, "inside the folder of submissions", "--out ~/class/grades")
+
+
+# Which page of the course a file is.
+
+
+def page_of(text, file, pages):
+    page = which_page(read_notebook(text.encode()), file, pages)
+    return page and page.lesson
+
+
+def test_the_pages_know_their_exercises(pages):
+    assert [(one.number, one.title) for one in pages] == [("03", "Write"), ("04", "Listen")]
+    assert [(one.exercise, one.id) for one in pages[0].wanted] == [("03a", "03a-cell")]
+    assert pages[0].wanted[0].blank == BLANK
+
+
+def test_what_a_page_is_counts_more_than_its_name(pages):
+    assert page_of(PAGE_04, "03_write.ipynb", pages) == "04_listen"
+    assert page_of(PAGE_04, "homework.ipynb", pages) == "04_listen"
+
+
+@pytest.mark.parametrize(
+    ("text", "file"),
+    [
+        (notebook(cell("x", id="04a-import")), "a"),
+        (notebook(cell("x"), lesson="04_listen"), "a"),
+        (notebook(cell("# Listen", "markdown")), "a"),
+        (notebook(cell("x")), "my_04_listen (2).ipynb"),
+    ],
+)
+def test_little_is_enough(text, file, pages):
+    assert page_of(text, file, pages) == "04_listen"
+
+
+def test_a_notebook_of_another_course_is_none(pages):
+    assert page_of(notebook(cell("import pandas")), "03_other.ipynb", pages) is None
+
+
+def test_metadata_that_is_removed_does_not_matter(pages):
+    whole = json.loads(PAGE_04)
+    for one in whole["cells"]:
+        one["metadata"] = {}
+    assert page_of(json.dumps(whole), "x", pages) == "04_listen"
+
+
+def test_a_folder_without_pages_is_refused(tmp_path, says):
+    with pytest.raises(GradingError) as caught:
+        course_pages(tmp_path)
+    says(caught.value, "no pages", "folder of the course")
+
+
+# Names of strangers' files, made safe to print.
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("Ana Müller 03.ipynb", "Ana Müller 03.ipynb"),
+        ("a\x1b[31mred", "a\\u001b[31mred"),
+        ("a\nb\r\tc", "a\\u000ab\\u000d\\u0009c"),
+        ("abc\u202egnp.exe", "abc\\u202egnp.exe"),
+        ("zero\u200bwidth", "zero\\u200bwidth"),
+        ("lone\ud800", "lone\\ud800"),
+        ("日本語", "日本語"),
+    ],
+)
+def test_no_character_of_a_name_changes_the_terminal(name, shown):
+    assert printable(name) == shown
+
+
+def test_a_long_name_is_cut():
+    assert len(printable("x" * 10_000)) == 120
+    assert printable("x" * 121) == "x" * 117 + "..."
+    assert printable("x" * 120) == "x" * 120
+    assert printable("\x1b" * 10_000, 12) == "\\u001b\\u0..."
+    assert printable("x" * 10_000, 10_000) == "x" * 10_000

@@ -1,4 +1,4 @@
-"""What goes into a spreadsheet, and up to Moodle and Canvas."""
+"""An instructor opens the tables in a spreadsheet, and takes them to Moodle and Canvas."""
 
 import csv
 import io
@@ -10,6 +10,7 @@ import pytest
 
 from graded_classes import HOSTILE, a_class, hostile_learner, mark, one_of_each
 from rosbeat.errors import GradingError
+from rosbeat.grading.csv_table import MOST_OF_A_CELL, cell, number
 from rosbeat.grading.marks import Gradebook, Graded
 from rosbeat.grading.remarks import Remark
 from rosbeat.grading.tables import canvas_csv, grades_csv, moodle_csv
@@ -22,6 +23,10 @@ NASTY = [
     "@a",
     "\t=1",
     "x;=1",
+    'a;"=1";=2',
+    ';"";=cmd|',
+    "x;;=1",
+    "; =1",
     "Points Possible",
 ]
 FORMULA = set("=+-@＝＋－＠")
@@ -84,6 +89,11 @@ def test_excel_is_told_that_it_is_utf_8():
     assert grades_csv(book()).encode().startswith(b"\xef\xbb\xbflearner,")
 
 
+def test_lines_end_as_spreadsheets_write_them():
+    text = grades_csv(book(of("moodle")))
+    assert text.count("\r\n") == text.count("\n") == 3
+
+
 @pytest.mark.parametrize("text", NASTY)
 @pytest.mark.parametrize("separator", ",;\t")
 def test_no_cell_is_a_formula_in_any_country(text, separator, wide_cells):
@@ -104,6 +114,57 @@ def test_hostile_names_leave_the_tables_whole(text):
     for table in (grades_csv(made), moodle_csv(made), canvas_csv(made)):
         assert max(len(one) for row in rows(table) for one in row) <= 32_767
         table.encode("utf-8")
+
+
+# A cell of a table.
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("Ana Müller", "Ana Müller"),
+        ("日本語 👩🏽", "日本語 👩🏽"),
+        ('=HYPERLINK("http://a.b","x")', '\'=HYPERLINK("http://a.b","x")'),
+        ("+1+1", "'+1+1"),
+        ("-2+3+cmd|' /C calc'!A0", "'-2+3+cmd|' /C calc'!A0"),
+        ("@SUM(A1)", "'@SUM(A1)"),
+        ("  =1+1", "'  =1+1"),
+        ("\t=1+1", "' =1+1"),
+        ("\r=1+1", "' =1+1"),
+        ('"=1+1', "'\"=1+1"),
+        ("＝1+1", "'＝1+1"),
+        ("'=1+1", "'=1+1"),
+        ("a;=1+1", "a;'=1+1"),
+        ('a;"=1+1', "a;\"'=1+1"),
+        ("; ;@a", "; ;'@a"),
+        ("a=b, c-d; e", "a=b, c-d; e"),
+        ("-", "-"),
+        ("= ", "= "),
+        ("\0=1+1", "\\u0000=1+1"),
+        ("\u202e=1+1", "\\u202e=1+1"),
+        ("one\r\ntwo\u2028three\tfour", "one two three four"),
+        ("\x1b[31mred", "\\u001b[31mred"),
+        ("\ud800", "\\ud800"),
+        ("", ""),
+    ],
+)
+def test_a_text_stays_a_text(text, shown):
+    assert cell(text) == shown
+    assert cell(shown) == shown
+
+
+def test_a_cell_fits_into_a_spreadsheet():
+    assert len(cell("x" * 100_000)) == MOST_OF_A_CELL
+    assert len(cell("=" * 100_000)) <= 32_767
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [(2, "2"), (2.0, "2"), (0.5, "0.5"), (1 / 3, "0.33333"), (10.0, "10"), (100, "100"),
+     (0.0, "0"), (-0.0, "0"), (-1e-9, "0"), (1e-5, "0.00001"), (0.1 + 0.2, "0.3")],
+)  # fmt: skip
+def test_a_number_is_short(value, shown):
+    assert number(value) == shown
 
 
 # Moodle.

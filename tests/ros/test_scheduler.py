@@ -1,23 +1,14 @@
-"""Interrupts, the agenda's bookkeeping, the chain guard, spans of time and their texts."""
+"""Inside virtual time: the order of what is due, and the end of endless chains."""
 
-import os
-import signal
-import sys
-import threading
 from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from rclpy.exceptions import InvalidHandle, NotInitializedException
-from rclpy.node import Node
+from rclpy.exceptions import InvalidHandle
 
-from rosbeat.errors import DurationError, EndlessChainError, NoSessionError
-from rosbeat.records import Fault, LogRecord
+from rosbeat.errors import EndlessChainError
 from rosbeat.ros import virtual_time
-from rosbeat.ros.console import fault_text, log_text, seconds_text
-from rosbeat.ros.context import Interrupts, show_briefly
-from rosbeat.ros.entities import callback_name, full_name
 from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.virtual_time import Agenda
 
@@ -116,67 +107,6 @@ def test_time_that_passes_resets_the_count():
         fire(virtual_time.MOST_FIRINGS + 1)
 
 
-def test_an_interrupt_that_became_another_error_is_not_lost():
-    before = signal.getsignal(signal.SIGINT)
-    interrupts = Interrupts()
-    with interrupts:
-        try:
-            os.kill(os.getpid(), signal.SIGINT)
-            threading.Event().wait(5)
-        except KeyboardInterrupt:
-            assert interrupts.pressed
-    with pytest.raises(KeyboardInterrupt):
-        interrupts.raise_if_pressed()
-    assert signal.getsignal(signal.SIGINT) is before
-
-
-def test_interrupts_are_left_alone_in_other_threads():
-    seen = []
-
-    def work():
-        with Interrupts() as interrupts:
-            seen.append((signal.getsignal(signal.SIGINT), interrupts.pressed))
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join()
-    assert seen == [(signal.getsignal(signal.SIGINT), False)]
-
-
 @given(st.integers(0, 10**9))
 def test_whole_seconds_are_exact(seconds):
     assert duration_ns(seconds) == seconds * 10**9
-
-
-@pytest.mark.parametrize("value", [None, "1", 1j, [], True, -0.1, float("nan"), 2e9])
-def test_other_spans_are_refused(value):
-    with pytest.raises(DurationError):
-        duration_ns(value)
-
-
-def test_texts():
-    assert seconds_text(1_234_567_890) == "1.234"
-    assert log_text(LogRecord(5 * 10**8, "WARN", "n", "text", "f", 3)) == "[WARN] [0.500] [n]: text"
-    assert "line" not in fault_text(Fault(0, "/n", "cb", "KeyError", "x", 0, "")).splitlines()[1]
-    assert callback_name(None) == "nothing"
-    assert callback_name(Handle(1)) == "Handle"
-    assert [full_name("a", space) for space in ("", "/", "x", "/x/y/")] == [
-        "/a", "/a", "/x/a", "/x/y/a",
-    ]  # fmt: skip
-
-
-def test_an_interrupt_shows_one_line_where_it_can():
-    interrupt = KeyboardInterrupt()
-    show_briefly(interrupt, "stopped at 3 s.")
-    assert interrupt._render_traceback_() == ["KeyboardInterrupt: stopped at 3 s."]
-
-
-def test_on_a_page_a_node_without_a_session_is_explained(monkeypatch):
-    with pytest.raises(NotInitializedException):  # in a program: rclpy's own words
-        Node("alone")
-    monkeypatch.setitem(sys.modules, "ipykernel.kernelapp", sys)
-    with pytest.raises(NoSessionError, match="no session is open") as caught:
-        Node("alone")
-    assert caught.value.means
-    assert "Session()" in caught.value.to_try
-    assert "the class itself, without brackets" in caught.value.to_try
