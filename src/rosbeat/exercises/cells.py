@@ -18,6 +18,7 @@ from types import FunctionType
 from typing import Any, TypeAlias
 
 from rosbeat.errors import ExerciseError, RosbeatError
+from rosbeat.exercises.withheld import Withheld
 
 #: IPython's shell, and what it tells about a cell; neither carries types.
 Shell: TypeAlias = Any
@@ -32,6 +33,8 @@ _DEFINED = re.compile(
     r"^(?:async\s+def|def|class)\s+(\w+)|^(\w+)\s*(?::[^=\n]+)?=(?!=)", re.MULTILINE
 )
 _SAVE = re.compile(r"%%save\s+(\S+)")
+#: A prediction that nobody has made yet.
+_ASKS = re.compile(r"""(?<![\w.])predict\(\s*["']_+["']""")
 _BLANK = re.compile(r"(?<!\w)_{4}(?!\w)")
 
 
@@ -79,6 +82,8 @@ class Cells:
         self._binder: dict[str, Run] = {}
         self._handed: dict[str, ast.expr] = {}
         self.worked_on = ""
+        #: What the cell that runs keeps back until its prediction is made, if it does.
+        self.withheld: Withheld | None = None
         #: The widget below the card of each exercise that was checked.
         self.cards: dict[str, Any] = {}
 
@@ -86,12 +91,17 @@ class Cells:
         """Note what there is before a cell runs (IPython's event `pre_run_cell`)."""
         raw, space = str(info.raw_cell), self._shell.user_ns
         self._begun.append((raw, {name: _mark(space.get(name)) for name in _names(raw)}))
+        if len(self._begun) == 1 and self.for_a_browser and _ASKS.search(raw):
+            self.withheld = Withheld(self._shell)
 
     def end(self, result: Info) -> None:
         """Note how a cell ended (IPython's event `post_run_cell`)."""
         if not self._begun:  # it has imported rosbeat, and nobody has seen it begin
             return
         _, before = self._begun.pop()
+        if self.withheld is not None and not self._begun:
+            self.withheld.end_of_cell()
+            self.withheld = None
         meta = self._metadata(result.info)
         for gone in meta.get("deletedCells") or ():
             self._last.pop(str(gone), None)

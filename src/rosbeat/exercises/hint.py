@@ -121,6 +121,24 @@ def hint(exercise: str = "", *, again: bool = False) -> Hint:
     return _newest(found, texts, standing)
 
 
+def next_hint(exercise: str) -> Hint:
+    """Show one hint more, for the button below a card: not what the card says, nor the answer.
+
+    Args:
+        exercise: The exercise's id.
+
+    Raises:
+        ExerciseError: If there is no such exercise.
+    """
+    found = find(exercise, "hint({})")
+    texts = found.hints or _READ_AGAIN
+    standing = progress_file().change(
+        found.id, lambda before: replace(before, lead="", hints=min(before.hints + 1, len(texts)))
+    )
+    shown = (_numbered(found.id, texts, standing.hints),)
+    return Hint(found.id, shown, next="" if standing.hints < len(texts) else "It was the last one.")
+
+
 def reveal(exercise: str) -> Hint:
     """Show the answer to an exercise at once, and note that it was shown.
 
