@@ -138,6 +138,7 @@ _OTHERS = (
     Mistake("index-error", "a place that a list does not have"),
     Mistake("calls-itself", "a function that calls itself without end"),
     Mistake("made-anew", "a publisher, a subscription or a timer made at each call"),
+    Mistake("slow-callback", "callbacks that take long"),
     Mistake("endless-chain", "callbacks that cause each other without end"),
     Mistake("raised", "an exception of another kind"),
     Mistake("no-node", "something that is not a node class"),
