@@ -56,6 +56,44 @@ def test_what_is_made_without_end_in_one_call_is_a_callback_that_does_not_return
     assert observe(make, 10, deadline=0.8).faults[-1].text == "still running after 0.8 s"
 
 
+class Busy(Node):
+    """Takes some wall time at each call, as code does on a machine that is busy."""
+
+    def __init__(self, calls, seconds):
+        super().__init__("busy")
+        self.left, self.seconds = calls, seconds
+        self.create_timer(0.001, self.tick)
+
+    def tick(self):
+        self.left -= 1
+        end = time.monotonic() + self.seconds
+        while time.monotonic() < end and self.left >= 0:
+            pass
+
+
+def test_slow_calls_get_more_time_than_an_endless_one():
+    observation = observe(partial(Busy, 40, 0.1), 0.05, deadline=3)
+    assert observation.faults == ()
+    assert len([one for one in observation.callbacks if one.name == "tick"]) == 50
+
+
+def test_what_is_slow_for_ever_is_not_said_to_be_endless():
+    fault = observe(partial(Busy, 10_000, 0.05), 10, deadline=2).faults[-1]
+    assert re.fullmatch(r"\d+ calls of callbacks took \d+ s", fault.text)
+    assert fault.callback == "tick"
+
+
+def test_an_endless_call_after_many_quick_ones_is_endless():
+    class Late(Busy):
+        def tick(self):
+            super().tick()
+            while self.left < 0:
+                pass
+
+    fault = observe(partial(Late, 8, 0.1), 10, deadline=2).faults[-1]
+    assert (fault.callback, fault.text) == ("tick", "still running after 2 s")
+
+
 def test_a_feeder_publishes_one_value_a_second_and_then_falls_silent():
     observation = observe(
         Echo, 9, others=[feeder("f", "in", "std_msgs/msg/Float32", [1.0, 2.5, -3.0])]

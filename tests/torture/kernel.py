@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import queue
+import re
 import signal
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from jupyter_client.blocking import BlockingKernelClient
 from jupyter_client.connect import write_connection_file
@@ -28,12 +30,14 @@ class Reply:
     Attributes:
         error: The exception's class name, or an empty string.
         text: What the cell printed, standard error included.
+        trace: What a page shows of the exception, without colours.
         seconds: From the interrupt, or else from the beginning, to the end of the cell.
     """
 
     error: str
     text: str
     seconds: float
+    trace: str = ""
 
 
 class Kernel:
@@ -67,10 +71,18 @@ class Kernel:
         self._log.close()
         self._folder.cleanup()
 
-    def run(self, code: str) -> Reply:
-        """Run a cell to its end."""
+    def run(self, code: str, sent: dict[str, object] | None = None) -> Reply:
+        """Run a cell to its end.
+
+        Args:
+            code: The cell.
+            sent: What a front end sends beside it, such as the cell's id (`cellId`).
+        """
         begin = time.monotonic()
-        return self._finish(self._client.execute(code), [], begin)
+        content = {"code": code, "silent": False, "store_history": True, "allow_stdin": False}
+        message = self._client.session.msg("execute_request", content, metadata=sent)
+        self._client.shell_channel.send(message)
+        return self._finish(str(message["header"]["msg_id"]), [], begin)
 
     def interrupt(self, code: str, after: float) -> Reply:
         """Run a cell that prints `go`; interrupt it so many seconds later."""
@@ -112,13 +124,15 @@ class Kernel:
                     raise
 
     def _finish(self, message: str, printed: list[str], begin: float) -> Reply:
-        error = None
-        while error is None:
-            error = self._listen(message, printed, begin + DEADLINE)
-        return Reply(error, "".join(printed), time.monotonic() - begin)
+        ended = None
+        while ended is None:
+            ended = self._listen(message, printed, begin + DEADLINE)
+        trace = re.sub(r"\x1b\[[\d;]*m", "", "\n".join(ended.get("traceback", ())))
+        seconds = time.monotonic() - begin
+        return Reply(str(ended.get("ename", "")), "".join(printed), seconds, trace)
 
-    def _listen(self, message: str, printed: list[str], deadline: float) -> str | None:
-        """Take one message; return the error's name, or an empty text, when the cell has ended."""
+    def _listen(self, message: str, printed: list[str], deadline: float) -> dict[str, Any] | None:
+        """Take one message; return the kernel's reply when the cell has ended."""
         try:
             heard = self._client.get_iopub_msg(timeout=max(0.01, deadline - time.monotonic()))
         except queue.Empty:
@@ -132,7 +146,7 @@ class Kernel:
             reply = self._client.get_shell_msg(timeout=DEADLINE)
             while reply["parent_header"].get("msg_id") != message:
                 reply = self._client.get_shell_msg(timeout=DEADLINE)
-            return str(reply["content"].get("ename", ""))
+            return dict(reply["content"])
         return None
 
 

@@ -295,6 +295,12 @@ _ONCE = (
 )
 
 
+_QUICK = (
+    "Each callback returns, and takes long. What does it do at each call that it could do once, or "
+    "not at all? If the computer is busy with something else, run the check again."
+)
+
+
 def _stuck(fault: Fault) -> Meaning:
     anew = re.match(r"(\d+ (?:publishers|subscriptions|timers)\b.*) in (\d+) calls$", fault.text)
     if anew:
@@ -302,6 +308,10 @@ def _stuck(fault: Fault) -> Meaning:
             f"{fault.callback} made {anew[1]} in {anew[2]} calls, and each one slows the node down."
         )
         return Meaning("made-anew", means, _ONCE)
+    slow = re.match(r"(\d+) calls of callbacks took", fault.text)
+    if slow:
+        means = f"The run is too slow: {fault.text}, and it was not over."
+        return Meaning("slow-callback", means, _QUICK)
     waits = re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
     loops = re.match(r"(while|for)\b", fault.code) is not None
     if fault.callback == "__init__":

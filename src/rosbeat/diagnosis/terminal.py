@@ -458,7 +458,7 @@ def _cd_with_a_blank_too_many(_: Situation, call: Call, __: Found) -> Diagnosis:
     return Diagnosis(
         "space-too-many",
         f"`cd` goes to one folder, and {len(call.words) - 1} words follow it.",
-        "A path has no blank in it: `/` joins its parts. "
+        "A path has no space in it: `/` joins its parts. "
         "If a name has one, put quotes around the whole path.",
     )
 
@@ -556,7 +556,7 @@ _MKDIR_RULES = (
         "mkdir",
         r"mkdir: missing operand",
         "`mkdir` was not told which folder to make.",
-        "Its name, or a path to it, comes behind a blank.",
+        "Its name, or a path to it, comes after a space.",
     ),
 )
 
@@ -903,7 +903,7 @@ _OPTION_RULES = (
         _CREATE,
         "",
         "There are commas behind --dependencies.",
-        "Names are separated by blanks, not by commas.",
+        "Names are separated by spaces, not by commas.",
         lambda seen, call, _: seen.code and "," in "".join(call.after("--dependencies")),
     ),
 )
@@ -1367,7 +1367,7 @@ _RULES: Rules = (
         "space-missing",
         "cd{1}",
         rf"{_BASH}cd([.~/][^:]*): ",
-        "A blank is missing after `cd`:",
+        "A space is missing after `cd`:",
         "write  cd {1}",
     ),
     Row(
@@ -1376,7 +1376,7 @@ _RULES: Rules = (
         rf"{_BASH}({_SETUP}): Permission denied",
         "{1} is not to be started: it tells something to this terminal, and a program of its own "
         "could not.",
-        "Put `source` and a blank before it: source {1}",
+        "Put `source` and a space before it: source {1}",
     ),
     *_COMMAND_RULES,
     *_MKDIR_RULES,

@@ -80,7 +80,7 @@ VERSION = 1
 LOOKS = {
     PASSED: (RIGHT, "passed"),
     FAILED: (WRONG, "not there yet"),
-    NOT_ATTEMPTED: (OPEN, "not attempted yet"),
+    NOT_ATTEMPTED: (OPEN, "still open"),
 }
 
 

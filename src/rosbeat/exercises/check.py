@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from textwrap import wrap
 from typing import Any
@@ -10,6 +11,8 @@ from IPython.display import display
 
 from rosbeat.errors import ExerciseError, called_as
 from rosbeat.exercises.cards import Shown
+from rosbeat.exercises.cells import Cells, cells_of, worked_on
+from rosbeat.exercises.exercise import Exercise, not_attempted
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
 from rosbeat.exercises.registry import find, which_exercise
@@ -32,30 +35,65 @@ def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
     are is kept beside your workspace; `progress()` shows it.
 
     Args:
-        exercise: The exercise's id, such as `"03a"`.
-        answer: What the cell above made: a node class, the workspace or a terminal.
+        exercise: The exercise's id, such as `"03a"`; by default the one that you worked on last.
+        answer: What the cell above made: a node class, the workspace or a terminal; by default
+            what was checked last.
 
     Returns:
         The outcome, which Jupyter shows.
 
     Raises:
-        ExerciseError: If there is no such exercise, or no answer was handed over; where nbgrader
-            runs the page, also if the answer does not get all points.
+        ExerciseError: If there is no such exercise, no answer was handed over, or the cell above
+            did not run; where nbgrader runs the page, also if the answer does not get all points.
     """
     if exercise == "" and answer is _NOTHING:
-        raise which_exercise("check", "check({}, ...)")
+        exercise = worked_on()
+        if not exercise:
+            raise which_exercise("check", "check({}, ...)")
     found = find(exercise, "check({}, ...)")
+    cells = cells_of()
+    if cells is not None:
+        cells.ask(found.id)
     if answer is _NOTHING:
-        raise ExerciseError(
-            f"`check` was given no answer to exercise {found.id}.",
-            "It looks at what the cell above has made, such as a class.",
-            f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
-        )
-    outcome = found.judged(found.observed(answer))
-    standing = progress_file().change(found.id, lambda before: before.after(outcome))
-    told = _with_hints(outcome, standing.hints) if found.tells_hints else outcome
+        answer = _current(found, cells)
+    outcome = _judge(found, answer, cells)
     execution = graded_runs.execution()
-    return for_nbgrader(told, execution) if execution else Shown(told)
+    if execution:
+        return for_nbgrader(outcome, execution)
+    if cells is None or not cells.for_a_browser:
+        return Shown(outcome)
+    # The widgets take a while to load, and only a notebook in a browser shows them.
+    from rosbeat.exercises.check_card import Card
+
+    return Card(outcome, lambda: _judge(found, _current(found, cells), cells), cells.cards)
+
+
+def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
+    """Return the answer that was checked last, as the kernel has it now.
+
+    Raises:
+        ExerciseError: If there is none.
+    """
+    with suppress(LookupError):
+        if cells is not None:
+            return cells.answer(found.id)
+    raise ExerciseError(
+        f"`check` was given no answer to exercise {found.id}.",
+        "It looks at what the cell above has made, such as a class.",
+        f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
+    )
+
+
+def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Outcome:
+    """Judge an answer, and remember the outcome.
+
+    Raises:
+        ExerciseError: If the cell above did not run, so that the answer is an earlier one.
+    """
+    is_blank = cells is not None and cells.refuse_stale(found.id)
+    verdict = found.outcome(not_attempted()) if is_blank else found.judged(found.observed(answer))
+    standing = progress_file().change(found.id, lambda before: before.after(verdict))
+    return _with_hints(verdict, standing.hints) if found.tells_hints else verdict
 
 
 def _with_hints(outcome: Outcome, hints: int) -> Outcome:

@@ -7,8 +7,9 @@ from importlib.resources import files
 from textwrap import indent
 
 from rosbeat.diagnosis.mistakes import MISTAKES
-from rosbeat.errors import called_as
+from rosbeat.errors import ExerciseError, called_as
 from rosbeat.exercises.cards import HELP, code, framed, words
+from rosbeat.exercises.cells import cells_of, worked_on
 from rosbeat.exercises.exercise import Exercise
 from rosbeat.exercises.progress import Standing, progress_file
 from rosbeat.exercises.registry import find, which_exercise
@@ -93,7 +94,7 @@ def hint(exercise: str = "", *, again: bool = False) -> Hint:
     If the last check has named a mistake, the first call after it is about that mistake.
 
     Args:
-        exercise: The exercise's id, such as `"03a"`.
+        exercise: The exercise's id, such as `"03a"`; by default the one that you worked on last.
         again: Show what was shown so far, and nothing new.
 
     Returns:
@@ -103,9 +104,12 @@ def hint(exercise: str = "", *, again: bool = False) -> Hint:
     Raises:
         ExerciseError: If there is no such exercise; it offers those of the page.
     """
+    exercise = worked_on() if exercise == "" else exercise
     if exercise == "":
         raise which_exercise("hint", "hint({})")
     found = find(exercise, "hint({})")
+    if (cells := cells_of()) is not None:
+        cells.worked_on = found.id
     texts = found.hints or _READ_AGAIN
     file = progress_file()
     if again:
@@ -115,6 +119,44 @@ def hint(exercise: str = "", *, again: bool = False) -> Hint:
     if before.lead:
         return _about(before, found, texts)
     return _newest(found, texts, standing)
+
+
+def next_hint(exercise: str) -> Hint:
+    """Show one hint more, for the button below a card: not what the card says, nor the answer.
+
+    Args:
+        exercise: The exercise's id.
+
+    Raises:
+        ExerciseError: If there is no such exercise.
+    """
+    found = find(exercise, "hint({})")
+    texts = found.hints or _READ_AGAIN
+    standing = progress_file().change(
+        found.id, lambda before: replace(before, lead="", hints=min(before.hints + 1, len(texts)))
+    )
+    shown = (_numbered(found.id, texts, standing.hints),)
+    return Hint(found.id, shown, next="" if standing.hints < len(texts) else "It was the last one.")
+
+
+def reveal(exercise: str) -> Hint:
+    """Show the answer to an exercise at once, and note that it was shown.
+
+    Args:
+        exercise: The exercise's id.
+
+    Raises:
+        ExerciseError: If there is no such exercise, or no answer here.
+    """
+    found = find(exercise, "hint({})")
+    if not are_here():
+        raise ExerciseError(
+            f"The answer to exercise {found.id} is not here.",
+            "A course that was released to a class comes without answers.",
+            f'Take one hint more: hint("{found.id}").',
+        )
+    progress_file().change(found.id, lambda before: replace(before, answer=True))
+    return Hint(found.id, answer=_answer(found.id))
 
 
 def _about(standing: Standing, exercise: Exercise[object], texts: tuple[str, ...]) -> Hint:

@@ -134,9 +134,9 @@ def _made_by(place: str, line: str) -> set[str] | None:
     Returns:
         None if only a shell could tell, or the line does something else.
     """
-    words = line.split()
+    words = next(iter(_commands(line)), [""])
     _, inside, below = f"{place}/".partition(f"{NAME}/")
-    plain = re.fullmatch(r"[\w\s./-]+", line) and words[0] == "mkdir" and inside
+    plain = not re.search(r"[^\w\s./'\"-]", line) and words[0] == "mkdir" and inside
     options = {one for one in words if one.startswith("-")}
     if not plain or options - {"-p", "-v", "-pv", "-vp", "--parents", "--verbose"}:
         return None
@@ -199,7 +199,7 @@ _PARENTS = "Which option of mkdir makes the folders in between, too?"
 _ONE_LEVEL = "One level is missing. A path may name several folders: outer/inner."
 _BETWEEN = "One level is missing: what lies between the two?"
 _SIDE_BY_SIDE = (
-    "Names with a blank between them become folders side by side; `/` puts one inside the other. A "
+    "Names with a space between them become folders side by side; `/` puts one inside the other. A "
     "relative path begins where the terminal is."
 )
 _OUTER_FIRST = "The outer folder comes first, then the one that is in it."
@@ -371,7 +371,7 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
     """
     first, rest = words[0], words[1:]
     if first.startswith("cd") and first[2:3] in tuple("./~\\"):
-        return "space-missing", "A blank belongs between `cd` and the path."
+        return "space-missing", "A space belongs between `cd` and the path."
     if "\\" in " ".join(words):
         return "path-separator", "Paths use `/` between two names, on Linux everywhere."
     if first.startswith((".", "/")):
@@ -379,7 +379,7 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
     if first not in ("cd", "pushd"):
         return ("command-misspelled" if alike(first, "cd") else UNKNOWN), _UPWARDS
     if len(rest) > 1 and not rest[0].startswith("-"):
-        return "space-too-many", "A path has no blank in it: `/` joins its parts."
+        return "space-too-many", "A path has no space in it: `/` joins its parts."
     if _is_absolute(rest):
         return "absolute-path", _RELATIVE
     # Where the path leads from the start, whether there is such a folder or not.

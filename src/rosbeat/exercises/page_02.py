@@ -86,7 +86,7 @@ def _slips_of_form(manifest: Manifest, path: str) -> Iterator[Diagnosis]:
         yield Diagnosis(
             "manifest-unreadable",
             f"{path} cannot be read: {problem}.",
-            "`<?xml` has to be the very first line, with nothing before it, not even a blank."
+            "`<?xml` has to be the very first line, with nothing before it, not even a space."
             if "declaration not at start" in problem
             else "In XML, what is opened with <tag> is closed with </tag>. `<` and `&` in a text "
             "are written &lt; and &amp;.",
@@ -328,7 +328,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "Two places of the manifest are still open. Look for the blanks.",
             "One says in a sentence what the package does; the other says what others may do "
             "with it.",
-            "A licence is named by its short name, without blanks. ROS itself uses one of them, "
+            "A licence is named by its short name, without spaces. ROS itself uses one of them, "
             "and the text above the cell names it.",
         ),
     ),

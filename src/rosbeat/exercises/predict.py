@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from math import isclose, isnan
 from numbers import Real
 
 from rosbeat.errors import called_as
 from rosbeat.exercises.cards import OPEN, RIGHT, WRONG, framed, words
+from rosbeat.exercises.cells import cells_of
+from rosbeat.exercises.withheld import Withheld
 
 # The one number, range, or yes or no, that a text says: `about 26`, `20-30`, `No, it does not`.
 
@@ -309,6 +312,41 @@ class Prediction:
         return {"text/plain": str(self), "text/html": self.html()}
 
 
+class Question(Prediction):
+    """Ask for a prediction where a browser can, and show what happened only after it.
+
+    Args:
+        unmade: What is said without a prediction.
+        answer: Compares a guess with what happened.
+        form: How a guess is written.
+        withheld: What the cell has shown so far.
+    """
+
+    _ask: Callable[[], None]
+
+    def __init__(
+        self,
+        unmade: Prediction,
+        answer: Callable[[object], Prediction],
+        form: str,
+        withheld: Withheld,
+    ) -> None:
+        super().__init__(unmade.sign, unmade.sentence)
+        object.__setattr__(self, "_ask", lambda: _ask(unmade, answer, form, withheld))
+
+    def _ipython_display_(self) -> None:
+        self._ask()
+
+
+def _ask(
+    unmade: Prediction, answer: Callable[[object], Prediction], form: str, withheld: Withheld
+) -> None:
+    # The widgets take a while to load, and only a notebook in a browser shows them.
+    from rosbeat.exercises.predict_card import ask
+
+    ask(unmade, answer, form, withheld)
+
+
 @called_as('predict("20-30", reading)')
 def predict(
     guess: object, happened: object, *, tolerance: float = 0.0, because: str = ""
@@ -326,7 +364,13 @@ def predict(
         Both, side by side, which Jupyter shows. It costs no points to be wrong.
     """
     if is_blank(guess):
-        return Prediction(OPEN, f"No prediction yet. It was {told(happened)}.")
+        unmade = Prediction(OPEN, f"No prediction yet. It was {told(happened)}.")
+        cells = cells_of()
+        if cells is None or cells.withheld is None or not cells.withheld.ask():
+            return unmade
+        answer = partial(predict, happened=happened, tolerance=tolerance, because=because)
+        form = "a few words" if isinstance(happened, str) else form_of(happened)
+        return Question(unmade, answer, form, cells.withheld)
     agrees = compared(guess, happened, tolerance)
     if agrees is None:
         asked = f"write {form_of(happened)}"

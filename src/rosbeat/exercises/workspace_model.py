@@ -136,7 +136,10 @@ def diagnose_entries(package: Package, programs: tuple[str, str]) -> Diagnosis |
             return _diagnose_missing(package, mismatch.at, mismatch.right in targets.values())
         evidence = f"{mismatch.at} would call {mismatch.done[0]}."
         other = "It should call main in the file of the same name."
-        return Diagnosis("entry-point-target", evidence, other)
+        is_file_of_other = mismatch.done[0] in {target for (target,) in right.values()}
+        return Diagnosis(
+            "other-function" if is_file_of_other else "entry-point-target", evidence, other
+        )
 
     return diagnose(right, done, right, _SUSPECTS, describe) or _diagnose_installation(package)
 

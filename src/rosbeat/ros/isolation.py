@@ -39,6 +39,8 @@ _EVERY = 0.001
 _FIRST = 0.1
 #: Seconds after the second exception and each later one, in turn.
 _SWEEP = [k * 1e-6 for k in (1, 2, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256)]
+#: Seconds between two looks at code that may get more time, and seconds that it has in all.
+_LOOK, _AT_MOST = 0.5, 15.0
 #: Seconds that rosbeat's own code and rclpy's have to tidy up, between two exceptions.
 _PATIENCE = 0.6
 #: Seconds that code may go on after Interrupt, if it catches even that.
@@ -71,14 +73,19 @@ class Deadline:
         seconds: Time limit for the block, in seconds of wall time; `passed` tells whether the block
             took longer.
         noting: Called once, at the moment when the time is up.
+        gets_on: Tells whether the code has got on since it was asked last, such as to another
+            callback. Then the time begins anew, up to three times as much in all: on a busy machine
+            slow code is not taken for endless code.
     """
 
     def __init__(
         self,
         seconds: float,
         noting: Callable[[], object] = bool,
+        gets_on: Callable[[], bool] | None = None,
     ) -> None:
         self.seconds = seconds
+        self._gets_on = gets_on
         self.passed = self.interrupted = False
         self._where: tuple[str, int, dict[str, Any]] | None = None
         self._noting = noting
@@ -90,6 +97,7 @@ class Deadline:
         self._base = sys._getframe(1)
         self._began = _now()
         self._until = self._began + self.seconds
+        self._latest = self._began + max(self.seconds, min(3 * self.seconds, _AT_MOST))
         if self._in_main:
             self._take_signals()
         self._open = True
@@ -128,7 +136,10 @@ class Deadline:
         vars(signal).update(_RESERVED)
         self._alarm_before = _signal(signal.SIGALRM, self._ring)
         first = max(1e-6, self._until - _now())
-        self._timer_before = _setitimer(signal.ITIMER_REAL, first, _FIRST)
+        if self._gets_on is not None:
+            first = min(first, _LOOK)
+        again = _FIRST if self._gets_on is None else min(_FIRST, first)
+        self._timer_before = _setitimer(signal.ITIMER_REAL, first, again)
         self._interrupt_before = signal.getsignal(signal.SIGINT)
         if callable(self._interrupt_before):
             _signal(signal.SIGINT, self._interrupt)
@@ -145,7 +156,11 @@ class Deadline:
 
     def _ring(self, number: int, frame: FrameType | None) -> None:
         """Raise in the code that is running, if its time is up: the handler of `SIGALRM`."""
-        if not self._open or self._raising or _now() < self._until:
+        if not self._open or self._raising:
+            return
+        if self._gets_on is not None and not (self.passed or self.interrupted):
+            self._give_time(self._gets_on)
+        if _now() < self._until:
             return
         self._raising = True  # the next alarm may come while this one is being answered
         try:
@@ -159,6 +174,15 @@ class Deadline:
                 if self._raised > 1:
                     _setitimer(signal.ITIMER_REAL, _SWEEP[self._raised % len(_SWEEP)], _EVERY)
                 raise DeadlinePassed
+        finally:
+            self._raising = False
+
+    def _give_time(self, gets_on: Callable[[], bool]) -> None:
+        self._raising = True  # a look may take longer than the timer
+        try:
+            with suppress(Exception):  # a node may have properties of its own
+                if gets_on():
+                    self._until = max(self._until, min(_now() + self.seconds, self._latest))
         finally:
             self._raising = False
 

@@ -212,6 +212,10 @@ class Recorder:
         self._callback_times.append(time_ns)
         self._callback_labels.append(label)
 
+    def calls(self) -> int:
+        """Return how many callbacks have begun so far."""
+        return len(self._callback_times)
+
     def samples(self, topic: str | None = None) -> Iterator[Sample]:
         """Return messages in order of publishing, of one topic or of all."""
         for k in range(len(self._sample_copies)):

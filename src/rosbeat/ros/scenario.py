@@ -361,7 +361,10 @@ class _Run:
         self._session = Session(seed=seed)
         self._world = self._session._world
         self._steps = Steps(self._session, steps)
-        self._deadline = Deadline(deadline, self._note_expiry)
+        self._deadline = Deadline(deadline, self._note_expiry, self._gets_on)
+        self._calls = 0  # of callbacks, when the deadline looked last
+        self._called_at = self._took = 0.0  # when it saw a new one; seconds until the time was up
+        self._is_slow = False
         self._faults: list[Fault] = []
         self._late: Fault | None = None  # of a callback or constructor that never came to an end
         self._slept = 0  # in the constructor
@@ -372,6 +375,7 @@ class _Run:
 
     def play(self) -> None:
         """Run everything; whatever is raised becomes a fault."""
+        self._began = time.monotonic()
         # What has to be put back stands outside of the deadline, which hits what it finds.
         with self._world.running([self._answer.make]), self._deadline:
             run_in_generator(self._play)
@@ -473,7 +477,19 @@ class _Run:
             return "", "__init__"
         return ("", "run") if calling is None else (calling.node, calling.name)
 
+    def _gets_on(self) -> bool:
+        """Return whether a callback has begun since the last look, and not made things anew."""
+        before, self._calls = self._calls, self._world.recorder.calls()
+        if self._calls == before:
+            return False
+        self._called_at = time.monotonic()
+        return not self._made_anew(*self._callback())
+
     def _note_expiry(self) -> None:
+        now = time.monotonic()
+        # An endless call has had all of the time for itself, unless the run had none left.
+        self._is_slow = now - self._called_at < self._deadline.seconds / 2
+        self._took = now - self._began
         # Not `len`: the code that is running may have replaced it.
         self._expired = self._callback(), self._world.recorder.faults.__len__()
 
@@ -496,7 +512,8 @@ class _Run:
             callback, known = self._expired
             text = f"still running after {deadline.seconds:g} s"
             with Deadline(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
-                text = self._made_anew(*callback) or text
+                slow = f"{self._calls} calls of callbacks took {self._took:.0f} s"
+                text = self._made_anew(*callback) or (slow if self._is_slow else text)
             now = self._world.now()
             # What was raised after the deadline was raised because of it.
             faults[known:] = [Fault(now, *callback, "DeadlinePassed", text, *deadline.place)]
@@ -578,7 +595,8 @@ def observe(
         start: How the answer is started.
         seed: Seed of the random numbers that nodes draw.
         steps: What is done while it runs; each that was done is a callback of the kind `step`.
-        deadline: Seconds of wall time after which it is broken off.
+        deadline: Seconds of wall time after which it is broken off; while callbacks return and
+            others begin, it begins anew, within limits.
 
     Raises:
         KeyboardInterrupt: If Interrupt was pressed.

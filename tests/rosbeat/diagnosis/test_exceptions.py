@@ -315,6 +315,14 @@ def test_what_is_made_at_each_call_is_no_callback_that_does_not_return(what):
     assert "once, in the constructor" in found.hint
 
 
+def test_many_slow_calls_are_no_callback_that_does_not_return():
+    late = fault("DeadlinePassed", "612 calls of callbacks took 15 s", "x = sum(self.all)")
+    found = diagnose_fault(late)
+    assert found.mistake == "slow-callback"
+    assert "not return" not in found.evidence + found.hint
+    assert "612 calls of callbacks took 15 s" in found.evidence
+
+
 @pytest.mark.parametrize(
     ("text", "first"),
     [

@@ -13,7 +13,7 @@ from rosbeat.records import Outcome, Part
 OUTCOMES = {
     "passed": Outcome("03a", "passed", "Ten readings.", remarks=("There is a shorter way.",)),
     "not there yet": failed("03a", "Nine readings.", "Count again."),
-    "not attempted yet": replace(not_attempted(), exercise="03a"),
+    "still open": replace(not_attempted(), exercise="03a"),
 }
 
 
@@ -50,7 +50,7 @@ def test_a_failed_outcome_says_how_to_get_more_help():
     text, html = views(OUTCOMES["not there yet"])
     assert text.endswith('More help: hint("03a")')
     assert "hint(&quot;03a&quot;)" in html
-    assert all("hint(" not in view for view in views(OUTCOMES["not attempted yet"]))
+    assert all("hint(" not in view for view in views(OUTCOMES["still open"]))
 
 
 def test_points_are_told_if_there_are_several_and_something_was_tried():

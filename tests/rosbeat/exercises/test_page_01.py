@@ -23,6 +23,22 @@ def test_a_better_try_counts_more_than_what_is_left_of_an_old_one():
 
 
 @pytest.mark.parametrize(
+    ("line", "status"),
+    [
+        ("mkdir -p resources/sounds/alarm", "passed"),
+        ("mkdir -p 'resources/sounds/alarm'", "passed"),
+        ("mkdir -p resources/sounds", "failed"),
+        ('mkdir -p "resources/sounds"', "failed"),
+        ("mkdir -p $HOME/sounds/alarm", "passed"),  # only a shell could tell
+    ],
+)
+def test_of_a_folder_from_before_what_was_typed_now_counts(line, status):
+    folders = ("resources/sounds", "resources/sounds/alarm")
+    assert made(*folders, is_older=True, tried=((PLACE, line),)).status == status
+    assert made(*folders, tried=((PLACE, line),)).status == "passed"
+
+
+@pytest.mark.parametrize(
     ("folder", "left"),
     [
         ("resources/Sounds/alarm", "Sounds in resources"),

@@ -64,6 +64,17 @@ def test_a_wrong_script_says_what_is_wrong(judged, old, new, evidence):
     assert outcome.hint
 
 
+def test_a_function_of_the_other_file_leads_somewhere(judged):
+    swapped = (("publisher:main", "x:main"), ("subscriber:main", "publisher:main"),
+               ("x:main", "subscriber:main"))  # fmt: skip
+    renamed = (("'temperature_publisher =", "'sensor ="),
+               ("'temperature_subscriber =", "'temperature_publisher ="))  # fmt: skip
+    for edits in (swapped, renamed):
+        outcome = judged(*edits)
+        assert outcome.mistake == "other-function"
+        assert "leads nowhere" not in str(outcome)
+
+
 def test_every_flaw_of_an_entry_point_has_words():
     assert set(workspace_model.FLAW_HINTS) == set(FLAWS)
     assert {one.mistake for one in FLAWS.values()} <= set(MISTAKES)

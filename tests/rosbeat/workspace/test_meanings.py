@@ -95,7 +95,7 @@ def required(names, command="ros2 pkg create"):
         ("cd scr", f"bash: line 1: cd: scr: {NO_FILE}", "Did you mean src?"),
         ("cd nothing_like_it", f"bash: cd: nothing_like_it: {NO_FILE}", "`pwd`"),
         ("cd../../src", f"bash: cd../../src: {NO_FILE}", "write  cd ../../src"),
-        ("cd..", "bash: cd..: command not found", "A blank is missing after `cd`"),
+        ("cd..", "bash: cd..: command not found", "A space is missing after `cd`"),
         # Programs and files.
         ("colcn build", "bash: line 1: colcn: command not found", "Did you mean `colcon`?"),
         ("rso2 run a b", "bash: rso2: command not found", "Did you mean `ros2`?"),
@@ -126,7 +126,7 @@ def required(names, command="ros2 pkg create"):
         ("ros2 pkg create a", "'ament_cmake' is left out here", "Add it; the rest"),
         ("ros2 pkg create --build-type ament_cmake a", "is left out here", "Write ament_python"),
         (CREATE, "'a-b' cannot be the name of a package: '-' is minus", "small letters"),
-        (f"{CREATE}, a", "Aborted!", "by blanks, not by commas."),
+        (f"{CREATE}, a", "Aborted!", "by spaces, not by commas."),
         ("colcon build", NONE, "holds a package.xml"),
         ("colcon test --packages-select a", f"ignoring unknown package 'a'{NONE}", "it tested no"),
         ("colcon build --packages-select a symlink-install",

@@ -1,0 +1,385 @@
+"""Remember how the cells of exercises ended, so that a check knows what it judges.
+
+JupyterLab sends a cell's id and metadata with its code (`execute_request`), and the metadata of a
+page of the course name the exercise. Where nobody sends them, as under nbclient, nbval and
+nbgrader, nothing is remembered of exercises, and nothing here stops a check.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from textwrap import dedent, shorten
+from types import FunctionType
+from typing import Any, TypeAlias
+
+from rosbeat.errors import ExerciseError, RosbeatError
+from rosbeat.exercises.withheld import Withheld
+
+#: IPython's shell, and what it tells about a cell; neither carries types.
+Shell: TypeAlias = Any
+Info: TypeAlias = Any
+Answer: TypeAlias = Any
+
+#: Characters of what a cell raised that are shown.
+_LONGEST = 200
+_HELD_AS = "_rosbeat_cells"
+#: What a line without indentation defines, also in a cell that cannot be read as Python.
+_DEFINED = re.compile(
+    r"^(?:async\s+def|def|class)\s+(\w+)|^(\w+)\s*(?::[^=\n]+)?=(?!=)", re.MULTILINE
+)
+_SAVE = re.compile(r"%%save\s+(\S+)")
+#: A prediction that nobody has made yet.
+_ASKS = re.compile(r"""(?<![\w.])predict\(\s*["']_+["']""")
+_BLANK = re.compile(r"(?<!\w)_{4}(?!\w)")
+
+
+@dataclass(frozen=True)
+class Run:
+    """Hold how one run of a cell ended.
+
+    Attributes:
+        number: Counts the runs of this kernel.
+        cell: The cell's id; empty if the front end sent none.
+        exercise: Id of the exercise whose cell it is, or an empty text.
+        names: What the cell defines, as it is written.
+        bound: Those of them that this run really defined.
+        failure: What it raised and in which line, such as `line 7: SyntaxError: invalid syntax`;
+            empty if it ran to its end.
+        blank: Whether it stopped at a blank, `____`.
+        file: The file that it was to save, and did not; None if there is none.
+        stamp: When that file was changed last, in nanoseconds; 0 if it is not there.
+    """
+
+    number: int
+    cell: str
+    exercise: str = ""
+    names: tuple[str, ...] = ()
+    bound: tuple[str, ...] = ()
+    failure: str = ""
+    blank: bool = False
+    file: Path | None = None
+    stamp: int = 0
+
+
+class Cells:
+    """Follow the cells that a kernel runs.
+
+    Args:
+        shell: The kernel's shell.
+    """
+
+    def __init__(self, shell: Shell) -> None:
+        self._shell = shell
+        self._count = 0
+        # Of the cell that runs, and of those that it runs: the text, and what its names were.
+        self._begun: list[tuple[str, dict[str, object]]] = []
+        self._last: dict[str, Run] = {}
+        self._binder: dict[str, Run] = {}
+        self._handed: dict[str, ast.expr] = {}
+        self.worked_on = ""
+        #: What the cell that runs keeps back until its prediction is made, if it does.
+        self.withheld: Withheld | None = None
+        #: The widget below the card of each exercise that was checked.
+        self.cards: dict[str, Any] = {}
+
+    def begin(self, info: Info) -> None:
+        """Note what there is before a cell runs (IPython's event `pre_run_cell`)."""
+        raw, space = str(info.raw_cell), self._shell.user_ns
+        self._begun.append((raw, {name: _mark(space.get(name)) for name in _names(raw)}))
+        if len(self._begun) == 1 and self.for_a_browser and _ASKS.search(raw):
+            self.withheld = Withheld(self._shell)
+
+    def end(self, result: Info) -> None:
+        """Note how a cell ended (IPython's event `post_run_cell`)."""
+        if not self._begun:  # it has imported rosbeat, and nobody has seen it begin
+            return
+        _, before = self._begun.pop()
+        if self.withheld is not None and not self._begun:
+            self.withheld.end_of_cell()
+            self.withheld = None
+        meta = self._metadata(result.info)
+        for gone in meta.get("deletedCells") or ():
+            self._last.pop(str(gone), None)
+        self._count += 1
+        marks = meta.get("rosbeat") or {}
+        cell, exercise = str(meta.get("cellId") or ""), str(marks.get("exercise") or "")
+        run = self._ended(result, Run(self._count, cell, exercise), before)
+        self._binder.update(dict.fromkeys(run.bound, run))
+        if run.exercise:
+            self._last[run.cell] = run
+        self.worked_on = run.exercise or self.worked_on
+
+    @property
+    def for_a_browser(self) -> bool:
+        """Return whether a notebook in a browser runs this cell: it sends the cell's id."""
+        return bool(self._begun and self._sent().get("cellId"))
+
+    def ask(self, exercise: str) -> None:
+        """Note that the cell that runs asks for a check of an exercise, and of what.
+
+        Args:
+            exercise: The exercise's id.
+        """
+        self.worked_on = exercise
+        expression = _answer_in(self._begun[0][0], exercise) if self._begun else None
+        if expression is not None:
+            self._handed[exercise] = expression
+
+    def answer(self, exercise: str) -> Answer:
+        """Return the answer to an exercise as it is now.
+
+        Args:
+            exercise: The exercise's id.
+
+        Raises:
+            LookupError: If no cell has handed one to `check`, or defined one.
+            Exception: What the expression raises that a cell has handed over.
+        """
+        expression = self._handed.get(exercise)
+        if expression is not None:
+            return eval(
+                compile(ast.Expression(expression), "<answer>", "eval"), self._shell.user_ns
+            )
+        runs = [one for one in self._last.values() if one.exercise == exercise and one.bound]
+        if not runs:
+            raise LookupError(exercise)
+        return self._shell.user_ns[max(runs, key=lambda one: one.number).bound[-1]]
+
+    def refuse_stale(self, exercise: str) -> bool:
+        """Refuse to judge what the last run of an exercise's cell did not define.
+
+        Args:
+            exercise: The exercise's id.
+
+        Returns:
+            Whether the cell still has a blank, so that there is nothing to judge.
+
+        Raises:
+            ExerciseError: If the cell failed when it ran last, or defines another name by now.
+        """
+        runs = sorted((one for one in self._last.values() if one.exercise == exercise),
+                      key=lambda one: one.number)  # fmt: skip
+        expression = self._handed.get(exercise)
+        name = expression.id if isinstance(expression, ast.Name) else ""
+        broken = next((one for one in reversed(runs) if self._is_broken(one, name)), None)
+        if broken is not None and not broken.blank:
+            raise _did_not_run(broken)
+        if broken is None and name:
+            self._refuse_other_name(name, runs)
+        return broken is not None
+
+    def _ended(self, result: Info, run: Run, before: Mapping[str, object]) -> Run:
+        raw, space = str(result.info.raw_cell), self._shell.user_ns
+        error = result.error_before_exec or result.error_in_exec
+        names = tuple(before)
+        bound = tuple(
+            one
+            for one in names
+            if one in space and (error is None or not _is_same(_mark(space[one]), before[one]))
+        )
+        run = replace(run, names=names, bound=bound)
+        file = _file_of(raw)
+        blank = _is_blank(error) or (file is not None and bool(_BLANK.search(raw)))
+        if error is None and not blank:
+            return run
+        told = _told(error, space) if error is not None else ""
+        run = replace(run, failure=told, blank=blank)
+        if file is None:
+            return run
+        # A file that was saved can be judged, whatever its text did when it ran on the page.
+        saved = not blank and _holds(file, raw.partition("\n")[2])
+        return replace(run, failure="") if saved else replace(run, file=file, stamp=_stamp(file))
+
+    def _is_broken(self, run: Run, name: str) -> bool:
+        """Return whether a run left something behind that a check would take for its result."""
+        if run.file is not None:
+            return _stamp(run.file) == run.stamp  # later, somebody may have changed it by hand
+        if not run.failure or not run.names:
+            return False
+        wanted = (name,) if name in run.names else run.names
+        makers = [self._binder.get(one) for one in wanted]
+        return not all(maker is not None and maker.number >= run.number for maker in makers)
+
+    def _refuse_other_name(self, name: str, runs: list[Run]) -> None:
+        binder = self._binder.get(name)
+        now = self._last.get(binder.cell) if binder and binder.cell else None
+        if binder is None or now not in runs or now is None or name in now.bound:
+            return
+        kind = _kind(self._shell.user_ns.get(name))
+        fresh = (one for one in now.bound if one not in binder.bound)
+        new = [one for one in fresh if _kind(self._shell.user_ns.get(one)) == kind]
+        if new:
+            raise ExerciseError(
+                f"You checked `{name}`, which an earlier run of the cell defined; the last run "
+                f"of the cell defined `{new[-1]}`.",
+                f"`{name}` is still what it was then, so there is no verdict on what the cell has "
+                "now.",
+                f"Write `{name}` in the cell and run it, then run this check again.",
+            )
+
+    def _metadata(self, info: Info) -> Mapping[str, Any]:
+        """Return what the front end sent about a cell; empty if it did not send this cell."""
+        meta = self._sent()
+        own = getattr(info, "cell_id", None)
+        return meta if own is not None and own == meta.get("cellId") else {}
+
+    def _sent(self) -> Mapping[str, Any]:
+        parent: Mapping[str, Any] = getattr(self._shell, "get_parent", dict)() or {}
+        return parent.get("metadata") or {}
+
+
+def cells_of(shell: Shell = None) -> Cells | None:
+    """Return what the cells of a shell have done; None if nobody follows them.
+
+    Args:
+        shell: The shell, by default the one of this process.
+    """
+    if shell is None and (ipython := sys.modules.get("IPython")):
+        shell = ipython.get_ipython()
+    found = getattr(shell, _HELD_AS, None)
+    return found if isinstance(found, Cells) else None
+
+
+def worked_on() -> str:
+    """Return the id of the exercise that this kernel was last about, or an empty text."""
+    cells = cells_of()
+    return cells.worked_on if cells else ""
+
+
+def register(shell: Shell) -> None:
+    """Follow the cells of a shell; a second time changes nothing.
+
+    Args:
+        shell: The running shell.
+    """
+    if cells_of(shell) is None:
+        cells = Cells(shell)
+        setattr(shell, _HELD_AS, cells)
+        shell.events.register("pre_run_cell", cells.begin)
+        shell.events.register("post_run_cell", cells.end)
+
+
+def _answer_in(source: str, exercise: str) -> ast.expr | None:
+    """Return what a cell hands to `check` as the answer to an exercise; None if that is not clear.
+
+    Args:
+        source: The cell's text.
+        exercise: The exercise's id.
+    """
+    try:
+        calls = [one for one in ast.walk(ast.parse(source)) if isinstance(one, ast.Call)]
+    except (SyntaxError, ValueError, RecursionError):
+        return None
+    found = [args[1] for args in map(_arguments, calls) if len(args) == 2
+             and isinstance(args[0], ast.Constant)
+             and str(args[0].value).strip().lower() == exercise]  # fmt: skip
+    return found[0] if len(found) == 1 else None
+
+
+def _arguments(call: ast.Call) -> list[ast.expr]:
+    named = isinstance(call.func, ast.Name) and call.func.id == "check"
+    given = {one.arg: one.value for one in call.keywords}
+    rest = [given[name] for name in ("exercise", "answer")[len(call.args) :] if name in given]
+    return [*call.args, *rest] if named else []
+
+
+def _names(source: str) -> Iterator[str]:
+    yield from dict.fromkeys(one[1] or one[2] for one in _DEFINED.finditer(dedent(source)))
+
+
+def _kind(value: object) -> str:
+    # Not by `isinstance`, which asks a strange value itself.
+    if issubclass(type(value), type):
+        return "class"
+    return "function" if type(value) is FunctionType else "value"
+
+
+def _mark(value: object) -> object:
+    """Return what tells one value of a name from the next.
+
+    A class or a function is held, so that no other gets its id; to hold a session would keep it
+    open.
+    """
+    return id(value) if _kind(value) == "value" else value
+
+
+def _is_same(one: object, other: object) -> bool:
+    """Return whether two marks are of the same value."""
+    return one is other or (type(one) is int and type(other) is int and one == other)
+
+
+def _is_blank(error: BaseException | None) -> bool:
+    return isinstance(error, NameError) and getattr(error, "name", "") == "____"
+
+
+def _told(error: BaseException, space: Mapping[str, Any]) -> str:
+    """Return what a cell raised, and in which of its lines."""
+    if isinstance(error, RosbeatError):  # what it says is a sentence of its own
+        return error.what.rstrip(".")
+    text = str(error).strip().split("\n")[0]
+    line = getattr(error, "lineno", None) or _line(error, space)
+    said = re.fullmatch(r"(.*) \([^()]*, line (\d+)\)", text)
+    if said:  # a SyntaxError, and ours for the text of a file, which has nothing but its text
+        text, line = said[1], int(said[2])
+    what = ": ".join(filter(None, (type(error).__name__, shorten(text, _LONGEST))))
+    return f"line {line}: {what}" if line else what
+
+
+def _line(error: BaseException, space: Mapping[str, Any]) -> int:
+    """Return the line of the cell in which an exception came up; 0 if that is not known."""
+    trace = error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_globals is space and trace.tb_frame.f_code.co_name == "<module>":
+            return trace.tb_lineno
+        trace = trace.tb_next
+    return 0
+
+
+def _file_of(source: str) -> Path | None:
+    """Return the file that a cell saves; None if it saves none, or one that cannot be told."""
+    found = _SAVE.match(source)
+    if found is None:
+        return None
+    # Importing the workspace makes its commands known, and a page does that itself.
+    from rosbeat.workspace.place import workspace
+    from rosbeat.workspace.saving import locate
+
+    try:
+        return locate(found[1], workspace())[1]
+    except (RosbeatError, OSError, ValueError):
+        return None
+
+
+def _holds(path: Path, text: str) -> bool:
+    try:
+        return path.read_bytes().decode("utf-8", "replace").strip() == text.strip()
+    except OSError:
+        return False
+
+
+def _stamp(path: Path) -> int:
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return 0
+
+
+def _did_not_run(run: Run) -> ExerciseError:
+    if run.file is not None:
+        return ExerciseError(
+            f"The cell above did not save {run.file.name} ({run.failure}).",
+            "The file is still the one from before, so there is no verdict on what the cell has "
+            "now.",
+            "Correct the cell and run it, then run this check again.",
+        )
+    return ExerciseError(
+        f"The cell above did not run ({run.failure}).",
+        "What an earlier run defined is still there, so there is no verdict on what the cell has "
+        "now.",
+        "Correct the cell and run it, then run this check again.",
+    )

@@ -1,0 +1,139 @@
+"""The card of a check in a real browser: its buttons, by mouse and by keyboard."""
+
+import json
+
+import nbformat
+import pytest
+from playwright.sync_api import expect
+
+from bank.pages import solution
+from browser.notebook import PATIENCE, Notebook
+
+pytestmark = pytest.mark.ros
+
+IMPORTS = """
+from rclpy.node import Node
+from std_msgs.msg import Float32
+from rosbeat import check
+"""
+WRONG = solution("03a").replace('"humidity", 5', '"humidity", 10')
+CHECK = 'check("03a", HumiditySensor)'
+BUTTONS = ".rosbeat-check"
+#: Puts the JSON of all outputs of the notebook on the page's clipboard, so to say.
+OUTPUTS = "() => JSON.stringify(window.jupyterapp.shell.currentWidget.context.model.toJSON())"
+
+
+def write_page(path, *cells):
+    """A notebook with the metadata that a page of the course has."""
+    roles = [{}, {"exercise": "03a"}, {"check": "03a"}]
+    made = [
+        nbformat.v4.new_code_cell(source, metadata={"rosbeat": role} if role else {})
+        for source, role in zip(cells, roles, strict=True)
+    ]
+    spec = {"name": "python3", "display_name": "Python 3 (ipykernel)", "language": "python"}
+    nbformat.write(nbformat.v4.new_notebook(cells=made, metadata={"kernelspec": spec}), path)
+
+
+@pytest.fixture
+def notebook(page, lab, request):
+    """A page with a wrong answer that was checked."""
+    name = f"{request.node.name.split('[')[0]}.ipynb"
+    for kept in lab.root.parent.glob(".rosbeat/progress*"):
+        kept.unlink()
+    write_page(lab.root / name, IMPORTS, WRONG, CHECK)
+    made = Notebook(page, lab, name)
+    for cell in range(3):
+        made.run(cell)
+    made.says(2, "Exercise 03a: not there yet")
+    page.locator(BUTTONS).wait_for()
+    yield made
+    made.shut_down()
+
+
+def press(page, name):
+    page.locator(BUTTONS).get_by_role("button", name=name).click()
+
+
+def says(page, text):
+    page.locator(BUTTONS, has_text=text).wait_for(timeout=PATIENCE)
+
+
+def outputs(page, cell):
+    return json.loads(page.evaluate(OUTPUTS))["cells"][cell]["outputs"]
+
+
+def test_hints_come_one_by_one_and_the_answer_after_a_question(notebook, page):
+    press(page, "Hint")
+    says(page, "Hint 1 of")
+    press(page, "Hint")
+    says(page, "Hint 2 of")
+    press(page, "Show the answer")
+    assert "class HumiditySensor" not in page.locator(BUTTONS).inner_text()
+    press(page, "No, not yet")
+    expect(page.locator(BUTTONS).get_by_role("button", name="Show the answer")).to_be_focused()
+    press(page, "Show the answer")
+    press(page, "Yes, show it")
+    says(page, "class HumiditySensor")
+    assert page.locator(BUTTONS).get_by_role("button", name="Yes, show it").count() == 0
+
+
+def test_run_again_judges_the_class_as_it_is_now(notebook, page):
+    notebook.write(1, solution("03a"))
+    notebook.run(1)
+    press(page, "Run again")
+    notebook.says(2, "Exercise 03a: passed")
+    expect(page.locator(BUTTONS).get_by_role("button")).to_have_count(0)
+    card, buttons = outputs(page, 2)
+    assert "passed" in "".join(card["data"]["text/plain"])
+    assert not [mime for mime in card["data"] if "widget" in mime]
+    assert "".join(buttons["data"]["text/plain"]) == ""
+
+
+def test_run_again_says_that_the_cell_above_did_not_run(notebook, page):
+    notebook.write(1, WRONG.replace("def publish_humidity(self):", "def publish_humidity(self)"))
+    notebook.run(1)
+    press(page, "Run again")
+    says(page, "The cell above did not run (line ")
+    assert "not there yet" in notebook.output(2)
+
+
+def test_a_cell_that_was_changed_and_not_run_is_noted(notebook, page):
+    assert "was changed after it ran" not in page.locator(BUTTONS).inner_text()
+    notebook.write(1, solution("03a"))
+    press(page, "Run again")
+    says(page, "The cell above was changed after it ran.")
+    notebook.run(1)
+    press(page, "Run again")
+    notebook.says(2, "Exercise 03a: passed")
+
+
+def test_the_keyboard_is_enough(notebook, page):
+    page.locator(BUTTONS).get_by_role("button", name="Hint").focus()
+    page.keyboard.press("Enter")
+    says(page, "Hint 1 of")
+    page.keyboard.press("Tab")
+    expect(page.locator(BUTTONS).get_by_role("button", name="Show the answer")).to_be_focused()
+    outline = page.evaluate("() => getComputedStyle(document.activeElement).outlineStyle")
+    assert outline == "solid"
+    page.keyboard.press("Enter")
+    expect(page.locator(BUTTONS).get_by_role("button", name="No, not yet")).to_be_focused()
+    page.keyboard.press("Tab")
+    page.keyboard.press("Space")
+    says(page, "class HumiditySensor")
+
+
+def test_a_click_while_a_cell_runs_waits_for_its_end(notebook, page):
+    notebook.write(0, "import time; time.sleep(3); print('slept')")
+    notebook.start(0)
+    press(page, "Run again")
+    says(page, "Checking")
+    says(page, "Checked again")
+    notebook.says(0, "slept")
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_a_picture_of_it(notebook, page, theme, tmp_path):
+    notebook.theme(theme)
+    press(page, "Hint")
+    says(page, "Hint 1 of")
+    assert notebook.picture(f"check card {theme}", notebook.cell(2), tmp_path).is_file()

@@ -1,0 +1,192 @@
+"""A check knows what it judges: real kernels, with what JupyterLab sends beside a cell's code."""
+
+from __future__ import annotations
+
+import pytest
+from answers import HUMIDITY, edited  # the folder is put on the path by conftest.py
+
+from torture.kernel import Kernel
+
+pytestmark = pytest.mark.ros
+
+IMPORTS = """
+from rclpy.node import Node
+from std_msgs.msg import Float32
+from rosbeat import check, hint, workspace
+def told(*given):
+    outcome = check(*given).outcome
+    print(outcome.status, outcome.evidence)
+"""
+RIGHT = edited(HUMIDITY).strip("\n") + "\n"
+OTHER_NAME = RIGHT.replace("HumiditySensor", "HumiditySensr")
+BROKEN = RIGHT.replace("def publish_humidity(self):", "def publish_humidity(self)")
+RAISES = f"{RIGHT}\n\nraise ValueError('too late')\n"
+RAISES_FIRST = f"raise ValueError('too early')\n\n{RIGHT}"
+BLANK = RIGHT.replace("class HumiditySensor(Node):", "class HumiditySensor(Node):\n    rate = ____")
+ASK = 'one = check("03a", HumiditySensor).outcome\nprint(one.status, one.evidence)'
+EXERCISE, SCRATCH, CHECK = "exercise", "scratch", "check"
+
+
+@pytest.fixture(scope="module")
+def shared():
+    with Kernel() as kernel:
+        assert kernel.run(IMPORTS).error == ""
+        yield kernel
+
+
+@pytest.fixture
+def page(shared, tmp_path):
+    """Run cells as JupyterLab does: `(id, source)`; the id `exercise` is that of exercise 03a."""
+    shared.run(
+        f"import os; os.environ['ROSBEAT_STEADY_HOME'] = {str(tmp_path)!r}\n"
+        "for name in ('HumiditySensor', 'HumiditySensr'): globals().pop(name, None)\n"
+        "from rosbeat.exercises import cells\n"
+        "cells.cells_of().__init__(get_ipython()); cells.cells_of().begin("
+        "type('Info', (), {'raw_cell': ''}))"
+    )
+
+    def run(*cells, **sent):
+        for cell, source in cells:
+            marks = {"rosbeat": {"exercise": "03a"}} if cell.startswith(EXERCISE) else {}
+            reply = shared.run(source, {"cellId": cell, **marks, **sent} if cell else None)
+        return reply
+
+    return run
+
+
+def refused(reply):
+    return reply.error == "ExerciseError"
+
+
+# What is stopped.
+
+
+@pytest.mark.parametrize(
+    ("later", "said"),
+    [
+        (BROKEN, "(line 7: SyntaxError: expected ':')"),
+        (RAISES_FIRST, "(line 1: ValueError: too early)"),
+    ],
+)
+def test_a_cell_that_failed_gets_no_verdict_for_what_was_there_before(page, later, said):
+    reply = page((EXERCISE, RIGHT), (EXERCISE, later), (CHECK, ASK))
+    assert refused(reply)
+    assert f"The cell above did not run {said}." in reply.trace
+    assert "What it means:" in reply.trace
+    assert "What to try:" in reply.trace
+    counted = (
+        "from rosbeat.exercises.progress import progress_file as f\nprint(dict(f().standings()))"
+    )
+    assert page(("", counted)).text == "{}\n"
+
+
+def test_a_class_of_the_page_is_not_taken_for_that_of_a_cell_that_failed(page):
+    assert refused(page((SCRATCH, RIGHT), (EXERCISE, BROKEN), (CHECK, ASK)))
+
+
+def test_another_name_is_told(page):
+    reply = page((EXERCISE, RIGHT), (EXERCISE, OTHER_NAME), (CHECK, ASK))
+    assert refused(reply)
+    assert "You checked `HumiditySensor`, which an earlier run of the cell defined" in reply.trace
+    assert "the last run of the cell defined `HumiditySensr`" in reply.trace
+
+
+def test_a_blank_is_named_and_nothing_from_before_is_judged(page):
+    reply = page((EXERCISE, RIGHT), (EXERCISE, BLANK), (CHECK, ASK))
+    assert reply.text.startswith("not attempted There is still a blank, ____,")
+
+
+def test_what_was_mended_is_judged_again(page):
+    reply = page((EXERCISE, RIGHT), (EXERCISE, BROKEN), (EXERCISE, RIGHT), (CHECK, ASK))
+    assert reply.text.startswith("passed")
+
+
+# What is not stopped.
+
+SUBCLASS = "class Quick(HumiditySensor):\n    pass\n"
+FINE = {
+    "once": [(EXERCISE, RIGHT)],
+    "twice": [(EXERCISE, RIGHT), (EXERCISE, RIGHT)],
+    "defined, and something raised below it": [(EXERCISE, RAISES)],
+    "defined elsewhere after the cell failed": [(EXERCISE, BROKEN), (SCRATCH, RIGHT)],
+    "a helper class elsewhere": [(EXERCISE, RIGHT), (SCRATCH, SUBCLASS)],
+    "a helper class elsewhere that fails": [(EXERCISE, RIGHT), (SCRATCH, "class A(Node)\n  pass")],
+    "moved to another cell": [(EXERCISE, RIGHT), (SCRATCH, RIGHT), (EXERCISE, SUBCLASS)],
+    "a helper class beside it": [(EXERCISE, RIGHT), (EXERCISE, RIGHT + SUBCLASS)],
+    "an emptied cell": [(SCRATCH, RIGHT), (EXERCISE, "# moved")],
+    "a cell of one's own used for this and that": [(SCRATCH, RIGHT), (SCRATCH, "1 / 0")],
+    "a cell of one's own with another class": [(SCRATCH, RIGHT), (SCRATCH, OTHER_NAME)],
+    "a front end that sends no ids": [("", RIGHT), ("", BROKEN)],
+    "a cell that runs another one": [(EXERCISE, f"get_ipython().run_cell('1 / 0')\n{RIGHT}")],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("cells", FINE.values(), ids=FINE)
+def test_other_ways_to_work_are_not_stopped(page, cells):
+    reply = page(*cells, (CHECK, ASK))
+    assert reply.text.startswith("passed"), reply
+
+
+def test_a_copy_that_failed_and_was_deleted_is_forgotten(page):
+    page((EXERCISE, RIGHT), ("exercise-copy", BROKEN))
+    reply = page((CHECK, ASK))
+    assert refused(reply)
+    page((SCRATCH, "1"), deletedCells=["exercise-copy"])
+    assert page((CHECK, ASK)).text.startswith("passed")
+
+
+def test_a_cell_that_failed_in_another_exercise_stops_nothing(page):
+    page((EXERCISE, RIGHT), (SCRATCH, BROKEN.replace("HumiditySensor", "Alarm")),
+         rosbeat={"exercise": "04b"})  # fmt: skip
+    page((EXERCISE, RIGHT))
+    assert page((CHECK, ASK)).text.startswith("passed")
+
+
+# Files of the workspace.
+
+SAVE = "%%save src/sensor_simulator/sensor_simulator/helper.py\n"
+LOOK = 'told("02b", workspace.folder())'
+
+
+def test_a_file_that_was_not_saved_gets_no_verdict(page):
+    marks = {"rosbeat": {"exercise": "02b"}}
+    page((SCRATCH, SAVE + "x = 1\n"), **marks)
+    assert not refused(page((CHECK, LOOK)))
+    page((SCRATCH, SAVE + "%matplotlib inline\nx = 2\n"), **marks)
+    reply = page((CHECK, LOOK))
+    assert refused(reply)
+    assert "The cell above did not save helper.py (Nothing was saved:" in reply.trace
+    page((SCRATCH, SAVE + "x = ____\n"), **marks)
+    assert page((CHECK, LOOK)).text.startswith("not attempted There is still a blank")
+
+
+def test_a_file_that_was_saved_is_judged_whatever_it_raises_on_the_page(page):
+    page((SCRATCH, SAVE + "1 / 0\n"), rosbeat={"exercise": "02b"})
+    assert not refused(page((CHECK, LOOK)))
+
+
+def test_a_file_that_was_changed_by_hand_later_is_judged(page, tmp_path):
+    marks = {"rosbeat": {"exercise": "02b"}}
+    page((SCRATCH, SAVE + "x = 1\n"), (SCRATCH, SAVE + "x = ____\n"), **marks)
+    (file,) = tmp_path.rglob("helper.py")
+    file.write_text("x = 3\n")
+    file.touch()
+    assert "still a blank" not in page((CHECK, LOOK)).text
+
+
+# Nothing said means what was worked on last.
+
+
+def test_nothing_said_means_the_exercise_whose_cell_ran_last(page):
+    assert page((SCRATCH, "told()")).error == "ExerciseError"
+    page((EXERCISE, RIGHT))
+    assert page((SCRATCH, "told()")).text.startswith("passed")
+    assert "for exercise 03a" in page((SCRATCH, "print(hint())")).text
+
+
+def test_nothing_said_means_what_was_checked_last_as_it_is_now(page):
+    shallow = RIGHT.replace('"humidity", 5', '"humidity", 6')
+    assert page(("", shallow), ("", ASK)).error == ""
+    assert page(("", "told()")).text.startswith("failed")
+    assert page(("", RIGHT), ("", "told()")).text.startswith("passed")
+    assert page(("", 'told("03a")')).text.startswith("passed")

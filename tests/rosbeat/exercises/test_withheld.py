@@ -1,0 +1,52 @@
+"""What a cell shows before its prediction is made, in a real kernel with what JupyterLab sends."""
+
+from __future__ import annotations
+
+import pytest
+
+from torture.kernel import Kernel
+
+CELL = """
+print("first 41")
+found = 44
+predict("____", found)
+"""
+
+
+@pytest.fixture(scope="module")
+def kernel():
+    with Kernel() as found:
+        assert found.run("from rosbeat import predict").error == ""
+        yield found
+
+
+def run(kernel, source):
+    return kernel.run(source, {"cellId": "one"})
+
+
+def test_an_open_prediction_keeps_back_what_the_cell_prints(kernel):
+    assert run(kernel, CELL).text == ""
+    assert kernel.run("print(found)").text == "44\n"
+
+
+def test_a_front_end_without_cell_ids_gets_everything(kernel):
+    assert kernel.run(CELL).text == "first 41\n"
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        CELL.replace("____", "40"),
+        CELL + "found",
+        CELL.replace('predict("____", found)', 'later = lambda: predict("____", found)'),
+        CELL.replace('predict("____", found)', '# predict("____", found)'),
+    ],
+)
+def test_everything_is_shown_where_nothing_is_asked(kernel, source):
+    assert run(kernel, source).text == "first 41\n"
+
+
+def test_everything_is_shown_if_the_cell_raises(kernel):
+    reply = run(kernel, CELL.replace("44", "1 / 0"))
+    assert (reply.error, reply.text) == ("ZeroDivisionError", "first 41\n")
+    assert run(kernel, "print('as ever')").text == "as ever\n"
