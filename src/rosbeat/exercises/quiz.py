@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from string import ascii_lowercase
@@ -9,6 +10,7 @@ from typing import Any
 
 from rosbeat.errors import ExerciseError, called_as
 from rosbeat.exercises.cards import OPEN, RIGHT, WRONG, framed, words
+from rosbeat.exercises.cells import cells_of
 from rosbeat.exercises.predict import is_blank
 from rosbeat.exercises.questions import QUESTIONS, Choice, Question
 from rosbeat.exercises.registry import this_page
@@ -38,6 +40,14 @@ class Asked:
             return OPEN
         return RIGHT if self.choice.right else WRONG
 
+    @property
+    def said(self) -> str:
+        """Return what is said to the choice that was made, in one line; an empty text for none."""
+        if self.choice is None:
+            return ""
+        word = "right" if self.choice.right else "not right"
+        return f"Question {self.question.id}: {word}. {self.choice.reason.replace('`', '')}"
+
 
 @dataclass(frozen=True)
 class Quiz:
@@ -57,10 +67,30 @@ class Quiz:
     def __repr__(self) -> str:
         return str(self)
 
-    def html(self) -> str:
-        """Return the questions as HTML."""
-        cards = [framed(one.sign, *_rows(one)) for one in self.asked]
-        return "".join([*cards, *(f"<div>{words(line)}</div>" for line in self._way() if line)])
+    def html(self, *, told: bool = True) -> str:
+        """Return the questions as HTML.
+
+        Args:
+            told: Whether to say how to answer, for a page without buttons.
+        """
+        way = [f"<div>{words(line)}</div>" for line in self._way() if line and told]
+        return "".join([*(framed(one.sign, *_rows(one)) for one in self.asked), *way])
+
+    def view(self) -> tuple[dict[str, Any], str]:
+        """Return what a page with buttons shows: the card, and the questions as JSON."""
+        questions = [
+            {
+                "id": one.question.id,
+                "choices": [
+                    f"{letter}) {choice.text.replace('`', '')}"
+                    for letter, choice in zip(ascii_lowercase, one.question.choices, strict=False)
+                ],
+                "chosen": one.chosen,
+            }
+            for one in self.asked
+        ]
+        card = {"text/plain": str(self), "text/html": self.html(told=False)}
+        return card, json.dumps(questions)
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"text/plain": str(self), "text/html": self.html()}
@@ -76,6 +106,22 @@ class Quiz:
         yield ""
         call = f'quiz("{self.page}", {letters})'
         yield f"To answer, write a letter for each question, such as `{call}`."
+
+
+class Card(Quiz):
+    """Show questions with buttons below them, in a notebook that is open in a browser."""
+
+    def _ipython_display_(self) -> None:
+        # The widgets take a while to load, and only a notebook in a browser shows them.
+        from rosbeat.exercises.quiz_card import show
+
+        asked = list(self.asked)
+
+        def choose(question: int, choice: int) -> tuple[tuple[dict[str, Any], str], str]:
+            asked[question] = Asked(asked[question].question, choice)
+            return Quiz(self.page, tuple(asked)).view(), asked[question].said
+
+        show(self.view(), choose)
 
 
 @called_as('quiz("03", "b", "a", "c")')
@@ -111,7 +157,11 @@ def quiz(page: str = "", *answers: str) -> Quiz:
         )
     chosen = [_index(*pair) for pair in zip(questions, answers, strict=False)]
     chosen += [None] * (len(questions) - len(answers))
-    return Quiz(questions[0].page, tuple(map(Asked, questions, chosen)))
+    made = Quiz(questions[0].page, tuple(map(Asked, questions, chosen)))
+    cells = cells_of()
+    if cells is None or not cells.for_a_browser:
+        return made
+    return Card(made.page, made.asked)
 
 
 def _index(question: Question, answer: object) -> int | None:
