@@ -1,1 +1,1 @@
-"""The `ros2` command for installations of ROS 2 that have no ros2cli."""
+"""Provide the `ros2` command for installations of ROS 2 without ros2cli."""

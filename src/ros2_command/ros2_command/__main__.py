@@ -1,4 +1,4 @@
-"""`python -m ros2_command` is `ros2`."""
+"""Run `ros2` as `python -m ros2_command`."""
 
 import sys
 

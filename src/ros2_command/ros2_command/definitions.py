@@ -1,4 +1,4 @@
-"""Interface definitions as they are installed, read without ROS."""
+"""Read installed interface definitions without ROS."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""Signs of what discovery has not brought yet: processes and endpoints that must be there.
+"""Detect processes and endpoints that must exist but have not been discovered yet.
 
 Fast DDS numbers the endpoints of a process 1, 2, 3 and so on, publishers and subscriptions in one
-row, and tells of the two kinds in two separate streams. When one stream lags behind, as it does
-when the machine is busy, numbers are missing in between. Endpoints that were destroyed leave such
-gaps for ever, so a gap is a reason to wait for a moment only.
+sequence, and announces the two kinds in two separate streams. When one stream lags behind, as it
+does when the machine is busy, numbers are missing in between. Destroyed endpoints leave such gaps
+forever, so a gap is a reason to wait for a short time only.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Errors that end the command with a message instead of a traceback."""
+"""Define errors that end the command with a message instead of a traceback."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The ROS graph as a hidden node sees it, and when it can be believed."""
+"""Observe the ROS graph with a hidden node, and wait until discovery has settled."""
 
 from __future__ import annotations
 

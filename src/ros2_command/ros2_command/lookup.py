@@ -1,4 +1,4 @@
-"""Topics, types and nodes by the names people type."""
+"""Look up topics, types and nodes by the names that people type."""
 
 from __future__ import annotations
 

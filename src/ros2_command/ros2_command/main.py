@@ -1,4 +1,4 @@
-"""The way into the command: parse, run one verb, turn what happens into an exit code."""
+"""Parse the arguments, run one verb, and turn its result into an exit code."""
 
 from __future__ import annotations
 

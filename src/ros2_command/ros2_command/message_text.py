@@ -1,4 +1,4 @@
-"""Messages as YAML and as CSV, the way `topic echo` shows them."""
+"""Format messages as YAML and as CSV, as `topic echo` shows them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages filled from YAML, as `topic pub` and `service call` take it."""
+"""Fill messages from YAML, as `topic pub` and `service call` accept it."""
 
 from __future__ import annotations
 

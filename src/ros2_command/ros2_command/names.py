@@ -1,4 +1,4 @@
-"""Names of nodes, topics and services: which are possible, and which was probably meant."""
+"""Check names of nodes, topics and services, and suggest the name that was probably meant."""
 
 from __future__ import annotations
 

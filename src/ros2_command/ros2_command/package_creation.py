@@ -1,4 +1,4 @@
-"""`ros2 pkg create`, for ament_python: what was asked for, checked, and the files of it."""
+"""Implement `ros2 pkg create` for ament_python: check the arguments, and write the files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which names can work for a Python package, a node's file and a dependency, and why not."""
+"""Check whether names work for a Python package, a node's file or a dependency, and say why not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The files of a new ament_python package, as text."""
+"""Hold the files of a new ament_python package, as text."""
 
 from __future__ import annotations
 

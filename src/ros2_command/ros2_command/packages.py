@@ -1,4 +1,4 @@
-"""Packages, as the ament index of `AMENT_PREFIX_PATH` lists them. Imports no ROS."""
+"""Find packages in the ament index of `AMENT_PREFIX_PATH`, without importing ROS."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""argparse around the registry; only the verb that was asked for is imported."""
+"""Build the argparse parser from the registry; only the requested verb is imported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Quality of service: the options, and what follows from the publishers that are known."""
+"""Define the QoS options, and choose QoS settings that match the known publishers."""
 
 from __future__ import annotations
 

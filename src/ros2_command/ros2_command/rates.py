@@ -1,4 +1,4 @@
-"""Compute what `ros2 topic hz`, `bw` and `delay` print of the messages that they receive."""
+"""Compute what `ros2 topic hz`, `bw` and `delay` print about the messages that they receive."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Every command and verb, in one place. What is not here does not exist.
+"""List every command and verb in one place; a command that is not listed here does not exist.
 
-This module is read before anything else, so it imports nothing of ROS and none of the verbs.
+This module is imported before any other, so it imports neither ROS nor the verbs.
 """
 
 from __future__ import annotations

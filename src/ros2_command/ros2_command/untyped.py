@@ -1,4 +1,4 @@
-"""A name for what carries no type information."""
+"""Name the type of objects that carry no type information."""
 
 from __future__ import annotations
 

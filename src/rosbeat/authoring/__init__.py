@@ -1,4 +1,4 @@
-"""Lesson sources become a learner's page and a solution page; rules keep them honest.
+"""Build a learner's page and a solution page from each lesson source, and check the sources.
 
 ::
 
@@ -6,7 +6,7 @@
     pages      the two trees, each a list of transformations
     execution  runs a page from top to bottom in a kernel of its own
     lint       the rules, one function each, for `rosbeat lint`
-    build      compares everything that is derived, or writes it, for `rosbeat build`
+    build      compares or writes all derived files, for `rosbeat build`
 
 Only the command line and the tests import this package. It never imports rclpy.
 """

@@ -1,7 +1,7 @@
-"""`rosbeat build`: whatever is made from the lessons, compared with what is there, or written.
+"""Compare or write everything that is derived from the lessons, for `rosbeat build`.
 
-From the lessons come both trees of pages, `solutions/sensor_simulator/` (what a learner has in the
-workspace at the end), the files that `workspace.catch_up` puts where they are missing, and the
+The derived files are both trees of pages, `solutions/sensor_simulator/` (the final content of a
+learner's workspace), the files that `workspace.catch_up` adds where they are missing, and the
 answers that `hint` gives last.
 """
 

@@ -1,8 +1,8 @@
-"""Running a page from top to bottom in a kernel of its own.
+"""Run a page from top to bottom in a kernel of its own.
 
-The kernel is this interpreter, with sockets in a folder instead of ports: Jupyter chooses TCP ports
-before the kernel binds them, and now and then another process is faster. Sockets in a folder of our
-own cannot be taken, so builds and tests may run side by side.
+The kernel uses this Python interpreter, and sockets in a folder instead of ports: Jupyter chooses
+TCP ports before the kernel binds them, and occasionally another process takes one first. Nobody
+else can take sockets in our own folder, so builds and tests may run side by side.
 """
 
 from __future__ import annotations

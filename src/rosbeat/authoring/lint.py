@@ -1,9 +1,9 @@
-"""The rules of a lesson, one function each.
+"""Define the rules of a lesson, one function each.
 
 A rule takes a `Desk` (the lesson, its neighbours, the course's folders) and yields every place that
-breaks it; the function's name is the rule's. To add one, put it in `LINTS`, at the end. Rules
-guard learners and builds: an answer that can be read, a page that stops, a link that leads nowhere.
-How a good page reads is in `docs/authoring.md`, and no rule counts words.
+breaks it; the function's name is the rule's. To add a rule, append it to `LINTS`. Rules protect
+learners and builds from answers that can be read, pages that stop, and links that lead nowhere.
+`docs/authoring.md` describes how a good page reads; no rule counts words.
 """
 
 from __future__ import annotations

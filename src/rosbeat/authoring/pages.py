@@ -1,7 +1,7 @@
-"""The two trees of pages: each page is a lesson that went through a list of transformations.
+"""Build the two trees of pages by applying a list of transformations to each lesson.
 
 A transformation takes a page, changes it and returns it; the lists are in `notebook_page`,
-`solution_draft` and `solution_page`. Up to the last step cells carry working notes in their
+`solution_draft` and `solution_page`. Until the last step, cells carry working notes in their
 metadata: the line of the source, and the tree that they belong to.
 """
 

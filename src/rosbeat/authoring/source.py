@@ -1,7 +1,7 @@
-"""Lesson sources: `src/lessons/NN_slug.py` in jupytext's percent format, read into plain data.
+"""Read lesson sources, `src/lessons/NN_slug.py` in jupytext's percent format, into plain data.
 
-A source stays Python that runs, with the answers in force. An answer and what a learner sees in its
-place stand between markers, on lines of their own at the indentation of the code::
+A source is a Python file that runs, with the answers in place. Each answer, and the blank that
+replaces it for the learner, are between markers, on separate lines at the indentation of the code::
 
     # --- answer
     self.timer = self.create_timer(1.0, self.publish_temperature)
@@ -9,7 +9,7 @@ place stand between markers, on lines of their own at the indentation of the cod
     # self.timer = self.create_timer(____, ____)
     # --- end
 
-What is no Python (commands for a terminal, a file of another kind) stands behind comment signs.
+Text that is not Python (terminal commands, files of another kind) is written in comments.
 """
 
 from __future__ import annotations

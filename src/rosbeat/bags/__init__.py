@@ -1,11 +1,11 @@
-"""Recordings: rosbag2 bags of what a session published, read, replayed and broken on purpose.
+"""Record what a session published as rosbag2 bags; read, replay and break recordings.
 
-- `record` writes a bag, as MCAP or as SQLite, that other tools of ROS 2 open too;
-- `Bag` reads one, whoever made it;
-- `replay` makes a node of it that publishes everything again, in virtual time;
-- `compare` says in what two runs differ;
-- `stuck`, `drift`, `dropouts`, `with_nan`, `spikes` and `delayed` are faults, to be injected with
-  `inject` or on replay.
+- `record` writes a bag, as MCAP or as SQLite, that other ROS 2 tools can open too;
+- `Bag` reads a bag from any source;
+- `replay` turns a bag into a node that publishes everything again, in virtual time;
+- `compare` lists the differences between two runs;
+- `stuck`, `drift`, `dropouts`, `with_nan`, `spikes` and `delayed` are faults, applied with `inject`
+  or on replay.
 
 Names load when they are first used (PEP 562): only `replay` needs ROS.
 """

@@ -1,4 +1,4 @@
-"""A recording, as a page has it in hand."""
+"""Represent a recording on a page."""
 
 from __future__ import annotations
 

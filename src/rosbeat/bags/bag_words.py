@@ -1,4 +1,4 @@
-"""What is in a recording, in words, as `ros2 bag info` tells it in a table."""
+"""Describe a recording in sentences, with the content of `ros2 bag info`."""
 
 from __future__ import annotations
 

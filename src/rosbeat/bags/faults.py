@@ -1,7 +1,7 @@
-"""What goes wrong with sensors and lines, to be injected into a recording.
+"""Define faults of sensors and connections that can be injected into a recording.
 
-Each function makes a fault: messages in, messages with the fault out. Times are in seconds of the
-recording. What is drawn at random comes from `seed`, and is the same on every run.
+Each function returns a fault, which maps messages to messages with that fault. Times are in seconds
+of the recording. Random choices come from `seed`, and are the same on every run.
 """
 
 from __future__ import annotations

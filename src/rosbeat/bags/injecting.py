@@ -1,4 +1,4 @@
-"""Faults on their way into a recording: what a fault is, and how it gets at its messages."""
+"""Inject faults into a recording: define a fault, and apply it to the messages of a topic."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What a bag of ours knows besides: how long the session ran, its seed, who published.
+"""Store additional facts in our own bags: the session's length, its seed, and the publishers.
 
-rosbag2 has a place for such notes, `custom_data` in metadata.yaml, with a text for each name. A bag
-without them was made by somebody else, and nothing is wrong with it.
+rosbag2 provides `custom_data` in metadata.yaml for such notes, with a text for each name. A bag
+without them was made by another tool, and is equally valid.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The number in a message that a fault changes."""
+"""Find and change the number in a message that a fault affects."""
 
 from __future__ import annotations
 

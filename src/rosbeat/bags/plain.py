@@ -1,4 +1,4 @@
-"""Plain data, as `records.Sample` has it, to the bytes that cross the wire (CDR), and back."""
+"""Convert plain data, as in `records.Sample`, to serialized messages (CDR), and back."""
 
 from __future__ import annotations
 

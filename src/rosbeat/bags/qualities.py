@@ -1,4 +1,4 @@
-"""Quality of service, as a bag stores it and as the records have it."""
+"""Convert quality of service between a bag's format and the records."""
 
 from __future__ import annotations
 

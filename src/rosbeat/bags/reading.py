@@ -1,4 +1,4 @@
-"""Reading a rosbag2 bag, whoever made it."""
+"""Read a rosbag2 bag from any source."""
 
 from __future__ import annotations
 

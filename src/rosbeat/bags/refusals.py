@@ -1,4 +1,4 @@
-"""What is said when something cannot be done with a recording."""
+"""Create the errors for operations on recordings that are not possible."""
 
 from __future__ import annotations
 

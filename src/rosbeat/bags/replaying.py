@@ -1,4 +1,4 @@
-"""A recording as a node that publishes it again."""
+"""Replay a recording as a node that publishes it again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From what a caller gives to what was observed, and which topics of it are meant."""
+"""Get the observation from a session, a bag or an observation, and select its topics."""
 
 from __future__ import annotations
 

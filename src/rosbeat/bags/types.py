@@ -1,7 +1,7 @@
-"""Which fields a message type has: as the library knows it, as it is installed, as a bag says.
+"""Look up the fields of a message type: in the library, in installed packages, or in a bag.
 
-The library brings the definitions of every type that ROS 2 Jazzy ships. A type of one's own is read
-from where packages install it, `share/<package>/msg/<Name>.msg` below a folder of
+The library includes the definitions of every type of ROS 2 Jazzy. Definitions of other types are
+read from their install location, `share/<package>/msg/<Name>.msg` below a folder of
 `AMENT_PREFIX_PATH`.
 """
 

@@ -1,4 +1,4 @@
-"""Writing what a session published as a rosbag2 bag."""
+"""Write what a session published as a rosbag2 bag."""
 
 from __future__ import annotations
 

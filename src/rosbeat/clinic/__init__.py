@@ -1,4 +1,4 @@
-"""The clinic: broken systems of real nodes, to be examined with the course's instruments.
+"""Provide the clinic: broken systems of real nodes, to be examined with the course's instruments.
 
 ::
 
@@ -7,8 +7,8 @@
     patient.ros.explain("temperature")
     clinic.names()
 
-A seed draws the ward: which patient has which fault, and all names and numbers. The same seed is
-the same ward, always, so a teacher may give each class a ward of its own.
+A seed determines the ward: the fault of each patient, and all names and numbers. The same seed
+always gives the same ward, so a teacher may give each class a ward of its own.
 """
 
 from rosbeat.clinic.names import names as names

@@ -1,4 +1,4 @@
-"""The cases of the clinic: which faults there are, alone and in pairs, and what the owner says."""
+"""List the cases of the clinic: single faults and pairs of faults, with the owner's description."""
 
 from __future__ import annotations
 

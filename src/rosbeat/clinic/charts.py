@@ -1,8 +1,7 @@
-"""What the instruments show of a patient, as plain data: small enough to be kept and judged.
+"""Summarize a patient's observation as a chart: plain data, small enough to be stored and judged.
 
-A chart is made from an observation and holds what the doctor's questions need: who is there, who
-is connected, what was published, what was heard, who has ended. It says nothing about right or
-wrong.
+A chart holds what the diagnostic questions need: which nodes exist, which are connected, what was
+published, what was received, which nodes have ended. It says nothing about right or wrong.
 """
 
 from __future__ import annotations

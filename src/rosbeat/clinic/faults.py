@@ -1,7 +1,7 @@
-"""Faults after which something is silent: each turns a plan into one with that fault.
+"""Define faults that silence part of a system: each turns a plan into one with that fault.
 
-A fault is `(plan, role, rng) -> (plan, truth)`. It changes one node, as somebody would who writes
-or starts that node, and says what is the matter now and which places are true answers.
+A fault is `(plan, role, rng) -> (plan, truth)`. It changes one node, as the author or operator of
+that node might by mistake, and returns the diagnosis with all places that count as right.
 """
 
 from __future__ import annotations

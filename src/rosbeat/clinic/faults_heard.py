@@ -1,4 +1,4 @@
-"""Faults after which nothing is silent: everything arrives, and something is wrong with it.
+"""Define faults that silence nothing: all messages arrive, but something is wrong with them.
 
 Each is `(plan, role, rng) -> (plan, truth)`, as in `faults.py`.
 """

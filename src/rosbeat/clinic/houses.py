@@ -1,4 +1,4 @@
-"""Healthy systems, drawn by chance: where they stand, what they are called, who is in them."""
+"""Draw healthy systems at random: their places, names and nodes."""
 
 from __future__ import annotations
 

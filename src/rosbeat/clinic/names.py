@@ -1,4 +1,4 @@
-"""The diagnoses that a doctor of this clinic knows."""
+"""List the diagnoses that the clinic accepts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The nodes of the clinic: real rclpy nodes, whose faults are real."""
+"""Define the nodes of the clinic: real rclpy nodes with real faults."""
 
 from __future__ import annotations
 

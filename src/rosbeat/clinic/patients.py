@@ -1,4 +1,4 @@
-"""A patient: a real system with something the matter, and its owner's words."""
+"""Run a patient: a real system with one or two faults, and its owner's description."""
 
 from __future__ import annotations
 

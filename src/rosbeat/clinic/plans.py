@@ -1,7 +1,7 @@
-"""How a system of the clinic is put together: plain data.
+"""Describe the systems of the clinic as plain data.
 
-A plan says which nodes there are and what each does. A house (`houses.py`) is a plan of a healthy
-system; a fault (`faults.py`) turns a plan into another one.
+A plan lists the nodes and the task of each. A house (`houses.py`) is a plan of a healthy system; a
+fault (`faults.py`) turns a plan into another one.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What a chart shows, and what it shows against a diagnosis. Pure functions.
+"""Find the faults that a chart shows, and the evidence against a diagnosis, with pure functions.
 
-Each kind of fault has a sign: a function that finds it in a chart, wherever it is, and one that
-says what speaks against it at a place where it is not.
+Each kind of fault has a sign: a function that finds its places in a chart, and one that gives the
+evidence against it at any other place.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Signs of faults in what nodes do: whether they run, whether they speak, how often, how many."""
+"""Find faults in the activity of nodes: whether they run, whether and how often they publish."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Signs of faults between two nodes: names, types and quality of service."""
+"""Find faults between two nodes: in names, types and quality of service."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Signs of faults in what is said: numbers beyond their limits, and words that do not fit them."""
+"""Find faults in published values: numbers beyond their limits, and statuses that do not match."""
 
 from __future__ import annotations
 

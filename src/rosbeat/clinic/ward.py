@@ -1,4 +1,4 @@
-"""The ward: eleven patients, drawn by a seed."""
+"""Draw a ward of eleven patients from a seed."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""Find the answers on a page that was handed in, and say what has to be observed for each.
+"""Find the answers on a submitted page, and create a job for each.
 
-A cell is found by its id; else by the exercise that it says it answers; else by likeness: it
-defines what the exercise's cell defines. Whatever was done to find or to run an answer is said in
-a sentence. Nothing is held back for what it imports or names: `remarks_on` tells an instructor what
-is worth a look, and the mark stands.
+A cell is found by its id, else by the exercise in its metadata, else by similarity: it defines the
+same names as the exercise's cell. Every repair that was needed to find or run an answer is reported
+in a sentence. No answer is held because of what it imports or names: `remarks_on` points out what
+an instructor may want to look at, and the mark stands.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""Observe the answers of a class on a cluster of Dask; they are judged here.
+"""Observe the answers of a class on a Dask cluster; judging stays on this computer.
 
-Each worker of the cluster keeps prepared processes, which make the same sandbox as on one machine.
-A submission whose worker is lost is sent to another by Dask; one that loses several is given up.
-Between client and worker go lines of JSON; a submission is never pickled, and everything that is
-written stays on this computer. Only this module knows of Dask, and only who asks for a cluster
-imports it; where there is no Dask, importing it raises a `GradingError`.
+Each worker of the cluster keeps prepared processes, which create the same sandbox as on one
+machine. If a submission's worker is lost, Dask sends the submission to another one; a submission
+that loses several workers is given up. Client and worker exchange lines of JSON; a submission is
+never pickled, and all files are written on this computer. Only this module depends on Dask, and it
+is only imported when a cluster is requested; without Dask, importing it raises a `GradingError`.
 """
 
 from __future__ import annotations

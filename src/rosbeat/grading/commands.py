@@ -1,7 +1,7 @@
 """Run `rosbeat release`, `rosbeat collect` and `rosbeat grade`.
 
 The exit codes of `rosbeat grade` are part of the interface: 0 all answers are marked, 1 nothing was
-done, 2 misuse, 3 all is written and something waits for a person, 130 stopped.
+done, 2 usage error, 3 all results are written but something needs a person, 130 stopped.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Read the course's own pages, as far as grading needs them: which cells wait for an answer."""
+"""Read the course's own pages, as far as grading needs them: the cells that expect an answer."""
 
 from __future__ import annotations
 

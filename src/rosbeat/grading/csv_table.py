@@ -1,8 +1,8 @@
-"""Read tables that a person saved as CSV, and write tables that are safe to open in a spreadsheet.
+"""Read CSV tables that a person has saved, and write tables that are safe to open in a spreadsheet.
 
-Tables are read in UTF-8, with commas, semicolons or tabs. In those that are written, no cell is a
-formula: a spreadsheet runs one that begins with `=`, `+`, `-` or `@`, whatever a learner has put
-into it. The rules are those of OWASP, "CSV Injection", and of RFC 4180 for the form.
+Tables are read in UTF-8, separated by commas, semicolons or tabs. In written tables, no cell is a
+formula: a spreadsheet would run a cell that begins with `=`, `+`, `-` or `@`, whatever a learner
+has put into it. The rules follow OWASP, "CSV Injection", and RFC 4180 for the format.
 """
 
 from __future__ import annotations

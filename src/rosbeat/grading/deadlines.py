@@ -1,4 +1,4 @@
-"""Decide what is late, and how much is taken off for it."""
+"""Decide which files are late, and how many points are deducted."""
 
 from __future__ import annotations
 

@@ -1,14 +1,15 @@
-"""Give learners feedback: a page for each with everything that was found, and zips to upload.
+"""Write the learners' feedback: a page for each with all findings, and zip files to upload.
 
-A page shows a learner's own code with the lines that were named, and what the answer did beside
-what the published solution did. Where the forms of the zips come from:
+A page shows a learner's own code with the relevant lines, and the answer's behaviour beside that of
+the published solution. Sources of the zip formats:
 
-- Moodle, "Upload multiple feedback files in a zip" (`mod/assign/feedback/file/importziplib.php`):
-  a file's name has the learner's full name, the number that is in the names of downloaded files,
-  `assignfeedback` and `file`, with underscores between them; the rest is what the learner sees.
+- Moodle, "Upload multiple feedback files in a zip" (`mod/assign/feedback/file/importziplib.php`): a
+  file's name consists of the learner's full name, the number in the names of downloaded files,
+  `assignfeedback` and `file`, joined by underscores; the learner sees the rest.
 - Canvas, "Upload Submissions" (`infer_comment_context_from_filename` of
   `app/models/abstract_assignment.rb`): a file's name is that of a downloaded file. Learners see the
-  name of what they handed in, whatever the content is: so it is a notebook, as theirs was.
+  name of the file that they submitted, whatever the content is. The feedback is therefore a
+  notebook, as their submission was.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Group answers that are alike: equal but for layout, or for layout and the names they give.
+"""Group similar answers: those that differ only in layout, or only in layout and chosen names.
 
-Two answers of a group are one piece of work for a person who marks them. That answers are alike, or
-equal to the published solution, is a fact and no verdict: a short exercise has few right answers.
+An instructor can mark all answers of a group at once. That answers are similar, or equal to the
+published solution, is no evidence of copying: a short exercise has few right answers.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Define what is sent into a sandbox and what comes out of it, each as a line of JSON.
+"""Define the input and output of a sandbox, each as a line of JSON.
 
-Nothing of a judge goes in: no expected value, no solution, no other submission.
+The input contains nothing of a judge: no expected value, no solution, no other submission.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Turn what came out of a sandbox into an outcome. Nothing of a submission runs here.
+"""Turn the output of a sandbox into an outcome, without running any submitted code.
 
-What came out is read as JSON and checked field by field; the judge of the exercise, a pure
-function, says what it is worth. If nothing usable came out, how the run ended says why.
+The output is read as JSON and validated field by field; the exercise's judge, a pure function,
+gives the verdict. If there is no usable output, the way in which the run ended explains why.
 """
 
 from __future__ import annotations

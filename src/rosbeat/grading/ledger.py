@@ -1,9 +1,9 @@
-"""Keep what has been judged already, so that nothing is observed twice.
+"""Store the outcomes of judged answers, so that no answer is observed twice.
 
-A line of JSON for each answer, added and brought to the disk as soon as it is judged: whoever pulls
-the plug loses the answers that were being observed, and no others. Each line has a digest of
-itself, so a line that is damaged is not believed, and its answer is judged again. An answer is
-known by all that decides about it: its job, and the version of the course.
+The file has a line of JSON for each answer, appended and synced to disk as soon as it is judged: a
+power failure loses only the answers that were being observed. Each line contains a digest of
+itself, so a damaged line is ignored, and its answer is judged again. The key of an answer covers
+everything that affects its outcome: its job, and the version of the course.
 """
 
 from __future__ import annotations

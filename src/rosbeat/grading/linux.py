@@ -1,8 +1,8 @@
-"""Call Linux where Python has no function for it, with names and errors as Python has them.
+"""Wrap Linux system calls that Python does not provide, with names and errors in Python's style.
 
 Sources: the Linux manual pages unshare(2), pidfd_open(2), mount(2), umount2(2), pivot_root(2),
 prctl(2), capset(2), seccomp(2), netdevice(7), and linux/filter.h for the few instructions of a
-filter; numbers that differ between machines are in `_NUMBERS`.
+filter; numbers that differ between architectures are in `_NUMBERS`.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""Apply points and comments that a person gives by hand; they stay, however often one grades.
+"""Apply points and comments that a person gives by hand; they survive every further run.
 
 `manual.csv` has the columns `learner,exercise,points,comment`, in any order and with others between
-them. Without points, those of the judge stay; without an exercise, the comment is about the whole.
-A file that a person has written in is never written to, and a line that cannot be used is told and
-costs no other line.
+them. Without points, the judge's points stay; without an exercise, the comment is about the whole
+submission. A file that a person has edited is never written to. A line that cannot be used is
+reported and does not affect other lines.
 """
 
 from __future__ import annotations

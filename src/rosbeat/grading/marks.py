@@ -1,6 +1,6 @@
-"""Hold what grading gives: the marks of each exercise, of a learner and of a class.
+"""Hold the results of grading: the marks of each exercise, of a learner and of a class.
 
-Plain data, made from outcomes. Every file that `rosbeat grade` writes is made from these records.
+These records are plain data, made from outcomes. `rosbeat grade` derives every file from them.
 """
 
 from __future__ import annotations

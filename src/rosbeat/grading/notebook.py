@@ -1,7 +1,7 @@
-"""Read a notebook that somebody handed in: without trust, and repaired where that is fair.
+"""Read a submitted notebook as untrusted input, and repair it where that is fair.
 
-Nothing is run. Outputs are dropped before anything else, however large they are, and of the
-metadata only what names the page and the exercise of a cell is read.
+Nothing is executed. Outputs are dropped before anything else, however large they are, and the only
+metadata that is read identifies the page and the exercise of a cell.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Run an answer inside a sandbox, and write down what it did.
+"""Run an answer inside a sandbox, and write its observation.
 
-Nothing in here decides about a mark: it runs a stranger's code and the scenario of its exercise.
+Nothing in this module decides about a mark: it runs submitted code and its exercise's scenario.
 """
 
 from __future__ import annotations

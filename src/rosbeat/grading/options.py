@@ -1,4 +1,4 @@
-"""Declare what is typed after the commands of grading; apart, since every start reads it."""
+"""Declare the arguments of the grading commands, in a small module that every start imports."""
 
 from __future__ import annotations
 

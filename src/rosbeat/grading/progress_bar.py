@@ -1,4 +1,4 @@
-"""Show how far grading is."""
+"""Show the progress of grading."""
 
 from __future__ import annotations
 

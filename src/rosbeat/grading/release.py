@@ -1,9 +1,9 @@
-"""Make what learners get, and bring an earlier release up to date without taking anything away.
+"""Create the folder that learners get, and update an earlier release without removing anything.
 
-A release holds all that learners need and nothing that solves an exercise: no lesson sources, no
-solution pages, no answers that `hint` gives last, no tests and no history. Pages from 05 on begin
-with the package of page 02 and the nodes that pages 03 and 04 show (`workspace.catch_up`), also for
-those who come without them; so these files are part of a release that has such a page. Its
+A release contains everything that learners need and nothing that solves an exercise: no lesson
+sources, no solution pages, no answers for `hint`, no tests and no history. Pages from 05 on start
+with the package of page 02 and the nodes that pages 03 and 04 show (`workspace.catch_up`), even for
+learners who skipped those pages, so a release with such a page includes these files. Their
 `package.xml` is one answer to exercise 02a.
 """
 

@@ -1,4 +1,4 @@
-"""Define a remark: what is worth telling an instructor about a file that was handed in."""
+"""Define a remark: a fact about a submitted file that an instructor should know."""
 
 from __future__ import annotations
 

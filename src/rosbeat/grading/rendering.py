@@ -1,9 +1,9 @@
-"""Render pages from templates, so that whatever a learner has written stays text.
+"""Render pages from templates, so that a learner's text can never act as markup.
 
-A page is one file. It has no script and asks the network for nothing, and its
-Content-Security-Policy says so to the browser as well; only the review, which runs on localhost,
-has a script of its own. Jinja escapes all that a template prints, and before that `readable` makes
-visible what is hidden in a text. What differs in colour differs in sign and word as well; the
+A page is one file. It contains no script and loads nothing from the network, and its
+Content-Security-Policy enforces both; only the review, which runs on localhost, has a script of its
+own. Jinja escapes everything that a template prints, and before that `readable` makes hidden
+characters visible. Nothing is distinguished by colour alone: a sign and a word differ as well. The
 colours are in `style.css`.
 """
 

@@ -1,6 +1,6 @@
-"""Report a class to its instructor: how each exercise went, and which mistakes to talk about.
+"""Report a class to its instructor: the results of each exercise, and the mistakes to talk about.
 
-Learners are named only where somebody has to look at their work, and in a table that is folded.
+Learners are named only where somebody has to look at their work, and in a collapsed table.
 """
 
 from __future__ import annotations

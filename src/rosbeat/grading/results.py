@@ -1,8 +1,8 @@
-"""Write the folder of results, and say in a terminal what has come out.
+"""Write the results folder, and print a summary in the terminal.
 
-`results.json` has all that is known of a class, for programs; docs/results.schema.json is its form.
-The same gradebook gives the same bytes. There is no time in it, neither of day nor of work, so a
-run that was interrupted and went on gives the file of a run that was not.
+`results.json` contains all results of a class, for programs; docs/results.schema.json is its
+schema. The same gradebook gives the same bytes: the file contains neither dates nor durations, so a
+run that was interrupted and resumed writes the same file as one that was not.
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
 """Serve a page on localhost on which a person marks a class by eye.
 
-Answers that are alike stand together, with their code, what they did, and what was said of them.
-Points and comments for a whole group are written into manual.csv, which stays a person's own file:
-lines about other answers keep their words, and the file as it was is kept beside it once.
+Similar answers are grouped, with their code, their behaviour, and the verdict. Points and comments
+for a whole group are written to manual.csv, which remains the instructor's own file: lines about
+other answers stay unchanged, and the original file is saved once next to it.
 
-Only programs of this computer reach the server, and only who knows the token in its address: it
-listens on the loopback interface, refuses requests for another host (DNS rebinding) and posts from
-other pages, and lets the page load nothing from elsewhere.
+Only programs on this computer can reach the server, and only with the token in its address: it
+listens on the loopback interface, rejects requests for another host (DNS rebinding) and posts from
+other pages, and the page may load nothing from elsewhere.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Read who is in the class, and find the learner that somebody means.
+"""Read a class's roster, and match names and ids with its learners.
 
 A roster is a file with a name or an id on each line, or CSV. Moodle's grading worksheet and list of
-participants and Canvas's gradebook are understood as they are exported.
+participants and Canvas's gradebook can be used as exported.
 """
 
 from __future__ import annotations

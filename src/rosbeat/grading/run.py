@@ -1,8 +1,8 @@
-"""Judge a class: from what was handed in to its gradebook, with the workers that observe answers.
+"""Judge a class: from its submissions to its gradebook, with the workers that observe answers.
 
-Answers that are equal in all that counts are observed once. A worker that dies or does not answer
-in time is replaced, and the answer that it was at is tried once more in the new one; an answer that
-loses two workers is given up. The others go on.
+Answers that agree in everything that affects the result are observed once. A worker that dies or
+does not answer in time is replaced, and its current answer is tried once more in the new one; an
+answer that loses two workers is given up. The others continue.
 """
 
 from __future__ import annotations

@@ -1,23 +1,23 @@
-"""Run strangers' code where it can do no harm: a sandbox a submission, a fork an answer.
+"""Run untrusted code in a sandbox: one sandbox per submission, one fork per answer.
 
 ::
 
     keeper           a fork of a prepared process, in new namespaces; watches, kills; trusted
-      ├─ init        process 1 of the process namespace: when it dies, the kernel kills all in there
+      ├─ init        process 1 of the PID namespace: when it dies, the kernel kills all others in it
       └─ work        a fork of the keeper for one answer: an ordinary user without capabilities,
-                     in a user namespace of its own; few system calls less, limits
+                     in its own user namespace, with some system calls refused, and limits
 
-What the work sees of the disk is a root of its own, nearly all of it read-only::
+The work sees its own root file system, nearly all of it read-only::
 
     /usr /lib /lib64 /bin /sbin      the system, read-only
     /etc                             a few files that the C library reads
-    the folders that were asked for  read-only, each at its own path; some in them empty
-    /dev                             null, zero, full, random, urandom, terminals of its own
-    /proc                            its own processes, if the kernel gives that
+    the requested folders            read-only, each at its own path; some in them empty
+    /dev                             null, zero, full, random, urandom, private terminals
+    /proc                            its own processes, if the kernel allows it
     /tmp /dev/shm                    empty, private, limited, new for each answer
 
-Whatever an answer leaves behind (processes, shared memory, files) is gone before the next begins.
-Answers of one learner share namespaces; those of two learners share nothing.
+Everything that an answer leaves behind (processes, shared memory, files) is removed before the next
+one begins. Answers of one learner share namespaces; those of two learners share nothing.
 """
 
 from __future__ import annotations

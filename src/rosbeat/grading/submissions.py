@@ -1,6 +1,6 @@
-"""Find out who handed in what: from a folder or a zip file to the pages of each learner.
+"""Find each learner's submitted pages in a folder or a zip file.
 
-The forms of names are those of Moodle's "Download all submissions", with and without folders
+The name formats are those of Moodle's "Download all submissions", with and without folders
 (`mod/assign/locallib.php`, `download_submissions`), of Canvas's "Download Submissions"
 (`app/models/content_zipper.rb`), and a folder or a zip file for each learner.
 """

@@ -1,16 +1,16 @@
-"""Write tables as CSV: one to look at, and one for each system to upload.
+"""Write tables as CSV: one to read, and one to upload for each learning platform.
 
-Where the forms come from:
+Sources of the formats:
 
-- Moodle: the offline grading worksheet. `mod/assign/feedback/offline/importgradeslib.php` wants the
-  columns `Identifier` (`Participant` and the number that is in the names of downloaded files),
-  `Grade` and `Last modified (grade)`, in the language that Moodle is shown in, and takes `Feedback
-  comments`, which `mod/assign/feedback/comments/locallib.php` stores as HTML. `locallib.php` beside
-  the first leaves a row out, without a word, if its grade is empty or above the maximum.
-- Canvas: the gradebook. `lib/gradebook_importer.rb` wants `Student`, `ID`, ... `Section` first. It
-  finds a learner by the ID, which is in the names of downloaded files, and the assignment by its
-  title, or by the number in brackets behind it. A row that begins with `Points Possible` says what
-  the assignment is worth.
+- Moodle: the offline grading worksheet. `mod/assign/feedback/offline/importgradeslib.php` requires
+  the columns `Identifier` (`Participant` and the number in the names of downloaded files), `Grade`
+  and `Last modified (grade)`, in the language of Moodle's interface, and accepts `Feedback
+  comments`, which `mod/assign/feedback/comments/locallib.php` stores as HTML. `locallib.php` in
+  the same folder as the first silently skips a row if its grade is empty or above the maximum.
+- Canvas: the gradebook. `lib/gradebook_importer.rb` requires `Student`, `ID`, ... `Section` first.
+  It finds a learner by the ID, which is in the names of downloaded files, and the assignment by its
+  title, or by the number in parentheses after it. A row that begins with `Points Possible` gives
+  the assignment's maximum points.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""Draw what an answer did over time beside what the published solution did.
+"""Draw an answer's behaviour over time beside that of the published solution.
 
-The trace of an answer is a small part of its evidence: of each topic some messages, the first log
-lines, or what a terminal shows. It is what stays of the evidence when an answer has been judged, so
-that a page can show it. The picture is SVG inside of the page: it takes the page's colours, in both
-themes and on paper, and says in words what it shows.
+A trace is a small part of an answer's evidence: some messages of each topic, the first log lines,
+or the content of a terminal. It is kept after the answer has been judged, so that a page can show
+it. The picture is SVG embedded in the page: it uses the page's colours, in both themes and in
+print, and has a text description.
 """
 
 from __future__ import annotations

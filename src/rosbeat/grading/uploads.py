@@ -1,8 +1,8 @@
-"""Read what was uploaded: the files of a folder, of a zip file, and of zip files inside them.
+"""Read uploads: the files of a folder, of a zip file, and of zip files inside them.
 
-Files from learners are hostile until they are parsed. Nothing is unpacked to disk and no link is
-followed. A file that cannot be read stays in the list with the reason, and every limit belongs to
-one file or one learner, so a bad entry costs nobody else.
+Learners' files are untrusted until they are parsed. Nothing is unpacked to disk, and no link is
+followed. An unreadable file stays in the list with the reason. Every limit applies to one file or
+one learner, so a bad entry affects nobody else.
 """
 
 from __future__ import annotations

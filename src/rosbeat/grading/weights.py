@@ -1,16 +1,16 @@
-"""Read what exercises are worth, if an instructor wants other points than those of the course.
+"""Read an instructor's own points for exercises, which replace those of the course.
 
-The file is CSV, because what is edited here is a table of two columns, and every spreadsheet and
-every editor can save one:
+The file is CSV, because it is a table of two columns, and every spreadsheet and every editor can
+save one:
 
     exercise,points
     03a,4
     03c,0
     04,10
 
-An exercise has as many points as the line says; with 0 points it is not graded. A page counts for
-as many points as its line says, and its exercises share them in proportion to their own points.
-Whatever is not named keeps the points of the course. All points are whole hundredths.
+An exercise is worth the points on its line; with 0 points it is not graded. A page counts for the
+points on its line, and its exercises share them in proportion to their own points. Exercises that
+the file does not name keep the course's points. All points are multiples of 0.01.
 """
 
 from __future__ import annotations

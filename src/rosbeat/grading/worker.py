@@ -2,14 +2,14 @@
 
 ::
 
-    worker           has imported all that answers need; reads nothing of anybody's
-      └─ keeper      a fork for one submission: reads its jobs, makes its sandbox (see `sandbox`)
+    worker           has imported everything that answers need; never reads a submission
+      └─ keeper      a fork for one submission: reads its jobs, creates its sandbox (see `sandbox`)
            └─ work   a fork for one answer
 
-A line on standard input is a submission: a list of lines of JSON, a job each. For each job comes a
-line on standard output. ROS itself is started in the work only, for a fork after `rclpy.init`
-hangs. As nothing of a submission is ever read by the worker, the next learner's program finds none
-of it in its own memory, nor is anything in the worker's environment but what ROS needs.
+Each line on standard input is a submission: a list of lines of JSON, one per job. For each job the
+worker writes a line to standard output. ROS itself is only started in the work, because a fork
+after `rclpy.init` hangs. Since the worker never reads a submission, the next learner's program
+finds no trace of it in its own memory. The worker's environment contains only what ROS needs.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Write files whole or not at all, under names that are safe on every computer."""
+"""Write files completely or not at all, under names that are valid on every operating system."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
 """Run the actions of a session's nodes in virtual time, and record them.
 
-rclpy makes an action of three services and two topics inside of one waitable, where the hooks of
-`recording` do not see them. So the constructors of `ActionServer` and `ActionClient` are wrapped.
-So are methods that rclpy keeps to itself, since it has no public place for any of this.
-An action of a session's node runs virtual time in calls that would wait, gives its goals the same
-ids in every run, and shows an exception in its work as any other.
+rclpy implements an action as three services and two topics inside one waitable, where the hooks of
+`recording` do not see them. This module therefore wraps the constructors of `ActionServer` and
+`ActionClient`, and some private methods for which rclpy has no public counterpart. Within a
+session, calls that wait for an action run virtual time, goals get the same ids in every run, and an
+exception in an execute callback is shown like any other.
 """
 
 from __future__ import annotations

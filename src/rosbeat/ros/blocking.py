@@ -1,9 +1,9 @@
-"""Calls that wait, in virtual time.
+"""Run blocking calls in virtual time.
 
-While a session runs nodes, `time.sleep` and `rclpy.wait_for_message` of their thread suspend the
-process that calls them, and no other (see `virtual_time`). What rclpy itself builds on
-`time.sleep`, `wait_for_service` and `wait_for_server`, follows. Threads of the nodes' own, and
-rosbeat's code, sleep as ever.
+While a session runs nodes, `time.sleep` and `rclpy.wait_for_message` in the session's thread
+suspend only the simulated process that calls them (see `virtual_time`). The same holds for
+`wait_for_service` and `wait_for_server`, which rclpy builds on `time.sleep`. Threads that nodes
+start, and rosbeat's own code, sleep in real time.
 """
 
 from __future__ import annotations

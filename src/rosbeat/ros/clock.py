@@ -1,4 +1,4 @@
-"""The clocks of a session's nodes, which all show one time."""
+"""Give all nodes of a session clocks that show the same time."""
 
 from __future__ import annotations
 

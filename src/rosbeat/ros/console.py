@@ -1,7 +1,7 @@
-"""What a session prints in the cell that ran it.
+"""Print a session's log lines and faults in the cell that ran it.
 
-Log lines look as `ros2 run` prints them, with virtual time where wall time would stand, so that a
-page prints the same text on every run.
+Log lines have the format of `ros2 run`, with virtual time instead of wall time, so that a page
+prints the same text on every run.
 """
 
 from __future__ import annotations

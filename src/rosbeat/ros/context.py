@@ -1,4 +1,4 @@
-"""The ROS contexts of sessions and of programs, interrupts, and `rclpy.init` in a page."""
+"""Manage the ROS contexts of sessions and programs, interrupts, and `rclpy.init` in a page."""
 
 from __future__ import annotations
 

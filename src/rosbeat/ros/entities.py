@@ -1,4 +1,4 @@
-"""Describe nodes and entities, and take from an entity what has arrived."""
+"""Describe nodes and entities, and take messages, requests and responses from their handles."""
 
 from __future__ import annotations
 

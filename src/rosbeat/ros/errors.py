@@ -1,4 +1,4 @@
-"""Errors that several calls of a session raise, and checks of what a caller typed."""
+"""Define errors that several session calls raise, and checks of a caller's arguments."""
 
 from __future__ import annotations
 

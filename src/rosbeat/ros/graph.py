@@ -1,4 +1,4 @@
-"""The graph: of a session, of the other processes in its domain, and waiting for both."""
+"""Show the graph of a session and of other processes in its domain, and wait for nodes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Injects numbers, load and faults into a live session, for the instrument panel."""
+"""Inject numbers, load and faults into a live session, for the instrument panel."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Gathers what is known around a topic, so that `rosbeat.diagnosis` can explain it."""
+"""Gather the facts about a topic that `rosbeat.diagnosis` needs to explain it."""
 
 from __future__ import annotations
 

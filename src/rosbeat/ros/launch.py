@@ -1,8 +1,8 @@
-"""Start and make nodes.
+"""Create and start nodes.
 
-A node's name, namespace, remappings and parameters are what a `Node(...)` action of a launch file
-sets, and `ros2 run` behind `--ros-args`. They reach the node the same way, as arguments that rcl
-reads, so that the class stays as it is.
+A node's name, namespace, remappings and parameters are those that a `Node(...)` action of a launch
+file sets, or `ros2 run` after `--ros-args`. They reach the node in the same way, as arguments that
+rcl parses, so the class does not have to change.
 """
 
 from __future__ import annotations

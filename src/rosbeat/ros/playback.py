@@ -1,4 +1,4 @@
-"""A node that publishes a recording, each message at its time."""
+"""Publish a recording from a node, each message at its time."""
 
 from __future__ import annotations
 

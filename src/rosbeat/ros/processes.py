@@ -1,8 +1,8 @@
-"""Simulated processes: what runs callbacks, and what a callback is while it waits.
+"""Simulate processes: nodes, one executor, and the callbacks that have not returned yet.
 
-On a robot most nodes are processes of their own, and each process has one executor. A callback
-that sleeps or waits holds up its process, and no other. So the unit of the simulation is the
-process: its nodes, the number of threads of its executor, and the callbacks that have begun and not
+On a robot most nodes are processes of their own, and each process has one executor. A callback that
+sleeps or waits blocks its own process only. The unit of the simulation is therefore the process:
+its nodes, the number of threads of its executor, and the callbacks that have started but not yet
 returned.
 """
 

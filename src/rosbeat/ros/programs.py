@@ -1,4 +1,4 @@
-"""Programs in processes of their own, and a node of this process among them."""
+"""Run programs in operating-system processes, and a node of this process beside them."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Random numbers that belong to one session.
+"""Seed random numbers per session.
 
-A node draws from Python's global generator (`random.uniform`) or NumPy's. Each session keeps states
-of its own and lends them to the process only while its nodes run, so that the same seed gives the
-same numbers whatever else draws in between.
+A node draws from Python's global generator (`random.uniform`) or NumPy's. Each session keeps its
+own generator states and installs them only while its nodes run, so that the same seed gives the
+same numbers whatever other code draws in between.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Observe nodes without changing them, and record what happens.
 
-Hooks around the methods of rclpy's `Node` tell a session of nodes and of what they make. Taps
-listen at publishers and clients, and a logger of the session's own at what nodes log. The recorder
-keeps all of it.
+Hooks around the methods of rclpy's `Node` report new nodes and entities to the session. Taps
+intercept publishers and clients, and a logger of the session receives the nodes' log lines. The
+recorder stores all of it.
 """
 
 from __future__ import annotations

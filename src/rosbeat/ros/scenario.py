@@ -1,8 +1,8 @@
-"""Run a learner's node, or a system of them, and record what happens.
+"""Run a learner's node, or a system of nodes, and record what happens.
 
-A scenario does not judge. Whatever goes wrong in the learner's code becomes a fault in the
-observation: nothing is printed or raised, a deadline limits the time, and afterwards the process is
-as it was.
+A scenario does not judge. Any error in the learner's code becomes a fault in the observation:
+nothing is printed or raised, a deadline limits the time, and afterwards the process's state is
+restored.
 """
 
 from __future__ import annotations

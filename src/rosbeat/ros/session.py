@@ -1,4 +1,4 @@
-"""The session: real ROS nodes, run in a page."""
+"""Run real ROS nodes in a page: the session."""
 
 from __future__ import annotations
 

@@ -1,12 +1,12 @@
-"""Programs in virtual time: a file with `main()`, run unchanged as a simulated process.
+"""Run a file with `main()` unchanged as a simulated process, in virtual time.
 
-`rclpy.init`, `spin`, `destroy_node` and `shutdown` do what they do in a process of its own: the
-program has a default context, arguments and signal handlers that are its own, and a module that is
-imported afresh. Ctrl+C and SIGTERM come at a chosen time, and what they do is what rclpy's signal
-handlers and Python do: the context is shut down, and `KeyboardInterrupt` is raised where the
-program is (rclpy 7.1, `signal_handler.cpp`; `tests/conformance` compares the two).
+`rclpy.init`, `spin`, `destroy_node` and `shutdown` behave as in an operating-system process: the
+program has its own default context, arguments and signal handlers, and a freshly imported module.
+Ctrl+C and SIGTERM arrive at a chosen time, with the effects of rclpy's and Python's signal
+handlers: the context is shut down, and `KeyboardInterrupt` is raised where the program is (rclpy
+7.1, `signal_handler.cpp`; `tests/conformance` compares the two).
 
-Its nodes live in the session's context, so that one participant carries all messages; the
+The program's nodes live in the session's context, so that one participant carries all messages; the
 program's own context has no nodes.
 """
 

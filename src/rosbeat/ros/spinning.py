@@ -1,10 +1,10 @@
-"""What `rclpy.spin` and its kin do for nodes of a session.
+"""Run `rclpy.spin` and related functions for nodes of a session.
 
-They are written for a process that does nothing else. In the code of a node, and in a program that
-a session plays (see `simulated_program`), they suspend their simulated process in virtual time and
-let its callbacks run. In a cell, `spin` runs the nodes against the wall clock until Interrupt:
-rclpy's own waits in C, where Interrupt does not reach. Nodes that belong to no session are spun by
-rclpy itself.
+rclpy's versions are written for a process that does nothing else. In the code of a node, and in a
+simulated program (see `simulated_program`), they suspend their simulated process in virtual time
+and let its callbacks run. In a cell, `spin` runs the nodes against the wall clock until Interrupt,
+because rclpy's own version waits in C, where Interrupt has no effect. rclpy itself spins nodes that
+belong to no session.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Nodes that scenarios run beside an answer."""
+"""Create the nodes that scenarios run beside an answer."""
 
 from __future__ import annotations
 

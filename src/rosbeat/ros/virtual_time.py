@@ -1,19 +1,19 @@
-"""Nodes as a discrete-event simulation.
+"""Run nodes as a discrete-event simulation.
 
-Nothing happens in a robot's program except in callbacks, and callbacks are caused: by a timer whose
-deadline has come, or by something that another callback did. So time can jump from one deadline to
-the next. At each instant one timer runs, then all that follows from it, until nothing is left to
-do; then the next timer of that instant, in order of (deadline, creation).
+A robot's program acts only in callbacks, and every callback has a cause: a timer's deadline has
+passed, or another callback did something. Time can therefore jump from one deadline to the next. At
+each instant one timer runs, then everything that follows from it, until nothing is left to do; then
+the next timer of that instant, in order of (deadline, creation).
 
-What follows is known without waiting: within one participant Fast DDS hands a message over inside
-`publish()`. What was stored for late-joining subscriptions is there when the subscription has been
-made; see `qos_events.wait_for_stored`.
+The consequences of a callback are known without waiting: within one participant, Fast DDS delivers
+a message inside `publish()`. Messages stored for a late-joining subscription have arrived when its
+creation returns; see `qos_events.wait_for_stored`.
 
-A callback that waits (`time.sleep`, a service call, a `spin` of its own) suspends its process only.
-All callbacks run in greenlets: the one that happens to run the loop of the simulation calls them
-directly, which costs nothing. If a callback waits, its greenlet is left where it is, and another
-one goes on with the loop. When the wait is over the callback's own greenlet goes on, with the
-callback first and the loop afterwards, and the other one stands by.
+A callback that waits (`time.sleep`, a service call, its own `spin`) suspends its process only. All
+callbacks run in greenlets: the greenlet that runs the simulation's loop calls them directly, which
+costs nothing. If a callback waits, its greenlet is suspended, and another one continues the loop.
+When the wait is over, the callback's own greenlet resumes the callback and then takes over the
+loop, and the other one stands by.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""What virtual time leaves to rclpy: tasks and coroutines, guard conditions and waitables.
+"""Run the work that virtual time leaves to rclpy: coroutines, guard conditions and waitables.
 
-Tasks are rclpy's own; here they are given their turns. Guard conditions and waitables (actions,
-events of the middleware) cannot be taken directly, so they go through rclpy's own wait set.
+Tasks and coroutines remain rclpy's own; this module only schedules them. Guard conditions and
+waitables (actions, middleware events) cannot be taken directly, so they go through rclpy's wait
+set.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What one session owns: a context, a clock, an executor, a recorder, processes and nodes."""
+"""Hold a session's state: its context, clock, executor, recorder, processes and nodes."""
 
 from __future__ import annotations
 

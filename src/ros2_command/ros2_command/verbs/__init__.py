@@ -1,1 +1,1 @@
-"""The commands: one module each, with its verbs in `VERBS`; `registry` lists them all."""
+"""Implement the commands, one module each, with its verbs in `VERBS`; `registry` lists them all."""

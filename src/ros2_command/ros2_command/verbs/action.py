@@ -1,4 +1,4 @@
-"""`ros2 action`: which actions there are, and sending goals."""
+"""Implement `ros2 action`: list actions and send goals."""
 
 from __future__ import annotations
 

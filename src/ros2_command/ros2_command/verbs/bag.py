@@ -1,7 +1,7 @@
-"""`ros2 bag`: recording topics, playing them back, and what a recording holds.
+"""Implement `ros2 bag`: record topics, play them back, and describe recordings.
 
-The files are those of rosbag2, version 9, as in ROS 2 Jazzy; the library `rosbags` writes and reads
-them. A message goes from the middleware to the file and back as the bytes that it came in.
+The files use the rosbag2 format, version 9, as in ROS 2 Jazzy; the library `rosbags` writes and
+reads them. Messages pass between the middleware and the file as unchanged bytes.
 """
 
 from __future__ import annotations

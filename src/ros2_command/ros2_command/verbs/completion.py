@@ -1,4 +1,4 @@
-"""`ros2 completion`: what a shell needs to complete this command, and what could come next."""
+"""Implement `ros2 completion`: print a shell's completion script, and compute the completions."""
 
 from __future__ import annotations
 

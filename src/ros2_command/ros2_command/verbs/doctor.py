@@ -1,4 +1,4 @@
-"""`ros2 doctor`: what commonly goes wrong, and a report of what there is."""
+"""Implement `ros2 doctor`: check for common problems, and report on the system."""
 
 from __future__ import annotations
 

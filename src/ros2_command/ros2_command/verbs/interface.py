@@ -1,4 +1,4 @@
-"""`ros2 interface`: definitions of messages, services and actions."""
+"""Implement `ros2 interface`: show definitions of messages, services and actions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`ros2 node`: which nodes there are, and what each of them does."""
+"""Implement `ros2 node`: list nodes, and show what each of them does."""
 
 from __future__ import annotations
 

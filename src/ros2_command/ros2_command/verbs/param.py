@@ -1,4 +1,4 @@
-"""`ros2 param`: parameters of other nodes, through the services that every node offers for them."""
+"""Implement `ros2 param`: access other nodes' parameters through their parameter services."""
 
 from __future__ import annotations
 

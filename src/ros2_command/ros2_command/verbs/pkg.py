@@ -1,4 +1,4 @@
-"""`ros2 pkg`: packages that are there, and new ones for ament_python."""
+"""Implement `ros2 pkg`: list packages, and create ament_python packages."""
 
 from __future__ import annotations
 

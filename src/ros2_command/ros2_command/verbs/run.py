@@ -1,4 +1,4 @@
-"""`ros2 run`: start a package's executable; signals go in, the exit code comes out."""
+"""Implement `ros2 run`: start a package's executable, forward signals and return its exit code."""
 
 from __future__ import annotations
 

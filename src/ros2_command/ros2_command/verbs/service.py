@@ -1,4 +1,4 @@
-"""`ros2 service`: what is offered, calling, and listening to calls."""
+"""Implement `ros2 service`: list services, call them, and listen to calls."""
 
 from __future__ import annotations
 

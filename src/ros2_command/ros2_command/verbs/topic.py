@@ -1,4 +1,4 @@
-"""`ros2 topic`: what is in the graph, listening, publishing and measuring."""
+"""Implement `ros2 topic`: list, echo, publish and measure topics."""
 
 from __future__ import annotations
 
