@@ -2,7 +2,9 @@
 
 import gc
 import re
+import signal
 import threading
+import time
 from functools import partial
 
 import psutil
@@ -13,6 +15,50 @@ from std_msgs.msg import String
 from nodes import Doer, Listener, Speaker, Talker, Ticker
 from rosbeat import Session
 from rosbeat.errors import DurationError, NodeClassError, SessionError, UnknownTopicError
+
+
+class Endless(Node):
+    """Interrupts itself, after long enough, in a callback that never returns."""
+
+    def __init__(self, seconds=1.5):
+        super().__init__("endless")
+        self.seconds = seconds
+        self.create_timer(2.0, self.tick)
+
+    def tick(self):
+        end = time.monotonic() + self.seconds
+        while True:
+            if time.monotonic() > end:
+                signal.raise_signal(signal.SIGINT)
+
+
+def test_an_interrupt_names_the_endless_callback_and_ends_its_node(ros, capsys):
+    ros.add(Endless)
+    ticker = ros.add(partial(Ticker, 1.0))
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ros.run(5)
+    shown = "\n".join(caught.value._render_traceback_())
+    assert "/endless had been in tick for " in shown
+    assert "line " in shown
+    assert "What to try:   Mend the callback" in shown
+    ros.run(5)
+    assert "rosbeat: /endless ended when you interrupted its callback." in capsys.readouterr().out
+    assert [at // 10**9 for at, _ in ticker.fired] == [1, 2, 3, 4, 5, 6, 7]
+    ros.add(Endless)
+    ros.run(1)
+    assert "interrupted" not in capsys.readouterr().out
+
+
+def test_an_interrupt_in_a_quick_callback_ends_no_node(ros, capsys):
+    node = ros.add(partial(Endless, 0.0))
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ros.run(5)
+    assert caught.value._render_traceback_() == [
+        "KeyboardInterrupt: stopped at 2 s; the session goes on."
+    ]
+    node.tick = lambda: None
+    ros.run(1)
+    assert "interrupted" not in capsys.readouterr().out
 
 
 def names(session):

@@ -18,6 +18,7 @@ from importlib import import_module
 from importlib.util import module_from_spec
 from operator import attrgetter
 from threading import Lock
+from time import monotonic
 from types import CodeType, ModuleType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -172,7 +173,12 @@ class Recorder:
 
     Columns grow one after the other, so whoever appends from several threads holds `lock`: in live
     mode a node may publish from one thread while its callbacks run in another.
+
+    Attributes:
+        began: When the last callback began, by the monotonic clock, in seconds.
     """
+
+    began: float = 0.0
 
     logs: list[LogRecord] = field(default_factory=list)
     faults: list[Fault] = field(default_factory=list)
@@ -211,6 +217,7 @@ class Recorder:
         """Record that a callback ran."""
         self._callback_times.append(time_ns)
         self._callback_labels.append(label)
+        self.began = monotonic()
 
     def calls(self) -> int:
         """Return how many callbacks have begun so far."""

@@ -269,11 +269,14 @@ class Session:
         with self._running("run"):
             if self.is_live:
                 raise session_is_live()
+            self._world.tell_broken_off()
             self._world.console.begin(quiet)
             try:
                 self._world.virtual.run_until(check_end(self._world.now() + span))
             except KeyboardInterrupt as interrupt:
-                show_briefly(interrupt, f"stopped at {self.time:g} s; the session goes on.")
+                ended = self._world.break_endless_off(interrupt)
+                usual = f"stopped at {self.time:g} s; the session goes on."
+                show_briefly(interrupt, ended or usual)
                 raise
             finally:
                 self._world.console.end()

@@ -9,6 +9,8 @@ from contextlib import contextmanager, nullcontext, suppress
 from functools import partial
 from itertools import count
 from threading import get_ident
+from traceback import walk_tb
+from types import FrameType
 from typing import Any
 from weakref import WeakKeyDictionary, WeakSet
 
@@ -31,7 +33,7 @@ from rosbeat.ros.console import Console, deadlock_text, fault_text, note, work_t
 from rosbeat.ros.context import SessionContext
 from rosbeat.ros.entities import TAKERS, Entry, NodeState, callback_name, full_name
 from rosbeat.ros.errors import INSTEAD_OF_WAITING, check_name, deadlock, foreign_node, no_such_node
-from rosbeat.ros.faults import fault_of, line_of
+from rosbeat.ros.faults import fault_of, is_learners, line_of
 from rosbeat.ros.graph import ExternalMessages, GraphObserver, poll, snapshot, with_other_processes
 from rosbeat.ros.launch import Launch, Maker, show_sim_time
 from rosbeat.ros.live import LiveExecutor
@@ -49,6 +51,11 @@ from rosbeat.ros.recording import (
 )
 from rosbeat.ros.virtual_time import LONGEST_WAIT, VirtualTimeExecutor
 from rosbeat.ros.wait_set import waitable_label, waitable_name
+
+#: Seconds after which an interrupt is meant for the callback that it hits.
+_ENDLESS = 1.0
+#: What to do about a node whose callback was interrupted.
+ADD_AGAIN = "Mend the callback so that it returns, then run the cell that adds the node again."
 
 
 class World:
@@ -89,6 +96,7 @@ class World:
         self.limits = Limits(self)
         self.closed = False
         self.panel: Any = None
+        self.broken_off: list[NodeState] = []
         self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
         self._waits = VirtualWaits(self.virtual, self._entries.get)
         self._random = SeededRandom(seed)
@@ -323,6 +331,38 @@ class World:
             others = [one.name for one in state.process.states if one is not state] if state else []
             if others:
                 note(f"{', '.join(others)} ran in the same process, which has ended.")
+
+    def break_endless_off(self, interrupt: KeyboardInterrupt) -> str:
+        """End the node whose callback an interrupt has hit, if the callback had run for long.
+
+        Args:
+            interrupt: The interrupt, as the session's `run` catches it.
+
+        Returns:
+            What to tell the learner, in three parts; an empty text if no callback had.
+        """
+        label, state = self.virtual.calling, None
+        seconds = time.monotonic() - self.recorder.began
+        line, code = line_of(_innermost(interrupt))
+        if label is not None and line and seconds >= _ENDLESS:
+            state = self.named(label.node)
+        if label is None or state is None or state.process.program is not None:
+            return ""
+        self.end_process(state.process)
+        self.broken_off.append(state)
+        return (
+            f"{state.name} had been in {label.name} for {seconds:.0f} s.\n"
+            f"    line {line}: {code}\n"
+            "  What it means: While a callback runs, nothing else can. The node has ended; the "
+            "other nodes go on.\n"
+            f"  What to try:   {ADD_AGAIN}"
+        )
+
+    def tell_broken_off(self) -> None:
+        """Say which nodes run no more since somebody interrupted them."""
+        for state in self.broken_off:
+            if state in self.states():
+                note(f"{state.name} ended when you interrupted its callback. {ADD_AGAIN}")
 
     def deadlocked(self, waits: Sequence[Wait]) -> None:
         """Record that callbacks wait for ever, at the line where the first of them waits."""
@@ -694,3 +734,18 @@ def full_topic(call: str, topic: object) -> str:
             "`room_1/temperature`.",
         ) from None
     return name
+
+
+def _innermost(interrupt: KeyboardInterrupt) -> FrameType | None:
+    """Return the learner's frame that an interrupt of `run` has hit; None if it was none of theirs.
+
+    It may have been raised anew by code that asked for it (`Interrupts`).
+    """
+    error: BaseException | None = interrupt
+    while error is not None:
+        frames = [frame for frame, _ in walk_tb(error.__traceback__)]
+        found = next(filter(is_learners, reversed(frames)), None)
+        if found is not None:
+            return found
+        error = error.__context__
+    return None
