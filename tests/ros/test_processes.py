@@ -496,7 +496,7 @@ def busy_system():
 
 
 def test_every_run_is_the_same():
-    assert len({digest(busy_system()) for _ in range(20)}) == 1
+    assert len({digest(busy_system()) for _ in range(8)}) == 1
 
 
 class OwnError(BaseException):

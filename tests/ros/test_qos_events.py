@@ -466,7 +466,7 @@ def test_raw_messages_and_infos_are_handed_over_as_always(ros):
 
 STORED = quality(stored=True)
 #: Fast DDS is late with stored messages 1 time in 5 to 1 time in 2.
-TIMES = 30
+TIMES = 15
 
 
 @pytest.mark.parametrize(

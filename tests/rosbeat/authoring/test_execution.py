@@ -50,11 +50,10 @@ def test_a_cell_that_takes_too_long_is_named(checkout, monkeypatch):
         run(checkout, "\nimport time; time.sleep(60)")
 
 
-def test_a_cell_that_ends_the_kernel_is_named_at_once(checkout):
-    started = time.monotonic()
+def test_a_cell_that_ends_the_kernel_is_named_at_once(checkout, monkeypatch):
+    monkeypatch.setattr(execution, "CELL_SECONDS", 1_000.0)  # longer than the test may take
     with pytest.raises(LessonError, match="ended the kernel"):
         run(checkout, "\nimport os; os._exit(1)")
-    assert time.monotonic() - started < 30
 
 
 def test_a_kernel_that_does_not_start_says_so(checkout, monkeypatch, tmp_path):

@@ -43,7 +43,7 @@ def local(workers):
 
 @pytest.fixture(scope="module")
 def cluster():
-    with local(3) as found:
+    with local(2) as found:
         yield found
 
 
