@@ -139,6 +139,14 @@ class Notebook:
         self._do("notebook:interrupt-kernel")
         self._wait_for_idle()
 
+    def restart(self):
+        """Restart the kernel, and wait until it answers."""
+        request = self.page.request
+        base = self.page.url.split("/lab")[0]
+        for kernel in request.get(f"{base}/api/kernels").json():
+            request.post(f"{base}/api/kernels/{kernel['id']}/restart")
+        self._wait_for_idle()
+
     def save(self):
         """Save, and wait until it is saved."""
         self._do("docmanager:save")

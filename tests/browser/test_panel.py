@@ -69,6 +69,8 @@ PULSES = """panel => {
     }).observe(panel, { childList: true, subtree: true });
 }"""
 PANEL = ".rosbeat-panel"
+LOST = f"{PANEL} [role=alert]:not(:empty)"
+STILL = ".rosbeat-still"
 
 
 @pytest.fixture
@@ -154,6 +156,28 @@ def test_a_name_in_several_lines_looks_like_one_name(notebook, page, tmp_path):
     notebook.picture("panel-long", page.locator(f"{PANEL} .rb-graph"), tmp_path)
 
 
+def test_a_slider_publishes_where_it_is_let_go(notebook, page):
+    page.get_by_role("button", name="Pause /sensor").click()
+    state(page, "/sensor", "paused")
+    more_frames(page)
+    count = row(page, "/temperature").locator("td").nth(2)
+    before = int(count.inner_text())
+    slider = page.get_by_label("Value", exact=True)
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    middle = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + box["width"] / 2, middle)
+    page.mouse.down()
+    for part in (0.6, 0.7, 0.8, 0.9):
+        page.mouse.move(box["x"] + part * box["width"], middle)
+        more_frames(page, 2)
+    assert float(slider.input_value()) > 30
+    assert int(count.inner_text()) == before
+    page.mouse.up()
+    value(page, "/status", "High")
+    assert int(count.inner_text()) == before + 1
+
+
 def test_nodes_stop_and_start(notebook, page):
     page.get_by_role("button", name="Stop /sensor").click()
     state(page, "/sensor", "stopped")
@@ -188,6 +212,56 @@ def test_the_log_is_filtered_by_node_and_level(notebook, page):
     page.get_by_label("Log of node").select_option("sensor")
     assert "High" not in log.inner_text()
     assert "Sensor started" in log.inner_text()
+
+
+BUSY = "import time\nend = time.monotonic() + 60\nwhile time.monotonic() < end: pass"
+
+
+@pytest.mark.parametrize("notebook", [(BUSY,)], indirect=True)
+def test_a_busy_kernel_is_not_taken_for_one_that_is_gone(notebook, page):
+    notebook.start(2)
+    notebook.cell(2).locator(".jp-InputPrompt", has_text="*").wait_for()
+    for _ in range(4):
+        page.wait_for_timeout(1000)  # what is tested is this time
+        more_frames(page, 1)
+        page.locator(LOST).wait_for(state="hidden")
+    assert page.get_by_role("button", name="Pause /sensor").is_enabled()
+    notebook.interrupt()
+
+
+def test_a_kernel_that_was_restarted_is_noticed_and_nothing_can_be_clicked(notebook, page):
+    more_frames(page)
+    notebook.restart()
+    page.locator(LOST, has_text="No news from the kernel: run this cell again.").wait_for()
+    enabled = f"{PANEL} .rb-side :is(button, input, select):enabled"
+    page.wait_for_function(f"() => !document.querySelector('{enabled}')")
+    notebook.run(0)
+    notebook.run(1)
+    value(page, "/status", "Normal")
+    assert page.locator(PANEL).count() == 1
+    page.locator(LOST).wait_for(state="hidden")
+    assert page.get_by_role("button", name="Pause /sensor").is_enabled()
+
+
+@pytest.mark.parametrize("is_trusted", [True, False])
+def test_a_page_without_its_kernel_has_the_picture_and_says_how_to_go_on(
+    notebook, page, lab, is_trusted
+):
+    more_frames(page)
+    assert not page.locator(STILL).is_visible()
+    notebook.save()
+    notebook.shut_down()
+    page.locator(LOST).wait_for()
+    name = notebook.name if is_trusted else "of_somebody_else.ipynb"
+    if not is_trusted:
+        text = (lab.root / notebook.name).read_text(encoding="utf-8")
+        (lab.root / name).write_text(text.replace("status", "state"), encoding="utf-8")
+    again = Notebook(page, lab, name)
+    still = page.locator(STILL)
+    still.get_by_text("Run the cell above it for the live one.").wait_for()
+    assert "/temperature" in still.locator("img").get_attribute("alt")
+    page.get_by_text("Error displaying widget").wait_for(state="hidden")
+    again.shut_down()
 
 
 @pytest.mark.parametrize("notebook", [("ros.wait(60)",)], indirect=True)
@@ -239,7 +313,7 @@ def test_running_the_cell_again_leaves_nothing_behind(notebook, page):
 @pytest.mark.parametrize("notebook", [("ros.close()",)], indirect=True)
 def test_a_closed_session_leaves_a_picture(notebook, page):
     notebook.run(2)
-    picture = notebook.cell(1).locator("figure.rosbeat-picture img")
+    picture = notebook.cell(1).locator(f"{STILL} img")
     picture.wait_for()
     assert "/temperature" in picture.get_attribute("alt")
     assert page.locator(PANEL).count() == 0
