@@ -141,10 +141,9 @@ class Notebook:
 
     def restart(self):
         """Restart the kernel, and wait until it answers."""
-        request = self.page.request
-        base = self.page.url.split("/lab")[0]
-        for kernel in request.get(f"{base}/api/kernels").json():
-            request.post(f"{base}/api/kernels/{kernel['id']}/restart")
+        self.page.evaluate(
+            "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()"
+        )
         self._wait_for_idle()
 
     def save(self):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import suppress
-from threading import Event, RLock, Thread, current_thread
+from threading import Event, RLock, Thread, current_thread, main_thread
 from typing import TYPE_CHECKING, Any
 
 from IPython.display import display
@@ -61,14 +61,17 @@ class Panel:
         return f"Panel({'closed' if self._stopping.is_set() else 'open'})"
 
     def close(self) -> None:
-        """End the panel and what it has added to the session; its picture stays on the page."""
+        """End the panel and what it has added to the session; its picture stays on the page.
+
+        At the end of the process the browser is told nothing: it notices that the kernel is gone.
+        """
         if self._stopping.is_set():
             return
         self._stopping.set()
         if self._thread.is_alive() and current_thread() is not self._thread:
             self._thread.join(_PATIENCE)
         self._instruments.release()
-        if self._widget is not None:
+        if self._widget is not None and main_thread().is_alive():
             with suppress(Exception):  # the kernel may be on its way out, and take no message
                 self._post({"closed": True})
                 self._widget.close()
