@@ -34,16 +34,16 @@ class Parsed(HTMLParser):
 
 
 class Shown(HTMLParser):
-    """An output as a person reads it: paragraphs, tables by caption, links by their words."""
+    """An output as a person reads it: paragraphs, items, tables and links by their words."""
 
     def __init__(self, html):
         super().__init__()
-        self.paragraphs, self.tables, self.links = [], {}, {}
+        self.paragraphs, self.items, self.tables, self.links = [], [], {}, {}
         self._rows, self._words, self._href, self._link = [], "", "", ""
         self.feed(html)
 
     def handle_starttag(self, tag, attrs):
-        if tag in ("p", "caption", "th", "td"):
+        if tag in ("p", "li", "caption", "th", "td"):
             self._words = ""
         elif tag == "tr":
             self._rows.append([])
@@ -53,6 +53,8 @@ class Shown(HTMLParser):
     def handle_endtag(self, tag):
         if tag == "p":
             self.paragraphs.append(self._words)
+        elif tag == "li":
+            self.items.append(self._words)
         elif tag == "caption":
             self._rows = self.tables[self._words] = []
         elif tag in ("th", "td"):

@@ -293,8 +293,8 @@ newsroom.close()
 # Only clock and data are made up. These classes are ordinary ROS 2 code, and the messages
 # went through the **middleware** that robots use: the software that carries them.
 #
-# **Next:** [create a workspace](01_create_a_workspace.ipynb). The next cell shows how far you are, here
-# and in the whole course.
+# **Next:** [create a workspace](01_create_a_workspace.ipynb). The last cell draws how far you are; its last row
+# is for the end.
 
 # %%
 progress()

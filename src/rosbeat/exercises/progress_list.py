@@ -29,6 +29,7 @@ PERIOD = 1.0
 _DISPLAY_ID = "rosbeat-progress"
 
 _LEFT = "text-align: left; vertical-align: top; white-space: normal"
+_PLAIN = "list-style-type: none; padding: 0px; margin: 0px 0px 8px 0px"
 #: Colours with a contrast of 3:1 for edges and of 4.5:1 for text, on light pages and on dark ones.
 _CHIPS = {
     PASSED: "border: 2px solid #00694d; background-color: #00694d; color: #ffffff",
@@ -218,18 +219,16 @@ def _parts(rows: Iterable[Row]) -> Iterator[tuple[str, list[Row]]]:
 
 
 def _of_a_page(rows: Sequence[Row], here: Row, link: _Links) -> str:
-    body = "\n".join(
-        f"<tr>{_cell(_chip(one))}{_cell(escape(EXERCISES[one.exercise].title))}"
-        f"{_cell(LOOKS[one.status][1])}{_cell(f'{one.points} of {one.out_of}')}</tr>"
+    items = "\n".join(
+        f"<li>{_chip(one)} {escape(EXERCISES[one.exercise].title)}: {LOOKS[one.status][1]}, "
+        f"{one.points} of {count(one.out_of, 'point')}</li>"
         for one in here.outcomes
     )
-    table = _table(f"{here.page.heading}: {here.passed} of {len(here.outcomes)} passed",
-                   ("exercise", "about", "outcome", "points"), body)  # fmt: skip
     lines = "\n".join(
         f"<p>{name}: {', '.join(_short(row, here, link) for row in part)}.</p>"
         for name, part in _parts(rows)
     )
-    return f"{table}\n{lines}"
+    return f'<ul style="{_PLAIN}">\n{items}\n</ul>\n{lines}'
 
 
 def _short(row: Row, here: Row, link: _Links) -> str:
@@ -244,22 +243,28 @@ def _short(row: Row, here: Row, link: _Links) -> str:
 def _of_the_course(rows: Sequence[Row], link: _Links) -> str:
     numbered = {row.page.number: row.page for row in rows}
     tables = [
-        _table(
-            f"{name}: {summary(part)}",
-            ("page", "exercises", "minutes", "needs"),
-            "\n".join(_line(row, numbered, link) for row in part),
-        )
+        f'<table style="margin: 0px 0px 8px 0px">\n'
+        f'<caption style="{_LEFT}; font-weight: 600">{name}: {summary(part)}</caption>\n'
+        f'<thead><tr><th scope="col" style="{_LEFT}">page</th>'
+        f'<th scope="col" style="{_LEFT}">exercises</th></tr></thead>\n<tbody>\n'
+        + "\n".join(_line(row, numbered, link) for row in part)
+        + "\n</tbody>\n</table>"
         for name, part in _parts(rows)
     ]
     return "\n".join([f"<p>{_LEGEND}</p>", *tables])
 
 
 def _line(row: Row, numbered: dict[str, Page], link: _Links) -> str:
-    needs = ", ".join(link(numbered[number], number) for number in row.page.needs) or "nothing"
-    minutes = str(row.page.minutes) if row.page.minutes else ""
-    chips = "".join(map(_chip, row.outcomes))
-    name = f'<th scope="row" style="{_LEFT}">{link(row.page, row.page.heading)}</th>'
-    return f"<tr>{name}{_cell(chips)}{_cell(minutes)}{_cell(needs)}</tr>"
+    page = row.page
+    needs = ", ".join(link(numbered[number], number) for number in page.needs)
+    about = [f"{page.minutes} minutes"] if page.minutes else []
+    about += [f"needs {needs}"] if needs else []
+    chips = " ".join(map(_chip, row.outcomes))
+    return (
+        f'<tr><th scope="row" style="{_LEFT}">{link(page, page.heading)}'
+        f'<div style="font-weight: 400">{", ".join(about)}</div></th>'
+        f'<td style="{_LEFT}">{chips}</td></tr>'
+    )
 
 
 def _chip(outcome: Outcome) -> str:
@@ -267,19 +272,6 @@ def _chip(outcome: Outcome) -> str:
     title = f"{EXERCISES[outcome.exercise].title}: {word}"
     style = f"{_CHIP}; {_CHIPS[outcome.status]}"
     return f'<span style="{style}" title="{escape(title)}">{sign} {outcome.exercise}</span>'
-
-
-def _cell(html: str) -> str:
-    return f'<td style="{_LEFT}">{html}</td>'
-
-
-def _table(caption: str, columns: Sequence[str], body: str) -> str:
-    head = "".join(f'<th scope="col" style="{_LEFT}">{name}</th>' for name in columns)
-    return (
-        f'<table style="margin: 0px 0px 8px 0px">\n<caption style="{_LEFT}; font-weight: 600">'
-        f"{escape(caption)}</caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n"
-        "</table>"
-    )
 
 
 def page_folder() -> Path:
