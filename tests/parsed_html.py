@@ -31,3 +31,39 @@ class Parsed(HTMLParser):
     def handle_data(self, data):
         if not self._in_style:
             self.text += data
+
+
+class Shown(HTMLParser):
+    """An output as a person reads it: paragraphs, items, tables and links by their words."""
+
+    def __init__(self, html):
+        super().__init__()
+        self.paragraphs, self.items, self.tables, self.links = [], [], {}, {}
+        self._rows, self._words, self._href, self._link = [], "", "", ""
+        self.feed(html)
+
+    def handle_starttag(self, tag, attrs):
+        if tag in ("p", "li", "caption", "th", "td"):
+            self._words = ""
+        elif tag == "tr":
+            self._rows.append([])
+        elif tag == "a":
+            self._href, self._link = dict(attrs)["href"], ""
+
+    def handle_endtag(self, tag):
+        if tag == "p":
+            self.paragraphs.append(self._words)
+        elif tag == "li":
+            self.items.append(self._words)
+        elif tag == "caption":
+            self._rows = self.tables[self._words] = []
+        elif tag in ("th", "td"):
+            self._rows[-1].append(self._words)
+        elif tag == "a":
+            self.links[self._link] = self._href
+            self._href = ""
+
+    def handle_data(self, data):
+        self._words += data
+        if self._href:
+            self._link += data

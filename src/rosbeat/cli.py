@@ -89,11 +89,20 @@ def _lint(options: argparse.Namespace) -> int:
 
 def _progress_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="the same as JSON, for programs")
+    parser.add_argument(
+        "--home",
+        type=Path,
+        metavar="PAGE",
+        help="write it into the course's home page instead, if that is there",
+    )
 
 
 def _progress(options: argparse.Namespace) -> int:
     from rosbeat.exercises import progress
 
+    if options.home:
+        progress.refresh_home(options.home)
+        return 0
     print(progress.as_json() if options.json else progress.as_text())
     return 0
 

@@ -139,6 +139,13 @@ class Notebook:
         self._do("notebook:interrupt-kernel")
         self._wait_for_idle()
 
+    def restart(self):
+        """Restart the kernel, and wait until it answers."""
+        self.page.evaluate(
+            "() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()"
+        )
+        self._wait_for_idle()
+
     def save(self):
         """Save, and wait until it is saved."""
         self._do("docmanager:save")

@@ -7,7 +7,7 @@ does nbval; here one run serves both.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from nbformat.v4 import output_from_msg
 from rosbeat.authoring import pages
 from rosbeat.authoring.build import Change, compare
 from rosbeat.authoring.pages import Transform
-from rosbeat.authoring.source import Lesson, read_lesson
+from rosbeat.authoring.source import Course, Lesson, read_lesson
 
 _OUTPUTS = ("stream", "display_data", "execute_result", "error")
 
@@ -63,16 +63,21 @@ def difference(
         LessonError: If the outputs could not be stored: they are not repeatable.
         ValueError: If there are more or fewer runs than code cells.
     """
-    page = solution(read_lesson(lesson), path.parent, runs, points)
+    lessons = Course(lesson.parents[2]).lessons()
+    page = solution(read_lesson(lesson), path.parent, runs, points, lessons)
     change = compare(path, pages.to_bytes(page))
     return change if change and change.matters else None
 
 
 def solution(
-    lesson: Lesson, folder: Path, runs: list[Ran], points: Mapping[str, int]
+    lesson: Lesson,
+    folder: Path,
+    runs: list[Ran],
+    points: Mapping[str, int],
+    lessons: Sequence[Lesson] = (),
 ) -> NotebookNode:
     """The solution page of a lesson that has been run already."""
-    return pages.solution_page(lesson, folder, points=points, run=_given(runs))
+    return pages.solution_page(lesson, folder, points=points, lessons=lessons, run=_given(runs))
 
 
 def _given(runs: list[Ran]) -> Transform:

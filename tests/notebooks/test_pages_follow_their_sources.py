@@ -15,6 +15,7 @@ from rosbeat.exercises.registry import EXERCISES
 
 COURSE = Course(Path(__file__).parents[2])
 POINTS = {one.id: one.points for one in EXERCISES.values()}
+LESSONS = COURSE.lessons()
 SOURCES = sorted(COURSE.sources.glob("*.py"))
 each_source = pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.stem)
 
@@ -28,21 +29,22 @@ def without_outputs(page):
 
 @each_source
 def test_the_source_keeps_the_rules(source):
-    findings = check_lessons(COURSE, COURSE.lessons(), [read_lesson(source)])
+    findings = check_lessons(COURSE, LESSONS, [read_lesson(source)])
     assert not findings, "\n".join(map(str, findings))
 
 
 @each_source
 def test_the_learners_page_is_built_from_the_source(source):
     page = COURSE.notebooks / f"{source.stem}.ipynb"
-    change = compare(page, pages.to_bytes(pages.notebook_page(read_lesson(source), POINTS)))
+    made = pages.notebook_page(read_lesson(source), POINTS, LESSONS)
+    change = compare(page, pages.to_bytes(made))
     assert change is None or not change.matters, BUILD
 
 
 @each_source
 def test_the_solution_page_is_built_from_the_source(source):
     stored = nbformat.read(COURSE.solutions / f"{source.stem}.ipynb", as_version=4)
-    draft = pages.solution_draft(read_lesson(source), POINTS)
+    draft = pages.solution_draft(read_lesson(source), POINTS, LESSONS)
     assert without_outputs(stored) == without_outputs(draft), BUILD
 
 

@@ -109,7 +109,7 @@ def build(course: Course, plan: Plan, tell: Callable[[str], None] = print) -> li
     _refuse_findings(course, lessons, chosen)
     derived = {**package_files(course, lessons), **answer_files(course, lessons)}
     changes = []
-    for path, content in _contents(course, chosen, plan, derived):
+    for path, content in _contents(course, lessons, chosen, plan, derived):
         change = compare(path, content)
         if change or path.suffix == ".ipynb":
             tell(f"{change.kind if change else 'same':8} {path.relative_to(course.root)}")
@@ -137,13 +137,17 @@ def _refuse_findings(course: Course, lessons: list[Lesson], chosen: list[Lesson]
 
 
 def _contents(
-    course: Course, chosen: list[Lesson], plan: Plan, derived: Mapping[Path, bytes]
+    course: Course,
+    lessons: list[Lesson],
+    chosen: list[Lesson],
+    plan: Plan,
+    derived: Mapping[Path, bytes],
 ) -> Iterator[tuple[Path, bytes]]:
     """Yield what is to be there; the package first, since a page that runs may need it."""
     yield from derived.items()
-    with _runs(chosen if plan.run else [], course.solutions, plan) as solution:
+    with _runs(chosen if plan.run else [], lessons, course.solutions, plan) as solution:
         for lesson in chosen:
-            page = pages.to_bytes(pages.notebook_page(lesson, plan.points))
+            page = pages.to_bytes(pages.notebook_page(lesson, plan.points, lessons))
             yield course.notebooks / f"{lesson.name}.ipynb", page
             if plan.run:
                 yield course.solutions / f"{lesson.name}.ipynb", solution(lesson)
@@ -151,21 +155,21 @@ def _contents(
 
 @contextmanager
 def _runs(
-    lessons: Sequence[Lesson], folder: Path, plan: Plan
+    chosen: Sequence[Lesson], lessons: Sequence[Lesson], folder: Path, plan: Plan
 ) -> Iterator[Callable[[Lesson], bytes]]:
     """Begin to run solution pages, each in a process and a kernel of its own, in their order.
 
     Yields:
         A function that waits for a lesson's page, and raises what its run raised.
     """
-    given = (folder, plan.fresh, dict(plan.points))
-    if len(lessons) < 2:
+    given = (folder, plan.fresh, dict(plan.points), tuple(lessons))
+    if len(chosen) < 2:
         yield lambda lesson: _solution(lesson, *given)
         return
     # A fork would take along whatever threads this process has.
     workers = min(AT_ONCE, os.cpu_count() or 1)
     with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
-        runs = {one.name: pool.submit(_solution, one, *given) for one in lessons}
+        runs = {one.name: pool.submit(_solution, one, *given) for one in chosen}
         try:
             yield lambda lesson: runs[lesson.name].result()
         except BaseException:
@@ -173,8 +177,15 @@ def _runs(
             raise
 
 
-def _solution(lesson: Lesson, folder: Path, fresh: bool, points: Mapping[str, int]) -> bytes:
-    return pages.to_bytes(pages.solution_page(lesson, folder, fresh=fresh, points=points))
+def _solution(
+    lesson: Lesson,
+    folder: Path,
+    fresh: bool,
+    points: Mapping[str, int],
+    lessons: Sequence[Lesson],
+) -> bytes:
+    page = pages.solution_page(lesson, folder, fresh=fresh, points=points, lessons=lessons)
+    return pages.to_bytes(page)
 
 
 def _stale(course: Course, lessons: list[Lesson], derived: Iterable[Path]) -> list[Path]:

@@ -11,7 +11,7 @@ import os
 import re
 import tempfile
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 from types import MappingProxyType
@@ -21,7 +21,7 @@ import nbformat
 from nbformat import NotebookNode, v4
 
 from rosbeat.authoring.execution import DISPLAY_NAME, KERNEL_NAME, run_page
-from rosbeat.authoring.source import Lesson, SourceCell, with_answers, with_blanks
+from rosbeat.authoring.source import HOME, Lesson, SourceCell, with_answers, with_blanks
 from rosbeat.errors import LessonError
 
 Transform = Callable[[NotebookNode], NotebookNode]
@@ -49,31 +49,41 @@ _UNREPEATABLE = {
 }
 
 
-def notebook_page(lesson: Lesson, points: Mapping[str, int] = NO_POINTS) -> NotebookNode:
+def notebook_page(
+    lesson: Lesson,
+    points: Mapping[str, int] = NO_POINTS,
+    lessons: Sequence[Lesson] = (),
+) -> NotebookNode:
     """Make the page a learner opens: blanks, no outputs.
 
     Args:
         lesson: The lesson source.
         points: What each exercise is worth, by its id.
+        lessons: All lessons of the course, in order; the page links to its neighbours.
 
     Raises:
         LessonError: An answer marker is wrong.
     """
-    steps = [keep_cells_of("notebook"), rewrite(with_blanks)]
+    steps = [keep_cells_of("notebook"), rewrite(with_blanks), link_neighbours(lesson, lessons)]
     return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
 
 
-def solution_draft(lesson: Lesson, points: Mapping[str, int] = NO_POINTS) -> NotebookNode:
+def solution_draft(
+    lesson: Lesson,
+    points: Mapping[str, int] = NO_POINTS,
+    lessons: Sequence[Lesson] = (),
+) -> NotebookNode:
     """Make the solution page without running it.
 
     Args:
         lesson: The lesson source.
         points: What each exercise is worth, by its id.
+        lessons: All lessons of the course, in order.
 
     Raises:
         LessonError: An answer marker is wrong.
     """
-    steps = [keep_cells_of("solution"), rewrite(with_answers)]
+    steps = [keep_cells_of("solution"), rewrite(with_answers), link_neighbours(lesson, lessons)]
     return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
 
 
@@ -83,6 +93,7 @@ def solution_page(
     *,
     fresh: bool = False,
     points: Mapping[str, int] = NO_POINTS,
+    lessons: Sequence[Lesson] = (),
     run: Transform | None = None,
 ) -> NotebookNode:
     """Make the solution page: answers, run from top to bottom, outputs stored.
@@ -92,13 +103,14 @@ def solution_page(
         folder: The kernel's current directory, and where the page is kept.
         fresh: Store new outputs in cells of which the outputs are not compared, too.
         points: What each exercise is worth, by its id.
+        lessons: All lessons of the course, in order.
         run: The step that runs the page; by default in a fresh kernel of its own.
 
     Raises:
         LessonError: An answer marker is wrong, a cell fails, or an output is not repeatable.
     """
     steps = [
-        *(keep_cells_of("solution"), rewrite(with_answers)),
+        *(keep_cells_of("solution"), rewrite(with_answers), link_neighbours(lesson, lessons)),
         *(run or run_in(folder), merge_streams, quiet_failures, refuse_unrepeatable),
         *([] if fresh else [keep_uncompared(folder / f"{lesson.name}.ipynb")]),
     ]
@@ -187,6 +199,47 @@ def rewrite(text: Callable[[str], str]) -> Transform:
         return page
 
     return filled
+
+
+def link_neighbours(lesson: Lesson, lessons: Sequence[Lesson]) -> Transform:
+    """Make the step that ends a page with links to the page before, the home page and the next one.
+
+    Args:
+        lesson: The page's source; the home page gets no links, since all of it is one.
+        lessons: All lessons of the course, in order; without any there is nothing to link to.
+    """
+    text = _neighbours(lesson, lessons)
+
+    def link(page: NotebookNode) -> NotebookNode:
+        if text:
+            cell = v4.new_markdown_cell(text)
+            # Not the same on every page: grading takes ids for a sign of which page a notebook is.
+            cell.id = f"neighbours-{lesson.number}"
+            page.cells.append(cell)
+        return page
+
+    return link
+
+
+def _neighbours(lesson: Lesson, lessons: Sequence[Lesson]) -> str:
+    pages = [one for one in lessons if one.number]
+    names = [one.name for one in pages]
+    if lesson.name not in names:
+        return ""
+    at = names.index(lesson.name)
+    has_home = any(one.name == HOME for one in lessons)
+    before, after = pages[:at][-1:], pages[at + 1 :][:1]
+    return " | ".join(
+        [
+            *(f"\N{LEFTWARDS ARROW} {_link(one)}" for one in before),
+            *([f"[The whole course]({HOME}.ipynb)"] if has_home else []),
+            *(f"{_link(one)} \N{RIGHTWARDS ARROW}" for one in after),
+        ]
+    )
+
+
+def _link(lesson: Lesson) -> str:
+    return f"[{lesson.number} {lesson.header.title}]({lesson.name}.ipynb)"
 
 
 def mark_for_nbgrader(points: Mapping[str, int]) -> Transform:

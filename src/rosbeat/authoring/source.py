@@ -28,7 +28,10 @@ from rosbeat.errors import LessonError
 BLANK = "____"
 SAVE = "%%save "
 
-_FILE_NAME = re.compile(r"\d\d_[a-z0-9]+(_[a-z0-9]+)*\.py")
+#: The page that shows the whole course; it has no number, and no exercises.
+HOME = "home"
+
+_FILE_NAME = re.compile(rf"\d\d_[a-z0-9]+(_[a-z0-9]+)*\.py|{HOME}\.py")
 _EXAMPLE = ("# ---", "# title: Write a publisher", "# minutes: 40", '# needs: ["00", "03"]',
             "# summary: One sentence for lists of pages.", "# ---")  # fmt: skip
 _NUMBERS = r"""(?:["']?\d\d["']?(?:, *|(?=\])))*"""
@@ -140,8 +143,8 @@ class Lesson:
 
     @property
     def number(self) -> str:
-        """Return the page's number, two digits."""
-        return self.path.name[:2]
+        """Return the page's number, two digits; the home page has none."""
+        return "" if self.name == HOME else self.path.name[:2]
 
 
 @dataclass(frozen=True)
@@ -188,7 +191,7 @@ class Course:
         return self.root / "solutions"
 
     def lessons(self) -> list[Lesson]:
-        """Read every lesson, in order.
+        """Read every lesson, in order; the home page comes last.
 
         Raises:
             LessonError: A source breaks the format.
@@ -225,7 +228,7 @@ def choose(lessons: list[Lesson], names: list[str]) -> list[Lesson]:
     Raises:
         LessonError: A name fits no lesson.
     """
-    known = {key: lesson.name for lesson in lessons for key in (lesson.number, lesson.name)}
+    known = {key: one.name for one in lessons for key in (one.number, one.name) if key}
     for name in names:
         if Path(name).stem not in known:
             listed = ", ".join(lesson.name for lesson in lessons) or "none"
@@ -241,7 +244,7 @@ def read_lesson(path: Path) -> Lesson:
     """Read one lesson source.
 
     Args:
-        path: A file named ``NN_slug.py``.
+        path: A file named ``NN_slug.py`` or ``home.py``.
 
     Raises:
         LessonError: The name, the header or a cell breaks the format.

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal
 
 from msgspec import Meta
 
@@ -16,15 +17,12 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
-from rosbeat.exercises.registry import PAGES, Page
+from rosbeat.exercises.progress_list import ProgressList, Row, page_folder
+from rosbeat.exercises.registry import PAGES, Page, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.place import steady_home, workspace_parent
 from rosbeat.workspace.saving import only_writer, write
-
-if TYPE_CHECKING:
-    from rosbeat.viz.picture import Picture
-
 
 # How far somebody is with one exercise, as plain data.
 
@@ -206,30 +204,46 @@ def _free_name(path: Path) -> Path:
     return aside
 
 
-# `progress`: how far somebody is with the course, as a picture for the end of a page.
+# `progress`: how far somebody is with the course, as a list for the end of a page.
 
 
 @called_as("progress()")
-def progress() -> Picture:
-    """Draw how far you are: every exercise of the course so far, page by page.
+def progress() -> ProgressList:
+    """Show how far you are: the exercises of this page, and the course page by page.
 
     Returns:
-        The picture, which Jupyter shows.
+        The list, which Jupyter shows. It changes when a later check passes.
     """
-    # Drawing is slow to import, and a check needs none.
-    from rosbeat.viz.progress_map import progress_map
+    return ProgressList(rows, this_page(), page_folder())
 
+
+def rows() -> list[Row]:
+    """Return how far this learner is now, for each page of the course."""
     standings = progress_file().standings()
-    return progress_map([(heading(page), outcomes(page, standings)) for page in PAGES])
+    return [Row(page, outcomes(page, standings)) for page in PAGES]
 
 
-def heading(page: Page) -> str:
-    """Return the page's number and title.
+def refresh_home(page: Path) -> None:
+    """Store in the course's home page how far this learner is now, so that it opens up to date.
 
     Args:
-        page: The page.
+        page: The notebook. It is written only if something changes; one that is not there, or is
+            no notebook, is left alone.
+
+    Raises:
+        OSError: The notebook cannot be written.
     """
-    return f"{page.number} {page.title}".strip()
+    try:
+        notebook = json.loads(page.read_bytes())
+        cells = [one for one in notebook["cells"] if one["cell_type"] == "code"]
+        (cell,) = [one for one in cells if "progress()" in "".join(one["source"])]
+    except (OSError, ValueError, KeyError, TypeError):
+        return
+    data = ProgressList(rows, None, page.absolute().parent).bundle()
+    outputs = [{"data": data, "metadata": {}, "output_type": "display_data"}]
+    if cell.get("outputs") != outputs:
+        cell.update(outputs=outputs, execution_count=None)
+        write(page, f"{json.dumps(notebook, indent=1, ensure_ascii=False)}\n".encode())
 
 
 def outcomes(page: Page, standings: Standings) -> list[Outcome]:
@@ -255,7 +269,7 @@ _Row = tuple[str, ...]
 def as_text() -> str:
     """Return the table of all pages, their exercises and the total."""
     standings = progress_file().standings()
-    blocks = [(heading(page), [_row(one, standings) for one in page.exercises]) for page in PAGES]
+    blocks = [(page.heading, [_row(one, standings) for one in page.exercises]) for page in PAGES]
     widths = [max(map(len, column)) for column in zip(_HEAD, *_every(blocks), strict=True)]
     lines = [_line(_HEAD, widths)]
     for title, rows in blocks:

@@ -30,6 +30,9 @@ from rosbeat.exercises import (
 )
 from rosbeat.exercises.exercise import Exercise
 
+#: With this page the package is finished; those after it come in any order that `needs` allows.
+_LAST_CORE_PAGE = "06"
+
 
 @dataclass(frozen=True)
 class Page:
@@ -39,29 +42,71 @@ class Page:
         number: Two digits, or an empty text for exercises that belong to no page.
         title: The page's title.
         exercises: Its exercises, in order.
+        lesson: The page's file without its ending; for exercises that belong to no page, that of
+            the page that explains them.
+        minutes: Time that a learner needs, in minutes; 0 for exercises that belong to no page.
+        needs: Numbers of the pages to read first.
     """
 
     number: str
     title: str
     exercises: tuple[Exercise[Any], ...]
+    lesson: str = ""
+    minutes: int = 0
+    needs: tuple[str, ...] = ()
+
+    @property
+    def heading(self) -> str:
+        """Return the page's number and title."""
+        return f"{self.number} {self.title}".strip()
+
+    @property
+    def elective(self) -> bool:
+        """Return whether the page comes after the last one that everybody needs."""
+        return self.number > _LAST_CORE_PAGE
 
 
 PAGES = (
-    Page("00", "Hear the heartbeat", page_00.EXERCISES),
-    Page("01", "Create a workspace", page_01.EXERCISES),
-    Page("02", "Create a package", page_02.EXERCISES),
-    Page("03", "Write a publisher", page_03.EXERCISES),
-    Page("04", "Write a subscriber", page_04.EXERCISES),
-    Page("05", "Set the entry points", page_05.EXERCISES),
-    Page("06", "Build, source, run", page_06.EXERCISES),
-    Page("07", "Look inside the graph", page_07.EXERCISES),
-    Page("08", "Tune quality of service", page_08.EXERCISES),
-    Page("09", "Test the five claims", page_09.EXERCISES),
-    Page("10", "Find the fault", page_10.EXERCISES),
-    Page("11", "Record and replay", page_11.EXERCISES),
-    Page("12", "Go beyond topics", page_12.EXERCISES),
-    Page("13", "Build your own", page_13.EXERCISES),
-    Page("", "The whole system", system.EXERCISES),
+    Page("00", "Hear the heartbeat", page_00.EXERCISES, "00_hear_the_heartbeat", 20, ()),
+    Page("01", "Create a workspace", page_01.EXERCISES, "01_create_a_workspace", 25, ("00",)),
+    Page("02", "Create a package", page_02.EXERCISES, "02_create_a_package", 30, ("00", "01")),
+    Page("03", "Write a publisher", page_03.EXERCISES, "03_write_a_publisher", 40, ("00", "02")),
+    Page("04", "Write a subscriber", page_04.EXERCISES, "04_write_a_subscriber", 40, ("00", "03")),
+    Page(
+        "05",
+        "Set the entry points",
+        page_05.EXERCISES,
+        "05_set_the_entry_points",
+        30,
+        ("02", "03", "04"),
+    ),
+    Page("06", "Build, source, run", page_06.EXERCISES, "06_build_source_run", 35, ("05",)),
+    Page(
+        "07",
+        "Look inside the graph",
+        page_07.EXERCISES,
+        "07_look_inside_the_graph",
+        45,
+        ("00", "04", "06"),
+    ),
+    Page(
+        "08",
+        "Tune quality of service",
+        page_08.EXERCISES,
+        "08_tune_quality_of_service",
+        45,
+        ("04", "07"),
+    ),
+    Page(
+        "09", "Test the five claims", page_09.EXERCISES, "09_test_the_five_claims", 50, ("04", "06")
+    ),
+    Page("10", "Find the fault", page_10.EXERCISES, "10_find_the_fault", 60, ("04", "07", "08")),
+    Page("11", "Record and replay", page_11.EXERCISES, "11_record_and_replay", 45, ("04", "07")),
+    Page("12", "Go beyond topics", page_12.EXERCISES, "12_beyond_topics", 50, ("04", "07")),
+    Page(
+        "13", "Build your own", page_13.EXERCISES, "13_build_your_own", 90, ("04", "07", "08", "09")
+    ),
+    Page("", "The whole system", system.EXERCISES, "06_build_source_run", 0, ("06",)),
 )
 
 EXERCISES: dict[str, Exercise[Any]] = {

@@ -368,6 +368,8 @@ def _step(page: CoursePage) -> str:
 
 # The pages: as learners get them, without an answer in them.
 
+#: The page that shows the whole course.
+HOME = "home.ipynb"
 #: A link to another page, as it stands in the file of a page.
 _LINK = re.compile(r"\[([^\[\]]*)\]\((\d\d_\w+)\.ipynb(?:#[^()\s]*)?\)")
 
@@ -376,6 +378,8 @@ def page_bytes(
     folder: Path, pages: Iterable[CoursePage], released: Collection[str]
 ) -> dict[str, bytes]:
     """Read the pages, untouched by anybody, with links only to pages that are there.
+
+    The page that shows the whole course comes with them, if there is one.
 
     Args:
         folder: The folder `notebooks` of the course.
@@ -388,9 +392,8 @@ def page_bytes(
     Raises:
         GradingError: If somebody has worked in a page.
     """
-    found = {
-        f"{page.lesson}.ipynb": (folder / f"{page.lesson}.ipynb").read_bytes() for page in pages
-    }
+    names = [*(page.lesson for page in pages), *(["home"] if (folder / HOME).is_file() else [])]
+    found = {f"{name}.ipynb": (folder / f"{name}.ipynb").read_bytes() for name in names}
     worked = [said for name, data in found.items() for said in worked_in(name, data)]
     if worked:
         raise GradingError(

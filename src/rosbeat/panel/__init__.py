@@ -20,6 +20,10 @@ How it works, and why:
   says nothing: after six frames one more is tried now and then, ever more seldom, and the first
   frame after the sleep holds all that was missed. A browser that misses one asks for a whole
   one.
+- **A kernel that is gone is noticed.** Frames, or small beats where no frame may go, come at least
+  once a second, from a thread, so a busy kernel sends them, too. After 2.4 seconds without any the
+  browser says so and disables the controls. It counts its own looks, not seconds: a tab that slept
+  had no time to hear anything.
 - **Clicks run in a thread of their own.** JupyterLab sends them to a subshell of the kernel, so
   they count while a cell runs (`widget` says what that takes).
 - **What the panel does is real.** Its slider publishes through a node in the graph,
@@ -27,7 +31,8 @@ How it works, and why:
   load is a slow callback in the same executor. Closing takes all of it away.
 - **A picture where no browser is.** While pages are built and tested (`ROSBEAT_STEADY_HOME`),
   and in a terminal, the panel is the picture of the graph and its words. In JupyterLab that
-  picture takes the widget's place when its session closes.
+  picture is an output above the widget, and is seen when the widget is not: after its session has
+  closed, and on a page that was opened without its kernel.
 
 `./environment/course test tests/browser` clicks through it in a real Chromium (`ROSBEAT_BROWSER`
 names one, `ROSBEAT_SCREENSHOTS` a folder for pictures).

@@ -10,12 +10,16 @@ const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 const PAINT_EVERY = 30; // milliseconds: a little more often than frames come
 const PULSE = 400; // milliseconds from one end of an arrow to the other
 const PULSE_GAP = 90; // milliseconds between two pulses on one arrow
-const CONDITIONS = {
-  running: "▶ running",
-  paused: "⏸ paused",
-  stopped: "⏹ stopped",
-  ended: "✖ ended",
-  "not added": "○ not added",
+const WATCH_EVERY = 400; // milliseconds from one look for news to the next
+const MOST_QUIET = 6; // looks without news: the kernel sends something at least once a second
+const LOST = "No news from the kernel: run this cell again.";
+// Drawn here, since fonts show some of these signs as coloured emoji.
+const ICONS = {
+  running: "M4 2.5L13 8L4 13.5z",
+  paused: "M4 3h3v10h-3zM9 3h3v10h-3z",
+  stopped: "M3.5 3.5h9v9h-9z",
+  ended: "M3 5L5 3L8 6L11 3L13 5L10 8L13 11L11 13L8 10L5 13L3 11L6 8z",
+  "not added": "M8 3a5 5 0 1 0 .01 0zM8 5a3 3 0 1 1 -.01 0z",
 };
 
 const CONTROLS = ["button", "input", "select"];
@@ -45,24 +49,15 @@ function draw(tag, attributes = {}, ...children) {
   return element;
 }
 
+function icon(condition) {
+  const path = draw("path", { d: ICONS[condition] || ICONS.ended });
+  return draw("svg", { viewBox: "0 0 16 16", class: "rb-icon", "aria-hidden": "true" }, path);
+}
+
 function options(select, values, label = (value) => value) {
   const chosen = select.value;
   select.replaceChildren(...values.map((value) => make("option", { value }, label(value))));
   if (values.includes(chosen)) select.value = chosen;
-}
-
-/** Call at most every `span` milliseconds, and once more for what came last. */
-function calmly(call, span) {
-  let last = 0;
-  let timer = 0;
-  return () => {
-    clearTimeout(timer);
-    const left = last + span - Date.now();
-    timer = setTimeout(() => {
-      last = Date.now();
-      call();
-    }, Math.max(0, left));
-  };
 }
 
 const short = (seconds) => seconds.toFixed(1);
@@ -77,6 +72,7 @@ function newStore() {
     heardAt: 0,
     live: false,
     closed: false,
+    quiet: 0, // looks since the kernel last sent something
     note: "",
     frames: 0,
     graph: null,
@@ -87,7 +83,24 @@ function newStore() {
   };
 }
 
+/** Notice a kernel that is gone: count looks without news, since a tab that slept had none to take. */
+function watch(store) {
+  const timer = setInterval(() => {
+    if (!store.number || store.closed) return;
+    store.quiet += 1;
+    if (store.quiet === MOST_QUIET) tell(store, { kind: "lost" });
+  }, WATCH_EVERY);
+  return () => clearInterval(timer);
+}
+
+const isLost = (store) => store.quiet >= MOST_QUIET;
+const isIdle = (store) => !store.live || store.closed || isLost(store);
+
 function takeFrame(store, frame, send) {
+  const was_lost = isLost(store);
+  store.quiet = 0;
+  if (was_lost) tell(store, { kind: "found" });
+  if (frame.beat) return;
   if (frame.closed) {
     store.closed = true;
     return tell(store, { kind: "closed" });
@@ -130,7 +143,7 @@ function tell(store, event) {
 // The graph, with pulses.
 
 function graphView() {
-  const element = make("div", { class: "rb-graph" });
+  const element = make("div", { class: "rb-graph", tabindex: 0, role: "group", "aria-label": "Graph" });
   let svg = null;
   let pulses = [];
   let edges = [];
@@ -329,7 +342,7 @@ function nodesView(send) {
   }
 
   function row(node, condition, store) {
-    const off = !store.live || store.closed;
+    const off = isIdle(store);
     const rests = condition !== "running";
     const first = rests
       ? button("Resume", "resume", node, off || !["paused", "not added"].includes(condition))
@@ -338,7 +351,7 @@ function nodesView(send) {
     const second = gone
       ? button("Start", "start", node, off)
       : button("Stop", "stop", node, off);
-    const words = make("span", { class: "rb-condition" }, CONDITIONS[condition] || condition);
+    const words = make("span", { class: "rb-condition" }, icon(condition), condition);
     const name = make("span", { class: "rb-nodename" }, node);
     return make("li", { "data-node": node, "data-condition": condition }, name, words, first, second);
   }
@@ -346,7 +359,7 @@ function nodesView(send) {
   return {
     element,
     paint(store) {
-      const wanted = JSON.stringify([store.nodes, store.live, store.closed]);
+      const wanted = JSON.stringify([store.nodes, isIdle(store)]);
       if (wanted === shown) return;
       shown = wanted;
       const focused = element.contains(document.activeElement) ? document.activeElement : null;
@@ -363,12 +376,12 @@ function nodesView(send) {
   };
 }
 
-// The sliders.
+// The sliders. What is on one's way is shown; what counts is where the slider is let go.
 
 function slider(label, least, most, step, value, unit, changed) {
   const shown = make("output", {}, `${value}${unit}`);
   const range = { type: "range", min: least, max: most, step, value, "aria-label": label };
-  const input = make("input", { ...range, oninput: () => (paint(), changed()) });
+  const input = make("input", { ...range, oninput: () => paint(), onchange: () => changed() });
   const paint = () => {
     shown.textContent = `${input.value}${unit}`;
     input.setAttribute("aria-valuetext", shown.textContent);
@@ -379,13 +392,13 @@ function slider(label, least, most, step, value, unit, changed) {
 
 function controlsView(send) {
   const topic = make("select", { "aria-label": "Topic", onchange: () => moved() });
-  const value = slider("Value", 0, 40, 0.1, 22, "", calmly(() => publish(), 80));
+  const value = slider("Value", 0, 40, 0.1, 22, "", () => publish());
   const once = make("button", { type: "button", onclick: () => publish() }, "Publish");
   const again = make("input", { type: "checkbox", onchange: () => repeat() });
   const fault = make("select", { "aria-label": "Fault", onchange: () => disturb() });
   options(fault, ["none", "dropout", "nan", "offset"], (kind) => FAULT_WORDS[kind]);
-  const amount = slider("Amount", -20, 100, 1, 50, "", calmly(() => disturb(), 80));
-  const busy = slider("Load", 0, 900, 10, 0, " ms", calmly(() => load(), 80));
+  const amount = slider("Amount", -20, 100, 1, 50, "", () => disturb());
+  const busy = slider("Load", 0, 900, 10, 0, " ms", () => load());
   let disturbed = "";
   let repeated = "";
 
@@ -428,7 +441,7 @@ function controlsView(send) {
       const topics = store.graph?.numeric || [];
       if (shown !== topics.join(" ")) options(topic, topics);
       shown = topics.join(" ");
-      group.disabled = !store.live || store.closed;
+      group.disabled = isIdle(store);
       const nothing = !topics.length;
       for (const part of [topic, value.input, once, again, fault]) part.disabled = nothing;
     },
@@ -437,9 +450,9 @@ function controlsView(send) {
 
 const FAULT_WORDS = {
   none: "none",
-  dropout: "dropout: lose so many percent",
-  nan: "NaN instead of the value",
-  offset: "offset: add so much",
+  dropout: "lose so many %",
+  nan: "NaN as the value",
+  offset: "add so much",
 };
 
 // The log.
@@ -500,13 +513,14 @@ function build(store, send, el) {
   const [graph, topics, log] = [graphView(), topicsView(), logView()];
   const [nodes, controls] = [nodesView(send), controlsView(send)];
   const state = make("span", { class: "rb-state" });
-  const note = make("p", { class: "rb-note", role: "status", "aria-live": "polite" });
+  const note = make("p", { class: "rb-note", role: "status" });
+  const lost = make("p", { class: "rb-lost", role: "alert" });
   const title = make("header", {}, make("strong", {}, "Instrument panel"), state);
   const side = make("div", { class: "rb-side" }, nodes.element, controls.element);
   const main = make("div", { class: "rb-main" }, topics.element, log.element);
   const grid = make("div", { class: "rb-grid" }, main, side);
   const root = make("section", { class: "rosbeat-panel", "aria-label": "Instrument panel" });
-  root.append(title, graph.element, grid, note);
+  root.append(title, lost, graph.element, grid, note);
   el.append(root);
 
   let due = 0;
@@ -526,7 +540,7 @@ function build(store, send, el) {
     const colours = { line: colour("--rb-blue"), alert: colour("--rb-red"), muted: colour("--rb-muted") };
     set(state, stateWords(store));
     set(note, store.note || "");
-    root.classList.toggle("rb-closed", store.closed);
+    set(lost, isLost(store) ? LOST : "");
     root.dataset.frames = store.frames;
     root.dataset.painted = painted;
     graph.paint(store, now);
@@ -571,6 +585,7 @@ function build(store, send, el) {
 
 function stateWords(store) {
   if (store.closed) return "closed";
+  if (isLost(store)) return `stopped at ${short(store.time)} s`;
   if (!store.number) return "waiting for the session …";
   const time = `${short(store.time)} s`;
   return store.live ? `live, ${time}` : `${time}, not live: ros.start() starts the clock`;
@@ -580,14 +595,28 @@ export default () => {
   const store = newStore();
   return {
     initialize({ model }) {
-      const send = (content) => model.send(content);
+      const send = sender(model);
       const hear = (frame) => takeFrame(store, frame, send);
+      const unwatch = watch(store);
       model.on("msg:custom", hear);
       send({ do: "open" });
-      return () => model.off("msg:custom", hear);
+      return () => {
+        unwatch();
+        model.off("msg:custom", hear);
+      };
     },
     render({ model, el }) {
-      return build(store, (content) => model.send(content), el);
+      return build(store, sender(model), el);
     },
   };
 };
+
+function sender(model) {
+  return (content) => {
+    try {
+      model.send(content);
+    } catch {
+      // The kernel is gone, and the watch says so.
+    }
+  };
+}

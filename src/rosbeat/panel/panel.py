@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import time
 from contextlib import suppress
-from threading import Event, RLock, Thread, current_thread
+from threading import Event, RLock, Thread, current_thread, main_thread
 from typing import TYPE_CHECKING, Any
 
-from IPython.display import display, update_display
+from IPython.display import display
 
 from rosbeat.panel import orders
 from rosbeat.panel.sampling import Sampler
-from rosbeat.panel.still import is_for_a_browser, still, with_view
+from rosbeat.panel.still import behind_a_view, is_for_a_browser, still, view
 from rosbeat.panel.traffic import Traffic
 from rosbeat.panel.widget import PanelWidget
 
@@ -51,40 +51,38 @@ class Panel:
         self._lock = RLock()
         self._stopping = Event()
         self._notes: list[str] = []
-        self._still: dict[str, str] = {}
-        self._display_id = ""
         self._widget: PanelWidget | None = None
         self._thread = Thread(target=self._run, name="rosbeat panel", daemon=True)
         if is_for_a_browser():
             self._widget = PanelWidget(self._heard)
-            self._display_id = f"rosbeat-panel-{self._widget.model_id}"
             self._thread.start()
 
     def __repr__(self) -> str:
         return f"Panel({'closed' if self._stopping.is_set() else 'open'})"
 
     def close(self) -> None:
-        """End the panel and what it has added to the session; its picture stays on the page."""
+        """End the panel and what it has added to the session; its picture stays on the page.
+
+        At the end of the process the browser is told nothing: it notices that the kernel is gone.
+        """
         if self._stopping.is_set():
             return
         self._stopping.set()
         if self._thread.is_alive() and current_thread() is not self._thread:
             self._thread.join(_PATIENCE)
         self._instruments.release()
-        if self._widget is not None:
+        if self._widget is not None and main_thread().is_alive():
             with suppress(Exception):  # the kernel may be on its way out, and take no message
                 self._post({"closed": True})
                 self._widget.close()
-                if self._still:
-                    update_display(self._still, raw=True, display_id=self._display_id)
 
     def _ipython_display_(self) -> None:
-        self._still = still(self._instruments.graph())
+        picture = still(self._instruments.graph())
         if self._widget is None or self._stopping.is_set():
-            display(self._still, raw=True)
+            display(picture, raw=True)
         else:
-            bundle = with_view(self._still, self._widget.model_id)
-            display(bundle, raw=True, display_id=self._display_id)
+            display(behind_a_view(picture), raw=True)
+            display(view(self._widget.model_id), raw=True)
 
     def _run(self) -> None:
         due = time.monotonic()
@@ -96,14 +94,21 @@ class Panel:
         self._sampler.look()
         with self._lock:
             now = time.monotonic()
-            if not self._traffic.may_send(now):
+            if self._traffic.may_send(now):
+                content = self._frame(now)
+            elif self._traffic.beats(now):
+                content = {"beat": True}
+            else:
                 return
-            frame = self._sampler.frame(whole=self._traffic.asked)
-            frame["number"] = self._traffic.sent(now)
-            if self._notes:
-                frame["note"] = self._notes.pop()
-                self._notes.clear()
-        self._post(frame)
+        self._post(content)
+
+    def _frame(self, now: float) -> dict[str, Any]:
+        frame = self._sampler.frame(whole=self._traffic.asked)
+        frame["number"] = self._traffic.sent(now)
+        if self._notes:
+            frame["note"] = self._notes.pop()
+            self._notes.clear()
+        return frame
 
     def _post(self, content: dict[str, Any]) -> None:
         assert self._widget is not None
@@ -111,12 +116,13 @@ class Panel:
             self._widget.send(content)
 
     def _heard(self, content: dict[str, Any]) -> None:
+        now = time.monotonic()
         if "got" in content:
             with self._lock:
-                self._traffic.heard(int(content["got"]))
+                self._traffic.heard(int(content["got"]), now)
         elif content.get("do") == "open":
             with self._lock:
-                self._traffic.ask()
+                self._traffic.ask(now)
         else:
             note = orders.carry_out(content, self._instruments)
             with self._lock:

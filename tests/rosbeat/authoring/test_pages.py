@@ -118,6 +118,31 @@ def test_the_page_says_what_it_is_and_no_more(checkout):
     assert metadata.rosbeat == {"lesson": "00_hear_it"}
 
 
+HEAR, SAY, HOME = "00_hear_it", "01_say_it", "home"
+
+
+@pytest.fixture
+def course(checkout):
+    checkout.write("", name=HEAR)
+    checkout.write("", name=SAY, title="Say it")
+    checkout.write("", name=HOME, title="Find your way")
+    return checkout.course.lessons()
+
+
+@pytest.mark.parametrize("make", [notebook_page, solution_draft])
+def test_a_page_ends_with_links_to_its_neighbours_and_the_whole_course(course, make):
+    hear, say, home = (make(lesson, lessons=course).cells[-1] for lesson in course)
+    assert hear.source == "[The whole course](home.ipynb) | [01 Say it](01_say_it.ipynb) →"
+    assert say.source == "← [00 Hear it](00_hear_it.ipynb) | [The whole course](home.ipynb)"
+    assert home.source == "# Find your way"
+    assert (hear.cell_type, hear.id, say.id) == ("markdown", "neighbours-00", "neighbours-01")
+
+
+def test_a_page_that_is_alone_has_no_links(course):
+    (alone,) = notebook_page(course[0], lessons=course[:1]).cells
+    assert alone.source == "# Hear it"
+
+
 MAGICS = """
     # %% terminal="build"
     # cd ws

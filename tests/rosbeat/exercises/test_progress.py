@@ -1,19 +1,27 @@
 """Progress: a standing, the file that remembers it, and how it is shown."""
 
 import json
+import shutil
 import subprocess
 import sys
+import time
+from contextlib import suppress
 from dataclasses import replace
+from pathlib import Path
+from queue import Empty
 
+import nbformat
 import pytest
 
+from notebooks.kernel import WatchedKernel
+from parsed_html import Shown
 from rosbeat import cli, progress
+from rosbeat.authoring.build import compare
 from rosbeat.exercises import progress as file
 from rosbeat.exercises.exercise import failed, not_attempted, passed
 from rosbeat.exercises.progress import (
     ProgressFile,
     Standing,
-    heading,
     outcomes,
     progress_file,
 )
@@ -215,21 +223,46 @@ def test_the_folder_lies_beside_the_workspace(tmp_path, monkeypatch):
     assert file.progress_file().path.parent == tmp_path / "home" / ".rosbeat"
 
 
-# The picture.
+# The list on a page.
 
 
 @pytest.fixture
 def home(tmp_path, monkeypatch):
     monkeypatch.setenv("ROSBEAT_STEADY_HOME", str(tmp_path))
+    monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def open_page(home, tmp_path, monkeypatch):
+    """Open a page by the name of its file, beside all others."""
+
+    def open_one(name):
+        for page in PAGES:
+            (tmp_path / f"{page.lesson}.ipynb").touch()
+        monkeypatch.setenv("JPY_SESSION_NAME", str(tmp_path / name))
+
+    return open_one
+
+
+def pass_all(*pages):
+    for one in (one for page in PAGES if page.number in pages for one in page.exercises):
+        right = replace(passed(""), points=one.points)
+        progress_file().change(one.id, lambda before, right=right: before.after(right))
+
+
+def shown():
+    """The list as a page has it: tables by their captions, paragraphs, and links by their words."""
+    return Shown(progress().html())
 
 
 def test_an_untouched_course_is_all_open(home):
-    words = progress().description
+    words = repr(progress())
     assert words.startswith(f"Your progress: 0 of {len(EXERCISES)} exercises passed, 0 of ")
     assert words.endswith(" Not attempted yet: all.")
 
 
-def test_what_was_checked_is_in_the_picture(home):
+def test_what_was_checked_is_told_in_words(home):
     progress_file().change("00a", lambda before: before.after(passed("")))
     progress_file().change("00b", lambda before: before.after(failed("00b", "", "")))
     words = progress().description
@@ -238,14 +271,117 @@ def test_what_was_checked_is_in_the_picture(home):
     assert "\n" not in words
 
 
-def test_the_picture_is_the_same_every_time(home):
-    assert progress().html() == progress().html()
+def test_the_list_is_the_same_every_time(open_page):
+    open_page("03_write_a_publisher.ipynb")
+    assert progress().bundle() == progress().bundle()
+
+
+def test_a_page_shows_its_exercises_and_the_course_in_two_lines(open_page):
+    open_page("03_write_a_publisher.ipynb")
+    pass_all("00")
+    progress_file().change("03a", lambda before: before.after(failed("03a", "", "")))
+    found = shown()
+    assert found.items == [
+        f"✗ 03a {EXERCISES['03a'].title}: not there yet, 0 of 2 points",
+        f"○ 03b {EXERCISES['03b'].title}: not attempted yet, 0 of 2 points",
+        f"○ 03c {EXERCISES['03c'].title}: not attempted yet, 0 of 4 points",
+    ]
+    core, electives = found.paragraphs[-2:]
+    assert core.startswith("Core pages: ✓ 00 2/2, 01 0/")
+    assert "03 (this page) 0/3" in core
+    assert core.endswith("06 0/2, the whole system 0/1.")
+    assert electives.startswith("Electives: 07 0/")
+    assert " 13 0/" in electives
+    assert found.links["00"] == "00_hear_the_heartbeat.ipynb"
+    assert found.links["the whole system"] == "06_build_source_run.ipynb"
+
+
+def test_elsewhere_the_whole_course_is_shown_core_and_electives_apart(open_page):
+    open_page("home.ipynb")
+    pass_all("00")
+    found = shown()
+    core, electives = found.tables
+    assert core.startswith("Core pages: 2 of ")
+    assert electives.startswith("Electives: 0 of ")
+    numbers = [[row[0].split()[0] for row in rows[1:]] for rows in found.tables.values()]
+    assert numbers == [[f"0{n}" for n in range(7)] + ["The"], [f"{n:02}" for n in range(7, 14)]]
+    rows = dict(found.tables[core])
+    assert rows["03 Write a publisher40 minutes, needs 00, 02"] == "○ 03a ○ 03b ○ 03c"
+    assert rows["00 Hear the heartbeat20 minutes"] == "✓ 00a ✓ 00b"
+    assert found.links["02"] == "02_create_a_package.ipynb"
+
+
+@pytest.mark.parametrize(
+    ("done", "here", "onward"),
+    [
+        ([], "home", "00 Hear the heartbeat"),
+        (["00", "01"], "home", "02 Create a package"),
+        (["01"], "01_create_a_workspace", "00 Hear the heartbeat"),
+        (["00"], "01_create_a_workspace", "exercise 01a on this page"),
+        ([page.number for page in PAGES if page.number], "home", "The whole system"),
+    ],
+)
+def test_it_says_where_to_go_on(open_page, done, here, onward):
+    open_page(f"{here}.ipynb")
+    pass_all(*done)
+    found = shown()
+    assert found.paragraphs[0].endswith(f"Continue here: {onward}.")
+    assert onward in found.links or "on this page" in onward
+
+
+def test_who_has_passed_everything_is_told_so(open_page):
+    open_page("home.ipynb")
+    pass_all(*(page.number for page in PAGES))
+    found = shown()
+    assert found.paragraphs[0].endswith("Everything is passed.")
+
+
+def test_there_is_no_link_to_a_page_that_is_not_there(home):
+    found = shown()
+    assert found.links == {}
+    assert "Continue here: 00 Hear the heartbeat." in found.paragraphs[0]
 
 
 def test_exercises_of_no_page_have_a_heading_too():
-    assert heading(PAGES[3]) == "03 Write a publisher"
-    assert heading(Page("", "The whole system", ())) == "The whole system"
+    assert PAGES[3].heading == "03 Write a publisher"
+    assert Page("", "The whole system", ()).heading == "The whole system"
     assert outcomes(Page("", "The whole system", ()), {}) == []
+
+
+KERNEL_CELLS = (
+    "import os; del os.environ['ROSBEAT_STEADY_HOME']",
+    "from rosbeat import progress; progress()",
+)
+
+
+@pytest.mark.ros
+def test_a_list_changes_when_a_check_passes_in_another_kernel(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROSBEAT_PROGRESS_IN", str(tmp_path))
+    kernel = WatchedKernel(str(tmp_path), 60)
+    try:
+        for cell in KERNEL_CELLS:
+            kernel.await_reply(kernel.execute_cell_input(cell), 60)
+        first = message(kernel, "display_data")
+        assert "Not attempted yet: all." in first["data"]["text/plain"]
+        assert "text/html" in first["data"]
+        right = replace(passed(""), points=1)
+        ProgressFile(tmp_path / ".rosbeat").change("00a", lambda before: before.after(right))
+        second = message(kernel, "update_display_data")
+        assert "Passed: 00a." in second["data"]["text/plain"]
+        assert second["transient"] == first["transient"]
+    finally:
+        kernel.stop()
+
+
+def message(kernel, kind):
+    """The content of the next message of a kind."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        with suppress(Empty):
+            found = kernel.get_message("iopub", timeout=1)
+            if found["msg_type"] == kind:
+                return found["content"]
+    raise AssertionError(f"no {kind} before the deadline")
 
 
 # The table.
@@ -268,7 +404,7 @@ def row(text, exercise):
 def test_the_table_has_every_page_every_exercise_and_the_total(two_checked, capsys):
     assert cli.main(["progress"]) == 0
     text = capsys.readouterr().out
-    assert all(f"\n{page.number} {page.title}\n".lstrip() in text for page in PAGES)
+    assert all(f"\n{page.heading}\n" in text for page in PAGES)
     assert {one for one in EXERCISES if f" {one} " in text} == set(EXERCISES)
     assert row(text, "00a")[0] == "✓"
     assert row(text, "00a")[-5:] == ["1", "of", "1", "1", "0"]
@@ -294,3 +430,48 @@ def test_a_file_that_cannot_be_read_is_an_empty_one(two_checked, capsys):
     progress_file().path.write_text("{")
     assert cli.main(["progress"]) == 0
     assert f"0 of {len(EXERCISES)} exercises passed" in capsys.readouterr().out
+
+
+# The course's home page.
+
+HOME = Path(__file__).parents[3] / "notebooks" / "home.ipynb"
+
+
+@pytest.fixture
+def own_home(two_checked, tmp_path):
+    shutil.copy(HOME, tmp_path)
+    return tmp_path / HOME.name
+
+
+def stored(page):
+    cells = [one for one in json.loads(page.read_bytes())["cells"] if one["cell_type"] == "code"]
+    return [output["data"] for cell in cells for output in cell["outputs"]]
+
+
+def test_the_home_page_is_brought_up_to_date_and_changed_nowhere_else(own_home, capsys):
+    assert stored(own_home) == []
+    assert cli.main(["progress", "--home", str(own_home)]) == 0
+    (data,) = stored(own_home)
+    assert "Passed: 00a. Not there yet: 00b." in data["text/plain"]
+    assert "✓ 00a" in data["text/html"]
+    nbformat.validate(nbformat.read(own_home, as_version=4))
+    assert compare(own_home, HOME.read_bytes()).kind == "opened"
+    assert capsys.readouterr().out == ""
+
+
+def test_a_home_page_that_is_up_to_date_is_not_written(own_home):
+    cli.main(["progress", "--home", str(own_home)])
+    before = own_home.stat()
+    cli.main(["progress", "--home", str(own_home)])
+    assert (own_home.stat().st_ino, own_home.stat().st_mtime_ns) == (
+        *(before.st_ino, before.st_mtime_ns),
+    )
+
+
+@pytest.mark.parametrize("content", [None, b"", b"{}", b'{"cells": []}', b"[1]"])
+def test_what_is_no_home_page_is_left_alone(two_checked, tmp_path, content):
+    page = tmp_path / "home.ipynb"
+    if content is not None:
+        page.write_bytes(content)
+    assert cli.main(["progress", "--home", str(page)]) == 0
+    assert (page.read_bytes() if page.exists() else None) == content

@@ -10,7 +10,7 @@ from rosbeat.errors import ExerciseError
 from rosbeat.exercises.registry import EXERCISES, PAGES, find, scenario
 
 COURSE = Course(Path(__file__).parents[3])
-LESSONS = {lesson.number: lesson for lesson in COURSE.lessons()}
+LESSONS = {lesson.number: lesson for lesson in COURSE.lessons() if lesson.number}
 CELLS = {
     cell.exercise: cell for lesson in LESSONS.values() for cell in lesson.cells if cell.exercise
 }
@@ -21,9 +21,11 @@ def squeezed(text):
     return "".join(text.split()).replace("'", '"')
 
 
-def test_the_pages_are_those_of_the_course_with_their_titles():
-    pages = {page.number: page.title for page in PAGES if page.number}
-    assert pages == {number: lesson.header.title for number, lesson in LESSONS.items()}
+def test_the_pages_are_those_of_the_course_with_what_their_headers_say():
+    pages = [(p.number, p.title, p.lesson, p.minutes, p.needs) for p in PAGES if p.number]
+    heads = [(lesson, lesson.header) for lesson in LESSONS.values()]
+    assert pages == [(one.number, h.title, one.name, h.minutes, h.needs) for one, h in heads]
+    assert {page.lesson for page in PAGES} == {lesson.name for lesson in LESSONS.values()}
 
 
 def test_every_exercise_on_a_page_can_be_checked():

@@ -33,6 +33,7 @@ from small_course import small_course, tree
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = "notebooks/03_write.ipynb"
+HOME = "notebooks/home.ipynb"
 
 
 @pytest.fixture
@@ -47,6 +48,13 @@ def target(tmp_path):
 
 def some(root, *numbers):
     return [page for page in course_pages(root / "notebooks") if page.number in numbers]
+
+
+def test_the_page_that_shows_the_whole_course_comes_along(root, target):
+    (root / HOME).write_text((ROOT / HOME).read_text())
+    done = release(root, target, some(root, "03"))
+    assert HOME in done.written
+    assert (target / HOME).read_text() == (ROOT / HOME).read_text()
 
 
 def test_a_release_has_what_learners_need(root, target):

@@ -2,12 +2,13 @@
 
 import json
 import math
+from itertools import pairwise
 
 import pytest
 
 from rosbeat.panel.charts import POINTS
 from rosbeat.panel.sampling import KEPT_LINES, LINES_PER_FRAME, Sampler
-from rosbeat.panel.traffic import LONGEST_WAIT, WINDOW, Traffic
+from rosbeat.panel.traffic import BEAT, BEATS_FOR, LONGEST_WAIT, WINDOW, Traffic
 from rosbeat.records import Fault, GraphSnapshot, LogRecord
 
 
@@ -179,7 +180,7 @@ def sent_within(traffic, begin, seconds):
 def traffic():
     made = Traffic()
     assert sent_within(made, 0, 10) == []  # nothing before a browser asks
-    made.ask()
+    made.ask(10)
     return made
 
 
@@ -189,7 +190,7 @@ def test_a_browser_that_answers_gets_every_frame(traffic):
         number = traffic.sent(k / 20)
         assert number == k + 1
         if number % 3 == 0:
-            traffic.heard(number)
+            traffic.heard(number, k / 20)
     assert not traffic.asked
 
 
@@ -197,9 +198,24 @@ def test_a_browser_that_sleeps_for_an_hour_gets_hardly_any(traffic):
     assert WINDOW + 5 < len(sent_within(traffic, 0, 3600)) < 3600 / LONGEST_WAIT + 20
 
 
+def test_silence_is_never_longer_than_a_beat_until_nobody_seems_to_be_there(traffic):
+    times = [10 + k / 20 for k in range(1, round(20 * BEATS_FOR))]
+    came = [now for now in times if signs_of_life(traffic, now)]
+    assert max(b - a for a, b in pairwise(came)) <= BEAT + 0.1
+    later = [now for now in range(700, 720) if traffic.beats(now)]
+    assert later == []
+    traffic.heard(traffic.number, 720)
+    assert traffic.beats(722)
+    assert not traffic.beats(722.5)
+
+
+def signs_of_life(traffic, now):
+    return traffic.sent(now) if traffic.may_send(now) else traffic.beats(now)
+
+
 def test_when_it_wakes_up_all_is_as_before(traffic):
     last = sent_within(traffic, 0, 600)[-1]
-    traffic.heard(last)
+    traffic.heard(last, 600)
     assert len(sent_within(traffic, 600, 0.3)) == WINDOW
     assert not traffic.may_send(600.4)
     assert traffic.may_send(601)
@@ -207,7 +223,7 @@ def test_when_it_wakes_up_all_is_as_before(traffic):
 
 def test_a_new_view_begins_anew_although_the_old_one_never_answered(traffic):
     sent_within(traffic, 0, 100)
-    traffic.ask()
+    traffic.ask(100)
     assert traffic.asked
     assert len(sent_within(traffic, 100, 0.3)) == WINDOW
 
@@ -215,5 +231,5 @@ def test_a_new_view_begins_anew_although_the_old_one_never_answered(traffic):
 def test_answers_from_elsewhere_change_nothing(traffic):
     sent_within(traffic, 0, 0.4)
     for number in (-3, 99):
-        traffic.heard(number)
+        traffic.heard(number, 0.4)
     assert not traffic.may_send(0.5)

@@ -24,8 +24,7 @@ def in_a_browser(monkeypatch):
     """As in a kernel that has a browser."""
     monkeypatch.setattr(panels, "is_for_a_browser", lambda: True)
     shown = []
-    monkeypatch.setattr(panels, "display", lambda data, **about: shown.append((data, about)))
-    monkeypatch.setattr(panels, "update_display", lambda data, **about: shown.append((data, about)))
+    monkeypatch.setattr(panels, "display", lambda data, **about: shown.append(data))
     return shown
 
 
@@ -114,8 +113,14 @@ def test_frames_are_numbered_and_stop_when_nobody_answers(panel, frames, eventua
     eventually(lambda: len(frames) >= 6)
     panel._heard({"got": 6})
     eventually(lambda: len(frames) >= 8)
-    assert [frame["number"] for frame in frames] == list(range(1, len(frames) + 1))
-    assert [frame["whole"] for frame in frames] == [True] + [False] * (len(frames) - 1)
+    numbered = [frame for frame in frames if "number" in frame]
+    assert [frame["number"] for frame in numbered] == list(range(1, len(numbered) + 1))
+    assert [frame["whole"] for frame in numbered] == [True] + [False] * (len(numbered) - 1)
+
+
+def test_a_browser_that_answers_nothing_hears_that_the_kernel_is_there(panel, frames, eventually):
+    panel._heard({"do": "open"})
+    eventually(lambda: {"beat": True} in frames)
 
 
 def test_a_second_view_gets_everything(panel, frames, eventually):
@@ -123,7 +128,7 @@ def test_a_second_view_gets_everything(panel, frames, eventually):
     eventually(lambda: len(frames) >= 2)
     before = len(frames)
     panel._heard({"do": "open"})
-    eventually(lambda: any(frame["whole"] for frame in frames[before:]))
+    eventually(lambda: any(frame.get("whole") for frame in frames[before:]))
 
 
 def test_looks_are_twenty_a_second_and_those_that_were_missed_are_not_made_up_for():
@@ -134,19 +139,24 @@ def test_looks_are_twenty_a_second_and_those_that_were_missed_are_not_made_up_fo
 # The picture, and the end.
 
 
-def test_at_the_end_of_a_cell_it_shows_a_view_with_a_picture_behind(panel, in_a_browser):
+def test_at_the_end_of_a_cell_it_shows_a_picture_and_a_view_below(panel, in_a_browser):
     panel._ipython_display_()
-    ((data, about),) = in_a_browser
-    first, *rest = data
-    assert data[first]["model_id"] == panel._widget.model_id
-    assert (first, rest) == (VIEW, ["text/html", "text/plain"])
-    assert data["text/plain"].startswith(
+    picture, view = in_a_browser
+    assert set(view) == {VIEW}
+    assert view[VIEW]["model_id"] == panel._widget.model_id
+    assert picture["text/plain"].startswith(
         "The instrument panel of this session. 2 nodes and 1 topic."
     )
-    assert data["text/html"].startswith("<figure")
-    panel.close()
-    assert in_a_browser[1] == ({k: data[k] for k in rest}, about)
+    assert "<figure" in picture["text/html"]
+    assert "Run the cell above it for the live one." in picture["text/html"]
     assert "no nodes yet" in still(GraphSnapshot())["text/plain"]
+
+
+def test_without_nodes_there_is_a_sentence_behind_the_view(panel, made_up, in_a_browser):
+    made_up.snapshot = GraphSnapshot()
+    panel._ipython_display_()
+    assert "no nodes yet" in in_a_browser[0]["text/html"]
+    assert "rosbeat-still" in in_a_browser[0]["text/html"]
 
 
 def test_without_a_browser_it_is_a_picture_and_no_thread(made_up, monkeypatch):
@@ -240,8 +250,8 @@ def until(kernel, wanted):
 
 
 def shown(messages):
-    (one,) = (m["content"]["data"] for m in messages if m["msg_type"] == "display_data")
-    return one
+    every = (m["content"]["data"] for m in messages if m["msg_type"] == "display_data")
+    return {mime: data for one in every for mime, data in one.items()}
 
 
 def is_fourth_frame(message):
@@ -267,8 +277,9 @@ def test_a_browser_gets_frames_while_a_cell_runs_and_the_kernel_ends_in_peace(ke
     content = {"comm_id": model, "data": {"method": "custom", "content": {"do": "open"}}}
     kernel.kc.shell_channel.send(kernel.kc.session.msg("comm_msg", content))
     asked = kernel.execute_cell_input("ros.wait(1)")
-    frames = [m["content"]["data"]["content"] for m in until(kernel, is_fourth_frame)
-              if m["msg_type"] == "comm_msg"]  # fmt: skip
+    sent = [m["content"]["data"]["content"] for m in until(kernel, is_fourth_frame)
+            if m["msg_type"] == "comm_msg"]  # fmt: skip
+    frames = [one for one in sent if "number" in one]
     assert [frame["number"] for frame in frames] == [1, 2, 3, 4]
     assert frames[0]["whole"]
     kernel.await_reply(asked, 60)

@@ -1,0 +1,280 @@
+"""Show how far somebody is, as a list with links that keeps itself up to date.
+
+On a page the list has the page's exercises, and the course as two lines; elsewhere, as in
+`home.ipynb`, it has every page of the course. JupyterLab opens relative links of an output as it
+does those of a markdown cell. In pages that are not trusted its sanitizer leaves neither `role` nor
+`aria-label`, so the meaning of a mark is text, too, and colour only repeats it.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from html import escape
+from pathlib import Path
+from threading import Lock, Thread
+
+from rosbeat.exercises.cards import LOOKS, OPEN, RIGHT, WRONG
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.registry import EXERCISES, Page
+from rosbeat.records import Outcome
+from rosbeat.viz.words import count, listing, sentence_case
+from rosbeat.workspace.place import steady_home
+
+#: Seconds from one look at the file to the next, while a list is shown.
+PERIOD = 1.0
+_DISPLAY_ID = "rosbeat-progress"
+
+_LEFT = "text-align: left; vertical-align: top; white-space: normal"
+_PLAIN = "list-style-type: none; padding: 0px; margin: 0px 0px 8px 0px"
+#: Colours with a contrast of 3:1 for edges and of 4.5:1 for text, on light pages and on dark ones.
+_CHIPS = {
+    PASSED: "border: 2px solid #00694d; background-color: #00694d; color: #ffffff",
+    FAILED: "border: 2px dashed #c65102",
+    NOT_ATTEMPTED: "border: 2px solid #6b7b8b",
+}
+_CHIP = "display: inline-block; border-radius: 4px; padding: 0px 5px; margin: 1px 3px 1px 0px"
+_LEGEND = f"{RIGHT} passed, {WRONG} not there yet, {OPEN} not attempted yet"
+
+
+@dataclass(frozen=True)
+class Row:
+    """Hold how far somebody is with a page.
+
+    Attributes:
+        page: The page.
+        outcomes: The best outcome so far of each of its exercises, in order.
+    """
+
+    page: Page
+    outcomes: Sequence[Outcome]
+
+    @property
+    def passed(self) -> int:
+        """Return how many exercises are passed."""
+        return sum(one.status == PASSED for one in self.outcomes)
+
+    @property
+    def next_open(self) -> str:
+        """Return the id of the first exercise that is not passed, or an empty text."""
+        return next((one.exercise for one in self.outcomes if one.status != PASSED), "")
+
+
+class ProgressList:
+    """Show at the end of a cell how far somebody is.
+
+    Args:
+        rows: Returns how far somebody is now, for each page of the course in order.
+        here: The page that is open, or None for a list of the whole course.
+        folder: The folder of the page that is open: links lead to the pages that are in it.
+    """
+
+    def __init__(self, rows: Callable[[], Sequence[Row]], here: Page | None, folder: Path) -> None:
+        self._rows, self._here, self._folder = rows, here, folder
+
+    def __repr__(self) -> str:
+        return self.description
+
+    @property
+    def description(self) -> str:
+        """Return the same in one line of words."""
+        return describe(self._rows())
+
+    def html(self) -> str:
+        """Return the list as HTML; it depends only on the outcomes and on which pages exist."""
+        rows, link = self._rows(), _Links(self._folder)
+        here = next((row for row in rows if row.page == self._here), None)
+        shown = _of_a_page(rows, here, link) if here else _of_the_course(rows, link)
+        return f'<div class="rosbeat-progress">\n{_head(rows, here, link)}\n{shown}\n</div>'
+
+    def bundle(self) -> dict[str, str]:
+        """Return the list as a MIME bundle."""
+        return {"text/html": self.html(), "text/plain": self.description}
+
+    def _ipython_display_(self) -> None:
+        from IPython.display import display
+
+        if is_kept_up_to_date():
+            _live().show(self)
+        else:
+            display(self.bundle(), raw=True)
+
+
+def is_kept_up_to_date() -> bool:
+    """Return whether a list in this process can change after its cell has run."""
+    from IPython import get_ipython
+
+    return getattr(get_ipython(), "kernel", None) is not None and steady_home() is None
+
+
+class _Live:
+    """Keep every list of this kernel up to date: one thread, and one display id for all of them.
+
+    Checks of other pages run in other kernels, so what is watched is the file.
+    """
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._shown: ProgressList | None = None
+        self._bundle: dict[str, str] = {}
+        self._thread = Thread(target=self._run, name="rosbeat progress", daemon=True)
+
+    def show(self, shown: ProgressList) -> None:
+        """Display a list, which takes the place of those displayed before."""
+        from IPython.display import display
+
+        with self._lock:
+            self._shown, self._bundle = shown, shown.bundle()
+            display(self._bundle, raw=True, display_id=_DISPLAY_ID)
+            if not self._thread.is_alive():
+                self._thread.start()
+
+    def _run(self) -> None:
+        while True:
+            time.sleep(PERIOD)
+            self._look()
+
+    def _look(self) -> None:
+        from IPython.display import update_display
+
+        with self._lock:
+            bundle = self._shown.bundle() if self._shown else {}
+            if bundle != self._bundle:
+                self._bundle = bundle
+                update_display(bundle, raw=True, display_id=_DISPLAY_ID)
+
+
+@cache
+def _live() -> _Live:
+    return _Live()
+
+
+# In words.
+
+
+def describe(rows: Sequence[Row]) -> str:
+    """Tell in one line of words how far somebody is.
+
+    Args:
+        rows: How far somebody is, for each page.
+    """
+    every = [one for row in rows for one in row.outcomes]
+    parts = [f"Your progress: {summary(rows)}."]
+    for status, (_, word) in LOOKS.items():
+        names = [one.exercise for one in every if one.status == status]
+        if names:
+            told = "all" if len(names) == len(every) else listing(names)
+            parts.append(f"{sentence_case(word)}: {told}.")
+    return " ".join(parts)
+
+
+def summary(rows: Sequence[Row]) -> str:
+    """Tell how many exercises are passed and how many points reached, in words.
+
+    Args:
+        rows: How far somebody is, for each page.
+    """
+    every = [one for row in rows for one in row.outcomes]
+    done = sum(one.status == PASSED for one in every)
+    points, out_of = sum(one.points for one in every), sum(one.out_of for one in every)
+    return f"{done} of {count(len(every), 'exercise')} passed, {points} of {out_of} points"
+
+
+# As HTML.
+
+
+class _Links:
+    """Make links to the pages that are in a folder; what leads nowhere stays text."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def __call__(self, page: Page, words: str) -> str:
+        file = f"{page.lesson}.ipynb"
+        if not page.lesson or not (self._folder / file).is_file():
+            return escape(words)
+        return f'<a href="{file}" title="{escape(page.title)}">{escape(words)}</a>'
+
+
+def _head(rows: Sequence[Row], here: Row | None, link: _Links) -> str:
+    first = next((row for row in rows if row.next_open), None)
+    if first is None:
+        onward = "Everything is passed."
+    elif first is here:
+        onward = f"Continue here: exercise {first.next_open} on this page."
+    else:
+        onward = f"Continue here: <strong>{link(first.page, first.page.heading)}</strong>."
+    return f"<p><strong>Your progress:</strong> {summary(rows)}. {onward}</p>"
+
+
+def _parts(rows: Iterable[Row]) -> Iterator[tuple[str, list[Row]]]:
+    rows = list(rows)
+    for name, elective in (("Core pages", False), ("Electives", True)):
+        part = [row for row in rows if row.page.elective == elective]
+        if part:
+            yield name, part
+
+
+def _of_a_page(rows: Sequence[Row], here: Row, link: _Links) -> str:
+    items = "\n".join(
+        f"<li>{_chip(one)} {escape(EXERCISES[one.exercise].title)}: {LOOKS[one.status][1]}, "
+        f"{one.points} of {count(one.out_of, 'point')}</li>"
+        for one in here.outcomes
+    )
+    lines = "\n".join(
+        f"<p>{name}: {', '.join(_short(row, here, link) for row in part)}.</p>"
+        for name, part in _parts(rows)
+    )
+    return f'<ul style="{_PLAIN}">\n{items}\n</ul>\n{lines}'
+
+
+def _short(row: Row, here: Row, link: _Links) -> str:
+    """Return a page of the course's line: its number, and how many exercises are passed."""
+    every = len(row.outcomes)
+    name = row.page.number or row.page.title.lower()
+    shown = f"<strong>{name} (this page)</strong>" if row is here else link(row.page, name)
+    mark = f"{RIGHT} " if row.passed == every else ""
+    return f"{mark}{shown} {row.passed}/{every}"
+
+
+def _of_the_course(rows: Sequence[Row], link: _Links) -> str:
+    numbered = {row.page.number: row.page for row in rows}
+    tables = [
+        f'<table style="margin: 0px 0px 8px 0px">\n'
+        f'<caption style="{_LEFT}; font-weight: 600">{name}: {summary(part)}</caption>\n'
+        f'<thead><tr><th scope="col" style="{_LEFT}">page</th>'
+        f'<th scope="col" style="{_LEFT}">exercises</th></tr></thead>\n<tbody>\n'
+        + "\n".join(_line(row, numbered, link) for row in part)
+        + "\n</tbody>\n</table>"
+        for name, part in _parts(rows)
+    ]
+    return "\n".join([f"<p>{_LEGEND}</p>", *tables])
+
+
+def _line(row: Row, numbered: dict[str, Page], link: _Links) -> str:
+    page = row.page
+    needs = ", ".join(link(numbered[number], number) for number in page.needs)
+    about = [f"{page.minutes} minutes"] if page.minutes else []
+    about += [f"needs {needs}"] if needs else []
+    chips = " ".join(map(_chip, row.outcomes))
+    return (
+        f'<tr><th scope="row" style="{_LEFT}">{link(page, page.heading)}'
+        f'<div style="font-weight: 400">{", ".join(about)}</div></th>'
+        f'<td style="{_LEFT}">{chips}</td></tr>'
+    )
+
+
+def _chip(outcome: Outcome) -> str:
+    sign, word = LOOKS[outcome.status]
+    title = f"{EXERCISES[outcome.exercise].title}: {word}"
+    style = f"{_CHIP}; {_CHIPS[outcome.status]}"
+    return f'<span style="{style}" title="{escape(title)}">{sign} {outcome.exercise}</span>'
+
+
+def page_folder() -> Path:
+    """Return the folder of the page that is open in this kernel."""
+    # Jupyter's server names the notebook in the environment of its kernel.
+    return Path(os.environ.get("JPY_SESSION_NAME", "page")).absolute().parent

@@ -1,0 +1,146 @@
+"""`progress()` in JupyterLab: links that open pages, marks that keep up, and the home page."""
+
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from browser.accessibility import cut_off, issues
+from browser.notebook import Notebook, write_notebook
+from rosbeat.exercises.exercise import failed, passed
+from rosbeat.exercises.progress import ProgressFile
+
+ROOT = Path(__file__).parents[2]
+LIST = ".rosbeat-progress"
+SHOW = "from rosbeat import check, progress\nprogress()"
+
+
+@pytest.fixture
+def folder(lab):
+    """The folder of a learner who has done nothing yet, with every page of the course."""
+    for path in (ROOT / "notebooks").glob("*.ipynb"):
+        shutil.copy(path, lab.root)
+    shutil.rmtree(lab.root.parent / ".rosbeat", ignore_errors=True)
+    return lab.root
+
+
+@pytest.fixture
+def progress(lab):
+    return ProgressFile(lab.root.parent / ".rosbeat")
+
+
+@pytest.fixture
+def opened(page, lab, folder):
+    """Open a notebook of the folder."""
+    made = []
+
+    def open_one(name):
+        made.append(Notebook(page, lab, name))
+        return made[-1]
+
+    yield open_one
+    for one in made:
+        one.shut_down()
+
+
+def pass_one(progress, exercise):
+    right = replace(passed(""), points=1)
+    progress.change(exercise, lambda before: before.after(right))
+
+
+def mark(page, words):
+    return page.locator(f"{LIST} span", has_text=words)
+
+
+def test_the_home_page_keeps_up_with_checks_on_other_pages(opened, page, progress):
+    home = opened("home.ipynb")
+    home.run_all()
+    mark(page, "○ 00a").wait_for()
+    assert page.locator(f"{LIST} caption").count() == 2
+    pass_one(progress, "00a")
+    mark(page, "✓ 00a").wait_for()
+    progress.change("00b", lambda before: before.after(failed("00b", "", "")))
+    mark(page, "✗ 00b").wait_for()
+    assert home.errors() == {}
+
+
+def test_it_keeps_up_while_the_kernel_is_busy(opened, page, lab, progress):
+    write_notebook(lab.root / "busy.ipynb", SHOW, "import time; time.sleep(120)")
+    notebook = opened("busy.ipynb")
+    notebook.run(0)
+    notebook.start(1)
+    notebook.cell(1).locator(".jp-InputPrompt", has_text="*").wait_for()
+    pass_one(progress, "00a")
+    mark(page, "✓ 00a").wait_for()
+    notebook.interrupt()
+
+
+@pytest.mark.parametrize("is_run", [True, False], ids=["run", "stored and not trusted"])
+def test_a_link_opens_its_page_here(opened, page, lab, progress, is_run):
+    pass_one(progress, "00a")
+    if not is_run:
+        refresh(lab)
+    home = opened("home.ipynb")
+    if is_run:
+        home.run_all()
+    mark(page, "✓ 00a").wait_for()
+    page.locator(LIST).get_by_role("link", name="03 Write a publisher").click()
+    page.locator(
+        ".jp-NotebookPanel:not(.lm-mod-hidden) h1", has_text="Write a publisher"
+    ).wait_for()
+    assert len(page.context.pages) == 1
+    # From there the last cell leads on, and back.
+    last = page.locator(".jp-NotebookPanel:not(.lm-mod-hidden)").get_by_role(
+        "link", name="The whole course"
+    )
+    last.click()
+    page.locator(".jp-NotebookPanel:not(.lm-mod-hidden) h1", has_text="Find your way").wait_for()
+
+
+def refresh(lab):
+    """Bring the home page up to date as `course lab` does before it opens."""
+    environment = {**os.environ, "ROSBEAT_PROGRESS_IN": str(lab.root.parent)}
+    command = [sys.executable, "-m", "rosbeat", "progress", "--home", str(lab.root / "home.ipynb")]
+    subprocess.run(command, env=environment, check=True)
+
+
+#: Cards of a check that failed, of one that was not attempted, and of a hint.
+CARDS = (
+    "from rclpy.node import Node\nfrom rosbeat import check, hint, progress",
+    "class Mute(Node):\n    def __init__(self):\n        super().__init__('mute')\n"
+    "check('00a', Mute)",
+    "class Blank(Node):\n    def __init__(self):\n        super().__init__(____)\n"
+    "check('00a', Blank)",
+    "hint('00a')",
+    "progress()",
+)
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_lists_and_cards_can_be_read_by_everybody(opened, page, lab, progress, theme, tmp_path):
+    pass_one(progress, "00a")
+    progress.change("01b", lambda before: before.after(failed("01b", "", "")))
+    shutil.copy(lab.root / "home.ipynb", lab.root / "home_too.ipynb")
+    write_notebook(lab.root / "00_hear_the_heartbeat.ipynb", *CARDS)
+    for name in ("home_too.ipynb", "00_hear_the_heartbeat.ipynb"):
+        notebook = opened(name)
+        notebook.theme(theme)
+        notebook.run_all()
+        shown = page.locator(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-OutputArea-output")
+        shown.first.wait_for()
+        for output in shown.all():
+            assert issues(output) == []
+        assert notebook.errors() == {}
+        notebook.picture(f"progress-{name[:4]}-{theme}", page.locator(LIST).last, tmp_path)
+
+
+@pytest.mark.parametrize("width", [1000, 667], ids=["1000", "1000 at 150 %"])
+def test_nothing_of_the_list_is_cut_off_in_a_narrow_window(opened, page, width):
+    page.set_viewport_size({"width": width, "height": 900})
+    home = opened("home.ipynb")
+    home.run_all()
+    assert cut_off(page.locator(LIST)) == []
