@@ -11,7 +11,7 @@ from rosbeat.exercises.registry import PAGES
 LESSONS = Path(__file__).resolve().parents[1] / "src" / "lessons"
 HEAD = "# **After this page, you can:**\n#\n"
 #: The pages that state their objectives.
-STATED = sorted(path for path in LESSONS.glob("*.py") if HEAD in path.read_text("utf-8"))
+STATED = sorted(path for path in LESSONS.glob("[0-9]*.py") if HEAD in path.read_text("utf-8"))
 
 
 def objectives(path):
@@ -20,7 +20,7 @@ def objectives(path):
 
 
 def test_every_page_states_what_one_can_do_after_it():
-    assert sorted(LESSONS.glob("*.py")) == STATED
+    assert sorted(LESSONS.glob("[0-9]*.py")) == STATED
 
 
 @pytest.mark.parametrize("path", STATED, ids=lambda path: path.stem)
