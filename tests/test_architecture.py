@@ -70,7 +70,7 @@ THIRD_PARTY = {
     "bags": {"rosbags", "numpy"},
     "environment": set(),
     "domains": set(),
-    "workspace": {"IPython", "ptyprocess", "ament_index_python"},
+    "workspace": {"IPython", "ptyprocess", "ament_index_python", "pygments"},
     "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
     "viz": {"matplotlib", "PIL", "numpy"},
     "panel": {"anywidget", "traitlets", "IPython"},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import queue
+import re
 import signal
 import subprocess
 import sys
@@ -19,6 +20,7 @@ TESTS = Path(__file__).parents[1]
 DEADLINE = 30.0
 #: Whether everything is tried, and often: `ROSBEAT_TORTURE=full`.
 FULL = os.environ.get("ROSBEAT_TORTURE") == "full"
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 @dataclass(frozen=True)
@@ -27,13 +29,15 @@ class Reply:
 
     Attributes:
         error: The exception's class name, or an empty string.
-        text: What the cell printed, standard error included.
+        text: What the cell printed, standard error included, without its colours.
         seconds: From the interrupt, or else from the beginning, to the end of the cell.
+        raw: What the cell printed, with the control sequences of its colours.
     """
 
     error: str
     text: str
     seconds: float
+    raw: str
 
 
 class Kernel:
@@ -115,7 +119,8 @@ class Kernel:
         error = None
         while error is None:
             error = self._listen(message, printed, begin + DEADLINE)
-        return Reply(error, "".join(printed), time.monotonic() - begin)
+        raw = "".join(printed)
+        return Reply(error, _COLOUR.sub("", raw), time.monotonic() - begin, raw)
 
     def _listen(self, message: str, printed: list[str], deadline: float) -> str | None:
         """Take one message; return the error's name, or an empty text, when the cell has ended."""
