@@ -72,7 +72,7 @@ THIRD_PARTY = {
     "domains": set(),
     "workspace": {"IPython", "ptyprocess", "ament_index_python", "pygments"},
     "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
-    "viz": {"matplotlib", "PIL", "numpy"},
+    "viz": {"matplotlib"},
     "panel": {"anywidget", "traitlets", "IPython"},
     "diagnosis": set(),
     "clinic": {"rclpy", "std_msgs"},

@@ -98,7 +98,7 @@ def _heading_width(rows: Sequence[Row]) -> float:
 
 
 def _width(words: str) -> float:
-    return _WORDS_AT + text_width(words, theme.SMALL)
+    return _WORDS_AT + text_width(words)
 
 
 def _draw_head(canvas: Canvas, every: Sequence[Outcome]) -> None:
@@ -106,7 +106,7 @@ def _draw_head(canvas: Canvas, every: Sequence[Outcome]) -> None:
     for status, (word, *_) in _STATES.items():
         _draw_mark(canvas, status, word, x, y)
         x += _width(word) + _GAP
-    canvas.text(right, y, summary(every), theme.SMALL, theme.MUTED, "right")
+    canvas.text(right, y, summary(every), theme.MUTED, "right")
 
 
 def _draw_mark(canvas: Canvas, status: str, words: str, x: float, y: float) -> None:
@@ -114,5 +114,5 @@ def _draw_mark(canvas: Canvas, status: str, words: str, x: float, y: float) -> N
     middle = x + 9
     canvas.axes.plot([middle], [y], look.marker, ms=12, mfc=fill, mec=look.colour, mew=1.4)
     ink = theme.CARD if fill != theme.CARD else theme.ALERT_TEXT
-    canvas.text(middle, y, sign, theme.SMALL, ink, "center", "bold")
-    canvas.text(x + _WORDS_AT, y, words, theme.SMALL)
+    canvas.text(middle, y, sign, ink, "center", "bold")
+    canvas.text(x + _WORDS_AT, y, words)
