@@ -160,7 +160,7 @@ ros.run(seconds=5)
 
 # %%
 ros.run(seconds=895, quiet=True)
-viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)})
+viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)}, unit="°C")
 
 # %% [markdown]
 # The band is what the clamp allows, and the circles mark some of the readings. The walk meets the

@@ -236,7 +236,7 @@ for number in (5, 6, 7, 8):
 # %%
 patient = ward.patient(8)
 limits = {"as ordered": (23, 31)}
-viz.values(patient.ros.observation(), "pool_temperature", bands=limits)
+viz.values(patient.ros.observation(), "pool_temperature", bands=limits, unit="°C")
 
 # %% [markdown]
 # The picture tells more than a hundred log lines: the band is what was ordered, and the readings are what
