@@ -61,7 +61,7 @@ def line_height() -> float:
 
 
 def wrap(name: str, limit: float) -> tuple[str, ...]:
-    """Break a ROS name into lines no wider than `limit` CSS pixels, after `/` or `_`.
+    """Break a ROS name or words into lines no wider than `limit` CSS pixels, after `/`, `_` or ` `.
 
     A part that is wider than the limit on its own is broken anywhere.
     """
@@ -72,15 +72,15 @@ def wrap(name: str, limit: float) -> tuple[str, ...]:
             if rows[-1] and text_width(rows[-1] + piece) > limit:
                 rows.append("")
             rows[-1] += piece
-    return tuple(rows)
+    return tuple(row.strip() for row in rows)
 
 
 def _parts(name: str) -> list[str]:
-    """Cut the name after every `/` and `_`; a leading slash stays with what follows it."""
+    """Cut a text after every `/`, `_` and blank; a leading slash stays with what follows it."""
     parts = [""]
     for letter in name:
         parts[-1] += letter
-        if letter in "/_" and parts != ["/"]:
+        if letter in "/_ " and parts != ["/"]:
             parts.append("")
     return [part for part in parts if part]
 

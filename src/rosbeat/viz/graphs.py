@@ -137,7 +137,7 @@ def node_label(
 ) -> Label:
     """Return the label of a node: its name, broken at `limit` CSS pixels, and what is wrong."""
     lines = [Line(row) for row in wrap(name, limit)]
-    lines += [Line(row, theme.ALERT_TEXT) for row in faults]
+    lines += [Line(row, theme.ALERT_TEXT) for one in faults for row in wrap(one, limit)]
     return Label(tuple(lines), "node", strong=strong, dashed=stopped)
 
 
@@ -152,7 +152,7 @@ def topic_label(
     """Return the label of a topic: name, types without their package, what is wrong."""
     lines = [Line(row) for row in wrap(name, limit)]
     lines += [Line(short_type(kind), theme.MUTED) for kind in types]
-    lines += [Line(fault, theme.ALERT_TEXT) for fault in faults]
+    lines += [Line(row, theme.ALERT_TEXT) for one in faults for row in wrap(one, limit)]
     return Label(tuple(lines), "topic", strong=strong, broken=bool(faults), dashed=unused)
 
 

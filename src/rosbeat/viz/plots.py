@@ -355,8 +355,8 @@ def differences(
     with _plot(name, unit, key, (low, high)) as (canvas, axes):
         _fit(axes, one.times + other.times)
         # The first line is the wider one, so that it is seen where both are the same.
-        _draw_line(axes, one, _ONE, width=3.2, mark=4)
-        _draw_line(axes, other, _OTHER, mark=4)
+        _draw_line(axes, one, _ONE, width=3.2)
+        _draw_line(axes, other, _OTHER)
         for points, look in ((missing, _MISSING), (extra, _EXTRA)):
             _draw_marks(axes, points.times, points.values, look)
         foot = low + _AIR / 2 * (high - low)
@@ -430,11 +430,10 @@ def _draw_line(
     look: theme.Style,
     is_alone: bool = False,
     width: float = 1.6,
-    mark: float = 5,
 ) -> None:
     numbers = [value if isfinite(value) else nan for value in line.values]
     (drawn,) = axes.plot(line.times, numbers, color=look.colour, ls=look.dash, lw=width)
     drawn.set(drawstyle="steps-post", clip_on=False, zorder=3)
     if len(numbers) <= _MARKS or not is_alone:
         every = max(1, len(numbers) // _FEW_MARKS) if len(numbers) > _MARKS else 1
-        drawn.set(marker=look.marker, ms=mark, mec=theme.CARD, mew=0.6, markevery=every)
+        drawn.set(marker=look.marker, ms=width + 3.4, mec=theme.CARD, mew=0.6, markevery=every)
