@@ -71,8 +71,7 @@ predict("60", sent)
 # %% [markdown]
 # One each second. `with` closes the session at the end of the block, and `quiet=True` only keeps the log lines
 # off the page; the messages were sent, and a session records each of them. `ros.messages` gives them all. Here is
-# the first one of the first session: when it was sent (in nanoseconds, so a billion is one second), where, what
-# type, from whom, and the data.
+# the first one of the first session: when it was sent (in seconds), where, from whom, and its value.
 #
 # A session plays each node as a **process** of its own, which is a running program, and the messages go through
 # real ROS software: [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
