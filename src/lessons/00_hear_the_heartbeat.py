@@ -83,9 +83,8 @@ predict("60", sent)
 # One every second. The `with` statement closes the session at the end of the block. `quiet=True` hides the log
 # lines; the messages are sent all the same, and the session records every one of them.
 #
-# `ros.messages` returns these records. Here is the first one from your first session. It says when the message
-# was sent (in nanoseconds: a billion of them make one second), on which topic, with which type, by which node,
-# and with what data.
+# `ros.messages` returns these records. Here is the first one from your first session: when the message was sent (in
+# seconds), on which topic, by which node, and its value.
 #
 # On a robot, a node usually runs in a [**process**](../docs/glossary.md#process) of its own, which is the operating
 # system's word for a running program. A session gives each node a simulated process, and the messages travel

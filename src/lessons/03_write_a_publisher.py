@@ -162,7 +162,7 @@ ros.run(seconds=5)
 
 # %%
 ros.run(seconds=895, quiet=True)
-viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)})
+viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)}, unit="°C")
 
 # %% [markdown]
 # The band shows the range that the clamp allows, and the circles mark some of the readings. The walk reaches the

@@ -144,7 +144,7 @@ statuses = [status_of(line) for line in lines]
 
 # %%
 limits = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
-viz.values(ros.observation(), "temperature", bands=limits)
+viz.values(ros.observation(), "temperature", bands=limits, unit="°C")
 
 # %% [markdown]
 # Near a limit, a small step is enough to change the status. *Low*, which begins below 20, would be possible even if

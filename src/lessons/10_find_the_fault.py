@@ -241,7 +241,7 @@ for number in (5, 6, 7, 8):
 # %%
 patient = ward.patient(8)
 limits = {"as ordered": (23, 31)}
-viz.values(patient.ros.observation(), "pool_temperature", bands=limits)
+viz.values(patient.ros.observation(), "pool_temperature", bands=limits, unit="°C")
 
 # %% [markdown]
 # The picture says more than a hundred log lines: the band shows what was ordered, and the line shows the readings.

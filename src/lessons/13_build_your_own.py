@@ -92,10 +92,10 @@ requirements()
 
 # %%
 limits = {"stays as it is": (26.0, 28.0)}
-viz.values(ros.observation(), "temperature", bands=limits)
+viz.values(ros.observation(), "temperature", bands=limits, unit="°C")
 
 # %%
-viz.values(ros.observation(), "humidity", bands={"dry": (None, 40.0)})
+viz.values(ros.observation(), "humidity", bands={"dry": (None, 40.0)}, unit="%")
 
 # %% [markdown]
 # The other day is for R4 and R5: its sensors send nonsense, then one of them is silent for a while, and then both.

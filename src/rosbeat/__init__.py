@@ -44,6 +44,7 @@ if os.environ.get("NBGRADER_EXECUTION"):
 if (_ipython := sys.modules.get("IPython")) and (_shell := _ipython.get_ipython()):
     import_module("rosbeat.page_errors").register(_shell)
     import_module("rosbeat.exercises.cells").register(_shell)
+    import_module("rosbeat.page_views").register(_shell)
 
 _HOMES = {
     "Session": ("rosbeat.page_session", "Session"),

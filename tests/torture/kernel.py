@@ -21,6 +21,7 @@ TESTS = Path(__file__).parents[1]
 DEADLINE = 30.0
 #: Whether everything is tried, and often: `ROSBEAT_TORTURE=full`.
 FULL = os.environ.get("ROSBEAT_TORTURE") == "full"
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 @dataclass(frozen=True)
@@ -29,15 +30,17 @@ class Reply:
 
     Attributes:
         error: The exception's class name, or an empty string.
-        text: What the cell printed, standard error included.
+        text: What the cell printed, standard error included, without its colours.
         trace: What a page shows of the exception, without colours.
         seconds: From the interrupt, or else from the beginning, to the end of the cell.
+        raw: What the cell printed, with the control sequences of its colours.
     """
 
     error: str
     text: str
     seconds: float
     trace: str = ""
+    raw: str = ""
 
 
 class Kernel:
@@ -127,9 +130,10 @@ class Kernel:
         ended = None
         while ended is None:
             ended = self._listen(message, printed, begin + DEADLINE)
-        trace = re.sub(r"\x1b\[[\d;]*m", "", "\n".join(ended.get("traceback", ())))
+        trace = _COLOUR.sub("", "\n".join(ended.get("traceback", ())))
+        raw = "".join(printed)
         seconds = time.monotonic() - begin
-        return Reply(str(ended.get("ename", "")), "".join(printed), seconds, trace)
+        return Reply(str(ended.get("ename", "")), _COLOUR.sub("", raw), seconds, trace, raw)
 
     def _listen(self, message: str, printed: list[str], deadline: float) -> dict[str, Any] | None:
         """Take one message; return the kernel's reply when the cell has ended."""

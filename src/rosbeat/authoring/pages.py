@@ -45,7 +45,8 @@ _LIBRARY_FRAME = re.compile(r'(?m)^  File "[^"\n]*site-packages[^"\n]*", line .*
 _MARKS = re.compile(r"(?m)^    [ ^~]*[\^~][ ^~]*\n")
 _UNREPEATABLE = {
     "a memory address": re.compile(r"\b0x[0-9a-f]{6,}\b"),
-    "a terminal colour": re.compile(r"\x1b\["),
+    # The colours of `%%terminal` are the same everywhere: bold, three numbers, and their ends.
+    "a terminal colour": re.compile(r"\x1b\[(?!(?:0|1|39|38;2;\d+;\d+;\d+)m)"),
 }
 
 

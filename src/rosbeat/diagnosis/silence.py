@@ -6,10 +6,10 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from difflib import SequenceMatcher
-from html import escape
 from textwrap import fill
 
 from rosbeat.diagnosis.exceptions import first_sentence, line_of
+from rosbeat.diagnosis.markup import in_html
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.qos import incompatible, rule, words
 from rosbeat.diagnosis.situation import (
@@ -922,8 +922,8 @@ class Explanation:
         colour = _GOOD if self.is_well else _BAD
         style = f"border-left:4px solid {colour};padding:0.3em 0.8em;margin:0.3em 0"
         causes = "".join(map(self._html_of, range(len(self.diagnoses))))
-        seen = "".join(f"<li>{escape(one)}</li>" for one in self.sentences)
-        head = f"<strong>{self._sign} {escape(self.title)}</strong>"
+        seen = "".join(f"<li>{in_html(one)}</li>" for one in self.sentences)
+        head = f"<strong>{self._sign} {in_html(self.title)}</strong>"
         return f'<div style="{style}">{head}{causes}<ul style="margin:0.3em 0">{seen}</ul></div>'
 
     @property
@@ -932,8 +932,8 @@ class Explanation:
 
     def _html_of(self, number: int) -> str:
         one = self.diagnoses[number]
-        also = f"<strong>Also: {escape(self.headlines[number])}.</strong> " if number else ""
-        return f"<div>{also}{escape(one.evidence)}<br><em>Hint:</em> {escape(one.hint)}</div>"
+        also = f"<strong>Also: {in_html(self.headlines[number])}.</strong> " if number else ""
+        return f"<div>{also}{in_html(one.evidence)}<br><em>Hint:</em> {in_html(one.hint)}</div>"
 
 
 def explain(topic: str, scene: Scene) -> Explanation:

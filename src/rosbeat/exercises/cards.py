@@ -7,8 +7,10 @@ from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
+from rosbeat.diagnosis.markup import in_html
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.highlighting import highlighted
 from rosbeat.records import Outcome, Part
 
 # The frame around what a learner is told in a cell: a coloured edge, and nothing else of its own.
@@ -35,7 +37,7 @@ def framed(sign: str, *rows: str) -> str:
 
 
 def words(text: str, mark: str = "") -> str:
-    """Make HTML of a text; several lines keep their shape.
+    """Make HTML of a text; several lines keep their shape, and `code` becomes an element.
 
     Args:
         text: Any text.
@@ -43,17 +45,18 @@ def words(text: str, mark: str = "") -> str:
     """
     text = clipped(text)
     if "\n" in text:
-        return code(text)
-    return f"<{mark}>{escape(text)}</{mark}>" if mark else escape(text)
+        return f"<pre>{escape(text)}</pre>"
+    said = in_html(text, highlighted)
+    return f"<{mark}>{said}</{mark}>" if mark else said
 
 
 def code(text: str) -> str:
-    """Make HTML of a text that keeps its shape.
+    """Make HTML of a cell or a program, with the colours of its language.
 
     Args:
-        text: Any text, such as a program.
+        text: The code; any other text keeps its shape and has no colours.
     """
-    return f"<pre>{escape(text)}</pre>"
+    return f"<pre>{highlighted(text)}</pre>"
 
 
 def indented(text: str, by: str = "  ") -> str:

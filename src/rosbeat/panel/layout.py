@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
 from rosbeat.viz import theme
-from rosbeat.viz.graphs import Label, node_label, topic_label
-from rosbeat.viz.layout import Box, Layering, Placement, Point, layering, needed, place
+from rosbeat.viz.graphs import Arrangement, Marked, arrange
+from rosbeat.viz.layout import Point
 from rosbeat.viz.wiring import Wiring, describe, node_key, topic_key
 
 #: Types of message that a slider can publish, and whose numbers a fault can change.
 NUMERIC_TYPES = frozenset({"std_msgs/msg/Float32", "std_msgs/msg/Float64"})
-#: Widest line of a name in CSS pixels, tried in this order.
-_LIMITS = (200.0, 150.0, 115.0, 95.0)
-_ROOM = theme.WIDTH - 2 * theme.MARGIN
 
 
 def layout(shown: Wiring) -> dict[str, Any]:
@@ -29,44 +27,25 @@ def layout(shown: Wiring) -> dict[str, Any]:
         of them, from the top, are the name (`rows`), and place; `edges` with the keys of their
         ends, what is wrong there, and the path as SVG writes it; `words` that say the same.
     """
-    plan, labels = _plan(shown), _labels(shown, _LIMITS[0])
-    for limit in _LIMITS:
-        labels = _labels(shown, limit)
-        if needed(plan, _sizes(labels)) <= _ROOM:
-            break
-    placed = place(plan, _sizes(labels), _ROOM)
+    shown = replace(shown, offers=())
+    arranged = arrange(Marked(shown, shown))
+    width, height = arranged.size
     names = {node_key(name): name for name in shown.nodes}
     names.update((topic_key(name), name) for name in shown.topics)
-    boxes = [_box(key, names[key], labels[key], box) for key, box in placed.boxes.items()]
     return {
-        "width": round(max(placed.length, 1) + 2 * theme.MARGIN, 1),
-        "height": round(max(placed.breadth, 1) + 2 * theme.MARGIN, 1),
-        "boxes": boxes,
-        "edges": _edges(shown, placed),
+        "width": round(max(width, 1) + 2 * theme.MARGIN, 1),
+        "height": round(max(height, 1) + 2 * theme.MARGIN, 1),
+        "boxes": [_box(arranged, key, names[key]) for key in arranged.placement.boxes],
+        "edges": _edges(shown, arranged),
         "numeric": [name for name, types in shown.topics.items() if NUMERIC_TYPES & set(types)],
         "words": describe(shown),
     }
 
 
-def _plan(shown: Wiring) -> Layering:
-    starts = {node_key(name): 0 for name in shown.nodes}
-    starts.update((topic_key(name), 1) for name in shown.topics)
-    return layering(starts, [(edge.source, edge.target) for edge in shown.edges])
-
-
-def _labels(shown: Wiring, limit: float) -> dict[str, Label]:
-    labels = {node_key(name): node_label(name, limit, theme.TEXT, False) for name in shown.nodes}
-    for name, types in shown.topics.items():
-        look = (limit, theme.TEXT, False)
-        labels[topic_key(name)] = topic_label(name, types, shown.faults(name), *look)
-    return labels
-
-
-def _sizes(labels: Mapping[str, Label]) -> dict[str, Point]:
-    return {key: label.size for key, label in labels.items()}
-
-
-def _box(key: str, name: str, label: Label, box: Box) -> dict[str, Any]:
+def _box(arranged: Arrangement, key: str, name: str) -> dict[str, Any]:
+    label, box = arranged.labels[key], arranged.placement.boxes[key]
+    x, y = arranged.at((box.along, box.across))
+    width, height = arranged.at((box.length, box.breadth))
     return {
         "key": key,
         "kind": "node" if label.is_node else "topic",
@@ -74,35 +53,39 @@ def _box(key: str, name: str, label: Label, box: Box) -> dict[str, Any]:
         "lines": [line.words for line in label.lines],
         "rows": sum(line.colour == theme.INK for line in label.lines),
         "broken": label.broken,
-        "x": round(box.along + theme.MARGIN, 1),
-        "y": round(box.across + theme.MARGIN, 1),
-        "w": round(box.length, 1),
-        "h": round(box.breadth, 1),
+        "x": round(x + theme.MARGIN, 1),
+        "y": round(y + theme.MARGIN, 1),
+        "w": round(width, 1),
+        "h": round(height, 1),
     }
 
 
-def _edges(shown: Wiring, placed: Placement) -> list[dict[str, str]]:
-    found = []
+def _edges(shown: Wiring, arranged: Arrangement) -> list[dict[str, str]]:
+    found, placed = [], arranged.placement
     for edge in shown.edges:
         link = (edge.source, edge.target)
         around = link not in placed.routes
         points = placed.returns[link] if around else placed.routes[link]
-        path = _straight(points) if around else _smooth(points)
-        found.append({"from": edge.source, "to": edge.target, "fault": edge.fault, "path": path})
+        path = _straight if around else _smooth
+        words = {"from": edge.source, "to": edge.target, "fault": edge.fault}
+        found.append({**words, "path": path(points, arranged)})
     return found
 
 
-def _smooth(points: Sequence[Point]) -> str:
-    parts = [f"M{_at(points[0])}"]
-    for (x0, y0), (x1, y1) in pairwise(points):
-        middle = (x0 + x1) / 2
-        parts.append(f"C{_at((middle, y0))} {_at((middle, y1))} {_at((x1, y1))}")
+def _smooth(points: Sequence[Point], arranged: Arrangement) -> str:
+    """Return a line that runs along the flow at each of its points."""
+    parts = [f"M{_at(points[0], arranged)}"]
+    for (begin, first), (end, last) in pairwise(points):
+        middle = (begin + end) / 2
+        corners = ((middle, first), (middle, last), (end, last))
+        parts.append("C" + " ".join(_at(one, arranged) for one in corners))
     return "".join(parts)
 
 
-def _straight(points: Sequence[Point]) -> str:
-    return "M" + "L".join(map(_at, points))
+def _straight(points: Sequence[Point], arranged: Arrangement) -> str:
+    return "M" + "L".join(_at(point, arranged) for point in points)
 
 
-def _at(point: Point) -> str:
-    return f"{point[0] + theme.MARGIN:.1f},{point[1] + theme.MARGIN:.1f}"
+def _at(point: Point, arranged: Arrangement) -> str:
+    x, y = arranged.at(point)
+    return f"{x + theme.MARGIN:.1f},{y + theme.MARGIN:.1f}"

@@ -17,10 +17,16 @@ a graph.
 - **Words first.** A picture's plain-text form is its description. Terminals print it, screen
   readers read it as the image's `alt`, and page tests compare it, since the bytes of an image
   depend on the version of matplotlib.
-- **Light and dark.** A figure is drawn once, in the colours for a light page. On a page it is an
-  SVG in which each colour is a variable with a second value for dark pages (`theme.DARK`). The
-  browser chooses by the `color-scheme` that JupyterLab sets with its theme. Saved files are
-  light.
+- **Light and dark.** A figure is drawn once, in the colours for a light page. Its SVG has rules
+  that put another colour in the place of each on a dark page (`theme.DARK`). The browser chooses
+  by the `color-scheme` that JupyterLab sets with its theme.
+- **An image, and no part of the page.** JupyterLab drops `<svg>` elements from pages that nobody
+  has run, so a picture is an `<img>` with the SVG inside (`picture` says more). For that it has no
+  values to point at; what matters is written in it and in its description.
+- **One size of text.** In a JupyterLab window 1,000 pixels wide, with the file browser open, a
+  picture is scaled to 548 pixels, and its text is 11 pixels high. Below, the output scrolls.
+- **One direction.** A graph that fits the page runs to the right and another one down, in pictures
+  and in the panel, whatever is highlighted. Only the words of an explanation may turn it.
 - **Why the layout is our own.** The frame around the nodes of one process must hold these nodes
   and nothing else, notes stand on arrows, boxes have sizes, and a graph that is too wide runs
   down. networkx places boxes in layers, but does not minimize crossings and knows no sizes;

@@ -45,42 +45,42 @@ _LANE_NAMES = 170.0
 
 
 @lru_cache(maxsize=4096)
-def text_width(words: str, size: float = theme.TEXT, weight: str = "normal") -> float:
-    """Return the width of one line of text in CSS pixels, at a font size in points."""
+def text_width(words: str, weight: str = "normal") -> float:
+    """Return the width of one line of text in CSS pixels."""
     if not words.strip():
         return 0.0
     font = FontProperties(family="DejaVu Sans", weight=weight)
-    path = TextPath((0, 0), words.replace("$", r"\$"), size=size, prop=font)
+    path = TextPath((0, 0), words.replace("$", r"\$"), size=theme.TEXT, prop=font)
     # Control points may lie a hair outside the outline; they cost a tenth of exact extents.
     return float(path.vertices[:, 0].max()) * _PIXELS_PER_POINT
 
 
-def line_height(size: float = theme.TEXT) -> float:
-    """Return the height of one line of text in CSS pixels, at a font size in points."""
-    return size * _PIXELS_PER_POINT * _LINE
+def line_height() -> float:
+    """Return the height of one line of text in CSS pixels."""
+    return theme.TEXT * _PIXELS_PER_POINT * _LINE
 
 
-def wrap(name: str, limit: float, size: float = theme.TEXT) -> tuple[str, ...]:
-    """Break a ROS name into lines no wider than `limit` CSS pixels, after `/` or `_`.
+def wrap(name: str, limit: float) -> tuple[str, ...]:
+    """Break a ROS name or words into lines no wider than `limit` CSS pixels, after `/`, `_` or ` `.
 
     A part that is wider than the limit on its own is broken anywhere.
     """
     rows = [""]
     for part in _parts(name):
-        pieces = [part] if text_width(part, size) <= limit else list(part)
+        pieces = [part] if text_width(part) <= limit else list(part)
         for piece in pieces:
-            if rows[-1] and text_width(rows[-1] + piece, size) > limit:
+            if rows[-1] and text_width(rows[-1] + piece) > limit:
                 rows.append("")
             rows[-1] += piece
-    return tuple(rows)
+    return tuple(row.strip() for row in rows)
 
 
 def _parts(name: str) -> list[str]:
-    """Cut the name after every `/` and `_`; a leading slash stays with what follows it."""
+    """Cut a text after every `/`, `_` and blank; a leading slash stays with what follows it."""
     parts = [""]
     for letter in name:
         parts[-1] += letter
-        if letter in "/_" and parts != ["/"]:
+        if letter in "/_ " and parts != ["/"]:
             parts.append("")
     return [part for part in parts if part]
 
@@ -111,7 +111,7 @@ class TimeScale:
         """Return round times in the range, few enough that their labels stand apart."""
         if self.last <= 0:
             return [0.0]
-        room = max(text_width(number(end), theme.SMALL) for end in (0.0, self.last)) + 34
+        room = max(text_width(number(end)) for end in (0.0, self.last)) + 34
         most = max(2, min(10, int((self.right - self.left) / room)))
         values = MaxNLocator(nbins=most, steps=(1, 2, 5, 10)).tick_values(0.0, self.last)
         return [float(at) for at in values if 0 <= at <= self.last * (1 + 1e-9)]
@@ -249,14 +249,13 @@ class Canvas:
         x: float,
         y: float,
         words: str,
-        size: float = theme.TEXT,
         colour: str = theme.INK,
         align: str = "left",
         weight: str = "normal",
     ) -> Text:
         """Write one line with its middle at height `y`; `align` says which end `x` is."""
         return self.axes.text(
-            x, y, words, size=size, color=colour, ha=align, va="center_baseline", weight=weight
+            x, y, words, color=colour, ha=align, va="center_baseline", weight=weight
         )
 
     def time_axis(self, scale: TimeScale, bottom: float, top: float) -> None:
@@ -264,7 +263,7 @@ class Canvas:
         for at in scale.ticks():
             x = scale(at)
             self.axes.plot([x, x], [bottom, top], color=theme.RULE, lw=0.8, zorder=0.5)
-            self.text(x, bottom - 12, f"{number(at)} s", theme.SMALL, theme.MUTED, "center")
+            self.text(x, bottom - 12, f"{number(at)} s", theme.MUTED, "center")
 
     def lane(self, scale: TimeScale, y: float, name: str, has_text_below: bool = False) -> None:
         """Draw a lane at height `y` and its name at the left, in the middle or above it."""
@@ -281,7 +280,7 @@ class Canvas:
         box = "round,pad=0,rounding_size=10"
         size = (right - left, top - bottom)
         self.axes.add_patch(FancyBboxPatch((left, bottom), *size, boxstyle=box, **look))
-        label = self.text(left + _FRAME_INDENT, top, _FRAME_LABEL, theme.SMALL, theme.MUTED)
+        label = self.text(left + _FRAME_INDENT, top, _FRAME_LABEL, theme.MUTED)
         # The label interrupts the edge, and an arrow passes behind it.
         label.set_bbox({"fc": theme.CARD, "ec": "none", "pad": 1.5})
 
@@ -312,8 +311,8 @@ class Canvas:
 
     def _name_bar(self, name: str, ends: Point, y: float, look: theme.Bar) -> None:
         left = ends[0] + 10.0  # room for the mark with which a callback begins
-        if name and text_width(name, theme.TINY) <= ends[1] - left - 3:
-            words = self.text(left, y, name, theme.TINY)
+        if name and text_width(name) <= ends[1] - left - 3:
+            words = self.text(left, y, name)
             words.set_zorder(_BAR_ZORDER + 0.1)
             # Between the lines of a hatch nobody can read.
             words.set_bbox({"fc": look.fill, "ec": "none", "pad": 0.5})
@@ -340,7 +339,7 @@ class Canvas:
 
 def least_frame_width() -> float:
     """Return the least width of a frame in CSS pixels, so that its label fits on the edge."""
-    return text_width(_FRAME_LABEL, theme.SMALL) + 2 * _FRAME_INDENT
+    return text_width(_FRAME_LABEL) + 2 * _FRAME_INDENT
 
 
 @contextmanager
@@ -362,7 +361,7 @@ def blank(
     """
     rows = _key_rows(entries)
     head = (line_height() + 4 if heading else 0.0) + len(rows) * _KEY_ROW
-    foot = line_height(theme.SMALL) + 6 if note else 0.0
+    foot = line_height() + 6 if note else 0.0
     total = 2 * theme.MARGIN + head + height + foot
     with mpl_style.context(["default", theme.RC]):
         figure = Figure(figsize=(width / theme.DPI, total / theme.DPI), dpi=theme.DPI)
@@ -376,12 +375,12 @@ def blank(
         for rank, row in enumerate(reversed(rows)):
             _draw_key_row(canvas, row, canvas.top + (rank + 0.5) * _KEY_ROW)
         if note:
-            canvas.text(theme.MARGIN, theme.MARGIN, note, theme.SMALL, theme.MUTED)
+            canvas.text(theme.MARGIN, theme.MARGIN, note, theme.MUTED)
         yield canvas
 
 
 _KEY_MARK, _KEY_GAP = 26.0, 22.0
-_KEY_ROW = line_height(theme.SMALL) + 4
+_KEY_ROW = line_height() + 4
 
 
 def _key_rows(entries: Sequence[Entry]) -> list[list[Entry]]:
@@ -398,7 +397,7 @@ def _key_rows(entries: Sequence[Entry]) -> list[list[Entry]]:
 
 
 def _entry_width(entry: Entry) -> float:
-    return _KEY_MARK + text_width(entry.words, theme.SMALL) + _KEY_GAP
+    return _KEY_MARK + text_width(entry.words) + _KEY_GAP
 
 
 def _draw_key_row(canvas: Canvas, row: Sequence[Entry], y: float) -> None:
@@ -413,5 +412,5 @@ def _draw_key_row(canvas: Canvas, row: Sequence[Entry], y: float) -> None:
             inside = entry.fill or look.colour
             middle = [x + (_KEY_MARK - 6) / 2]
             canvas.axes.plot(middle, [y], look.marker, ms=6, mfc=inside, mec=look.colour)
-        canvas.text(x + _KEY_MARK, y, entry.words, size=theme.SMALL)
+        canvas.text(x + _KEY_MARK, y, entry.words)
         x += _entry_width(entry)

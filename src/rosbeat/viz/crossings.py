@@ -285,8 +285,8 @@ class _Drawing:
         self._canvas.lane(self._scale, y, self._names[side], has_text_below=True)
         for rank, words in enumerate(sums, 1):
             colour = theme.ALERT_TEXT if words.endswith("lost") else theme.MUTED
-            at = y - rank * line_height(theme.SMALL) - 3
-            self._canvas.text(self._scale.left - 18, at, words, theme.SMALL, colour, "right")
+            at = y - rank * line_height() - 3
+            self._canvas.text(self._scale.left - 18, at, words, colour, "right")
         for at_ns in self._others[side]:
             look: dict[str, Any] = {"ms": 9, "color": _OTHER.colour, "zorder": 3}
             self._canvas.axes.plot([self._x(at_ns)], [y], _OTHER.marker, **look)
@@ -302,9 +302,9 @@ class _Drawing:
     def _write_values(self) -> None:
         """Write the first few numbers beside both marks of their message, where there is room."""
         free, written = self._scale.left - 60, 0
-        more = (theme.SMALL, theme.MUTED, "center")
+        more = (theme.MUTED, "center")
         for line in self._shown.sent:
-            half = text_width(line.words, theme.SMALL) / 2
+            half = text_width(line.words) / 2
             x, end = self._x(line.time_ns), self._end(line)
             if min(x, end) - half > free and written < _VALUES:
                 self._canvas.text(x, self._sender + 20, line.words, *more)

@@ -8,7 +8,7 @@ is dashed. Two topics whose names are almost the same have words between them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -45,8 +45,8 @@ from rosbeat.viz.layout import (
 from rosbeat.viz.picture import Picture
 from rosbeat.viz.wiring import Edge, Wiring, describe, node_key, short_type, topic_key, wiring
 
-#: Widest line of a name in CSS pixels and font size in points, tried in this order.
-_FITS = ((200.0, 10.0), (150.0, 10.0), (115.0, 10.0), (115.0, 9.0), (95.0, 8.5))
+#: Widest line of a name in CSS pixels, tried in this order.
+_LIMITS = (200.0, 150.0, 115.0, 95.0)
 _TOPIC_PADDING, _NOTE_PADDING = (13.0, 7.0), (5.0, 5.0)
 
 
@@ -58,7 +58,6 @@ class Line:
     """Hold one line of text in a box."""
 
     words: str
-    size: float
     colour: str = theme.INK
 
 
@@ -88,8 +87,8 @@ class Label:
     @property
     def size(self) -> Point:
         """Return width and height of the box in CSS pixels."""
-        width = max(text_width(line.words, line.size, self._weight(line)) for line in self.lines)
-        height = sum(line_height(line.size) for line in self.lines)
+        width = max(text_width(line.words, self._weight(line)) for line in self.lines)
+        height = line_height() * len(self.lines)
         if self.is_node:
             # An ellipse around a text is wider and higher than the text: (1/a)² + (1/b)² = 1.
             return width * 1.2 + 14, height * 1.8 + 6
@@ -106,12 +105,9 @@ class Label:
             at = (x + width / 2 * 0.62, y + height / 2 * 0.78)
             look: dict[str, Any] = {"color": theme.ALERT, "mec": theme.CARD, "zorder": 5}
             canvas.axes.plot(*at, marker="X", ms=12, mew=1.2, **look)
-        top = y + sum(line_height(line.size) for line in self.lines) / 2
-        for line in self.lines:
-            high = line_height(line.size)
-            more = (line.size, line.colour, "center", self._weight(line))
-            canvas.text(x, top - high / 2, line.words, *more)
-            top -= high
+        for rank, line in enumerate(self.lines):
+            middle = y + ((len(self.lines) - 1) / 2 - rank) * line_height()
+            canvas.text(x, middle, line.words, line.colour, "center", self._weight(line))
 
     def _weight(self, line: Line) -> str:
         """Return the weight of a line: only the name in a highlighted box is bold."""
@@ -135,14 +131,13 @@ class Label:
 def node_label(
     name: str,
     limit: float,
-    size: float,
     strong: bool,
     faults: tuple[str, ...] = (),
     stopped: bool = False,
 ) -> Label:
     """Return the label of a node: its name, broken at `limit` CSS pixels, and what is wrong."""
-    lines = [Line(row, size) for row in wrap(name, limit, size)]
-    lines += [Line(row, min(size, theme.SMALL), theme.ALERT_TEXT) for row in faults]
+    lines = [Line(row) for row in wrap(name, limit)]
+    lines += [Line(row, theme.ALERT_TEXT) for one in faults for row in wrap(one, limit)]
     return Label(tuple(lines), "node", strong=strong, dashed=stopped)
 
 
@@ -151,15 +146,13 @@ def topic_label(
     types: tuple[str, ...],
     faults: tuple[str, ...],
     limit: float,
-    size: float,
     strong: bool,
     unused: bool = False,
 ) -> Label:
     """Return the label of a topic: name, types without their package, what is wrong."""
-    small = min(size, theme.SMALL)
-    lines = [Line(row, size) for row in wrap(name, limit, size)]
-    lines += [Line(short_type(kind), small, theme.MUTED) for kind in types]
-    lines += [Line(fault, small, theme.ALERT_TEXT) for fault in faults]
+    lines = [Line(row) for row in wrap(name, limit)]
+    lines += [Line(short_type(kind), theme.MUTED) for kind in types]
+    lines += [Line(row, theme.ALERT_TEXT) for one in faults for row in wrap(one, limit)]
     return Label(tuple(lines), "topic", strong=strong, broken=bool(faults), dashed=unused)
 
 
@@ -300,16 +293,24 @@ def graph(
     }
     if isinstance(source, Explanation):
         strong |= {source.topic} & set(shown.wiring.topics)
-    layout = _layout(shown, strong)
-    width, height = layout.size
+    arranged = arrange(shown, strong)
+    width, height = arranged.size
+    # Boxes that just fit may be wider by an error of rounding.
+    width = max(theme.WIDTH, round(width + 2 * theme.MARGIN, 3))
     with blank(height, width) as canvas:
-        _draw(canvas, shown, layout)
+        _draw(canvas, shown, arranged)
     return Picture(canvas.figure, words + describe(shown.plain), "Nodes and topics")
 
 
 @dataclass(frozen=True)
-class _Layout:
-    """Hold a placement with its labels, and whether it flows down instead of to the right."""
+class Arrangement:
+    """Hold a placement with its labels, and whether it flows down instead of to the right.
+
+    Attributes:
+        labels: What is written in each box.
+        placement: Where the boxes, the arrows and the frames are.
+        down: Whether it flows down.
+    """
 
     labels: dict[str, Label]
     placement: Placement
@@ -317,21 +318,40 @@ class _Layout:
 
     @property
     def size(self) -> Point:
-        """Return the width of the picture, and the height between its margins."""
-        extent = (self.placement.length, self.placement.breadth)
-        width, height = reversed(extent) if self.down else extent
-        # Boxes that just fit may be wider by an error of rounding.
-        return max(theme.WIDTH, round(width + 2 * theme.MARGIN, 3)), height
+        """Return width and height, in CSS pixels."""
+        return self.at((self.placement.length, self.placement.breadth))
 
-    def point(self, canvas: Canvas, along: float, across: float) -> Point:
-        """Return canvas coordinates of a point of the placement; the picture is centred."""
-        if self.down:
-            return (canvas.width - self.placement.breadth) / 2 + across, canvas.top - along
-        return (canvas.width - self.placement.length) / 2 + along, canvas.top - across
+    def at(self, point: Point) -> Point:
+        """Return how far a point of the placement is from the left and from the top."""
+        return point[::-1] if self.down else point
 
 
-def _layout(shown: Marked, strong: set[str]) -> _Layout:
-    """Return the first layout that fits: from left to right if possible, else downwards."""
+def arrange(shown: Marked, strong: Collection[str] = ()) -> Arrangement:
+    """Place a graph from left to right if it fits the page, else downwards.
+
+    What is highlighted does not count, so that a graph has one direction; only the words of marks
+    may need so much room that it has another.
+
+    Args:
+        shown: The graph.
+        strong: Full names of nodes and topics whose names are bold.
+    """
+    across = _plan(shown, down=False)
+    down = not any(_fits(across, _labels(shown, (), limit)) for limit in _LIMITS)
+    plan = _plan(shown, down)
+    for limit in _LIMITS:
+        labels = _labels(shown, strong, limit)
+        made = Arrangement(labels, place(plan, _sizes(labels, down), 0.0 if down else ROOM), down)
+        if made.size[0] <= ROOM + 1e-6 if down else _fits(plan, labels):
+            break
+    return made
+
+
+def _fits(plan: Layering, labels: dict[str, Label]) -> bool:
+    return needed(plan, _sizes(labels, down=False)) <= ROOM
+
+
+def _plan(shown: Marked, down: bool) -> Layering:
     starts = {node_key(name): 0 for name in shown.wiring.nodes}
     starts.update((topic_key(name), 1) for name in shown.wiring.topics)
     starts.update(dict.fromkeys(shown.notes, 1))
@@ -342,18 +362,7 @@ def _layout(shown: Marked, strong: set[str]) -> _Layout:
         groups = [list(map(node_key, names)) for names in shown.wiring.processes]
         others = [name for name, column in starts.items() if column == 1]
         plan = clustered(plan, enclosed(groups, [*plan.chains, *plan.back], others))
-    across = _rimmed(plan, down=False)
-    for fit in _FITS:
-        labels = _labels(shown, strong, *fit)
-        if needed(across, _sizes(labels, down=False)) <= ROOM:
-            return _Layout(labels, place(across, _sizes(labels, down=False), ROOM), down=False)
-    for fit in _FITS:
-        labels = _labels(shown, strong, *fit)
-        sizes = _sizes(labels, down=True)
-        layout = _Layout(labels, place(_rimmed(plan, down=True), sizes, 0.0), down=True)
-        if layout.size[0] <= theme.WIDTH:
-            break
-    return layout
+    return _rimmed(plan, down)
 
 
 def _rimmed(plan: Layering, down: bool) -> Layering:
@@ -371,40 +380,44 @@ def _sizes(labels: dict[str, Label], down: bool) -> dict[str, Point]:
     return {name: size[::-1] for name, size in sizes.items()} if down else sizes
 
 
-def _labels(shown: Marked, strong: set[str], limit: float, size: float) -> dict[str, Label]:
+def _labels(shown: Marked, strong: Collection[str], limit: float) -> dict[str, Label]:
     labels: dict[str, Label] = {}
     for key, words in shown.notes.items():
-        lines = [Line(one, theme.SMALL, theme.ALERT_TEXT) for one in words]
+        lines = [Line(one, theme.ALERT_TEXT) for one in words]
         labels[key] = Label(tuple(lines), "note")
     for name in shown.wiring.nodes:
         stopped, twins = shown.stopped.get(name, ()), shown.twins.get(name, ())
         wrong = (stopped + twins, bool(stopped))
-        labels[node_key(name)] = node_label(name, limit, size, name in strong, *wrong)
+        labels[node_key(name)] = node_label(name, limit, name in strong, *wrong)
     for name, types in shown.wiring.topics.items():
         unused = shown.unused.get(name, ())
         said = shown.plain.faults(name) or unused
-        look = (limit, size, name in strong, bool(unused))
+        look = (limit, name in strong, bool(unused))
         labels[topic_key(name)] = topic_label(name, types, said, *look)
     for offer in shown.wiring.offers:
         kind = f"{offer.word} {short_type(offer.type_name)}"
-        look = (limit, size, offer.name in strong, False)
+        look = (limit, offer.name in strong, False)
         labels[offer.key] = topic_label(offer.name, (kind,), (), *look)
     return labels
 
 
-def _draw(canvas: Canvas, shown: Marked, layout: _Layout) -> None:
-    placed = layout.placement
+def _draw(canvas: Canvas, shown: Marked, arranged: Arrangement) -> None:
+    placed, left = arranged.placement, (canvas.width - arranged.size[0]) / 2
+
+    def at(point: Point) -> Point:
+        x, y = arranged.at(point)
+        return left + x, canvas.top - y
+
     for frame in placed.frames:
         half = frame.length / 2, frame.breadth / 2
-        left, top = layout.point(canvas, frame.along - half[0], frame.across - half[1])
-        right, bottom = layout.point(canvas, frame.along + half[0], frame.across + half[1])
-        canvas.frame(left, bottom, right, top)
+        begin = at((frame.along - half[0], frame.across - half[1]))
+        end = at((frame.along + half[0], frame.across + half[1]))
+        canvas.frame(begin[0], end[1], end[0], begin[1])
     for edge in shown.edges():
         link, stroke = (edge.source, edge.target), BROKEN if edge.fault else PLAIN
         is_forward = link in placed.routes
-        way = placed.routes[link] if is_forward else placed.returns[link]
-        points = [layout.point(canvas, *point) for point in way]
-        path = smooth(points, layout.down) if is_forward else cornered(points)
+        points = [*map(at, placed.routes[link] if is_forward else placed.returns[link])]
+        path = smooth(points, arranged.down) if is_forward else cornered(points)
         canvas.arrow(path, stroke, edge.has_head)
     for name, box in placed.boxes.items():
-        layout.labels[name].draw(canvas, *layout.point(canvas, box.along, box.across))
+        arranged.labels[name].draw(canvas, *at((box.along, box.across)))

@@ -29,7 +29,7 @@ Extent = tuple[float, float]
 Rule = tuple[str, str, float]
 
 #: Between two columns, at least and at most.
-GAP_LEAST, GAP_MOST = 46.0, 120.0
+GAP_LEAST, GAP_MOST = 28.0, 120.0
 #: Between two boxes of a column, and for an arrow that passes through a column.
 SPACE, THREAD = 22.0, 6.0
 #: Between two arrows that run back beside the graph.

@@ -21,8 +21,9 @@ from rosbeat.viz.picture import Picture
 from rosbeat.viz.words import count, listing, number, rounded, sentence_case
 
 _PLOT, _HEAD, _FOOT = 250.0, 4.0, 36.0
-#: Up to so many messages each has its own mark; above, marks stand at a distance.
-_MARKS = 60
+#: Up to so many messages of a line each has its own mark. A line of more has none, unless there are
+#: several lines: then each has so few that they do not run together, and tells itself apart.
+_MARKS, _FEW_MARKS = 60, 10
 #: Free part of the value range above and below: so that every band has room for its name, or not.
 _BAND_AIR, _AIR = 0.14, 0.08
 
@@ -183,7 +184,7 @@ def values(
             _draw_band(axes, band, theme.BANDS[rank % len(theme.BANDS)])
         _name_bands(canvas, axes, ranges, unit)
         for rank, line in enumerate(lines):
-            _draw_line(axes, line, theme.style(rank))
+            _draw_line(axes, line, theme.style(rank), is_alone=len(lines) == 1)
         _fit(axes, [at for line in lines for at in line.times])
     return Picture(canvas.figure, _say_values(lines, ranges, name, unit), f"{name} over time")
 
@@ -244,7 +245,7 @@ def _visible(axes: Axes, band: Band) -> tuple[float, float]:
 def _room_for_names(ranges: Sequence[Band], unit: str) -> float:
     """Return the width of the names of the bands, in CSS pixels."""
     names = (text_width(band.name, weight="bold") for band in ranges)
-    return max([0.0, *names, *(text_width(band.words(unit), theme.SMALL) for band in ranges)])
+    return max([0.0, *names, *(text_width(band.words(unit)) for band in ranges)])
 
 
 def _name_bands(canvas: Canvas, axes: Axes, ranges: Sequence[Band], unit: str) -> None:
@@ -255,14 +256,14 @@ def _name_bands(canvas: Canvas, axes: Axes, ranges: Sequence[Band], unit: str) -
     for band in ranges:
         part = (sum(_visible(axes, band)) / 2 - bottom) / (top - bottom)
         wishes[band.name] = canvas.bottom + _FOOT + part * _PLOT
-    high = line_height() + line_height(theme.SMALL)
+    high = line_height() + line_height()
     rules = [(one, other, high) for one, other in itertools.pairwise(wishes)]
     places = apart(wishes, list(wishes), rules)
     for band in ranges:
         y = places[band.name]
-        canvas.text(x, y + line_height(theme.SMALL) / 2, band.name, weight="bold")
+        canvas.text(x, y + line_height() / 2, band.name, weight="bold")
         limits = band.words(unit)
-        canvas.text(x, y - line_height() / 2, limits, theme.SMALL, theme.MUTED)
+        canvas.text(x, y - line_height() / 2, limits, theme.MUTED)
 
 
 def _say_values(lines: Sequence[Series], bands: Sequence[Band], name: str, unit: str) -> str:
@@ -354,8 +355,8 @@ def differences(
     with _plot(name, unit, key, (low, high)) as (canvas, axes):
         _fit(axes, one.times + other.times)
         # The first line is the wider one, so that it is seen where both are the same.
-        _draw_line(axes, one, _ONE, 3.2, 4)
-        _draw_line(axes, other, _OTHER, 1.6, 4)
+        _draw_line(axes, one, _ONE, width=3.2)
+        _draw_line(axes, other, _OTHER)
         for points, look in ((missing, _MISSING), (extra, _EXTRA)):
             _draw_marks(axes, points.times, points.values, look)
         foot = low + _AIR / 2 * (high - low)
@@ -392,7 +393,7 @@ def _plot(
     heading = f"{name} in {unit}" if unit else name
     locator = MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10])
     ticks = [tick for tick in locator.tick_values(*extent) if extent[0] <= tick <= extent[1]]
-    left = theme.MARGIN + max(text_width(number(tick), theme.SMALL) for tick in ticks) + 10
+    left = theme.MARGIN + max(text_width(number(tick)) for tick in ticks) + 10
     right = theme.MARGIN + (names + 10 if names else 6)
     with blank(_HEAD + _PLOT + _FOOT, entries=key, heading=heading) as canvas:
         place = (left / canvas.width, (canvas.bottom + _FOOT) / canvas.height)
@@ -401,8 +402,8 @@ def _plot(
         axes.set_yticks(ticks, [number(tick) for tick in ticks])
         axes.xaxis.set_major_locator(MaxNLocator(nbins=9, steps=[1, 2, 5, 10]))
         axes.xaxis.set_major_formatter(FuncFormatter(lambda at, _: number(at)))
-        axes.set_xlabel("virtual time in s", size=theme.SMALL, color=theme.MUTED)
-        axes.tick_params(length=0, labelsize=theme.SMALL)
+        axes.set_xlabel("virtual time in s", color=theme.MUTED)
+        axes.tick_params(length=0)
         axes.grid(color=theme.RULE, lw=0.7)
         axes.set_axisbelow(True)
         axes.spines[:].set_visible(False)
@@ -424,10 +425,15 @@ def _fit(axes: Axes, times: Sequence[float]) -> None:
 
 
 def _draw_line(
-    axes: Axes, line: Series, look: theme.Style, width: float = 1.6, mark: float = 5
+    axes: Axes,
+    line: Series,
+    look: theme.Style,
+    is_alone: bool = False,
+    width: float = 1.6,
 ) -> None:
     numbers = [value if isfinite(value) else nan for value in line.values]
-    every = max(1, len(numbers) // _MARKS)
     (drawn,) = axes.plot(line.times, numbers, color=look.colour, ls=look.dash, lw=width)
     drawn.set(drawstyle="steps-post", clip_on=False, zorder=3)
-    drawn.set(marker=look.marker, ms=mark, mec=theme.CARD, mew=0.6, markevery=every)
+    if len(numbers) <= _MARKS or not is_alone:
+        every = max(1, len(numbers) // _FEW_MARKS) if len(numbers) > _MARKS else 1
+        drawn.set(marker=look.marker, ms=width + 3.4, mec=theme.CARD, mew=0.6, markevery=every)

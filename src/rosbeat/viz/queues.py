@@ -174,7 +174,7 @@ def _draw_column(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
         corner = (x - grid.step / 2 + 1, grid.y(place) - grid.cell / 2 + 1)
         cell = Rectangle(corner, grid.step - 2, grid.cell - 2, fc=fill, ec=theme.BLUE, lw=0.8)
         canvas.axes.add_patch(cell)
-        canvas.text(x, grid.y(place), str(number), theme.TINY, align="center")
+        canvas.text(x, grid.y(place), str(number), align="center")
 
 
 def _draw_exit(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
@@ -183,7 +183,7 @@ def _draw_exit(canvas: Canvas, one: Moment, x: float, grid: _Grid) -> None:
     canvas.axes.plot([x], [grid.bottom - 12], look.marker, ms=size, color=look.colour, mew=0)
     if grid.step >= _ROOMY:
         number = str(one.taken or one.dropped)
-        canvas.text(x, grid.bottom - 28, number, theme.TINY, colour, "center", "bold")
+        canvas.text(x, grid.bottom - 28, number, colour, "center", "bold")
 
 
 def _draw_times(canvas: Canvas, shown: Sequence[Moment], grid: _Grid) -> None:
@@ -195,11 +195,11 @@ def _draw_times(canvas: Canvas, shown: Sequence[Moment], grid: _Grid) -> None:
         ends = [grid.x(columns[0]) - grid.step * 0.4, grid.x(columns[-1]) + grid.step * 0.4]
         canvas.axes.plot(ends, [y, y], color=theme.MUTED, lw=1)
         words = seconds(time_ns)
-        half = text_width(words, theme.SMALL) / 2
+        half = text_width(words) / 2
         rim = theme.MARGIN + half
         middle = min(max(sum(ends) / 2, rim), canvas.width - rim)
         if middle - half >= free:
-            canvas.text(middle, y - 13, words, theme.SMALL, theme.MUTED, "center")
+            canvas.text(middle, y - 13, words, theme.MUTED, "center")
             free = middle + half + 8
 
 

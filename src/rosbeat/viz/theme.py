@@ -13,19 +13,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-#: Width of a picture in CSS pixels; the text column of JupyterLab is about 800 wide.
-WIDTH = 780
+#: Width of a picture in CSS pixels, and the least one it is scaled down to: what an output has in a
+#: JupyterLab window 1,000 pixels wide, with the file browser open. Every text is 11 high then.
+WIDTH, NARROW = 680, 548
 #: Figure units: 100 dots per inch make one CSS pixel one hundredth of an inch.
 DPI = 100
-#: Image pixels per CSS pixel, so that text is sharp on screens of high density.
-DENSITY = 2
 #: Free space at the rim, in CSS pixels.
 MARGIN = 18
 
-#: Font sizes in points; 10 points are 14 CSS pixels, the size of the page's own text.
+#: Font size in points: 14 CSS pixels, the size of the page's own text.
 TEXT = 10.0
-SMALL = 8.5
-TINY = 7.5
 
 CARD = "#FAFAF7"
 INK = "#1F2933"
@@ -134,13 +131,16 @@ STYLES = (
     Style(INK, "v", (0, (7, 2))),
 )
 
+#: The fonts of JupyterLab, in which a browser shows text that was measured in the theme's own.
+FONTS = "system-ui,-apple-system,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif"
+
 #: What matplotlib needs to know; everything else is its default, whatever a page has set.
 RC = {
     "font.family": "DejaVu Sans",
     "font.size": TEXT,
     "text.color": INK,
     "text.parse_math": False,
-    # Without hinting a text is equally wide at every density, in PNG and in SVG.
+    # Without hinting a text is as wide as its letters are at any size.
     "text.hinting": "none",
     "axes.edgecolor": RULE,
     "axes.labelcolor": INK,
@@ -153,9 +153,8 @@ RC = {
     "figure.facecolor": CARD,
     "savefig.facecolor": CARD,
     "svg.hashsalt": "rosbeat",
-    "svg.fonttype": "path",
+    "svg.fonttype": "none",
     "path.simplify": True,
-    "agg.path.chunksize": 0,
 }
 
 

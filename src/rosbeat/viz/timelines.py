@@ -490,7 +490,7 @@ class _Drawing:
         for (node, time, level), total in crowds.items():
             if total > 1:
                 x, y = self._scale(time) + 8, self._y(node, level) + 12
-                self._canvas.text(x, y, f"×{total}", theme.SMALL, theme.MUTED)
+                self._canvas.text(x, y, f"×{total}", theme.MUTED)
 
     def _mark(self, x: float, y: float, look: theme.Style, size: float) -> None:
         # A rim in the card's colour keeps overlapping marks apart; a bare line has none.

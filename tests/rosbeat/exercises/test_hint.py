@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from parsed_html import Parsed
 from rosbeat import check, hint
 from rosbeat.errors import ExerciseError
 from rosbeat.exercises import registry
@@ -119,7 +120,8 @@ def test_html_says_the_same_escaped():
     bundles = [hint("03a")._repr_mimebundle_() for _ in range(3)]
     assert "Look at the &lt;timer&gt;." in bundles[0]["text/html"]
     assert "The next one is the answer." in bundles[1]["text/html"]
-    assert "<pre>class HumiditySensor(Node):\n" in bundles[2]["text/html"]
+    assert "class HumiditySensor(Node):\n" in Parsed(bundles[2]["text/html"]).text
+    assert "<pre><span style=" in bundles[2]["text/html"]
     assert all(set(bundle) == {"text/plain", "text/html"} for bundle in bundles)
 
 

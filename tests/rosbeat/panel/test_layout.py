@@ -2,8 +2,11 @@
 
 import re
 
+import pytest
+
 from rosbeat.panel.layout import layout
 from rosbeat.records import Endpoint, GraphSnapshot
+from rosbeat.viz.graphs import Marked, arrange
 from rosbeat.viz.wiring import wiring
 
 FLOAT = "std_msgs/msg/Float32"
@@ -40,16 +43,22 @@ def test_no_two_boxes_overlap_and_all_lie_inside():
                 assert aside or above
 
 
-def test_arrows_begin_and_end_at_their_boxes():
-    placed = layout(ring(3))
+@pytest.mark.parametrize(("count", "flow"), [(1, "x"), (6, "y")])
+def test_arrows_begin_and_end_at_their_boxes(count, flow):
+    """A graph that is too wide for a page runs down, in the panel as in a picture."""
+    shown = ring(count)
+    assert arrange(Marked(shown, shown)).down == (flow == "y")
+    placed = layout(shown)
     boxes = {box["key"]: box for box in placed["boxes"]}
-    assert len(placed["edges"]) == 6
+    assert len(placed["edges"]) == 2 * count
+    length, first = ("w", 0) if flow == "x" else ("h", 1)
     for edge in placed["edges"]:
         start, end = boxes[edge["from"]], boxes[edge["to"]]
         found = numbers(edge["path"])
-        assert abs(found[0] - start["x"] - start["w"] / 2) < 0.2
-        assert abs(found[-2] - end["x"] + end["w"] / 2) < 0.2
-        assert abs(found[-1] - end["y"]) < 0.2
+        assert abs(found[first] - start[flow] - start[length] / 2) < 0.2
+        assert abs(found[first - 2] - end[flow] + end[length] / 2) < 0.2
+        other = "y" if flow == "x" else "x"
+        assert abs(found[-1 - first] - end[other]) < 0.2
 
 
 def test_what_is_wrong_is_marked_and_said():

@@ -155,4 +155,4 @@ def test_nothing_differs_in_colour_alone():
 
 def test_a_picture_fits_the_page():
     assert theme.WIDTH <= 800
-    assert min(theme.TEXT, theme.SMALL, theme.TINY) * theme.DPI / 72 >= 10
+    assert theme.TEXT * theme.DPI / 72 * theme.NARROW / theme.WIDTH >= 11

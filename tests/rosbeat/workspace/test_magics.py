@@ -37,6 +37,18 @@ def test_a_page_types_into_terminals(kernel):
     assert kernel.run("%%terminal sensor\necho $HOME {HOME}").text.endswith("\n/home/you {HOME}\n")
 
 
+def test_prompt_command_output_and_remark_differ_in_colour(kernel):
+    reply = kernel.run('%%terminal sensor\ncd "$HOME"\nfalse # x')
+    prompt, remark, bold, end = "\x1b[38;2;0;138;103m", "\x1b[38;2;0;118;237m", "\x1b[1m", "\x1b[0m"
+    first, _, last = reply.raw.splitlines()
+    assert first.startswith(f"{prompt}~$ {end}{bold}\x1b[38;2;")
+    assert last == f"{remark}# exit code 1{end}"
+    assert reply.text.startswith('~$ cd "$HOME"\n~$ false # x\n')
+    assert kernel.run("print(workspace.terminal('sensor').text)").raw == reply.text.replace(
+        "# exit code 1\n", ""
+    )
+
+
 def test_a_command_goes_on_while_the_page_does(kernel):
     cell = "%%terminal sensor --until tick --lines 2\nfor i in 1 2 3; do echo tick $i; done; cat\n"
     assert kernel.run(cell).text.endswith("\ntick 1\ntick 2\n")

@@ -14,6 +14,7 @@ from itertools import islice
 from typing import NamedTuple
 
 from rosbeat.records import LogRecord
+from rosbeat.workspace.terminals.colours import Remark, Typed
 
 #: Characters after which a line is cut; the rest of it is counted.
 LONGEST_LINE = 20_000
@@ -214,7 +215,7 @@ class Display:
         if self._room > 0:
             self._room -= 1
             self._next = line.number + 1
-            self._show(line.text)
+            self._show_line(line)
         else:
             self._late.append(line)
 
@@ -223,8 +224,11 @@ class Display:
         if self._late and self._late[0].number > self._next:
             say(self._show, f"{self._late[0].number - self._next:,} lines left out")
         for line in self._late:
-            self._show(line.text)
+            self._show_line(line)
         self._late.clear()
+
+    def _show_line(self, line: Line) -> None:
+        self._show(Typed(line.text) if line.typed else line.text)
 
 
 def new_only(lines: Iterable[Line], show: Show) -> Show:
@@ -257,4 +261,4 @@ def say(show: Show, text: str) -> None:
         held = _QUOTED.sub(lambda quoted: quoted[0].replace(" ", _HELD), line)
         parts = textwrap.wrap(held, WIDTH - 2, break_long_words=False, break_on_hyphens=False)
         for part in parts or [""]:
-            show(f"# {part.replace(_HELD, ' ')}".rstrip())
+            show(Remark(f"# {part.replace(_HELD, ' ')}".rstrip()))

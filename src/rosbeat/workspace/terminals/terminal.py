@@ -12,7 +12,7 @@ from pathlib import Path
 from rosbeat.errors import TerminalError
 from rosbeat.records import LogRecord
 from rosbeat.workspace.place import workspace
-from rosbeat.workspace.terminals import refusals
+from rosbeat.workspace.terminals import colours, refusals
 from rosbeat.workspace.terminals.environment import polisher, prompt
 from rosbeat.workspace.terminals.output import Display, Line, Show, log_records, new_only, say
 from rosbeat.workspace.terminals.reaper import end_marked
@@ -133,7 +133,7 @@ class Terminal:
         lines: int = 1,
         seconds: float | None = None,
         timeout: float | None = None,
-        show: Show = print,
+        show: Show = colours.show,
     ) -> None:
         """Type commands, line by line, and show what they print until the last one has ended.
 
@@ -169,7 +169,7 @@ class Terminal:
         lines: int = 1,
         seconds: float | None = None,
         timeout: float | None = None,
-        show: Show = print,
+        show: Show = colours.show,
     ) -> None:
         """Type into the program that runs, and show what it says until it falls silent.
 
@@ -196,7 +196,7 @@ class Terminal:
         lines: int = 1,
         seconds: float | None = None,
         timeout: float | None = None,
-        show: Show = print,
+        show: Show = colours.show,
     ) -> None:
         """Show what came since the last look, and watch on if there is something to wait for.
 
@@ -211,7 +211,7 @@ class Terminal:
         with self._told():
             self._conclude(self._follow(goal, Display(show), self._place), goal, show, looking=True)
 
-    def ctrl_c(self, *, timeout: float = 10.0, show: Show = print) -> int | None:
+    def ctrl_c(self, *, timeout: float = 10.0, show: Show = colours.show) -> int | None:
         """Press Ctrl+C, show how the program ends, and return its exit code.
 
         Lines like those that the program printed before are not shown again.
@@ -231,7 +231,7 @@ class Terminal:
 
         return self._end(press, "^C", timeout, show)
 
-    def ctrl_d(self, *, timeout: float = 10.0, show: Show = print) -> int | None:
+    def ctrl_d(self, *, timeout: float = 10.0, show: Show = colours.show) -> int | None:
         """Press Ctrl+D, which tells the program that its input is over; as `ctrl_c`.
 
         Args:
@@ -243,7 +243,7 @@ class Terminal:
         """
         return self._end(self._shell.end_of_input, "^D", timeout, show)
 
-    def kill(self, *, timeout: float = 10.0, show: Show = print) -> int | None:
+    def kill(self, *, timeout: float = 10.0, show: Show = colours.show) -> int | None:
         """Kill the program that runs, show that it ended, and return its exit code.
 
         Args:
