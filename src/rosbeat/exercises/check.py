@@ -19,6 +19,7 @@ from rosbeat.exercises.registry import find, which_exercise
 from rosbeat.exercises.scenarios import Answer
 from rosbeat.records import Outcome
 from rosbeat.workspace import graded_runs
+from rosbeat.workspace.waiting import counting
 
 # `check`: what a learner calls.
 
@@ -91,7 +92,11 @@ def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Outcome
         ExerciseError: If the cell above did not run, so that the answer is an earlier one.
     """
     is_blank = cells is not None and cells.refuse_stale(found.id)
-    verdict = found.outcome(not_attempted()) if is_blank else found.judged(found.observed(answer))
+    if is_blank:
+        verdict = found.outcome(not_attempted())
+    else:
+        with counting(f"checking exercise {found.id}"):
+            verdict = found.judged(found.observed(answer))
     standing = progress_file().change(found.id, lambda before: before.after(verdict))
     return _with_hints(verdict, standing.hints) if found.tells_hints else verdict
 

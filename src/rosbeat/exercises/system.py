@@ -37,6 +37,7 @@ from rosbeat.ros.programs import (
     program_environment,
 )
 from rosbeat.workspace.packages import Package
+from rosbeat.workspace.waiting import step
 
 ID = "system"
 PACKAGE = "sensor_simulator"
@@ -158,6 +159,7 @@ def _build_and_run(found: SystemRun, folder: Path, place: Path, domain_id: int) 
     shutil.copytree(folder, root / "src" / PACKAGE, symlinks=True, ignore=ignored)
     environ = program_environment(home, domain_id)
     command = ("colcon", "build", "--packages-select", PACKAGE)
+    step("building the package with colcon")
     with Program(command, environ, root) as building:
         building.wait(lambda _: False, _TO_BUILD)
         built = building.finish()
@@ -182,18 +184,22 @@ def _build_and_run(found: SystemRun, folder: Path, place: Path, domain_id: int) 
 def _run_both(found: SystemRun, start: Callable[[str], Program], domain_id: int) -> SystemRun:
     """Run both programs from their start to their end, and add what they did."""
     with ExitStack() as stack:
+        step(f"starting {MONITOR}, and waiting until it listens")
         monitor = stack.enter_context(start(MONITOR))
         probe = stack.enter_context(domain_probe(domain_id, TOPIC))
         probe.wait(lambda: probe.has_subscriber() or not monitor.running, _TO_MEET)
         met = probe.has_subscriber()
+        step("telling it readings, and waiting for what it says to each")
         if met:
             _wait_for_first_answer(probe, monitor)
         answers = tuple((value, _tell(probe, monitor, value)) for value in TOLD if met)
         probe.clear()
         said = len(monitor.output)
+        step(f"starting {SENSOR}, and listening to {_READINGS} readings")
         sensor = stack.enter_context(start(SENSOR))
         publishers = _listen(probe, sensor)
         repeated = monitor.output[said:]
+        step("ending both programs with Ctrl+C")
         return replace(
             found, met=met, answers=answers, heard=probe.received, publishers=publishers,
             repeated=repeated, sensor=sensor.finish(), monitor=monitor.finish(),

@@ -240,6 +240,10 @@ class Shell:
         group = _foreground(self._process.fd)
         return 0 if self.state != BUSY or group == self._process.pid else group
 
+    def waits_for_input(self) -> bool:
+        """Return whether the program in front reads from the terminal, as far as Linux tells."""
+        return _reads_terminal(self.foreground())
+
     def interrupt(self, group: int = 0) -> None:
         """Do what Ctrl+C does.
 
@@ -507,3 +511,21 @@ def _sleeps(pid: int) -> bool:
     except OSError:
         return True
     return status.rpartition(") ")[2].startswith("S")
+
+
+#: Numbers of the system calls `read`, `select` and `poll`, and of their relatives, on x86-64 and on
+#: arm64.
+_READ, _SELECT, _POLL = {"0", "63"}, {"23", "270", "72"}, {"7", "271", "73"}
+
+
+def _reads_terminal(process: int) -> bool:
+    """Return whether a process waits in a call that reads its standard input; False if unknown."""
+    try:
+        call = Path(f"/proc/{process}/syscall").read_text().split()
+    except OSError:
+        return False
+    number, first, second = (*call, "", "", "")[:3]
+    if number in _READ:
+        return first == "0x0"
+    # A prompt waits until there is something to read on the first file descriptor, and no other.
+    return (number in _SELECT and first == "0x1") or (number in _POLL and second == "0x1")

@@ -17,6 +17,7 @@ from rosbeat.workspace.terminals.environment import polisher, prompt
 from rosbeat.workspace.terminals.output import Display, Line, Show, log_records, new_only, say
 from rosbeat.workspace.terminals.reaper import end_marked
 from rosbeat.workspace.terminals.shell import BUSY, ENDED, READY, UNFINISHED, Shell
+from rosbeat.workspace.waiting import LONG, Note
 
 # How following a command ends: it has ended; the text has come; the time that was asked for is
 # over; patience is; the program waits for an answer.
@@ -369,11 +370,25 @@ class Terminal:
 
     def _watch(self, goal: Goal, see: Callable[[Line], None], place: int) -> str:
         allowed = self._patience(goal) if goal.seconds is None else goal.seconds
-        deadline = time.monotonic() + allowed
-        found, may_repair = 0, self._touches_prompt()
         self._place = place
+        note = Note()
+        try:
+            return self._watch_until(goal, see, time.monotonic() + allowed, note)
+        finally:
+            note.clear()
+
+    def _watch_until(
+        self, goal: Goal, see: Callable[[Line], None], deadline: float, note: Note
+    ) -> str:
+        found, may_repair = 0, self._touches_prompt()
+        spoke = time.monotonic()
         while True:
             glance = self._shell.glance(self._place)
+            if glance.lines:
+                spoke = time.monotonic()
+                note.clear()
+            elif glance.state == BUSY and time.monotonic() - spoke >= LONG:
+                note.say(self._waits_for(goal, time.monotonic() - spoke))
             for line in glance.lines:
                 self._place = line.number + 1
                 see(line)
@@ -395,6 +410,21 @@ class Terminal:
                 self._shell.break_line()
             elif goal.until_quiet:
                 return _QUIET
+
+    def _waits_for(self, goal: Goal, seconds: float) -> str:
+        """Say why nothing comes: what is waited for, and how to end that."""
+        command, silent = refusals.short(self.command), f"nothing came for {seconds:.0f} s"
+        if self._shell.waits_for_input():
+            return (
+                f"`{command}` waits for input ({silent}). Interrupt the cell, and then:\n"
+                f"  %%terminal {self.name} --answer  with lines below types them into it,\n"
+                f"  %terminal {self.name} --ctrl-d   says that there is no more input,\n"
+                f"  %terminal {self.name} --ctrl-c   stops it."
+            )
+        goal_is = f"until `{goal.until}` appears" if goal.until else "until it ends"
+        if goal.seconds is not None and goal.until is None:
+            goal_is = f"for {goal.seconds:g} s"
+        return f"`{command}` runs ({silent}); this cell watches {goal_is}."
 
     def _conclude(self, ending: str, goal: Goal, show: Show, looking: bool = False) -> None:
         """Say how the command ended, or that it did not."""
