@@ -33,7 +33,7 @@ from rosbeat import check, hint, progress, workspace
 # %% [markdown]
 # The line with the `$` is what was typed. In front of the `$` stands the folder, in short: here `~`,
 # which is how a terminal writes your home folder. The line below is the answer. Your own lines differ
-# a little: these terminals start in the folder of the course, wherever you put it.
+# a little: these terminals start in the folder of your pages, wherever you put the course.
 #
 # JupyterLab has terminals of its own: *File, New, Terminal*. Everything that you type on these pages
 # you can type there, too.
@@ -52,8 +52,8 @@ from rosbeat import check, hint, progress, workspace
 
 # %% [markdown]
 # (The quotes keep a path together if there is a blank in it. What `-p` does, you see below.) The folder
-# appears in JupyterLab's file browser on the left, too: a click on the folder icon at the top goes up to
-# where it is. It is your own: nothing in this course deletes what you put there.
+# appears in JupyterLab's file browser on the left, too, beside your pages. It is your own: nothing in
+# this course deletes what you put there.
 #
 # **Predict:** the next cell uses the same terminal. In which folder does it begin?
 
