@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 import os
 import platform
+import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -29,6 +30,8 @@ SETTING = "ROSBEAT_WORKSPACE_IN"
 #: What the folder is called in a solution's banner, and by the style sheet of JupyterLab.
 SOLUTIONS = "solutions"
 _READ_ONLY = 0o444
+#: Files by which colcon marks what it has made, and makes again.
+_MADE_BY_COLCON = ("build/.built_by", "install/.colcon_install_layout")
 _LOCKED = {"editable": False, "deletable": False}
 _BANNER = """\
 <div class="alert alert-block alert-warning rosbeat-solution"><b>This is a solution</b>, to compare
@@ -106,8 +109,11 @@ def _adopt(layout: Layout) -> None:
             continue
         source.rename(target)
         say(f"Moved {source.relative_to(layout.root)} to {_shown(layout, target)}.")
-        if (target / "install").is_dir():
-            say("  What was built there names its old place: build it again with colcon build.")
+        built = [target / one for one in _MADE_BY_COLCON if (target / one).exists()]
+        for mark in built:
+            shutil.rmtree(mark.parent)
+        if built:
+            say("  What was built there named its old place: colcon build makes it anew.")
 
 
 # The solutions, to look at.

@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from course_tool import commands, folder, prepare
 from course_tool.layout import Layout
@@ -105,7 +107,7 @@ def first_page(layout: Layout) -> str:
     return next((page.name for page in sorted(layout.learner.glob(folder.PAGES))), "")
 
 
-def address(layout: Layout, info: Mapping[str, str], options: Sequence[str]) -> str:
+def address(layout: Layout, info: Mapping[str, Any], options: Sequence[str]) -> str:
     """Return the address to open, with the token that lets a person in.
 
     Args:
@@ -153,17 +155,17 @@ def stopped(messages: str, was_open: bool, log: str) -> Problem:
     )
 
 
-def _when_open(server: subprocess.Popen[bytes], runtime: Path) -> dict[str, str]:
+def _when_open(server: subprocess.Popen[bytes], runtime: Path) -> dict[str, Any]:
     """Wait until the server listens; return what it says of itself, nothing if it ended."""
     file = runtime / f"jpserver-{server.pid}.json"
     while server.poll() is None:
         try:
-            # It is written once the port is open: who comes now is answered soon.
-            found: dict[str, str] = json.loads(file.read_text(encoding="utf-8"))
+            found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+            # It says where it listens a little before it does.
+            with socket.create_connection((found["hostname"], int(found["port"])), timeout=10):
+                return found
         except (OSError, ValueError):
             time.sleep(0.05)
-        else:
-            return found
     return {}
 
 

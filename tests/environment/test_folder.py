@@ -105,14 +105,18 @@ def test_the_workspace_and_the_progress_move_in(course, capsys):
     source = course.root / "ROS2_and_RL_Tutorials" / "src" / "node.py"
     source.parent.mkdir(parents=True)
     source.write_text("mine")
-    (course.root / "ROS2_and_RL_Tutorials" / "install").mkdir()
+    for name in ("build/.built_by", "install/.colcon_install_layout", "log/mine"):
+        path = course.root / "ROS2_and_RL_Tutorials" / name
+        path.parent.mkdir()
+        path.touch()
     (course.root / ".rosbeat").mkdir()
     (course.root / ".rosbeat" / "progress.json").write_text("far")
     folder.make(course)
     assert (course.learner / "ROS2_and_RL_Tutorials" / "src" / "node.py").read_text() == "mine"
     assert (course.notes / "progress.json").read_text() == "far"
     assert not (course.root / "ROS2_and_RL_Tutorials").exists()
-    assert "build it again with colcon build" in capsys.readouterr().out
+    assert sorted(listed(course.learner / "ROS2_and_RL_Tutorials")) == ["log", "src"]
+    assert "colcon build makes it anew" in capsys.readouterr().out
 
 
 def test_nothing_that_is_there_is_replaced_by_what_moves_in(course):

@@ -3,6 +3,7 @@
 import ast
 import os
 import signal
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -29,7 +30,8 @@ OPENS = """\
 echo "[W] a warning that frightens"
 mkdir -p "$JUPYTER_RUNTIME_DIR"
 file="$JUPYTER_RUNTIME_DIR/jpserver-$$.json"
-echo '{"url": "http://localhost:8888/", "token": "abc"}' > "$file.new"
+echo '{"url": "http://localhost:8888/", "hostname": "localhost", "port": PORT,' > "$file.new"
+echo '"token": "abc"}' >> "$file.new"
 mv "$file.new" "$file"
 exec sleep 1000
 """
@@ -106,8 +108,10 @@ def start(made, tmp_path):
     dropped = ("ROSBEAT_WORKSPACE_IN", "JUPYTER_RUNTIME_DIR")
     environ = {name: value for name, value in os.environ.items() if name not in dropped}
     started = []
+    port = socket.create_server(("localhost", 0))
 
     def begin(program):
+        program = program.replace("PORT", str(port.getsockname()[1]))
         made.python.write_text(f"#!/bin/sh\n{program}")
         started.append(
             subprocess.Popen(
@@ -122,6 +126,7 @@ def start(made, tmp_path):
         if process.poll() is None:
             process.kill()
         process.communicate()
+    port.close()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
