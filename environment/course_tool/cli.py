@@ -8,8 +8,9 @@ import traceback
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 
-from course_tool import commands, testing
+from course_tool import commands, folder, testing
 from course_tool.doctor import doctor
+from course_tool.lab import lab
 from course_tool.layout import Layout, of_this_checkout
 from course_tool.problems import Problem, complain, disk_full, not_writable, say
 
@@ -17,10 +18,13 @@ HELP = """\
 Usage:  ./environment/course COMMAND [OPTIONS]
 
   lab      open the course in JupyterLab; options go to it: --no-browser --port 8889 --ip ...
-  test     check everything: lint, types, pages, tests; --thorough adds tests that take minutes;
-           with other arguments, pytest alone runs with them
+  reset    bring a page back as it was shipped (reset 03); yours is kept beside it
+  update   take new versions of the pages that you have not worked in; for one that you have
+           (update 03), take the new version with your answers in it
   shell    a bash in which ROS and the course's Python are active; -c "command" runs one command
   doctor   say what works here, with the cure for what does not
+  test     check everything: lint, types, pages, tests; --thorough adds tests that take minutes;
+           with other arguments, pytest alone runs with them
   bench    measure the course on this machine
   lock     for maintainers: remake the locked versions (lock --upgrade takes newer ones)
 
@@ -85,10 +89,12 @@ def _unforeseen(details: str) -> Problem:
 
 _SEE_ALL = "See all of them:  ./environment/course help"
 _COMMANDS: dict[str, Callable[[Layout, Sequence[str]], int]] = {
-    "lab": commands.lab,
-    "test": testing.test,
+    "lab": lab,
+    "reset": folder.reset,
+    "update": folder.update,
     "shell": commands.shell,
     "doctor": doctor,
+    "test": testing.test,
     "bench": commands.bench,
     "lock": commands.lock,
     "variables": commands.variables,

@@ -1,10 +1,9 @@
-"""The short commands: JupyterLab, a shell, the measurements, and the locks for maintainers."""
+"""The short commands: a shell, the measurements, and the locks for maintainers."""
 
 from __future__ import annotations
 
 import os
 import shlex
-import signal
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,45 +13,7 @@ from course_tool import prepare, running, surroundings
 from course_tool.layout import Layout
 from course_tool.problems import Problem, installer_stopped, say
 
-FIRST_PAGE = Path("notebooks") / "00_hear_the_heartbeat.ipynb"
-_TERMINALS = "--ServerApp.terminado_settings"
 _SHELL = ["bash", "--rcfile", str(Path(__file__).with_name("shellrc.bash"))]
-
-
-def lab(layout: Layout, options: Sequence[str]) -> NoReturn:
-    """Become JupyterLab, with a person's options passed through."""
-    environ = for_shells(prepare.ready(layout, "course"), layout)
-    command = lab_command(layout, options, root_user=os.geteuid() == 0)
-    os.chdir(layout.root)
-    # Started in the background of a script, it would hand an ignored Ctrl+C on to every terminal.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    os.execve(layout.python, command, environ)
-
-
-def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list[str]:
-    """Return the command that opens JupyterLab.
-
-    Args:
-        layout: The checkout.
-        options: What the person added; a page of their own takes the first page's place.
-        root_user: Whether to allow what Jupyter refuses to the root user, as in a container.
-    """
-    command = [str(layout.python), "-m", "jupyterlab", f"--ServerApp.root_dir={layout.root}"]
-    if root_user and "--allow-root" not in options:
-        command.append("--allow-root")
-    if not any(option.startswith(_TERMINALS) for option in options):
-        # The same as `course shell`: a person's start file may put another Python or ROS first.
-        command.append(f"{_TERMINALS}={ {'shell_command': interactive_shell()}!r}")
-    if not any(option.endswith(".ipynb") for option in options):
-        # What an instructor hands out may begin later.
-        folder = FIRST_PAGE.parent
-        pages = sorted((layout.root / folder).glob("[0-9][0-9]_*.ipynb"))
-        if pages:
-            # As an address, not as a file: so it is also in what --no-browser prints.
-            command.append(f"--LabApp.default_url=/lab/tree/{(folder / pages[0].name).as_posix()}")
-        else:
-            say(f"{FIRST_PAGE} is not there; JupyterLab opens on the folder.")
-    return [*command, *options]
 
 
 def shell(layout: Layout, arguments: Sequence[str]) -> NoReturn:

@@ -16,12 +16,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from course_tool import prepare, running, surroundings
-from course_tool.layout import Layout
+from course_tool.folder import SETTING
+from course_tool.layout import WORKSPACE, Layout
 from course_tool.problems import Problem, say
 from course_tool.surroundings import Surroundings
-
-WORKSPACE = "ROS2_and_RL_Tutorials"
-SETTING = "ROSBEAT_WORKSPACE_IN"
 
 _LAB = "./environment/course lab"
 _REPAIR = f"remove .venv/rosbeat-stamp.json; {_LAB}  then repairs .venv"
@@ -64,6 +62,7 @@ def look(layout: Layout, clean: Surroundings) -> list[Finding]:
     """Look at everything; what is inside `.venv` counts only if `.venv` can be used."""
     made = venv(layout, clean)
     findings = [
+        course_files(layout, clean.environ),
         Finding("ok", "Python", f"{platform.python_version()} ({sys.executable})"),
         disk(shutil.disk_usage(layout.root).free, layout.stamp.exists()),
         shared_memory(Path("/dev/shm")),
@@ -77,7 +76,66 @@ def look(layout: Layout, clean: Surroundings) -> list[Finding]:
         findings += [versions(layout), kernel(layout), *ros(layout, clean, environ)]
         findings += [place(layout), underlay(layout, clean)]
         findings += [command(layout, name, environ) for name in _COMMANDS]
-    return [*findings, workspace(layout, clean.environ)]
+    return [*findings, pages(layout), workspace(layout, clean.environ)]
+
+
+# The course, and the learner's folder.
+
+
+def course_files(layout: Layout, environ: Mapping[str, str]) -> Finding:
+    """Look whether files of the course are missing or changed: by git, or by what was installed."""
+    subject = "course files"
+    gone, changed, back = _by_git(layout, environ) or _by_record(layout)
+    if gone:
+        # Exactly these: others may be changed on purpose.
+        many = "git ls-files -z --deleted | xargs -0 git checkout HEAD --"
+        cure = many if back.startswith("git") and len(gone) > 3 else back + shlex.join(gone[:3])
+        return Finding("problem", subject, f"missing: {_some(gone)}", f"in {layout.root}: {cure}")
+    if changed:
+        cure = f"as they were: {back}{shlex.join(changed[:3])}"
+        return Finding("note", subject, f"changed: {_some(changed)}", cure)
+    if not back:
+        return Finding("note", subject, "nobody knows what they were: there is no git here")
+    return Finding("ok", subject, "all are there, and as they were")
+
+
+_Found = tuple[list[str], list[str], str]
+
+
+def _by_git(layout: Layout, environ: Mapping[str, str]) -> _Found | None:
+    """Return what is missing, what is changed, and how it comes back; None without git."""
+    command = ["git", "status", "--porcelain", "-z", "--untracked-files=no"]
+    answer = running.quiet(command, environ, timeout=60, cwd=layout.root)
+    if not answer.ok or not (layout.root / ".git").exists():
+        return None
+    listed = [line for line in answer.text.split("\0") if line[2:3] == " "]
+    gone = [line[3:] for line in listed if "D" in line[:2]]
+    changed = [line[3:] for line in listed if "D" not in line[:2]]
+    return gone, changed, "git checkout HEAD -- "
+
+
+def _by_record(layout: Layout) -> _Found:
+    """Return the same, compared with the files that were there when `.venv` was made."""
+    before = prepare.recorded_files(layout)
+    if before is None:
+        return [], [], ""
+    now = prepare.files_of_course(layout)
+    gone = [name for name in before if name not in now]
+    changed = [name for name in before if name in now and now[name] != before[name]]
+    return gone, changed, "get the course once more, and copy from there: "
+
+
+def _some(names: Sequence[str]) -> str:
+    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+    return ", ".join(names[:3]) + more
+
+
+def pages(layout: Layout) -> Finding:
+    """Look whether the learner has a folder with pages."""
+    number = len(list(layout.learner.glob("[0-9][0-9]_*.ipynb")))
+    if not layout.notes.is_dir():
+        return Finding("note", "your pages", f"{_LAB}  makes {layout.learner}")
+    return Finding("ok", "your pages", f"{number} in {layout.learner}")
 
 
 # The machine.
@@ -218,7 +276,8 @@ def command(layout: Layout, name: str, environ: Mapping[str, str]) -> Finding:
 def workspace(layout: Layout, environ: Mapping[str, str]) -> Finding:
     """Say where the workspace of the tutorial lies, and whether it can lie there."""
     chosen = environ.get(SETTING, "")
-    parent = Path(chosen).expanduser().absolute() if chosen else layout.root
+    home = layout.learner if layout.notes.is_dir() else layout.root
+    parent = Path(chosen).expanduser().absolute() if chosen else home
     if not parent.is_dir():
         text = f"{SETTING} names {parent}: no folder"
         return Finding("problem", "workspace", text, f"mkdir -p {parent}")

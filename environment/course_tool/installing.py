@@ -28,14 +28,21 @@ _AT_START = (
     "import sys; exec('try:\\n import _rosbeat_environment as e; e.apply()\\n"
     "except Exception:\\n pass')\n"
 )
+#: The name of the course's kernel, in the launcher and on pages.
+KERNEL = "ROS 2 (rosbeat)"
+#: What JupyterLab's file browser leaves out by itself.
+_HIDDEN = ("__pycache__", "*.pyc", "*.pyo", ".DS_Store", "*~")
 #: Files of JupyterLab in `.venv`. No question about news at the first start, no look-up of newer
-#: versions; and what tests bring along stays off, so that JupyterLab is as learners know it.
+#: versions, room for the names of files. What tests bring along stays off, so that JupyterLab is as
+#: learners know it, and so does what they do not need: jupytext's kinds of pages, and kernels from
+#: elsewhere, which have no ROS.
 _LAB_FILES: dict[str, dict[str, object]] = {
     "share/jupyter/lab/settings/overrides.json": {
         "@jupyterlab/apputils-extension:notification": {
             "checkForUpdates": False,
             "fetchNews": "false",
-        }
+        },
+        "@jupyterlab/filebrowser-extension:browser": {"showLastModifiedColumn": False},
     },
     # "zz": of files that say different things, the last one in the alphabet counts.
     "etc/jupyter/jupyter_server_config.d/zz_course.json": {
@@ -49,8 +56,16 @@ _LAB_FILES: dict[str, dict[str, object]] = {
             }
         }
     },
+    "etc/jupyter/jupyter_server_config.json": {
+        "ContentsManager": {"hide_globs": [*_HIDDEN, "COLCON_IGNORE"]},
+        "KernelSpecManager": {"allowed_kernelspecs": ["python3"]},
+    },
     "etc/jupyter/labconfig/page_config.json": {
-        "disabledExtensions": {"@jupyter/nbgrader": True, "@jupyter-notebook/lab-extension": True}
+        "disabledExtensions": {
+            "@jupyter/nbgrader": True,
+            "@jupyter-notebook/lab-extension": True,
+            "jupyterlab-jupytext": True,
+        }
     },
 }
 _COMPLETIONS = {
@@ -185,6 +200,11 @@ def write_lab_defaults(layout: Layout) -> None:
         path = layout.venv / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    kernel = layout.venv / "share" / "jupyter" / "kernels" / "python3" / "kernel.json"
+    if kernel.exists():  # its id stays python3, which every tool knows
+        spec = json.loads(kernel.read_text(encoding="utf-8"))
+        spec["display_name"] = KERNEL
+        kernel.write_text(json.dumps(spec, indent=1) + "\n", encoding="utf-8")
 
 
 def underlay_templates() -> list[Path]:

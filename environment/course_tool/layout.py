@@ -8,6 +8,8 @@ from pathlib import Path
 
 LEVELS = ("course", "test")
 """What an environment is for; each level contains the one before it."""
+WORKSPACE = "ROS2_and_RL_Tutorials"
+"""The name of the learner's workspace."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,26 @@ class Layout:
         """Return the folder where packages go."""
         version = "{}.{}".format(*sys.version_info[:2])
         return self.venv / "lib" / f"python{version}" / "site-packages"
+
+    @property
+    def is_release(self) -> bool:
+        """Tell whether this is what an instructor gives to a class (`rosbeat release`)."""
+        return (self.root / ".rosbeat-release.json").is_file()
+
+    @property
+    def shipped(self) -> Path:
+        """Return the folder of the pages as they are shipped."""
+        return self.root / "notebooks"
+
+    @property
+    def learner(self) -> Path:
+        """Return the learner's own folder; in a release, its pages are the learner's own."""
+        return self.shipped if self.is_release else self.root / "my_course"
+
+    @property
+    def notes(self) -> Path:
+        """Return the hidden folder in the learner's own that holds progress and the lab's log."""
+        return self.learner / ".rosbeat"
 
     @property
     def own_packages(self) -> tuple[Path, ...]:

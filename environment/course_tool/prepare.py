@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from course_tool import installing, running, surroundings
-from course_tool.layout import LEVELS, Layout
+from course_tool.layout import LEVELS, WORKSPACE, Layout
 from course_tool.problems import (
     Problem,
     Untouched,
@@ -40,9 +40,11 @@ REFRESH = 0.3 * GIGABYTE
 
 _OLDEST_GLIBC = (2, 28)
 #: To be raised when this tool lays out an environment in another way.
-_REVISION = "2"
+_REVISION = "3"
 # Without `site`, so that nothing installed in the environment has a say.
 _WHO = "import sys; print('%d.%d' % sys.version_info[:2], sys.base_prefix)"
+#: Folders within the course that come about as it is used.
+_NOT_SHIPPED = {"__pycache__", ".ipynb_checkpoints", ".rosbeat", "kept", WORKSPACE}
 _ROS_DEADLINE = 60.0
 _WRONG_MIDDLEWARE = 102
 
@@ -258,6 +260,34 @@ def write_stamp(layout: Layout, level: str) -> None:
     stamp = {"level": level, "fingerprint": fingerprint(layout, level)}
     unfinished.write_text(json.dumps(stamp) + "\n", encoding="utf-8")
     unfinished.replace(layout.stamp)
+    _record_of(layout).write_text(json.dumps(files_of_course(layout)) + "\n", encoding="utf-8")
+
+
+# The course's own files, as they were when `.venv` was made: for a copy without git.
+
+
+def files_of_course(layout: Layout) -> dict[str, str]:
+    """Return a hash of each file of the course that a learner needs, by its path."""
+    found = {}
+    for name in ("environment", "src", "notebooks", "solutions"):
+        for path in sorted((layout.root / name).rglob("*")):
+            inside = path.relative_to(layout.root)
+            if path.is_file() and not _NOT_SHIPPED.intersection(inside.parts):
+                found[inside.as_posix()] = hashlib.sha256(path.read_bytes()).hexdigest()
+    return found
+
+
+def recorded_files(layout: Layout) -> dict[str, str] | None:
+    """Return what `files_of_course` said when `.venv` was made; None if nobody knows."""
+    try:
+        found: dict[str, str] = json.loads(_record_of(layout).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return found
+
+
+def _record_of(layout: Layout) -> Path:
+    return layout.venv / "rosbeat-files.json"
 
 
 def _stamp(layout: Layout) -> dict[str, str]:

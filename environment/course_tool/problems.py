@@ -146,9 +146,10 @@ _KINDS = (
     ),
     (
         Untouched,
-        r"Failed to build|[Bb]uild backend",
+        r"Failed to build|[Bb]uild backend|Distribution not found at",
         "A package could not be built from its source.",
         "Only empy and the course's own package are; a file of the course may be missing.",
-        "Look with  git status  whether this checkout is complete, then run the command again.",
+        "./environment/course doctor  says whether files of the course are missing, and how to\n"
+        "bring them back. Then run the command again.",
     ),
 )

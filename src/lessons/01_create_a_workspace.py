@@ -39,7 +39,7 @@ from rosbeat import check, hint, progress, quiz, workspace
 # %% [markdown]
 # The line with the `$` shows the command. The text before the `$` is the current folder, in short form: `~` is how
 # a terminal writes your home folder. The line below is the answer. Your own output may look a little different,
-# because your terminals start in the folder of the course, wherever you put it.
+# because your terminals start in the folder of your pages, wherever you put the course.
 #
 # JupyterLab has terminals of its own: choose *File, New, Terminal*. Everything you type on these pages
 # works there, too.
@@ -59,8 +59,8 @@ from rosbeat import check, hint, progress, quiz, workspace
 # %% [markdown]
 # The quotes keep a path in one piece even if it contains a space. You'll see below what `-p` does.
 #
-# The new folder also appears in JupyterLab's file browser on the left; click the folder icon at the top of the file
-# browser to go up to it. This folder is yours: the course never deletes what you put there.
+# The new folder also appears in JupyterLab's file browser on the left, beside your pages. This folder is yours: the
+# course never deletes what you put there.
 #
 # **Predict:** the next cell uses the same terminal. Which folder does it start in?
 

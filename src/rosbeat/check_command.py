@@ -112,7 +112,7 @@ def _no_page(path: Path, why: str) -> ExerciseError:
     return ExerciseError(
         f"{path} cannot be checked: {why}.",
         "Only a page of the course has checks; no page was run.",
-        "Give the file of a page:  rosbeat check notebooks/03_write_a_publisher.ipynb",
+        "Give the file of a page:  rosbeat check 03_write_a_publisher.ipynb",
     )
 
 

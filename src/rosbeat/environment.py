@@ -26,6 +26,7 @@ __all__ = [
     "defaults",
     "discovery_profile",
     "domain_id",
+    "learners_folder",
     "other_ros",
     "shell_lines",
 ]
@@ -64,6 +65,16 @@ def discovery_profile() -> str:
     beside = os.path.join(os.path.realpath(__file__).rsplit(os.sep, 2)[0], *file)
     found = _in_checkout("src", "ros2_command", *file)
     return found or (beside if os.path.exists(beside) else "")
+
+
+def learners_folder() -> str:
+    """Return the learner's own folder in this checkout; an empty text if none was made yet.
+
+    `./environment/course lab` makes it (`environment/course_tool/folder.py`). In a release, the
+    pages in `notebooks` are the learner's own.
+    """
+    name = "notebooks" if _in_checkout(".rosbeat-release.json") else "my_course"
+    return os.path.dirname(_in_checkout(name, ".rosbeat"))
 
 
 def defaults(prefix: str | None = None) -> dict[str, str]:
@@ -149,9 +160,9 @@ def _files() -> dict[str, str]:
 
 def _workspace() -> dict[str, str]:
     """Return the path of the learner's workspace (`rosbeat.workspace.place`), for terminals."""
-    parent = os.path.expanduser(os.environ.get("ROSBEAT_WORKSPACE_IN", "")) or _in_checkout()
-    has_pages = os.environ.get("ROSBEAT_WORKSPACE_IN") or _in_checkout("notebooks")
-    return {"ROS2_WORKSPACE": os.path.join(parent, "ROS2_and_RL_Tutorials")} if has_pages else {}
+    chosen = os.path.expanduser(os.environ.get("ROSBEAT_WORKSPACE_IN", ""))
+    parent = chosen or learners_folder() or (_in_checkout("notebooks") and _in_checkout())
+    return {"ROS2_WORKSPACE": os.path.join(parent, "ROS2_and_RL_Tutorials")} if parent else {}
 
 
 def _plain_python(prefix: str) -> dict[str, str]:

@@ -1,6 +1,5 @@
 """The commands, and how whatever goes wrong in them is said."""
 
-import ast
 import errno
 import subprocess
 
@@ -23,7 +22,7 @@ def run(monkeypatch, error):
 def test_help(arguments, capsys):
     assert cli.main(arguments) == 0
     out = capsys.readouterr().out
-    for name in ("lab", "test", "shell", "doctor", "bench", "lock"):
+    for name in ("lab", "reset", "update", "shell", "doctor", "test", "bench", "lock"):
         assert f"\n  {name} " in out
 
 
@@ -38,7 +37,7 @@ def test_a_slip_is_understood(typed, meant, capsys):
 def test_an_unknown_word_gets_the_list(capsys):
     assert cli.main(["xyzzy"]) == 1
     err = capsys.readouterr().err
-    assert "lab, test, shell, doctor, bench, lock and help" in err
+    assert "lab, reset, update, shell, doctor, test, bench, lock and help" in err
     assert "variables" not in err
 
 
@@ -102,55 +101,6 @@ def test_problems_go_to_standard_error(capsys):
 PYTEST_REPORT = """<?xml version="1.0" encoding="utf-8"?>
 <testsuites name="pytest tests"><testsuite name="pytest" errors="1" failures="2" skipped="3"
 tests="20" time="1.0"></testsuite></testsuites>"""
-
-
-def test_lab_opens_the_first_page(layout):
-    page = layout.root / commands.FIRST_PAGE
-    page.parent.mkdir()
-    page.touch()
-    command = commands.lab_command(layout, ["--no-browser", "--port", "9000"], root_user=False)
-    assert command[1:3] == ["-m", "jupyterlab"]
-    assert command[3] == f"--ServerApp.root_dir={layout.root}"
-    page_address = "--LabApp.default_url=/lab/tree/notebooks/00_hear_the_heartbeat.ipynb"
-    assert command[5:] == [page_address, "--no-browser", "--port", "9000"]
-
-
-def test_lab_opens_the_folder_when_the_page_is_not_there(layout, capsys):
-    command = commands.lab_command(layout, [], root_user=False)
-    assert len(command) == 5
-    assert "is not there" in capsys.readouterr().out
-
-
-def test_lab_opens_the_first_page_that_there_is(layout):
-    for name in ("04_listen.ipynb", "03_write.ipynb", "notes.ipynb"):
-        page = layout.root / "notebooks" / name
-        page.parent.mkdir(exist_ok=True)
-        page.touch()
-    command = commands.lab_command(layout, [], root_user=False)
-    assert command[5:] == ["--LabApp.default_url=/lab/tree/notebooks/03_write.ipynb"]
-
-
-def test_lab_opens_another_page_when_asked(layout):
-    command = commands.lab_command(layout, ["notebooks/03.ipynb"], root_user=False)
-    assert command[5:] == ["notebooks/03.ipynb"]
-
-
-def test_labs_terminals_are_the_courses_shell(layout):
-    option, value = commands.lab_command(layout, ["x.ipynb"], root_user=False)[4].split("=", 1)
-    assert option == "--ServerApp.terminado_settings"
-    assert ast.literal_eval(value) == {"shell_command": commands.interactive_shell()}
-
-
-def test_labs_terminals_are_the_persons_choice(layout):
-    choice = "--ServerApp.terminado_settings={'shell_command': ['zsh']}"
-    command = commands.lab_command(layout, ["x.ipynb", choice], root_user=False)
-    assert command[4:] == ["x.ipynb", choice]
-
-
-def test_lab_allows_the_root_user_once(layout):
-    assert commands.lab_command(layout, [], root_user=True).count("--allow-root") == 1
-    options = ["--allow-root"]
-    assert commands.lab_command(layout, options, root_user=True).count("--allow-root") == 1
 
 
 def test_test_runs_every_kind_of_check(layout, tmp_path):

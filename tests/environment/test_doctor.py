@@ -1,12 +1,14 @@
 import json
+import os
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 
 from course_tool import doctor, prepare
 from course_tool.doctor import Finding
-from course_tool.layout import Layout
+from course_tool.layout import WORKSPACE, Layout
 from course_tool.problems import Problem
 from course_tool.surroundings import Surroundings
 from rosbeat.workspace import place
@@ -222,6 +224,72 @@ def test_an_underlay_that_does_not(made, text):
     assert "repairs .venv" in found.cure
 
 
+def git(layout, *arguments):
+    own = ["-c", "user.name=ada", "-c", "user.email=ada@example.org", "-C", str(layout.root)]
+    subprocess.run(["git", *own, *arguments], check=True, capture_output=True)
+
+
+@pytest.fixture(params=["git", "no git"])
+def whole(request, made):
+    """A course of two files besides its locks, as it was when it was installed."""
+    for name in ("src/rosbeat.py", "notebooks/00_hear.ipynb"):
+        path = made.root / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("as shipped")
+    if request.param == "git":
+        git(made, "init", "--quiet")
+        git(made, "add", "--all", "src", "notebooks", "environment")
+        git(made, "commit", "--quiet", "--message", "All of it")
+    else:
+        prepare.write_stamp(made, "course")
+    return made
+
+
+def test_a_whole_course(whole):
+    assert doctor.course_files(whole, os.environ).state == "ok"
+
+
+def test_a_file_that_is_missing_and_how_it_comes_back(whole):
+    (whole.root / "src" / "rosbeat.py").unlink()
+    found = doctor.course_files(whole, os.environ)
+    assert (found.state, found.text) == ("problem", "missing: src/rosbeat.py")
+    way = "git checkout HEAD --" if (whole.root / ".git").exists() else "copy from there:"
+    assert found.cure.endswith(f"{way} src/rosbeat.py")
+
+
+def test_a_removed_folder_comes_back_and_nothing_else_changes(whole):
+    (whole.root / "notebooks" / "00_hear.ipynb").write_text("mine")
+    shutil.rmtree(whole.environment)
+    found = doctor.course_files(whole, os.environ)
+    assert found.text == (
+        "missing: environment/bootstrap.lock, environment/build.lock, environment/course.lock "
+        "and 1 more"
+    )
+    if (whole.root / ".git").exists():
+        line = found.cure.partition(": ")[2]
+        subprocess.run(["bash", "-c", line], cwd=whole.root, check=True)
+        assert doctor.course_files(whole, os.environ).text == "changed: notebooks/00_hear.ipynb"
+        assert (whole.root / "notebooks" / "00_hear.ipynb").read_text() == "mine"
+
+
+def test_a_changed_file_harms_nothing(whole):
+    (whole.root / "notebooks" / "00_hear.ipynb").write_text("mine")
+    found = doctor.course_files(whole, os.environ)
+    assert (found.state, found.text) == ("note", "changed: notebooks/00_hear.ipynb")
+    assert found.cure.endswith(" notebooks/00_hear.ipynb")
+
+
+def test_a_course_that_nobody_has_installed_and_no_git_knows(made):
+    assert doctor.course_files(made, os.environ).state == "note"
+
+
+def test_the_learners_pages(layout):
+    assert doctor.pages(layout).state == "note"
+    layout.notes.mkdir(parents=True)
+    (layout.learner / "03_write.ipynb").touch()
+    assert doctor.pages(layout).text == f"1 in {layout.learner}"
+
+
 def test_where_the_workspace_lies(layout, tmp_path):
     found = doctor.workspace(layout, {})
     assert found.text == f"{layout.root}/ROS2_and_RL_Tutorials (page 01 makes it)"
@@ -236,7 +304,7 @@ def test_a_workspace_that_cannot_be(layout, tmp_path):
 
 
 def test_the_name_of_the_workspace_is_the_packages():
-    assert doctor.WORKSPACE == place.NAME
+    assert WORKSPACE == place.NAME
     assert doctor.SETTING == place.SETTING
 
 

@@ -149,8 +149,21 @@ def test_a_hook_is_written_over_an_older_one(made):
 def test_jupyterlab_opens_without_questions(made):
     installing.write_lab_defaults(made)
     written = made.venv / "share" / "jupyter" / "lab" / "settings" / "overrides.json"
-    (settings,) = json.loads(written.read_text()).values()
-    assert settings == {"checkForUpdates": False, "fetchNews": "false"}
+    settings = json.loads(written.read_text())
+    assert settings["@jupyterlab/apputils-extension:notification"] == {
+        "checkForUpdates": False,
+        "fetchNews": "false",
+    }
+
+
+def test_the_kernel_has_the_courses_name_and_is_the_only_one(made):
+    spec = made.venv / "share" / "jupyter" / "kernels" / "python3" / "kernel.json"
+    spec.parent.mkdir(parents=True)
+    spec.write_text('{"argv": ["python"], "display_name": "Python 3 (ipykernel)"}')
+    installing.write_lab_defaults(made)
+    assert json.loads(spec.read_text()) == {"argv": ["python"], "display_name": "ROS 2 (rosbeat)"}
+    config = json.loads((made.venv / "etc/jupyter/jupyter_server_config.json").read_text())
+    assert config["KernelSpecManager"] == {"allowed_kernelspecs": ["python3"]}
 
 
 def test_jupyterlab_stays_without_what_tests_bring_along(made):

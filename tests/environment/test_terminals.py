@@ -13,9 +13,12 @@ from pathlib import Path
 import pytest
 from tornado.websocket import websocket_connect
 
-from course_tool import commands, layout, surroundings
+from course_tool import commands, lab, layout, surroundings
+from rosbeat.environment import learners_folder
 
 LAYOUT = layout.of_this_checkout()
+#: Where the workspace lies: in the learner's own folder, if somebody has used this checkout.
+HOME = Path(learners_folder() or LAYOUT.root)
 TOKEN = "only-for-this-test"
 ASK = 'echo "<$(command -v ros2)> <$(command -v python3)> <$ROS_DISTRO> <${PYTHONPATH-}> <$PWD>"\n'
 
@@ -59,7 +62,7 @@ def typed(text, environ, folder=LAYOUT.root):
     return done.stdout
 
 
-def ours(folder=LAYOUT.root):
+def ours(folder=HOME):
     return f"<{LAYOUT.venv}/bin/ros2> <{LAYOUT.venv}/bin/python3> <jazzy> <> <{folder}>\n"
 
 
@@ -88,7 +91,7 @@ def test_a_terminal_that_was_opened_elsewhere_stays_there(environ, tmp_path):
 
 def test_a_workspace_folder_that_is_gone_stops_nothing(environ, tmp_path):
     environ["ROSBEAT_WORKSPACE_IN"] = str(tmp_path / "gone")
-    assert typed(ASK, environ) == ours()
+    assert typed(ASK, environ) == ours(LAYOUT.root)
 
 
 def test_sourcing_the_underlay_in_a_bare_bash_is_enough():
@@ -107,7 +110,8 @@ def test_sourcing_the_underlay_in_a_bare_bash_is_enough():
 def server(environ, tmp_path):
     """The address of a JupyterLab that was started as `course lab` starts it."""
     options = ["--no-browser", "--ServerApp.port=0", f"--IdentityProvider.token={TOKEN}"]
-    command = commands.lab_command(LAYOUT, options, root_user=os.geteuid() == 0)
+    options += [f"--ServerApp.root_dir={LAYOUT.root}"]
+    command = lab.lab_command(LAYOUT, options, root_user=os.geteuid() == 0)
     folders = {
         f"JUPYTER_{name}_DIR": str(tmp_path / name) for name in ("RUNTIME", "CONFIG", "DATA")
     }

@@ -159,13 +159,37 @@ def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
 
 @pytest.mark.parametrize(
     ("chosen", "parent"),
-    [("", MODULE.parents[2]), ("/data", Path("/data")), ("~/x", Path("~/x"))],
+    [
+        ("", Path(environment.learners_folder() or MODULE.parents[2])),
+        ("/data", Path("/data")),
+        ("~/x", Path("~/x")),
+    ],
 )
 def test_terminals_know_where_the_workspace_is(monkeypatch, chosen, parent):
     monkeypatch.setenv("ROSBEAT_WORKSPACE_IN", chosen)
     monkeypatch.delenv("ROSBEAT_STEADY_HOME", raising=False)
     expected = str(parent.expanduser() / "ROS2_and_RL_Tutorials")
     assert environment.defaults()["ROS2_WORKSPACE"] == expected == str(place.workspace())
+
+
+def test_the_workspace_is_in_the_learners_folder_once_that_is_made(tmp_path):
+    module = installed_in(tmp_path / "src")
+    assert module.learners_folder() == ""
+    own = tmp_path / "my_course"
+    own.mkdir()
+    assert module.learners_folder() == ""
+    (own / ".rosbeat").mkdir()
+    assert module.learners_folder() == str(own)
+    assert module.defaults(PREFIX)["ROS2_WORKSPACE"] == f"{own}/ROS2_and_RL_Tutorials"
+
+
+def test_the_workspace_of_a_release_is_beside_its_pages(tmp_path):
+    module = installed_in(tmp_path / "src")
+    (tmp_path / ".rosbeat-release.json").touch()
+    (tmp_path / "my_course" / ".rosbeat").mkdir(parents=True)
+    assert module.learners_folder() == ""
+    (tmp_path / "notebooks" / ".rosbeat").mkdir(parents=True)
+    assert module.learners_folder() == str(tmp_path / "notebooks")
 
 
 @pytest.mark.parametrize("variable", [None, "COLCON_HOME"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cache
@@ -21,7 +22,7 @@ from rosbeat.exercises.progress_list import ProgressList, Row, page_folder
 from rosbeat.exercises.registry import PAGES, Page, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
-from rosbeat.workspace.place import steady_home, workspace_parent
+from rosbeat.workspace.place import is_a_solution, steady_home, workspace_parent
 from rosbeat.workspace.saving import only_writer, write
 
 # How far somebody is with one exercise, as plain data.
@@ -183,18 +184,53 @@ class ProgressFile:
         return after
 
 
+class _ReadOnlyFile(ProgressFile):
+    """Leave the file as it is: how far a page that does not count is, only its kernel remembers."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        self._here: dict[str, Standing] = {}
+
+    def change(self, exercise: str, edit: Callable[[Standing], Standing]) -> Standing:
+        """Change the standing of one exercise for as long as the kernel lives."""
+        before = self._here.get(exercise) or self.standings().get(exercise, Standing())
+        self._here[exercise] = edit(before)
+        return self._here[exercise]
+
+
 def progress_file() -> ProgressFile:
-    """Return the file of this learner, beside the workspace unless a setting says otherwise."""
+    """Return the file of this learner, beside the workspace unless a setting says otherwise.
+
+    On a solution page and in a program it does not change: only a learner's own pages count.
+    Where pages are built or tested, all of them do; each has a file of its own.
+    """
+    if steady_home() is not None:
+        return _at(workspace_parent() / FOLDER, True)
     chosen = os.environ.get(SETTING, "")
-    if chosen and steady_home() is None:
-        return _at(Path(chosen).expanduser().resolve() / FOLDER)
-    return _at(workspace_parent() / FOLDER)
+    parent = Path(chosen).expanduser().resolve() if chosen else workspace_parent()
+    return _at(parent / FOLDER, (bool(chosen) or _is_a_page()) and not _is_a_solution())
+
+
+def _is_a_page() -> bool:
+    """Return whether this is the kernel of a page, and no program, test or IPython prompt."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return hasattr(shell, "kernel")
+
+
+def _is_a_solution() -> bool:
+    """Return whether the page in this kernel is a solution.
+
+    Jupyter's server names the page. Without one, as in an editor, it is in the kernel's folder.
+    """
+    named = os.environ.get("JPY_SESSION_NAME", "")
+    return is_a_solution(Path(named) if named else Path.cwd() / "page.ipynb")
 
 
 @cache
-def _at(folder: Path) -> ProgressFile:
+def _at(folder: Path, counts: bool) -> ProgressFile:
     # One for each folder, so that what is wrong with it is said once in a kernel.
-    return ProgressFile(folder)
+    return ProgressFile(folder) if counts else _ReadOnlyFile(folder)
 
 
 def _free_name(path: Path) -> Path:

@@ -1,7 +1,8 @@
 """Where the learner's workspace is.
 
-It is a folder `ROS2_and_RL_Tutorials` in the checkout of the course, beside `notebooks`, so that
-JupyterLab's file browser shows it. The variable `ROSBEAT_WORKSPACE_IN` names another folder for it
+It is a folder `ROS2_and_RL_Tutorials` in the learner's own folder `my_course`, beside the pages, so
+that JupyterLab's file browser shows it. Where `./environment/course lab` has not made that folder
+yet, it is in the checkout itself. The variable `ROSBEAT_WORKSPACE_IN` names another folder for it
 to lie in. While pages are built or tested, `ROSBEAT_STEADY_HOME` names a folder that takes the
 place of both the checkout and the user's home: such a run starts with an empty workspace of its
 own, and what it prints names no machine and no person.
@@ -12,6 +13,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from rosbeat.environment import learners_folder
 from rosbeat.errors import called_as
 
 #: The name that the tutorial gives to the workspace.
@@ -43,7 +45,21 @@ def workspace_parent() -> Path:
     chosen = os.environ.get(SETTING, "")
     if chosen:
         return Path(chosen).expanduser().resolve()
-    return course_root() or Path.cwd()
+    root = course_root()
+    if root is None:
+        return Path.cwd()
+    return Path(learners_folder() or root)
+
+
+def is_a_solution(page: Path) -> bool:
+    """Return whether a page is one of the course's solutions, or the learner's copy of one.
+
+    Args:
+        page: The file of the page; it need not exist.
+    """
+    root = course_root()
+    places = [root, Path(learners_folder() or root)] if root else []
+    return page.resolve().parent in [place / "solutions" for place in places]
 
 
 @called_as("workspace.folder()")

@@ -9,7 +9,9 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from queue import Empty
+from types import SimpleNamespace
 
+import IPython
 import nbformat
 import pytest
 
@@ -27,6 +29,7 @@ from rosbeat.exercises.progress import (
 )
 from rosbeat.exercises.registry import EXERCISES, PAGES, Page
 from rosbeat.records import Outcome
+from rosbeat.workspace import place
 
 
 def after(*outcomes):
@@ -475,3 +478,59 @@ def test_what_is_no_home_page_is_left_alone(two_checked, tmp_path, content):
         page.write_bytes(content)
     assert cli.main(["progress", "--home", str(page)]) == 0
     assert (page.read_bytes() if page.exists() else None) == content
+
+
+# Which runs count.
+
+
+def passes(exercise):
+    progress_file().change(exercise, lambda before: before.after(passed("All is well.")))
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A course in which this process is the kernel of a page."""
+    monkeypatch.delenv("ROSBEAT_PROGRESS_IN")
+    monkeypatch.setattr(place, "course_root", lambda: tmp_path)
+    monkeypatch.setattr(place, "learners_folder", lambda: str(tmp_path / "my_course"))
+    monkeypatch.setattr(IPython, "get_ipython", lambda: SimpleNamespace(kernel=object()))
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("page", "counts"),
+    [
+        ("my_course/03_write_a_publisher.ipynb", True),
+        ("my_course/solutions/03_write_a_publisher.ipynb", False),
+        ("solutions/03_write_a_publisher.ipynb", False),
+        ("elsewhere/solutions/03_write_a_publisher.ipynb", True),
+    ],
+)
+@pytest.mark.parametrize("has_server", [True, False])
+def test_a_learners_own_pages_count_and_solutions_do_not(
+    course, monkeypatch, page, counts, has_server
+):
+    if has_server:
+        monkeypatch.setenv("JPY_SESSION_NAME", str(course / page))
+    else:  # an editor starts the kernel in the folder of the page
+        monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
+        (course / page).parent.mkdir(parents=True)
+        monkeypatch.chdir((course / page).parent)
+    passes("03a")
+    assert (course / "my_course" / ".rosbeat" / "progress.json").exists() == counts
+    assert ("03a" in progress_file().standings()) == counts
+
+
+def test_programs_and_tests_do_not_count(course, monkeypatch):
+    monkeypatch.setattr(IPython, "get_ipython", lambda: None)
+    passes("03a")
+    assert dict(progress_file().standings()) == {}
+
+
+def test_a_page_that_does_not_count_still_knows_its_hints(course, monkeypatch):
+    monkeypatch.setattr(IPython, "get_ipython", lambda: None)
+    found = [
+        progress_file().change("03a", lambda before: replace(before, hints=before.hints + 1)).hints
+        for _ in range(2)
+    ]
+    assert found == [1, 2]

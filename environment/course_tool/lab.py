@@ -1,0 +1,173 @@
+"""`course lab`: JupyterLab in the learner's folder, with its messages in a file."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from course_tool import commands, folder, prepare
+from course_tool.layout import Layout
+from course_tool.problems import Problem, say
+
+_TERMINALS = "--ServerApp.terminado_settings"
+_FOLDERS = ("--ServerApp.root_dir", "--notebook-dir")
+#: Where `custom.css` is: narrower launcher, wider file browser, solutions in another colour.
+_STYLE = Path(__file__).parents[1] / "lab_style"
+#: Seconds that JupyterLab gets to end its kernels and terminals.
+_ENDING = 30.0
+_LAST_LINES = 12
+
+
+def lab(layout: Layout, options: Sequence[str]) -> int:
+    """Run JupyterLab until somebody stops it, with a person's options passed through.
+
+    Raises:
+        Problem: If it does not start, or ends with an error.
+    """
+    environ = commands.for_shells(prepare.ready(layout, "course"), layout)
+    folder.make(layout)
+    newer = [one.name[:2] for one in folder.shipped_pages(layout) if folder.is_newer(layout, one)]
+    if newer:
+        say(f"There is a new version of {', '.join(newer)}:  ./environment/course update  takes it")
+    # A terminal that was opened before the folder was made may have another one in mind.
+    environ.pop("ROS2_WORKSPACE", None)
+    runtime = environ.setdefault("JUPYTER_RUNTIME_DIR", str(layout.notes / "run"))
+    command = lab_command(layout, options, root_user=os.geteuid() == 0)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _interrupt)
+    # Started in the background of a script, it would hand an ignored Ctrl+C on to every terminal.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    log = layout.notes / "lab.log"
+    # The token is in it, which lets whoever has it run commands.
+    with os.fdopen(os.open(log, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as messages:
+        server = subprocess.Popen(
+            command,
+            env=environ,
+            cwd=layout.learner,
+            stdin=subprocess.DEVNULL,
+            stdout=messages,
+            stderr=subprocess.STDOUT,
+            # Ctrl+C in the terminal reaches this process only, which then ends the server.
+            start_new_session=True,
+        )
+    try:
+        info = _when_open(server, Path(runtime))
+        if info:
+            say(f"The course is open at  {address(layout, info, options)}")
+            say(f"Ctrl+C stops it. JupyterLab's messages go to {log.relative_to(layout.root)}")
+        code = server.wait()
+    except KeyboardInterrupt:
+        say("\nStopping JupyterLab and its kernels ...")
+        end(server)
+        say("Stopped. Your pages are as you saved them.")
+        return 0
+    if code == 0:
+        say("JupyterLab was shut down." if info else log.read_text(errors="replace").rstrip())
+        return 0
+    raise stopped(log.read_text(errors="replace"), bool(info), str(log.relative_to(layout.root)))
+
+
+def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list[str]:
+    """Return the command that opens JupyterLab.
+
+    Args:
+        layout: The checkout.
+        options: What the person added; a page of their own takes the first page's place.
+        root_user: Whether to allow what Jupyter refuses to the root user, as in a container.
+    """
+    command = [str(layout.python), "-m", "jupyterlab"]
+    if not any(option.startswith(_FOLDERS) for option in options):  # Jupyter refuses to hear two
+        command.append(f"--ServerApp.root_dir={layout.learner}")
+    if root_user and "--allow-root" not in options:
+        command.append("--allow-root")
+    if not any(option.startswith(_TERMINALS) for option in options):
+        # The same as `course shell`: a person's start file may put another Python or ROS first.
+        command.append(f"{_TERMINALS}={ {'shell_command': commands.interactive_shell()}!r}")
+    command += ["--LabApp.custom_css=True"]
+    command += [f"--ServerApp.tornado_settings={ {'static_custom_path': [str(_STYLE)]}!r}"]
+    if not any(option.endswith(".ipynb") for option in options):
+        page = first_page(layout)
+        if page:
+            # As an address, not as a file, so that the browser shows it beside the folder.
+            command.append(f"--LabApp.default_url=/lab/tree/{page}")
+        else:
+            say("There is no page in the folder; JupyterLab opens on the folder.")
+    return [*command, *options]
+
+
+def first_page(layout: Layout) -> str:
+    """Return the name of the first page; empty without one. What a class gets may begin later."""
+    return next((page.name for page in sorted(layout.learner.glob(folder.PAGES))), "")
+
+
+def address(layout: Layout, info: Mapping[str, Any], options: Sequence[str]) -> str:
+    """Return the address to open, with the token that lets a person in.
+
+    Args:
+        layout: The checkout.
+        info: What the server says of itself.
+        options: What the person added to the command.
+    """
+    asked = next((option for option in options if option.endswith(".ipynb")), first_page(layout))
+    place = f"{info['url']}lab" + (f"/tree/{asked}" if asked else "")
+    return f"{place}?token={info['token']}" if info.get("token") else place
+
+
+def end(server: subprocess.Popen[bytes]) -> None:
+    """End JupyterLab, which ends its kernels and terminals; a second Ctrl+C does not wait."""
+    server.terminate()
+    try:
+        server.wait(_ENDING)
+    except (KeyboardInterrupt, subprocess.TimeoutExpired):
+        server.kill()  # its kernels notice, and end by themselves
+        server.wait()
+
+
+def stopped(messages: str, was_open: bool, log: str) -> Problem:
+    """Return the problem of a JupyterLab that ended by itself.
+
+    Args:
+        messages: All that it wrote.
+        was_open: Whether pages could be opened before.
+        log: The file of its messages.
+    """
+    last = "\n".join(messages.strip().splitlines()[-_LAST_LINES:])
+    if was_open:
+        return Problem(
+            "JupyterLab has ended by itself.",
+            "The pages cannot be used any more; what you saved is there.",
+            f"Start it again:  ./environment/course lab\nAll of its messages are in {log}",
+            last,
+        )
+    return Problem(
+        "JupyterLab ended before it was open.",
+        "No page can be shown; your files are as they were.",
+        "If you gave it options, look whether they are right:  ./environment/course lab --help\n"
+        f"Otherwise ./environment/course doctor may tell more. All messages are in {log}",
+        last,
+    )
+
+
+def _when_open(server: subprocess.Popen[bytes], runtime: Path) -> dict[str, Any]:
+    """Wait until the server listens; return what it says of itself, nothing if it ended."""
+    file = runtime / f"jpserver-{server.pid}.json"
+    while server.poll() is None:
+        try:
+            found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+            # It says where it listens a little before it does.
+            with socket.create_connection((found["hostname"], int(found["port"])), timeout=10):
+                return found
+        except (OSError, ValueError):
+            time.sleep(0.05)
+    return {}
+
+
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt

@@ -1,0 +1,234 @@
+"""A learner's first steps: `course lab`, their own pages, the solutions, and Ctrl+C."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from browser.conftest import browser_path
+from browser.lab import Lab
+from browser.notebook import PATIENCE, Notebook
+from rosbeat.domains import lease_domain
+
+ROOT = Path(__file__).parents[2]
+NAME = "03_write_a_publisher.ipynb"
+#: `course lab` without the installing: this checkout's `.venv` serves a copy of the course.
+TOOL = """\
+import os, sys
+sys.path.insert(0, {environment!r})
+from course_tool import cli, prepare, surroundings
+prepare.ready = lambda layout, level: surroundings.inside(dict(os.environ), layout)
+sys.exit(cli.main(["lab", *sys.argv[1:]]))
+"""
+OPTIONS = (
+    *("--no-browser", "--ServerApp.port=0", "--IdentityProvider.token="),
+    *("--ServerApp.disable_check_xsrf=True", "--LabApp.expose_app_in_browser=True"),
+)
+
+pytestmark = [
+    pytest.mark.ros,
+    pytest.mark.timeout(600),
+    pytest.mark.skipif(Path(sys.prefix) != ROOT / ".venv", reason="needs this checkout's .venv"),
+]
+
+
+class Course:
+    """A copy of the course, and `course lab` in it.
+
+    Attributes:
+        root: The copy.
+        process: The command.
+        said: What it has printed until the pages could be opened.
+    """
+
+    def __init__(self, root, environ):
+        self.root = root
+        tool = TOOL.format(environment=str(root / "environment"))
+        self.process = subprocess.Popen(
+            [sys.executable, "-I", "-c", tool, *OPTIONS],
+            env=environ, cwd=root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )  # fmt: skip
+        self.said = []
+        while not self.said or "Ctrl+C" not in self.said[-1]:
+            line = self.process.stdout.readline()
+            assert line, self.process.communicate()
+            self.said.append(line)
+
+    @property
+    def own(self):
+        return self.root / "my_course"
+
+    def progress(self):
+        """The ids of the exercises that were tried."""
+        path = self.own / ".rosbeat" / "progress.json"
+        return set(json.loads(path.read_text())["exercises"]) if path.exists() else set()
+
+    def programs(self):
+        """Command lines of all processes that belong to this course."""
+        found = []
+        for folder in Path("/proc").glob("[0-9]*"):
+            try:
+                line = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode()
+            except OSError:
+                continue  # it has ended meanwhile
+            found += [line] if str(self.root) in line else []
+        return found
+
+    def stop(self):
+        """Press Ctrl+C; return what the command printed after that."""
+        self.process.send_signal(signal.SIGINT)
+        return self.process.communicate(timeout=120)
+
+
+@pytest.fixture(scope="session")
+def course(tmp_path_factory):
+    if browser_path() is None:
+        pytest.skip("no Chromium on this machine; ROSBEAT_BROWSER may name one")
+    folder = tmp_path_factory.mktemp("start")
+    root = folder / "course"
+    for name in ("environment", "src", "notebooks", "solutions"):
+        shutil.copytree(ROOT / name, root / name)
+    (root / ".venv").symlink_to(ROOT / ".venv")
+    lease = lease_domain()
+    dropped = re.compile(r"PYTEST|ROSBEAT_|ROS2_WORKSPACE|JUPYTER_")
+    kept = {name: value for name, value in os.environ.items() if not dropped.match(name)}
+    made = Course(root, {
+        **kept,
+        "PYTHONPATH": os.pathsep.join(str(root / one) for one in ("src", "src/ros2_command")),
+        "JUPYTER_CONFIG_DIR": str(folder / "config"),
+        "IPYTHONDIR": str(folder / "ipython"),
+        "ROS_DOMAIN_ID": str(lease.domain_id),
+    })  # fmt: skip
+    yield made
+    if made.process.poll() is None:
+        made.stop()
+    lease.release()
+
+
+@pytest.fixture(scope="session")
+def lab(course):
+    """The server that `course lab` started, in the place of the one of the other tests."""
+    address = re.search(r"(http\S+/)lab", "".join(course.said))[1]
+    return Lab(address, course.own)
+
+
+@pytest.fixture
+def open_page(page, lab):
+    made = []
+
+    def open_one(name):
+        made.append(Notebook(page, lab, name))
+        cells = json.loads((lab.root / name).read_text())["cells"]
+        code = [one for one in cells if one["cell_type"] == "code"]
+        about = [one["metadata"].get("rosbeat", {}) for one in code]
+        return made[-1], about, ["".join(one["source"]) for one in code]
+
+    yield open_one
+    for one in made:
+        one.shut_down()
+
+
+def number(about, **wanted):
+    """The number of the code cell of which a lesson says this."""
+    return next(k for k, one in enumerate(about) if wanted.items() <= one.items())
+
+
+def test_it_says_where_the_course_is_and_how_to_stop(course):
+    made, opened, stop = course.said
+    assert made == "Your own pages are in the folder my_course.\n"
+    assert re.fullmatch(
+        r"The course is open at  http://\S+/lab/tree/00_hear_the_heartbeat.ipynb\n", opened
+    )
+    assert stop.endswith("go to my_course/.rosbeat/lab.log\n")
+
+
+def test_the_address_leads_to_the_first_page_and_its_first_message(page, course, lab):
+    page.goto(course.said[1].split()[-1])
+    page.wait_for_selector(".jp-NotebookPanel .jp-Cell", timeout=PATIENCE)
+    page.get_by_text("ROS 2 (rosbeat) | Idle").wait_for(timeout=PATIENCE)
+    # A page that was only opened has nothing to save.
+    assert page.locator(".jp-mod-dirty").count() == 0
+    names = page.locator(".jp-DirListing-item .jp-DirListing-itemText > span")
+    pages = sorted(path.name for path in (ROOT / "notebooks").glob("[0-9]*.ipynb"))
+    assert names.all_inner_texts() == ["solutions", *pages]
+    cut = "all => all.filter(one => one.scrollWidth > one.parentElement.clientWidth).length"
+    assert names.evaluate_all(cut) == 0
+    cell = page.locator(".jp-Notebook .jp-CodeCell")
+    cell.first.locator(".cm-content").click()
+    for _ in range(3):
+        page.keyboard.press("Shift+Enter")
+    said = page.locator(".jp-OutputArea-output", has_text="It is 22.5 degrees").first
+    said.wait_for(timeout=PATIENCE)
+    page.keyboard.press("Control+Shift+L")
+    cards = page.locator(".jp-LauncherCard:visible")
+    cards.first.wait_for(timeout=PATIENCE)
+    assert cards.all_inner_texts() == [
+        *("ROS 2 (rosbeat)", "Terminal", "Text File", "Markdown File", "Python File"),
+        "Show Contextual Help",
+    ]
+
+
+def test_a_terminal_of_a_page_starts_in_the_learners_folder(open_page, course):
+    notebook, _, sources = open_page("01_create_a_workspace.ipynb")
+    notebook.run(0)
+    pwd = next(k for k, source in enumerate(sources) if source.endswith("pwd"))
+    notebook.run(pwd)
+    notebook.says(pwd, str(course.own))
+
+
+def test_a_solution_looks_like_one_and_does_not_count(open_page, page, course):
+    notebook, about, _ = open_page(f"solutions/{NAME}")
+    assert page.get_by_text("This is a solution", exact=True).is_visible()
+    tab = page.locator(".lm-TabBar-tab.lm-mod-current[title*='Path: solutions/']")
+    assert tab.evaluate("one => getComputedStyle(one).boxShadow") != "none"
+    answer, check = number(about, exercise="03a"), number(about, check="03a")
+    notebook.write(answer, "changed")
+    assert "changed" not in notebook.cell(answer).locator(".cm-content").inner_text()
+    for cell in (0, answer, check):
+        notebook.run(cell)
+    notebook.says(check, ": passed")
+    assert course.progress() == set()
+
+
+def test_a_page_of_ones_own_counts(open_page, course):
+    notebook, about, _ = open_page(NAME)
+    solved = json.loads((ROOT / "solutions" / NAME).read_text())["cells"]
+    answer, check = number(about, exercise="03a"), number(about, check="03a")
+    text = next(
+        "".join(one["source"]) for one in solved
+        if one["metadata"].get("rosbeat", {}).get("exercise") == "03a"
+    )  # fmt: skip
+    notebook.run(0)
+    notebook.write(answer, text)
+    for cell in (answer, check):
+        notebook.run(cell)
+    notebook.says(check, ": passed")
+    assert course.progress() == {"03a"}
+    notebook.save()
+    assert text in [
+        "".join(one["source"]) for one in json.loads((course.own / NAME).read_text())["cells"]
+    ]
+    shipped = course.root / "notebooks" / NAME
+    assert shipped.read_bytes() == (ROOT / "notebooks" / NAME).read_bytes()
+
+
+def test_ctrl_c_ends_it_all(page, lab, course):
+    Notebook(page, lab, NAME)
+    page.close()
+    assert any("ipykernel" in line for line in course.programs())
+    out, err = course.stop()
+    assert (course.process.returncode, err) == (0, "")
+    assert out.splitlines()[1:] == [
+        "Stopping JupyterLab and its kernels ...", "Stopped. Your pages are as you saved them."
+    ]  # fmt: skip
+    deadline = time.monotonic() + 60
+    while course.programs() and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert course.programs() == []

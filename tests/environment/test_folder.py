@@ -1,0 +1,345 @@
+"""The learner's own folder: copies, work of earlier versions, `reset` and `update`."""
+
+import json
+import os
+import subprocess
+
+import pytest
+
+from course_tool import cli, folder, installing
+
+BLANK, ANSWER = "class Sensor: ____", "class Sensor: pass"
+
+
+def cell(source, exercise="", outputs=(), **more):
+    about = {"rosbeat": {"exercise": exercise}} if exercise else {}
+    code = {"cell_type": "code", "metadata": about, "execution_count": None}
+    return {**code, "source": source, "outputs": list(outputs), **more}
+
+
+def page(*cells):
+    about = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
+    whole = {"cells": list(cells), "metadata": about, "nbformat": 4, "nbformat_minor": 5}
+    return json.dumps(whole).encode()
+
+
+def sources(path):
+    return ["".join(one["source"]) for one in json.loads(path.read_bytes())["cells"]]
+
+
+SHIPPED = page(cell("import rosbeat"), cell(BLANK, "03a"), cell("____", "03b"))
+NEW = page(cell("import rosbeat  # newer"), cell(BLANK, "03a"), cell("____ # newer", "03b"))
+WORKED = page(
+    cell("import rosbeat", execution_count=1), cell(ANSWER, "03a", execution_count=2),
+    cell("mine", "03b"),
+)  # fmt: skip
+NAME = "03_write.ipynb"
+
+
+@pytest.fixture
+def course(layout, monkeypatch):
+    """A course of two pages, a solution and its package; no git."""
+    monkeypatch.delenv("ROSBEAT_WORKSPACE_IN", raising=False)
+    monkeypatch.setattr(cli, "of_this_checkout", lambda: layout)
+    for name, content in {
+        "notebooks/00_hear.ipynb": page(cell("print(1)")),
+        f"notebooks/{NAME}": SHIPPED,
+        f"solutions/{NAME}": page(cell(ANSWER, "03a", outputs=[{"output_type": "stream"}])),
+        "solutions/sensor_simulator/setup.py": b"setup()",
+    }.items():
+        path = layout.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    return layout
+
+
+@pytest.fixture
+def committed(course):
+    """The same as a clone."""
+    git = ["git", "-c", "user.name=ada", "-c", "user.email=ada@example.org", "-C", course.root]
+    for command in (["init", "-q"], ["add", "notebooks"], ["commit", "-qm", "All pages"]):
+        subprocess.run([*git, *command], check=True, capture_output=True)
+    return course
+
+
+def listed(place):
+    return sorted(path.name for path in place.iterdir() if not path.name.startswith("."))
+
+
+def test_it_has_what_a_learner_needs_and_nothing_else(course, capsys):
+    folder.make(course)
+    assert listed(course.learner) == ["00_hear.ipynb", NAME, "COLCON_IGNORE", "solutions"]
+    assert capsys.readouterr().out == "Your own pages are in the folder my_course.\n"
+    assert sources(course.learner / NAME) == ["import rosbeat", BLANK, "____"]
+
+
+def test_a_copy_is_as_jupyterlab_would_save_it(course):
+    folder.make(course)
+    about = json.loads((course.learner / NAME).read_bytes())["metadata"]
+    assert about["kernelspec"]["display_name"] == installing.KERNEL
+    assert about["kernelspec"]["name"] == "python3"
+
+
+def test_copies_are_made_once(course, capsys):
+    folder.make(course)
+    (course.learner / NAME).write_bytes(WORKED)
+    (course.learner / "00_hear.ipynb").unlink()
+    capsys.readouterr()
+    folder.make(course)
+    assert (course.learner / NAME).read_bytes() == WORKED
+    assert not (course.learner / "00_hear.ipynb").exists()
+    assert capsys.readouterr().out == ""
+
+
+def test_a_page_that_is_added_to_the_course_comes_too(course):
+    folder.make(course)
+    (course.shipped / "04_listen.ipynb").write_bytes(SHIPPED)
+    folder.make(course)
+    assert (course.learner / "04_listen.ipynb").exists()
+
+
+# What earlier versions left in the checkout.
+
+
+def test_the_workspace_and_the_progress_move_in(course, capsys):
+    source = course.root / "ROS2_and_RL_Tutorials" / "src" / "node.py"
+    source.parent.mkdir(parents=True)
+    source.write_text("mine")
+    for name in ("build/.built_by", "install/.colcon_install_layout", "log/mine"):
+        path = course.root / "ROS2_and_RL_Tutorials" / name
+        path.parent.mkdir()
+        path.touch()
+    (course.root / ".rosbeat").mkdir()
+    (course.root / ".rosbeat" / "progress.json").write_text("far")
+    folder.make(course)
+    assert (course.learner / "ROS2_and_RL_Tutorials" / "src" / "node.py").read_text() == "mine"
+    assert (course.notes / "progress.json").read_text() == "far"
+    assert not (course.root / "ROS2_and_RL_Tutorials").exists()
+    assert sorted(listed(course.learner / "ROS2_and_RL_Tutorials")) == ["log", "src"]
+    assert "colcon build makes it anew" in capsys.readouterr().out
+
+
+def test_nothing_that_is_there_is_replaced_by_what_moves_in(course):
+    folder.make(course)
+    for place, text in ((course.root, "old"), (course.learner, "new")):
+        (place / ".rosbeat").mkdir(exist_ok=True)
+        (place / ".rosbeat" / "progress.json").write_text(text)
+    folder.make(course)
+    assert (course.notes / "progress.json").read_text() == "new"
+    assert (course.root / ".rosbeat" / "progress.json").read_text() == "old"
+
+
+def test_a_workspace_that_is_elsewhere_on_purpose_stays(course, monkeypatch):
+    monkeypatch.setenv("ROSBEAT_WORKSPACE_IN", str(course.root))
+    (course.root / "ROS2_and_RL_Tutorials").mkdir()
+    folder.make(course)
+    assert (course.root / "ROS2_and_RL_Tutorials").is_dir()
+
+
+def test_answers_in_the_courses_own_pages_move_and_these_are_as_shipped(committed, capsys):
+    (committed.shipped / NAME).write_bytes(WORKED)
+    folder.make(committed)
+    assert (committed.learner / NAME).read_bytes() == WORKED
+    assert (committed.shipped / NAME).read_bytes() == SHIPPED
+    assert f"is in my_course/{NAME} now" in capsys.readouterr().out
+    assert not folder.is_newer(committed, committed.shipped / NAME)
+
+
+def test_answers_that_were_never_run_come_along(committed):
+    typed = page(cell("import rosbeat"), cell(ANSWER, "03a"), cell("____", "03b"))
+    (committed.shipped / NAME).write_bytes(typed)
+    folder.make(committed)
+    assert sources(committed.learner / NAME) == ["import rosbeat", ANSWER, "____"]
+    (committed.shipped / NAME).write_bytes(NEW)
+    folder.update(committed, [])
+    assert sources(committed.learner / NAME)[1] == ANSWER
+
+
+def test_without_git_answers_in_the_courses_own_pages_are_copied(course):
+    (course.shipped / NAME).write_bytes(WORKED)
+    folder.make(course)
+    assert (course.learner / NAME).read_bytes() == WORKED
+    (course.shipped / NAME).write_bytes(NEW)
+    folder.update(course, [])
+    assert (course.learner / NAME).read_bytes() == WORKED
+    folder.update(course, ["03"])
+    assert sources(course.learner / NAME)[1] == ANSWER
+
+
+def test_a_page_of_ones_own_with_the_same_name_is_kept_beside(committed):
+    committed.learner.mkdir()
+    (committed.learner / NAME).write_bytes(page(cell("a sketch")))
+    (committed.shipped / NAME).write_bytes(WORKED)
+    folder.make(committed)
+    assert sources(committed.learner / NAME) == ["a sketch"]
+    beside = committed.learner / "03_write-from-notebooks-1.ipynb"
+    assert beside.read_bytes() == WORKED
+
+
+# The solutions.
+
+
+def test_solutions_say_what_they_are_and_cannot_be_changed(course):
+    folder.make(course)
+    path = course.learner / "solutions" / NAME
+    banner, *cells = json.loads(path.read_bytes())["cells"]
+    assert "This is a solution" in banner["source"]
+    assert f"(../{NAME})" in banner["source"]
+    assert all(one["metadata"]["editable"] is False for one in (banner, *cells))
+    assert cells[0]["outputs"] == [{"output_type": "stream"}]
+    package = course.learner / "solutions" / "sensor_simulator" / "setup.py"
+    assert {one.stat().st_mode & 0o777 for one in (path, package)} == {0o444}
+    assert package.read_text() == "setup()"
+
+
+def test_solutions_follow_the_course(course):
+    folder.make(course)
+    source, copy = course.root / "solutions" / NAME, course.learner / "solutions" / NAME
+    before = copy.stat().st_ino
+    folder.make(course)
+    assert copy.stat().st_ino == before  # nothing to do
+    source.write_bytes(page(cell("better", "03a")))
+    os.utime(source, (1, 1))
+    folder.make(course)
+    assert sources(copy)[1] == "better"
+
+
+# A release: an instructor's class works in `notebooks`.
+
+
+def test_in_a_release_the_pages_are_the_learners_own(course):
+    (course.root / ".rosbeat-release.json").touch()
+    (course.root / "ROS2_and_RL_Tutorials").mkdir()
+    folder.make(course)
+    assert course.learner == course.shipped
+    assert listed(course.shipped) == [
+        *("00_hear.ipynb", NAME, "COLCON_IGNORE", "ROS2_and_RL_Tutorials")
+    ]
+    assert not (course.root / "my_course").exists()
+
+
+def test_a_release_has_no_other_copy_to_bring_back(course, capsys):
+    (course.root / ".rosbeat-release.json").touch()
+    assert cli.main(["reset", "03"]) == 1
+    assert "Ask whoever gave you the folder" in capsys.readouterr().err
+
+
+# `course reset`.
+
+
+@pytest.mark.parametrize("name", ["03", "3", NAME, f"my_course/{NAME}", "03_write"])
+def test_reset_brings_a_page_back_and_keeps_the_old_one(course, name, capsys):
+    folder.make(course)
+    (course.learner / NAME).write_bytes(WORKED)
+    assert cli.main(["reset", name]) == 0
+    assert sources(course.learner / NAME) == ["import rosbeat", BLANK, "____"]
+    assert (course.learner / "03_write-kept-1.ipynb").read_bytes() == WORKED
+    assert "yours is kept as my_course/03_write-kept-1.ipynb" in capsys.readouterr().out
+
+
+def test_reset_takes_a_free_name_each_time(course):
+    for _ in range(2):
+        folder.make(course)
+        (course.learner / NAME).write_bytes(WORKED)
+        folder.reset(course, ["03"])
+    assert (course.learner / "03_write-kept-2.ipynb").exists()
+
+
+def test_reset_of_a_page_that_was_only_run_keeps_nothing(course):
+    folder.make(course)
+    run = page(cell("import rosbeat", execution_count=4), cell(BLANK, "03a"), cell("____", "03b"))
+    (course.learner / NAME).write_bytes(run)
+    folder.reset(course, ["03"])
+    assert "kept" not in str(listed(course.learner))
+
+
+def test_reset_of_a_page_that_is_gone(course):
+    folder.make(course)
+    (course.learner / NAME).unlink()
+    folder.reset(course, ["03"])
+    assert (course.learner / NAME).exists()
+
+
+def test_reset_gives_the_committed_page_if_somebody_works_in_the_courses_own(committed):
+    folder.make(committed)
+    (committed.shipped / NAME).write_bytes(WORKED)
+    (committed.learner / NAME).write_bytes(WORKED)
+    folder.reset(committed, ["03"])
+    assert sources(committed.learner / NAME)[1] == BLANK
+
+
+def test_a_page_that_cannot_be_read_is_kept_too(course):
+    folder.make(course)
+    (course.learner / NAME).write_text("not a page")
+    folder.reset(course, ["03"])
+    assert (course.learner / "03_write-kept-1.ipynb").read_text() == "not a page"
+
+
+@pytest.mark.parametrize(("names", "said"), [([], "not named"), (["99"], "no page '99'")])
+def test_reset_has_to_know_which_page(course, names, said, capsys):
+    assert cli.main(["reset", *names]) == 1
+    assert said in capsys.readouterr().err
+
+
+# `course update`.
+
+
+def test_update_has_nothing_to_do(course, capsys):
+    folder.make(course)
+    capsys.readouterr()
+    assert cli.main(["update"]) == 0
+    assert capsys.readouterr().out == "Your pages are those of the course.\n"
+
+
+def test_update_replaces_what_nobody_has_worked_in(course, capsys):
+    folder.make(course)
+    run = page(cell("import rosbeat", execution_count=4), cell(BLANK, "03a"), cell("____", "03b"))
+    (course.learner / NAME).write_bytes(run)
+    (course.shipped / NAME).write_bytes(NEW)
+    assert folder.is_newer(course, course.shipped / NAME)
+    assert cli.main(["update"]) == 0
+    assert sources(course.learner / NAME)[0] == "import rosbeat  # newer"
+    assert f"updated  {NAME}" in capsys.readouterr().out
+    assert [one.read_bytes() for one in (course.notes / "before").iterdir()] == [run]
+    assert not folder.is_newer(course, course.shipped / NAME)
+
+
+def test_update_leaves_work_alone_and_offers_to_carry_it_over(course, capsys):
+    folder.make(course)
+    (course.learner / NAME).write_bytes(WORKED)
+    (course.shipped / NAME).write_bytes(NEW)
+    assert cli.main(["update"]) == 0
+    assert (course.learner / NAME).read_bytes() == WORKED
+    assert "./environment/course update 03" in capsys.readouterr().out
+
+
+def test_update_by_name_carries_over_the_answers_that_fit(course, capsys):
+    folder.make(course)
+    (course.learner / NAME).write_bytes(WORKED)
+    (course.shipped / NAME).write_bytes(NEW)
+    assert cli.main(["update", "03"]) == 0
+    assert sources(course.learner / NAME) == ["import rosbeat  # newer", ANSWER, "____ # newer"]
+    assert (course.learner / "03_write-kept-1.ipynb").read_bytes() == WORKED
+    said = "your answers to 03a are in it; 03b changed, so your answer is only in the old one"
+    assert said in capsys.readouterr().out
+    assert not folder.is_newer(course, course.shipped / NAME)
+
+
+def test_a_page_that_equals_the_new_version_is_up_to_date(course):
+    folder.make(course)
+    (course.learner / NAME).write_bytes(NEW)
+    (course.shipped / NAME).write_bytes(NEW)
+    assert not folder.is_newer(course, course.shipped / NAME)
+
+
+def test_parts_of_an_exercise_are_told_apart_by_their_ids():
+    parts = [cell("____ 1", "04a", id="a"), cell("____ 2", "04a", id="b")]
+    mine = page(cell("two", "04a", id="b"))
+    after, fit, others = folder.carried(mine, page(*parts), page(*parts))
+    found = [one["source"] for one in json.loads(after)["cells"]]
+    assert (found, fit, others) == (["____ 1", "two"], ["04a"], [])
+
+
+def test_an_exercise_that_is_gone_stays_in_the_old_page():
+    _, fit, others = folder.carried(WORKED, SHIPPED, page(cell("nothing to fill in")))
+    assert (fit, others) == ([], ["03a", "03b"])

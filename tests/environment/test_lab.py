@@ -1,0 +1,176 @@
+"""`course lab`, with a program in the place of JupyterLab: its options, its start and its end."""
+
+import ast
+import os
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from course_tool import commands, lab
+
+ENVIRONMENT = Path(__file__).parents[2] / "environment"
+
+#: The tool as the launcher runs it, in another checkout and without installing anything.
+TOOL = """\
+import os, sys
+sys.path.insert(0, {environment!r})
+from pathlib import Path
+from course_tool import cli, prepare
+from course_tool.layout import Layout
+cli.of_this_checkout = lambda: Layout(Path({root!r}))
+prepare.ready = lambda layout, level: dict(os.environ)
+sys.exit(cli.main(["lab", *sys.argv[1:]]))
+"""
+#: What JupyterLab does when its port is open. Its process id stays when it becomes `sleep`.
+OPENS = """\
+echo "[W] a warning that frightens"
+mkdir -p "$JUPYTER_RUNTIME_DIR"
+file="$JUPYTER_RUNTIME_DIR/jpserver-$$.json"
+echo '{"url": "http://localhost:8888/", "hostname": "localhost", "port": PORT,' > "$file.new"
+echo '"token": "abc"}' >> "$file.new"
+mv "$file.new" "$file"
+exec sleep 1000
+"""
+
+
+def page(layout, name):
+    path = layout.root / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("{}")
+
+
+def options_of(layout, options, root_user=False):
+    """The command without what it always begins with: the Python and three settings."""
+    return lab.lab_command(layout, options, root_user=root_user)[3:]
+
+
+def test_it_opens_the_first_page_of_the_learners_folder(layout):
+    for name in ("04_listen.ipynb", "03_write.ipynb", "notes.ipynb"):
+        page(layout, f"my_course/{name}")
+    options = options_of(layout, ["--no-browser", "--port", "9000"])
+    assert options[0] == f"--ServerApp.root_dir={layout.root}/my_course"
+    assert options[-4:] == [
+        "--LabApp.default_url=/lab/tree/03_write.ipynb", *("--no-browser", "--port", "9000")
+    ]  # fmt: skip
+
+
+def test_it_opens_another_folder_when_asked(layout):
+    option = "--ServerApp.root_dir=/elsewhere"
+    assert [one for one in options_of(layout, [option]) if "root_dir" in one] == [option]
+
+
+def test_it_opens_the_folder_when_there_is_no_page(layout, capsys):
+    assert not any("default_url" in option for option in options_of(layout, []))
+    assert "There is no page" in capsys.readouterr().out
+
+
+def test_it_opens_another_page_when_asked(layout):
+    page(layout, "my_course/00_hear.ipynb")
+    options = options_of(layout, ["03_write.ipynb"])
+    assert options[-1] == "03_write.ipynb"
+    assert not any("default_url" in option for option in options)
+
+
+def test_its_terminals_are_the_courses_shell(layout):
+    (setting,) = (one for one in options_of(layout, []) if "terminado" in one)
+    value = ast.literal_eval(setting.split("=", 1)[1])
+    assert value == {"shell_command": commands.interactive_shell()}
+
+
+def test_its_terminals_are_the_persons_choice(layout):
+    choice = "--ServerApp.terminado_settings={'shell_command': ['zsh']}"
+    assert [one for one in options_of(layout, [choice]) if "terminado" in one] == [choice]
+
+
+def test_it_allows_the_root_user_once(layout):
+    assert options_of(layout, [], root_user=True).count("--allow-root") == 1
+    assert options_of(layout, ["--allow-root"], root_user=True).count("--allow-root") == 1
+
+
+def test_its_style_sheet_is_there(layout):
+    (setting,) = (one for one in options_of(layout, []) if "tornado_settings" in one)
+    (place,) = ast.literal_eval(setting.split("=", 1)[1])["static_custom_path"]
+    assert os.path.isfile(os.path.join(place, "custom.css"))
+
+
+# From the start to the end.
+
+
+@pytest.fixture
+def start(made, tmp_path):
+    """Start `course lab` with a program in the place of JupyterLab."""
+    page(made, "notebooks/00_hear.ipynb")
+    tool = TOOL.format(environment=str(ENVIRONMENT), root=str(made.root))
+    dropped = ("ROSBEAT_WORKSPACE_IN", "JUPYTER_RUNTIME_DIR")
+    environ = {name: value for name, value in os.environ.items() if name not in dropped}
+    started = []
+    port = socket.create_server(("localhost", 0))
+
+    def begin(program):
+        program = program.replace("PORT", str(port.getsockname()[1]))
+        made.python.write_text(f"#!/bin/sh\n{program}")
+        started.append(
+            subprocess.Popen(
+                [sys.executable, "-I", "-c", tool],
+                env=environ, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            )
+        )  # fmt: skip
+        return started[-1]
+
+    yield begin
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+    port.close()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_two_lines_and_then_it_ends_as_one_asks(start, made, number):
+    process = start(OPENS)
+    lines = [process.stdout.readline() for _ in range(3)]
+    assert lines == [
+        "Your own pages are in the folder my_course.\n",
+        "The course is open at  http://localhost:8888/lab/tree/00_hear.ipynb?token=abc\n",
+        "Ctrl+C stops it. JupyterLab's messages go to my_course/.rosbeat/lab.log\n",
+    ]
+    (info,) = (made.notes / "run").glob("jpserver-*.json")
+    process.send_signal(number)
+    out, err = process.communicate(timeout=100)
+    assert (process.returncode, err) == (0, "")
+    assert out.splitlines()[-1].startswith("Stopped.")
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(info.stem.partition("-")[2]), 0)
+    log = made.notes / "lab.log"
+    assert log.read_text() == "[W] a warning that frightens\n"
+    assert log.stat().st_mode & 0o777 == 0o600  # a real one has the token in it
+
+
+def test_an_option_that_is_wrong_is_said_in_three_parts(start):
+    out, err = start('echo "[C] Bad config"; exit 1').communicate(timeout=100)
+    assert "The course is open" not in out
+    for words in ("What happened:       JupyterLab ended before it was open.", "What to try:"):
+        assert words in err
+    assert "    [C] Bad config" in err
+
+
+def test_help_is_shown(start):
+    process = start('echo "all the options"; exit 0')
+    assert process.communicate(timeout=100)[0].endswith("all the options\n")
+    assert process.returncode == 0
+
+
+def test_a_server_that_dies_later_is_told_too(start):
+    process = start(OPENS.replace("exec sleep 1000", "exit 3"))
+    assert "JupyterLab ended" in process.communicate(timeout=100)[1]  # before or after it was open
+    assert process.returncode == 1
+
+
+def test_a_folder_nobody_may_write_in_is_told(start, made, tmp_path):
+    (made.root / "my_course").write_text("in the way")
+    process = start(OPENS)
+    assert "What to try:" in process.communicate(timeout=100)[1]
