@@ -15,7 +15,8 @@ import os
 import platform
 import shutil
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -26,9 +27,13 @@ from course_tool.prepare import check_writable, exclusive
 from course_tool.problems import Problem, say
 
 PAGES = "[0-9][0-9]_*.ipynb"
+#: The page that shows the whole course, and how far somebody is.
+HOME = "home.ipynb"
 SETTING = "ROSBEAT_WORKSPACE_IN"
 #: What the folder is called in a solution's banner, and by the style sheet of JupyterLab.
 SOLUTIONS = "solutions"
+#: The docs that pages link to, glossary and all; JupyterLab follows no link out of its folder.
+DOCS = "docs"
 _READ_ONLY = 0o444
 #: Files by which colcon marks what it has made, and makes again.
 _MADE_BY_COLCON = ("build/.built_by", "install/.colcon_install_layout")
@@ -72,7 +77,9 @@ def make(layout: Layout) -> None:
         if not layout.is_release:
             for page in shipped_pages(layout):
                 _copy_once(layout, page)
+            _copy_home(layout)
             show_solutions(layout)
+        show_docs(layout)
     if is_new and not layout.is_release:
         say(f"Your own pages are in the folder {layout.learner.name}.")
 
@@ -80,6 +87,15 @@ def make(layout: Layout) -> None:
 def shipped_pages(layout: Layout) -> list[Path]:
     """Return the course's pages, in their order."""
     return sorted(layout.shipped.glob(PAGES))
+
+
+def _copy_home(layout: Layout) -> None:
+    """Copy the home page, in which nobody works, whenever the course has another one."""
+    source, target = layout.shipped / HOME, layout.learner / HOME
+    if source.exists():
+        content = source.read_bytes()
+        if not target.exists() or _sources(target.read_bytes()) != _sources(content):
+            _write(target, as_opened(content))
 
 
 def _copy_once(layout: Layout, page: Path) -> None:
@@ -121,14 +137,24 @@ def _adopt(layout: Layout) -> None:
 
 def show_solutions(layout: Layout) -> None:
     """Copy the solutions to where the learner can open them, with a banner, and read-only."""
-    source = layout.root / SOLUTIONS
-    for path in sorted(one for one in source.rglob("*") if one.is_file()):
-        target = layout.learner / SOLUTIONS / path.relative_to(source)
-        time = path.stat().st_mtime_ns
-        if "__pycache__" in path.parts or _time_of(target) == time:
+    for path in sorted((layout.root / SOLUTIONS).rglob("*")):
+        if not path.is_file() or "__pycache__" in path.parts or path.name == HOME:
             continue
-        content = path.read_bytes()
-        _write(target, as_solution(path.name, content) if path.match(PAGES) else content)
+        _show(layout, path, partial(as_solution, path.name) if path.match(PAGES) else bytes)
+
+
+def show_docs(layout: Layout) -> None:
+    """Copy the docs to where links of pages lead; their own links lead to the learner's pages."""
+    docs = layout.root / DOCS
+    for path in sorted([*docs.glob("*.md"), *docs.glob("images/*")]):
+        _show(layout, path, lambda found: found.replace(b"](../notebooks/", b"](../"))
+
+
+def _show(layout: Layout, path: Path, shown: Callable[[bytes], bytes]) -> None:
+    """Copy a file of the course into the learner's folder, read-only, unless it is there."""
+    target, time = layout.learner / path.relative_to(layout.root), path.stat().st_mtime_ns
+    if _time_of(target) != time:
+        _write(target, shown(path.read_bytes()))
         target.chmod(_READ_ONLY)
         os.utime(target, ns=(time, time))
 

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from course_tool import commands, folder, prepare
+from course_tool import commands, folder, prepare, running
 from course_tool.layout import Layout
 from course_tool.problems import Problem, say
 
@@ -38,6 +38,10 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
         say(f"There is a new version of {', '.join(newer)}:  ./environment/course update  takes it")
     # A terminal that was opened before the folder was made may have another one in mind.
     environ.pop("ROS2_WORKSPACE", None)
+    home = layout.learner / folder.HOME
+    if home.exists():  # it opens with today's progress in it
+        bring = [str(layout.python), "-m", "rosbeat", "progress", "--home", str(home)]
+        running.quiet(bring, environ, timeout=20.0, cwd=layout.learner)
     runtime = environ.setdefault("JUPYTER_RUNTIME_DIR", str(layout.notes / "run"))
     command = lab_command(layout, options, root_user=os.geteuid() == 0)
     for number in (signal.SIGTERM, signal.SIGHUP):
@@ -103,7 +107,10 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
 
 
 def first_page(layout: Layout) -> str:
-    """Return the name of the first page; empty without one. What a class gets may begin later."""
+    """Return the name of the page to open: the home page, or else the first one; or nothing."""
+    if (layout.learner / folder.HOME).exists():
+        return folder.HOME
+    # What a class gets may begin later.
     return next((page.name for page in sorted(layout.learner.glob(folder.PAGES))), "")
 
 

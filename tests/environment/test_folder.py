@@ -43,6 +43,8 @@ def course(layout, monkeypatch):
     monkeypatch.setattr(cli, "of_this_checkout", lambda: layout)
     for name, content in {
         "notebooks/00_hear.ipynb": page(cell("print(1)")),
+        "notebooks/home.ipynb": page(cell("progress()")),
+        "docs/glossary.md": b"A node: [page 00](../notebooks/00_hear.ipynb).",
         f"notebooks/{NAME}": SHIPPED,
         f"solutions/{NAME}": page(cell(ANSWER, "03a", outputs=[{"output_type": "stream"}])),
         "solutions/sensor_simulator/setup.py": b"setup()",
@@ -68,7 +70,8 @@ def listed(place):
 
 def test_it_has_what_a_learner_needs_and_nothing_else(course, capsys):
     folder.make(course)
-    assert listed(course.learner) == ["00_hear.ipynb", NAME, "COLCON_IGNORE", "solutions"]
+    found = ["00_hear.ipynb", NAME, "COLCON_IGNORE", "docs", "home.ipynb", "solutions"]
+    assert listed(course.learner) == found
     assert capsys.readouterr().out == "Your own pages are in the folder my_course.\n"
     assert sources(course.learner / NAME) == ["import rosbeat", BLANK, "____"]
 
@@ -89,6 +92,25 @@ def test_copies_are_made_once(course, capsys):
     assert (course.learner / NAME).read_bytes() == WORKED
     assert not (course.learner / "00_hear.ipynb").exists()
     assert capsys.readouterr().out == ""
+
+
+def test_docs_are_where_links_of_pages_lead_and_link_to_them(course):
+    folder.make(course)
+    shown = course.learner / "docs" / "glossary.md"
+    assert shown.read_text() == "A node: [page 00](../00_hear.ipynb)."
+    assert shown.stat().st_mode & 0o777 == 0o444
+
+
+def test_the_home_page_keeps_its_output_until_the_course_has_another_one(course):
+    folder.make(course)
+    home = course.learner / "home.ipynb"
+    home.write_bytes(page(cell("progress()", outputs=[{"output_type": "stream"}])))
+    before = home.read_bytes()
+    folder.make(course)
+    assert home.read_bytes() == before
+    (course.shipped / "home.ipynb").write_bytes(page(cell("progress()  # newer")))
+    folder.make(course)
+    assert sources(home) == ["progress()  # newer"]
 
 
 def test_a_page_that_is_added_to_the_course_comes_too(course):
@@ -213,7 +235,7 @@ def test_in_a_release_the_pages_are_the_learners_own(course):
     folder.make(course)
     assert course.learner == course.shipped
     assert listed(course.shipped) == [
-        *("00_hear.ipynb", NAME, "COLCON_IGNORE", "ROS2_and_RL_Tutorials")
+        *("00_hear.ipynb", NAME, "COLCON_IGNORE", "ROS2_and_RL_Tutorials", "docs", "home.ipynb")
     ]
     assert not (course.root / "my_course").exists()
 
