@@ -91,7 +91,9 @@ def picture_of_a_page(tab, lab):
     last = tab.locator(".jp-CodeCell", has_text=LAST_CELL).first
     last.evaluate("one => one.scrollIntoView({ block: 'end' })")
     tab.wait_for_timeout(500)  # until JupyterLab has come to rest
-    tab.screenshot(path=str(IMAGES / "page.png"))
+    with Image.open(BytesIO(tab.screenshot())) as seen:
+        few = seen.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    few.save(IMAGES / "page.png", optimize=True)
     notebook.shut_down()
 
 
