@@ -335,7 +335,8 @@ predict("3", ros.messages("beat")[2].time)
 #
 # Complete the worker. It subscribes to `order` (`Int32`), works on each order for 3 seconds, and then publishes the
 # order's number on `done` (`Int32`). Every second, it publishes any `String` on `beat`, whatever else it's doing.
-# Orders that arrive in the meantime wait. The worker does them one after the other, in the order they came.
+# Orders that arrive in the meantime wait. The worker does them one after the other, in the order they came. Two orders
+# can have the same number; the worker does both.
 #
 # Don't sleep, because the beat would have to wait. And don't start any threads, because they run in real time.
 

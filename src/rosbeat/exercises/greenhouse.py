@@ -330,7 +330,9 @@ def plain_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
     day.hold(pause + 9 - react - 1, cold, some.dry)
     day.hold(pause + 3 + next(more), cold + 1, WET, "wet")
     day.hold(react + 1 + next(more), some.hot, WET, "both")
-    day.hold(max(n["pump_seconds"], react) + 10, some.hot + 1, some.dry, "hot and dry")
+    # Between the limits the vent is still open: a pump that looks at the temperature starts here.
+    day.hold(7, some.hot + 1, some.dry, "hot and dry")
+    day.hold(n["pump_seconds"] + 3, some.middle, some.dry)
     day.hold(2 * react + 2, cold, some.dry, "cool and dry")
     day.hold(pause + react + 3 + next(more), cold + 1, WET)
     day.hold(react, cold, some.dry, "dry again")
@@ -388,14 +390,23 @@ PATIENCE = 3
 
 
 def drought(n: Mapping[str, float], seed: int = PAGE) -> Day:
-    """Return a day that leaves time for a long rest: dry all along, then wet, then hot and dry."""
+    """Return a day that leaves time for a long rest: dry all along, then wet, then hot and dry.
+
+    Both sensors are silent while the pump runs for the first time, and the thermometer while the
+    vent is open. The hot air cuts a run short, and it is cool again before that rest is over.
+    """
     day, some, react = Day(), air(n, seed), n["react_seconds"]
     pause = n["pump_seconds"] + PATIENCE * n["rest_seconds"] + 2 * react + 3
     day.hold(2 + next(_longer(seed)), some.cold, WET)
-    day.hold(pause, some.cold, some.dry, "dry")
+    silent = n["pump_seconds"] + react + 1
+    day.hold(react + 1, some.cold, some.dry, "dry")
+    day.hold(silent, None, None)
+    day.hold(pause - react - 1 - silent, some.cold, some.dry)
     day.hold(pause, some.cold, WET, "wet")
     day.hold(react, some.cold, some.dry, "dry again")
-    day.hold(n["pump_seconds"] + 6, some.hot, some.dry, "hot again")
+    day.hold(react + 1, some.hot, some.dry, "hot again")
+    day.hold(n["pump_seconds"] + 5 - react, None, some.dry)
+    day.hold(2 * react + 2, some.cold, some.dry)
     return day
 
 

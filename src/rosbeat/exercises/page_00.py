@@ -39,13 +39,18 @@ def draw_articles(draw: Draw) -> Seconds:
     return (*draw.shuffled(earlier), *pause, True, True, True)
 
 
+#: The article that the page shows. It comes as the last but one, among others.
+_SHOWN = "Sun all day"
+
+
+def _articles(topic: str, seconds: Seconds) -> list[str | None]:
+    texts = [f"{topic} {n}" if there else None for n, there in enumerate(seconds)]
+    return [*texts[:-2], _SHOWN, texts[-1]]
+
+
 def _run_among_reporters(answer: Answer, seconds: Seconds) -> Observation:
     reporters = [
-        feeder(
-            f"{topic}_reporter",
-            Wire(topic, _STRING),
-            [f"{topic} {n}" if there else None for n, there in enumerate(seconds)],
-        )
+        feeder(f"{topic}_reporter", Wire(topic, _STRING), _articles(topic, seconds))
         for topic in ("weather", "sports", "politics")
     ]
     return observe(answer, len(seconds) + 2, others=reporters)
@@ -58,6 +63,7 @@ def _judge_reader(observation: Observation, seconds: Seconds) -> Verdict:
         return (
             diagnose_length(observation, len(seconds) + 2)
             or _heard_at_other_times(observation, seconds)
+            or _read_one_text_only(observation, seconds)
             or passed(f"The reader got all {articles} articles on /weather and no others.")
         )
     unheard = None if heard else diagnose_unheard(observation, _WEATHER)
@@ -93,6 +99,16 @@ def _heard_at_other_times(observation: Observation, seconds: Seconds) -> Diagnos
         f"An article came at {first[0]:g} s, and the reader's callback ran at {first[1]:g} s.",
         "The callback runs when an article comes. What else calls it?",
     )
+
+
+def _read_one_text_only(observation: Observation, seconds: Seconds) -> Diagnosis | None:
+    """Name a reader that logs the page's article, and no other; it need not log anything."""
+    articles = [one for one in _articles("weather", seconds) if one]
+    if [one for one in articles if any(one in log.text for log in observation.logs)] != [_SHOWN]:
+        return None
+    evidence = f"Of {len(articles)} articles on /weather, the reader logged only {_SHOWN!r}."
+    hint = "The topic selects already: whatever comes on it is weather, with any text."
+    return Diagnosis("nothing-logged", evidence, hint)
 
 
 # 00b, report on sports. Nothing is fed to a reporter; drawn is how long it is watched.

@@ -224,8 +224,9 @@ class Work(NamedTuple):
 def draw_work(draw: Draw) -> Work:
     """Draw orders: one after another, two while two others wait, and one more while some wait.
 
-    A test for "no order" must not take the number 0 for none. Work begins at half a second past a
-    full one: so a node that counts halves is in time.
+    A test for "no order" must not take the number 0 for none. A number says nothing of which order
+    it is: one comes again while it waits, and one when it is done. Work begins at half a second
+    past a full one: so a node that counts halves is in time.
     """
 
     def tells_all(fed: Work) -> bool:
@@ -236,12 +237,13 @@ def draw_work(draw: Draw) -> Work:
 
 
 def _orders(draw: Draw) -> Work:
-    one, *others = (7, 12, 5, 9, 4) if draw.is_page else draw.shuffled(range(1, 100))[:5]
+    done, waits, other = (7, 12, 5) if draw.is_page else draw.shuffled(range(1, 100))[:3]
     first = draw.number(2.5, 2.5, 7.5, 1.0)
     second = first + draw.whole(7, 4, 12)
     third = second + draw.one_of(2.25, 0.25, 0.75, 1.25, 1.75)
     times = (first, second, second, third, third, second + 7.25)
-    return Work(tuple(zip(times, (one, 0, *others), strict=True)), second + 19.5)
+    numbers = (done, 0, waits, waits, other, done)
+    return Work(tuple(zip(times, numbers, strict=True)), second + 19.5)
 
 
 def _run_with_orders(answer: Answer, fed: Work) -> Observation:
@@ -304,9 +306,11 @@ def _work_between(begin: float, end: float, fed: Work) -> str:
 
 def _by_report(reports: Reports, fed: Work) -> Track:
     """Return each report's number, and the seconds from when the order could begin."""
-    came, free, found = {number: at for at, number in fed.orders}, 0.0, {}
+    came, free, found = grouped((number, at) for at, number in fed.orders), 0.0, {}
     for place, (at, number) in enumerate(reports):
-        found[place] = (number, at - max(free, came.get(number, 0.0)))
+        times = came.get(number, (0.0,))
+        came[number] = times[1:] or times  # of equal numbers, the first that is not yet done
+        found[place] = (number, at - max(free, times[0]))
         free = at
     return found
 
@@ -359,6 +363,13 @@ def _started_by_orders(fed: Work) -> Track:
     return _by_report(reports, fed)
 
 
+def _each_number_once(fed: Work) -> Track:
+    """Return the reports of a worker to whom a number that came before is the same order."""
+    numbers = [number for _, number in fed.orders]
+    new = tuple(one for at, one in enumerate(fed.orders) if one[1] not in numbers[:at])
+    return _worker()(fed._replace(orders=new))
+
+
 def _free_running(fed: Work) -> Track:
     """Return the reports of a timer that runs from the beginning."""
     reports, waiting = [], list(fed.orders)
@@ -392,6 +403,9 @@ WORK_SUSPECTS = suspects(
      _worker(put=lambda waiting, order: waiting.__setitem__(slice(None), [order]))),
     ("order-lost", "A waiting order begins only when another one comes. When an order is done, "
      "check whether another is waiting.", _started_by_orders),
+    ("order-lost", "Two orders may have the same number, and each of them is to be done.",
+     _each_number_once,
+     _worker(put=lambda waiting, order: order in waiting or waiting.append(order))),
     ("order-lost", f"No order could wait. {_WAITS}", _worker(_keep(1))),
     ("order-lost", f"Only one order could wait. {_WAITS}", _worker(_keep(2))),
     ("order-lost", f"Only two orders could wait. {_WAITS}", _worker(_keep(3))),
@@ -435,8 +449,7 @@ def _wrong_reports(observation: Observation, fed: Work) -> Diagnosis | None:
     place = mismatch.at
     evidence = f"No order was due after {len(fed.orders)} reports"
     if mismatch.right:
-        order = mismatch.right[0]
-        at = next(at for at, number in fed.orders if number == order)
+        at, order = fed.orders[place]
         begin = max(at, reports[place - 1][0]) if 0 < place <= len(reports) else at
         evidence = f"Order {order} could begin at {begin:g} s and was due {WORK:g} s later"
     said = f"it was not done by {observation.time:g} s"
@@ -457,15 +470,17 @@ def _first_report(mismatch: Mismatch, reports: Track, evidence: str, fed: Work) 
     """Name a mistake by its first report alone: several at once have too many models."""
     done, right = mismatch.done, mismatch.right
     numbers = [number for number, _ in reports.values()]
-    if done and (done[0] not in [number for _, number in fed.orders] or done[1] < 0):
+    ordered = [number for _, number in fed.orders]
+    is_early, again = done and done[1] < 0, done and done[0] in numbers[: mismatch.at]
+    if done and (done[0] not in ordered or (is_early and not again)):
         return Diagnosis("wrong-values", evidence, "What was ordered is what gets done.")
     before = reports.get(mismatch.at - 1)
     if done and before and done[1] == 0 and done[0] != before[0]:
         return Diagnosis("work-at-once", evidence, _ONE_AT_A_TIME)
-    if done and numbers.count(done[0]) > 1:
+    if done and (is_early or numbers.count(done[0]) > ordered.count(done[0])):
         hint = "A timer calls again and again until it is stopped."
         return Diagnosis("done-twice", evidence, hint)
-    if right[0] not in numbers:
+    if numbers.count(right[0]) < ordered.count(right[0]):
         return Diagnosis("order-lost", evidence, _WAITS)
     if done[0] != right[0]:
         return Diagnosis("order-swapped", evidence, _FIRST_COME)

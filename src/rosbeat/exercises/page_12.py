@@ -152,7 +152,10 @@ def _requests(
 
 
 def draw_service(draw: Draw) -> _Requests:
-    """Draw thresholds within their range, at its ends and beyond, and readings around them."""
+    """Draw thresholds within their range, at its ends and beyond, and readings around them.
+
+    One that is kept already is asked for again, and one that was refused.
+    """
 
     def asked() -> Iterable[_Asked]:
         one, last = draw.number(24.0, 20.25, 25.5, 0.25), draw.whole(22, 13, 37) + 0.5
@@ -160,9 +163,11 @@ def draw_service(draw: Draw) -> _Requests:
         groups = (
             (
                 ({"high": one}, (one + 1, one, one - 1)),
+                ({"high": one}, (one - 1, one + 1)),
                 *draw.shuffled(
                     (
                         ({"high": far}, (one + 1, one - 1)),
+                        ({"high": far}, (one - 1, one + 1)),
                         ({"high": nan}, (one + 1, one - 1)),
                         ({"high": below}, (one - 1, one + 1)),
                     )
@@ -190,7 +195,10 @@ def draw_service(draw: Draw) -> _Requests:
 
 
 def draw_parameters(draw: Draw) -> _Requests:
-    """Draw limits, one or both at once, in the right order or not, and readings around them."""
+    """Draw limits, one or both at once, in the right order or not, and readings around them.
+
+    One that is kept already is asked for again, and one that was refused.
+    """
 
     def asked() -> Iterable[_Asked]:
         low, high = draw.number(22.0, 21.25, 22.75, 0.25), draw.number(24.0, 23.25, 24.75, 0.25)
@@ -214,10 +222,12 @@ def draw_parameters(draw: Draw) -> _Requests:
         return (
             ({}, (25.0, 26.5, 19.5)),
             ({"high": high}, (25.0, 23.0, 19.5)),
+            ({"high": high}, (23.0, 25.0)),
             *draw.shuffled(
                 (
                     ({"high": draw.number(19.0, 12.0, 19.75)}, (22.0, 25.0, 19.5)),
                     ({"high": 20.0}, (22.0, 25.0)),
+                    ({"high": 20.0}, (25.0, 22.0)),
                     ({"low": high + 0.5}, (high + 0.25, 22.0, 19.5)),
                     ({"low": high}, (23.0, 25.0)),
                 )
@@ -344,7 +354,8 @@ MONITORS = (
     ),
     _suspect(
         "good-value-refused",
-        "Which of your conditions is true for this value? Are the limits themselves fine?",
+        "Which of your conditions is true for this value? Are the limits themselves fine, and a "
+        "value that is kept already?",
         lambda one: one.is_good and len(one.values) == 1,
         lambda one: _reaction(one, False),
     ),

@@ -417,12 +417,16 @@ def _judge_vent_alone(trials: Trials, seed: int) -> Verdict:
 
 def _judge_pump(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R2: the pump runs for so long, rests for so long, and only when it is dry."""
-    n, day = days.numbers, days.plain
-    spans = [one for one in _spans(trials.plain, "/pump") if one[0] < day.marks["both"]]
+    n, day, both = days.numbers, days.plain, days.plain.marks["both"]
+    runs, drought = _spans(trials.plain, "/pump"), _spans(trials.runs[DROUGHT], "/pump")
+    spans = [one for one in runs if one[0] < both]
     return (
         _silent(trials.plain, "/pump")
         or _wrong_start(spans, day.marks, n)
-        or _wrong_duration(spans, n)
+        or _wrong_duration(runs, n, both)
+        or _wrong_duration(
+            drought, n, days.drought.marks["dry again"], "On a dry day with silent sensors, the"
+        )
         or (None if len(spans) > 1 else _stopped_for_good(trials, days))
         or _started_in_the_wet(spans, day.marks["wet"] + n["react_seconds"])
     )
@@ -445,16 +449,19 @@ def _wrong_start(
     return Diagnosis("wrong-state", evidence, "Which reading starts it, and what is its value?")
 
 
-def _wrong_duration(spans: _Spans, n: Mapping[str, float]) -> Diagnosis | None:
+def _wrong_duration(
+    spans: _Spans, n: Mapping[str, float], cut: float, lead: str = "The"
+) -> Diagnosis | None:
+    """Name a run that is too short or too long, or a rest; runs may be cut short from a time on."""
     wanted, rest = n["pump_seconds"], n["rest_seconds"]
     for begin, until in spans:
-        if abs(until - begin - wanted) > 1 + _EPS:
-            evidence = f"The pump ran from {_stamp(begin)} to {_stamp(until)}, which is "
+        if begin < cut and abs(until - begin - wanted) > 1 + _EPS:
+            evidence = f"{lead} pump ran from {_stamp(begin)} to {_stamp(until)}, which is "
             hint = f"It should run for {wanted:g} s. What switches it off, and when?"
             return Diagnosis("wrong-duration", f"{evidence}{_stamp(until - begin)}.", hint)
     for (_, off), (begin, _) in pairwise(spans):
         if begin - off < rest - _EPS:
-            evidence = f"The pump stopped at {_stamp(off)} and ran again at {_stamp(begin)}."
+            evidence = f"{lead} pump stopped at {_stamp(off)} and ran again at {_stamp(begin)}."
             hint = f"It has to rest for {rest:g} s, counted from when it stops."
             return Diagnosis("rest-too-short", evidence, hint)
     return None
@@ -498,7 +505,8 @@ def _judge_interlock(trials: Trials, days: Weather) -> Diagnosis | None:
         hint = "Let the vent work first; then this can be tried."
         return Diagnosis("never-switched-on", evidence, hint)
     due = marks["cool and dry"]
-    if any(due <= begin <= due + 2 * react + 1 + _EPS for begin, _ in pump):
+    # A vent without hysteresis is closed earlier: that is another matter.
+    if any(min(due, vent[0][1]) <= begin <= due + 2 * react + 1 + _EPS for begin, _ in pump):
         # A pump with a long rest has not yet run again when it becomes hot on a plain day.
         hot = days.drought.marks["hot again"]
         late = _vent_and_pump(trials.runs[DROUGHT], hot)
