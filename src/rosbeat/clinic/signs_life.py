@@ -173,7 +173,7 @@ def _off_rate(chart: Chart) -> Iterator[tuple[str, ...]]:
 def _against_rate(chart: Chart, place: str) -> str:
     talks = [one for one in chart.talks if place in (one.node, one.topic) and one.gap]
     if not talks:
-        return f"{place} publishes no messages, so their rate cannot be wrong"
+        return f"{place} publishes no messages, so it has no rate to check"
     return listing(_paced(chart, talk) for talk in talks)
 
 
