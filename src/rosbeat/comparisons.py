@@ -171,8 +171,8 @@ def _run(source: object) -> tuple[Sequence[Sample], set[str]]:
         return source, {one.topic for one in source}
     raise BagError(
         f"{type(source).__name__!r} is not a run.",
-        "Two runs can be compared: recordings, sessions, what they observed, or their messages.",
-        'Write for example `compare(bag, ros, "temperature")`.',
+        "A run is a recording, a session, a session's observation, or a list of messages.",
+        'For example, write `compare(bag, ros, "temperature")`.',
     )
 
 

@@ -209,10 +209,10 @@ def _call_error(
         if one.default is Parameter.empty and one.name not in named
     ]
     unknown = [one for one in named if one not in known]
-    tips = [f"Write for example `{example}`."]
+    tips = [f"For example, write `{example}`."]
     if len(values) > len(by_place) and len(known) == len(takes):
         given = f"{len(values)} positional argument{'s' if len(values) > 1 else ''}"
-        what = f"`{name}` was given {given}, and takes {len(by_place) or 'none'}."
+        what = f"`{name}` was given {given}, but takes {len(by_place) or 'none'}."
         tips = _decimal_point(by_place, values) + tips
     elif unknown:
         what = f"`{name}` has no argument `{unknown[0]}`."
@@ -244,7 +244,7 @@ def _arguments(takes: Sequence[Parameter]) -> str:
         told.append(f"{_listed(optional)} {_be(optional)} optional.")
     if by_name:
         told.append(
-            f"{_listed(by_name)} {_be(by_name)} optional, and {_be(by_name)} given by name."
+            f"{_listed(by_name)} {_be(by_name)} optional, and {_be(by_name)} passed by name."
         )
     return " ".join(told) or "It takes no arguments."
 
@@ -254,7 +254,7 @@ def _decimal_point(takes: Sequence[Parameter], values: Sequence[object]) -> list
     for one, whole, part in zip(takes, values, values[1:], strict=False):
         numbers = type(whole) is int and type(part) is int and part >= 0
         if numbers and ("float" in str(one.annotation) or one.annotation == "object"):
-            return [f"If you mean one number, write a decimal point: `{whole}.{part}`."]
+            return [f"If you mean one number, write it with a decimal point: `{whole}.{part}`."]
     return []
 
 

@@ -53,7 +53,7 @@ def _explained(shell: InteractiveShell, error: NameError, trace: TracebackType) 
     known = [one for one in shell.user_ns if not one.startswith("_")]
     near = get_close_matches(name, known, 1)
     run = "Run, Run All Above Selected Cell in the menu."
-    to_try = f"Choose {run} If that does not help, check the spelling."
+    to_try = f"Choose {run} If that doesn't help, check the spelling."
     if near:
         to_try = f"Did you mean `{near[0]}`? If not, choose {run}"
     return [

@@ -85,7 +85,7 @@ def test_an_exception_in_the_work_aborts_its_goal_and_the_node_goes_on(ros, caps
     assert (fault.node, fault.callback, fault.kind) == ("/heater", "heat", "ZeroDivisionError")
     assert fault.code == "return [] if goal.request.order == 1 / 0 else None"
     said = capsys.readouterr()
-    assert "gave a goal up" in said.err
+    assert "aborted a goal" in said.err
     assert "Traceback" not in said.err
     before = server.tick
     ros.run(1)
@@ -214,7 +214,7 @@ def test_a_goal_that_nobody_takes_is_explained(ros, says):
     assert ros.time == 2
     with pytest.raises(SessionError) as caught:
         client.send_goal(Fibonacci.Goal())
-    says(caught.value, "Nobody has answered send_goal for the action /heat")
+    says(caught.value, "No action server has responded to send_goal for the action /heat")
 
 
 def test_wait_for_server_does_not_wait_for_one_that_is_there(ros, pair):

@@ -6,13 +6,25 @@ import pytest
 
 import rosbeat
 from nodes import Talker
-from rosbeat import Session, bags, check, clinic, errors, hint, predict, progress, viz, workspace
+from rosbeat import (
+    Session,
+    bags,
+    check,
+    clinic,
+    errors,
+    hint,
+    predict,
+    progress,
+    quiz,
+    viz,
+    workspace,
+)
 from rosbeat.errors import CallError, PictureError, called_as
 
 CALLS = [
     ("ros.run()", "was called without `seconds`", "ros.run(seconds=60)"),
-    ("ros.run(0,5)", "was given 2 positional arguments, and takes 1", "`0.5`"),
-    ("ros.run(5, True)", "was given 2 positional arguments, and takes 1", "ros.run(seconds=60)"),
+    ("ros.run(0,5)", "was given 2 positional arguments, but takes 1", "`0.5`"),
+    ("ros.run(5, True)", "was given 2 positional arguments, but takes 1", "ros.run(seconds=60)"),
     ("ros.run(second=5)", "has no argument `second`", "Did you mean `seconds`?"),
     ("ros.run(5, seconds=5)", "was given `seconds` twice", "ros.run(seconds=60)"),
     ("ros.add(Talker, nam='a')", "has no argument `nam`", "Did you mean `name`?"),
@@ -25,19 +37,20 @@ CALLS = [
     ("ros.resume()", "was called without `node`", "ros.resume("),
     ("ros.remove()", "was called without `node`", "ros.remove("),
     ("ros.spawn()", "was called without `program`", "ros.spawn("),
-    ("ros.start(5)", "was given 1 positional argument, and takes none", "ros.start()"),
-    ("ros.stop(5)", "was given 1 positional argument, and takes none", "ros.stop()"),
-    ("ros.wait(1, 2, 3)", "was given 3 positional arguments, and takes 1", "ros.wait("),
+    ("ros.start(5)", "was given 1 positional argument, but takes none", "ros.start()"),
+    ("ros.stop(5)", "was given 1 positional argument, but takes none", "ros.stop()"),
+    ("ros.wait(1, 2, 3)", "was given 3 positional arguments, but takes 1", "ros.wait("),
     ("ros.wait_for_nodes(names='a')", "has no argument `names`", "ros.wait_for_nodes("),
     ("ros.close(1)", "was given 1 positional argument", "ros.close()"),
     ("ros.graph(1)", "was given 1 positional argument", "ros.graph()"),
     ("ros.observation(1)", "was given 1 positional argument", "ros.observation()"),
     ("ros.panel(1)", "was given 1 positional argument", "ros.panel()"),
-    ("Session(7)", "was given 1 positional argument, and takes none", "Session(seed=7)"),
+    ("Session(7)", "was given 1 positional argument, but takes none", "Session(seed=7)"),
     ("Session(sead=7)", "has no argument `sead`", "Did you mean `seed`?"),
-    ("check('03a', 1, 2)", "was given 3 positional arguments, and takes 2", 'check("03a", '),
-    ("hint('03a', 2)", "was given 2 positional arguments, and takes 1", 'hint("03a")'),
-    ("progress('00')", "was given 1 positional argument, and takes none", "progress()"),
+    ("check('03a', 1, 2)", "was given 3 positional arguments, but takes 2", 'check("03a", '),
+    ("hint('03a', 2)", "was given 2 positional arguments, but takes 1", 'hint("03a")'),
+    ("progress('00')", "was given 1 positional argument, but takes none", "progress()"),
+    ("quiz(number=1)", "has no argument `number`", 'quiz("03", '),
     ("predict()", "was called without `guess` and `happened`", 'predict("20-30", reading)'),
     ("predict('1')", "was called without `happened`", 'predict("20-30", reading)'),
     ("predict('1', actual=1)", "has no argument `actual`", "predict("),
@@ -70,7 +83,7 @@ CALLS = [
 ]
 PAGE = {
     **{"Session": Session, "bags": bags, "check": check, "clinic": clinic, "hint": hint},
-    **{"predict": predict, "progress": progress, "viz": viz, "workspace": workspace},
+    **{"predict": predict, "progress": progress, "quiz": quiz, "viz": viz, "workspace": workspace},
     "Talker": Talker,
 }
 
@@ -108,7 +121,7 @@ def test_the_second_part_lists_the_arguments():
     assert told.value.means == ("It needs `source`. `highlight` and `infrastructure` are optional.")
     with pytest.raises(CallError) as told:
         Session().run()
-    assert told.value.means == ("It needs `seconds`. `quiet` is optional, and is given by name.")
+    assert told.value.means == ("It needs `seconds`. `quiet` is optional, and is passed by name.")
     with pytest.raises(CallError) as told:
         progress("00")
     assert told.value.means == "It takes no arguments."

@@ -57,7 +57,7 @@ def test_all_is_well(domain, capsys):
 
 def test_nobody_publishes_and_the_near_name(domain, capsys):
     assert explain("cuont", "--domain-id", domain, "--seconds", 20) == cli.FAILED
-    assert "Nobody publishes on /cuont" in capsys.readouterr().out
+    assert "No node publishes on /cuont" in capsys.readouterr().out
     assert explain("counts", "--domain-id", domain) == cli.FAILED
     assert "Did you mean /count?" in capsys.readouterr().out
 
@@ -65,14 +65,14 @@ def test_nobody_publishes_and_the_near_name(domain, capsys):
 def test_qualities_of_both_ends(domain, capsys):
     assert explain("weak", "--domain-id", domain, "--seconds", 20) == cli.FAILED
     said = capsys.readouterr().out
-    assert "/weak offers BEST_EFFORT, and /strong asks for RELIABLE" in " ".join(said.split())
+    assert "/weak offers BEST_EFFORT, but /strong requests RELIABLE" in " ".join(said.split())
     assert "/weak publishes Int32 (BEST_EFFORT, VOLATILE)" in said
 
 
 def test_the_domain_of_the_terminal(domain, capsys, monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     assert explain("nothing_like_it") == cli.FAILED
-    assert "Topics that are used: /count" in capsys.readouterr().out
+    assert "Topics in use: /count" in capsys.readouterr().out
 
 
 def test_another_domain(empty, capsys):

@@ -76,7 +76,7 @@ def test_a_publisher_that_was_removed(ros):
     ros.add(Listener)
     ros.run(3)
     ros.remove("talker")
-    assert "/talker did until 3 s" in ros.explain("count").diagnoses[0].evidence
+    assert "/talker published until 3 s" in ros.explain("count").diagnoses[0].evidence
 
 
 def test_a_misspelt_name(ros):
@@ -94,8 +94,8 @@ def test_qualities_that_do_not_fit(ros):
     ros.run(3)
     assert verdicts(ros) == ["qos-mismatch", "qos-mismatch"]
     assert ros.explain("count").headlines == (
-        "the reliability of /talker and /listener does not fit",
-        "reliability and durability of /talker and /latched do not fit",
+        "the reliability of /talker and /listener is incompatible",
+        "reliability and durability of /talker and /latched are incompatible",
     )
 
 
@@ -233,7 +233,7 @@ def test_live_a_callback_that_does_not_return(eventually):
         found = ros.explain("count")
         stop.append(True)
     assert found.verdict == "callback-blocks"
-    assert "act has begun and not ended" in found.diagnoses[0].evidence
+    assert "act has started but not returned" in found.diagnoses[0].evidence
     assert len(found.diagnoses) == 1
 
 
@@ -269,7 +269,7 @@ def test_after_the_end(says):
     ros.close()
     with pytest.raises(ClosedSessionError) as caught:
         ros.explain("count")
-    says(caught.value, "has ended")
+    says(caught.value, "is closed")
 
 
 def test_a_node_on_two_sides_of_one_topic(ros):

@@ -77,7 +77,7 @@ def test_own_messages_are_not_taken_for_theirs(joined, eventually):
     joined.start()
     found = joined.explain("hush", seconds=1)
     assert verdicts(found) == ["not-spun"]
-    assert "/quiet publishes Int32 (RELIABLE, VOLATILE): nothing" in " ".join(found.sentences)
+    assert "/quiet publishes Int32 (RELIABLE, VOLATILE): no messages" in " ".join(found.sentences)
 
 
 def test_nothing_is_left_behind(joined, eventually):

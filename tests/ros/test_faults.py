@@ -73,7 +73,7 @@ def test_a_fault_in_a_timer_and_the_node_made_again(ros, capsys):
     (fault,) = ros.observation().faults
     assert (fault.kind, fault.text, fault.callback) == ("KeyError", "'missing'", "act")
     assert "{}" in fault.code
-    with pytest.raises(SessionError, match="cannot go on"):
+    with pytest.raises(SessionError, match="cannot be resumed"):
         ros.resume("doer")
     done = []
     ros.add(partial(Doer, done.append))
@@ -201,7 +201,9 @@ def test_an_error_that_misleads_is_translated(ros, capsys):
     ros.add(partial(Doer, do))
     ros.run(1)
     shown = capsys.readouterr().err
-    assert "What it means: In the place of the message type stands the type float" in shown
+    assert (
+        "What it means: The message type is missing: this call got the type float instead." in shown
+    )
     assert "ends its node" in shown
     assert "Then run the cell that adds the node again." in shown
 
@@ -214,7 +216,7 @@ def test_an_error_that_nobody_knows_is_left_as_it_is(ros, capsys):
     ros.run(1)
     shown = capsys.readouterr().err
     assert "ValueError: one, at /two\nthree\n" in shown
-    assert "What it means: an exception that leaves a callback" in shown
+    assert "What it means: an uncaught exception in a callback" in shown
 
 
 def test_the_line_is_the_one_that_calls_the_callback_too_early():

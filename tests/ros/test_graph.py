@@ -186,11 +186,11 @@ def test_a_node_that_does_not_come_gets_three_parts(joined, says):
     with pytest.raises(SessionError) as caught:
         joined.wait_for_nodes("talker", "talkr", timeout=0.5)
     assert time.monotonic() - begin >= 0.5
-    says(caught.value, "/talkr is not there after 0.5 s", "/listener, /server, /talker")
+    says(caught.value, "/talkr is not in the graph after 0.5 s", "/listener, /server, /talker")
     assert caught.value.to_try == "Did you mean /talker?"
     with pytest.raises(SessionError) as caught:
         joined.wait_for_nodes("zebra", "lion", timeout=0)
-    says(caught.value, "/zebra, /lion are not there", "in a terminal")
+    says(caught.value, "/zebra, /lion are not in the graph", "in a terminal")
 
 
 def test_waiting_in_an_empty_domain(says):
@@ -208,7 +208,7 @@ def test_waiting_in_an_empty_domain(says):
 def test_waiting_is_refused_where_nobody_can_come(ros, says):
     with pytest.raises(SessionError) as caught:
         ros.wait_for_nodes("talker")
-    says(caught.value, "domain to itself", "ROS_DOMAIN_ID")
+    says(caught.value, "private ROS domain", "ROS_DOMAIN_ID")
 
 
 def test_what_is_asked_for_is_checked(joined, says, capsys):
@@ -227,7 +227,7 @@ def test_what_is_asked_for_is_checked(joined, says, capsys):
 def test_a_topic_that_only_others_use_is_explained(joined, says):
     with pytest.raises(UnknownTopicError) as caught:
         joined.messages("count")
-    says(caught.value, "/talker publishes there, in another process", "ros.add")
+    says(caught.value, "/talker publishes on it, in another process", "ros.add")
 
 
 # The hidden node through which a session sees other processes.

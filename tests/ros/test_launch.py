@@ -78,7 +78,7 @@ def test_what_cannot_be_a_name_or_a_value_is_refused(start, says):
 
 
 def test_a_name_that_ros_does_not_allow_is_an_error_of_the_constructor():
-    with Session() as ros, pytest.raises(SessionError, match="could not be made"):
+    with Session() as ros, pytest.raises(SessionError, match="could not be created"):
         ros.add(Talker, name="my sensor")
 
 
@@ -87,7 +87,7 @@ def test_a_node_that_exists_cannot_be_renamed(says):
         node = ros.add(Talker)
         with pytest.raises(SessionError) as caught:
             ros.add(node, name="other")
-        says(caught.value, "made already", "without brackets")
+        says(caught.value, "already exists", "without parentheses")
 
 
 def test_arguments_are_those_of_the_command_line():

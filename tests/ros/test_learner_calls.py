@@ -57,14 +57,14 @@ def main(kind, args=None):
 def test_init_in_a_session_has_nothing_to_do(ros, capsys):
     rclpy.init()
     rclpy.init(args=["--ros-args"])
-    assert capsys.readouterr().out.count("rclpy.init() has nothing to do here") == 2
+    assert capsys.readouterr().out.count("rclpy.init() has no effect here") == 2
     assert rclpy.ok()
 
 
 def test_shutdown_in_a_session_leaves_it_open(ros, capsys):
     rclpy.shutdown()
     rclpy.try_shutdown()
-    assert "leaves this session open" in capsys.readouterr().out
+    assert "does not close this session" in capsys.readouterr().out
     assert rclpy.ok()
     ticker = ros.add(partial(Ticker, 1.0))
     ros.run(2)
@@ -78,7 +78,7 @@ def test_shutdown_in_a_callback_ends_that_node(ros, capsys):
     assert "/doer called rclpy.shutdown() and stops" in capsys.readouterr().out
     assert len([run for run in ros.observation().callbacks if run.node == "/doer"]) == 1
     assert len(ticker.fired) == 5
-    with pytest.raises(SessionError, match="cannot go on"):
+    with pytest.raises(SessionError, match="cannot be resumed"):
         ros.resume(doer)
 
 
@@ -130,9 +130,9 @@ def test_main_in_a_session(ros, capsys, interrupt):
     interrupt(0.4)
     main(partial(Speaker, period=0.02))
     lines = capsys.readouterr().out.splitlines()
-    assert "rclpy.init() has nothing to do here" in lines[0]
+    assert "rclpy.init() has no effect here" in lines[0]
     assert "here is speaker" in lines[2]
-    assert "leaves this session open" in lines[-1]
+    assert "does not close this session" in lines[-1]
     assert ros.nodes == ()
     ros.add(Talker)
     ros.run(1)

@@ -335,7 +335,7 @@ def test_a_private_session_says_that_it_does_not_record_others(ros):
         assert ros.wait(20, until=lambda: listener.heard)
         with pytest.raises(UnknownTopicError, match="No node of this session") as caught:
             ros.messages("count")
-        assert "Another process publishes there" in caught.value.means
+        assert "Another process publishes on it" in caught.value.means
 
 
 def test_another_process_hears_and_is_heard(ros):

@@ -237,7 +237,7 @@ def test_a_deadlock_says_who_waits_for_what_and_the_others_go_on(ros, capsys):
     assert (fault.node, fault.callback, fault.kind) == ("/asker", "ask", "DeadlockError")
     assert fault.code == "answer = self.client.call(Trigger.Request(), self.timeout)"
     err = capsys.readouterr().err
-    assert "/asker waits in `ask` for an answer from /ask: for ever." in err
+    assert "/asker waits in `ask` for a response from /ask, forever." in err
     assert "a deadlock, on a real robot too" in err
     assert times(ros, "beat") == [0.5]
     assert times(ros, "other")[-1] == 3
@@ -264,7 +264,7 @@ def test_two_that_wait_for_each_other(ros, capsys):
     ros.add(lambda: Friend("other", "one"), threads=2)
     ros.run(10)
     (fault,) = ros.observation().faults
-    assert "/one waits in `ask` for an answer from /other; /other waits in `ask`" in fault.text
+    assert "/one waits in `ask` for a response from /other; /other waits in `ask`" in fault.text
     capsys.readouterr()
 
 
@@ -281,7 +281,7 @@ def test_a_constructor_that_waits_for_ever_says_so(ros, says):
 
     with pytest.raises(NodeConstructionError) as caught:
         ros.add(Patient)
-    says(caught.value, "still waits after 600 s of virtual time", "ros.spawn")
+    says(caught.value, "is still waiting after 600 s of virtual time", "ros.spawn")
     assert ros.nodes == ()
     ros.add(Server)
     ros.add(Patient)
@@ -354,7 +354,7 @@ def test_threads_have_to_be_a_number(ros, says, threads):
 def test_add_needs_a_node_and_one_name_for_each(ros, says):
     with pytest.raises(SessionError) as caught:
         ros.add()
-    says(caught.value, "was given no node")
+    says(caught.value, "was called without a node")
     with pytest.raises(SessionError) as caught:
         ros.add(Beat, Sleeper, name="both")
     says(caught.value, "both")

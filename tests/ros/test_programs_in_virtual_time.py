@@ -361,7 +361,7 @@ def test_a_program_that_spins_in_a_thread_is_refused(ros, program, monkeypatch, 
     assert not ros.is_live
     assert threaded.returncode == 1
     assert capsys.readouterr().err == threaded.stderr
-    assert "SessionError: program spins in a thread of its own." in threaded.stderr
+    assert "SessionError: program spins its node in a separate thread." in threaded.stderr
     assert "What it means:" in threaded.stderr
     assert "What to try:" in threaded.stderr
     (fault,) = ros.observation().faults
@@ -488,7 +488,7 @@ def test_what_is_no_program(ros, says, target):
 def test_a_file_that_is_no_python_file(ros, program, says, name):
     with pytest.raises(SessionError) as caught:
         ros.spawn(program("def main():\n    pass", name))
-    says(caught.value, "no Python file")
+    says(caught.value, "not a Python file")
 
 
 def test_arguments_are_texts_and_signals_are_known(ros, says, program):

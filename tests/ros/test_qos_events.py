@@ -812,6 +812,6 @@ def test_explain_names_a_deadline_that_does_not_fit(ros):
     heart.beat(1)
     ros.run(2)
     said = str(ros.explain(TOPIC))
-    assert "deadline of /heart and /nurse does not fit" in said
+    assert "deadline of /heart and /nurse is incompatible" in said
     assert "offers a deadline of 2 s" in said
     assert "lifespan 1.2 s" in said

@@ -64,7 +64,7 @@ def test_call_without_a_server(ros, says):
     assert ros.time == 2
     with pytest.raises(SessionError) as caught:
         client.call(Trigger.Request())
-    says(caught.value, "Nobody has answered the call to /nothing")
+    says(caught.value, "No node has responded to the call of /nothing")
 
 
 def test_call_in_a_callback_is_explained(ros, capsys):
@@ -95,7 +95,7 @@ def test_a_constructor_that_calls_is_explained(ros, says):
 
     with pytest.raises(NodeConstructionError) as caught:
         ros.add(Curious)
-    says(caught.value, "/curious asks /ask before it runs itself")
+    says(caught.value, "/curious calls /ask before the node itself runs")
     assert server.asked == 0
 
 

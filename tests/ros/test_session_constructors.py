@@ -142,7 +142,7 @@ def test_a_message_in_the_place_of_its_class_is_refused(ros, says):
 
     with pytest.raises(NodeConstructionError) as caught:
         ros.add(Confused)
-    says(caught.value, "not the class String", "Hand over the class itself")
+    says(caught.value, "instead of the class String", "Pass the class itself")
     assert names(ros) == []
 
 
@@ -165,7 +165,7 @@ def test_an_error_that_misleads_is_translated(ros, says):
 
     with pytest.raises(NodeConstructionError) as caught:
         ros.add(Swapped)
-    says(caught.value, "create_publisher got a text in the place of the message type")
+    says(caught.value, "create_publisher got a string instead of the message type")
     assert "Invoked with" not in str(caught.value)
 
 
@@ -189,7 +189,7 @@ def test_a_second_type_on_a_topic_is_refused_and_nothing_is_on_stderr(ros, says,
     says(
         caught.value,
         "existing topic name rt/count with incompatible type std_msgs::msg::dds_::String_",
-        "The topic exists already, with another message type.",
+        "The topic already exists with another message type.",
     )
     assert capfd.readouterr().err == ""
 

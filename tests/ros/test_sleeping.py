@@ -146,7 +146,7 @@ def test_a_session_goes_live_only_when_nothing_sleeps_in_virtual_time(ros, says)
     ros.run(2)
     with pytest.raises(SessionError) as caught:
         ros.start()
-    says(caught.value, "`work` of /worker still waits")
+    says(caught.value, "`work` of /worker is still waiting")
     ros.run(3)
     ros.start()
     ros.stop()

@@ -133,7 +133,11 @@ def test_a_real_ros2cli_takes_over(ros2, tmp_path):
         ("pkg list >&-", 0, ""),
         ("nosuch 2>&-", 2, ""),
         ("pkg list >/dev/full", 1, "ros2: No space left on device\n"),
-        ("pkg create --build-type ament_python p", 1, "The folder that this terminal is in"),
+        (
+            "pkg create --build-type ament_python p",
+            1,
+            "This terminal's current folder no longer exists",
+        ),
     ],
 )
 def test_streams_and_folders_that_are_gone(ros2, tmp_path, tail, code, said):

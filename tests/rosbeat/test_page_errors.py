@@ -39,7 +39,7 @@ def test_a_name_of_an_earlier_cell_says_which_cells_to_run(cell):
         "NameError: name 'HumiditySensor' is not defined\n"
         "  What it means: No cell that has run since the kernel started defines "
         "`HumiditySensor`.\n"
-        f"  What to try:   C{ABOVE} If that does not help, check the spelling."
+        f"  What to try:   C{ABOVE} If that doesn't help, check the spelling."
     )
     assert told.count("NameError: name") == 1
 

@@ -178,7 +178,8 @@ class Graph:
         seen, there = len(self._processes()[0]), count_participants(domain_id())
         missing = f"{there - seen} of {there} ROS processes on this machine have not answered yet"
         return (
-            f"Waiting for a complete answer: {missing if seen < there else 'news still comes in'}."
+            "Waiting for a complete answer: "
+            f"{missing if seen < there else 'new nodes are still being discovered'}."
         )
 
     def _look(self) -> object:
@@ -316,9 +317,10 @@ def _check_domain() -> None:
     if text and not (text.isascii() and text.isdecimal() and int(text) <= 232):
         raise CommandError(
             f"ROS_DOMAIN_ID is {text!r}, which is not a domain id.",
-            "It says which processes can see each other, and is a number from 0 to 101 "
-            "(up to 232 on some systems).",
-            "Set another one (export ROS_DOMAIN_ID=0), or remove it (unset ROS_DOMAIN_ID).",
+            "ROS_DOMAIN_ID determines which processes discover each other; it is a number from 0 "
+            "to 101 (up to 232 on some systems).",
+            "Set a valid id (export ROS_DOMAIN_ID=0), or remove the variable (unset "
+            "ROS_DOMAIN_ID).",
         )
 
 

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from ros2_command.graph import Graph
 
 NOBODY = (
-    "No node that can be seen from here has it. Is the node running? Is ROS_DOMAIN_ID the same?"
+    "Nothing with that name is visible from this terminal. Is the node running? Is ROS_DOMAIN_ID "
+    "the same?"
 )
 Entries = list[tuple[str, list[str]]]
 _EXAMPLES = {
@@ -170,7 +171,7 @@ def topic_class(typed: str, type_name: str | None, graph: Graph) -> Untyped:
             raise CommandError(
                 f"Cannot echo topic '{typed}', as it contains more than one type: "
                 f"{show_types(types)}",
-                "Say which one you want, after the topic.",
+                "Give the type that you want after the topic.",
             )
         type_name = types[0]
     found = message_class(type_name)
@@ -221,7 +222,7 @@ def wait_for_server(
         others = [one for one in found[name] if one != asked]
         raise CommandError(
             f"The {what} '{name}' has the type {show_types(others)}, not {asked}",
-            "With another type there is never an answer.",
+            "A request with another type is never answered.",
         )
-    print(f"Nobody offers '{name}'. {suggestion(name, found)}", file=sys.stderr)
+    print(f"No node offers '{name}'. {suggestion(name, found)}", file=sys.stderr)
     graph.spin_until(ready)

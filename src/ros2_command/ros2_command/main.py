@@ -63,7 +63,10 @@ def guarded(action: Callable[[], int]) -> int:
         return _quietly(0)
     except ModuleNotFoundError as error:
         print(f"Python cannot find '{error.name}'.", file=sys.stderr)
-        print("ROS 2 is not installed in this environment, or not all of it.", file=sys.stderr)
+        print(
+            "ROS 2 is not installed in this environment, or parts of it are missing.",
+            file=sys.stderr,
+        )
         return 1
     except OSError as error:
         print(_what_the_system_says(error), file=sys.stderr)
@@ -76,7 +79,7 @@ def guarded(action: Callable[[], int]) -> int:
 
 def _what_the_system_says(error: OSError) -> str:
     if isinstance(error, FileNotFoundError) and not _has_folder():
-        return "The folder that this terminal is in does not exist any more.\nGo to another:  cd ~"
+        return "This terminal's current folder no longer exists.\nChange to another folder:  cd ~"
     return f"ros2: {error.strerror or error}" + (f": {error.filename}" if error.filename else "")
 
 

@@ -41,7 +41,7 @@ def check_name(kind: str, name: str) -> None:
     elif wrong[0][0].isdigit():
         reason = f"'{wrong[0]}' begins with a digit"
     else:
-        reason = f"'{wrong[0]}' holds something else than letters, digits and '_'"
+        reason = f"'{wrong[0]}' contains characters other than letters, digits and '_'"
     raise CommandError(f"{kind} name '{name}' is invalid: {reason}")
 
 
@@ -53,8 +53,8 @@ def check_node_name(name: str) -> None:
     """
     if not _PART.fullmatch(name):
         raise CommandError(
-            f"'{name}' cannot be the name of a node: it may hold letters, digits and '_' only, "
-            "and must not begin with a digit"
+            f"'{name}' cannot be the name of a node: it may contain only letters, digits and "
+            "'_', and must not begin with a digit"
         )
 
 

@@ -77,7 +77,7 @@ def _check_place(destination: Path, name: str) -> None:
     place = destination.absolute()
     for parent in [place, *place.parents]:
         if parent.exists() and not parent.is_dir():
-            raise CommandError(f"Aborted! {parent} is a file, so nothing can be made in it.")
+            raise CommandError(f"Aborted! {parent} is a file, so nothing can be created in it.")
         if (parent / "package.xml").is_file():
             raise CommandError(
                 f"Aborted! {parent} is a package itself (it holds a package.xml).",

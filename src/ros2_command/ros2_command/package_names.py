@@ -30,11 +30,11 @@ def _not_importable(name: str) -> str:
     if "-" in name:
         return "Python reads '-' as minus"
     if keyword.iskeyword(name):
-        return f"'{name}' is a word of the Python language"
+        return f"'{name}' is a keyword of the Python language"
     if not name.isascii():
-        return "only the letters a to z, digits and '_' are safe in it"
+        return "only the letters a to z, digits and '_' are safe"
     if not name.isidentifier():
-        return "it may hold letters, digits and '_' only, and must not begin with a digit"
+        return "it may contain only letters, digits and '_', and must not begin with a digit"
     return ""
 
 
@@ -59,9 +59,9 @@ def check_package_name(name: str) -> None:
     if not reason and name.startswith("_"):
         reason = "a package's name begins with a letter"
     if not reason and name in sys.stdlib_module_names:
-        reason = f"Python has a module '{name}' of its own, and one would hide the other"
+        reason = f"Python's standard library has a module '{name}', and one would hide the other"
     if not reason and _comes_with_ros(name):
-        reason = f"'{name}' is installed with ROS 2 already, and one would hide the other"
+        reason = f"'{name}' is already installed with ROS 2, and one would hide the other"
     _refuse("a package", name, reason)
 
 
@@ -80,7 +80,7 @@ def check_module_name(kind: str, name: str) -> None:
     """
     reason = _not_importable(name)
     if not reason and name.startswith("__"):
-        reason = "names with two underscores in front are Python's own"
+        reason = "names that begin with two underscores are reserved for Python"
     _refuse(kind, name, reason)
 
 
@@ -113,8 +113,8 @@ def check_email(email: str) -> None:
     """
     if not _EMAIL.fullmatch(email):
         raise CommandError(
-            f"Aborted! '{email}' is not an email address, and package.xml needs one.",
-            "Give one:  --maintainer-email you@example.com",
+            f"Aborted! '{email}' is not an email address, which package.xml requires.",
+            "Give an address:  --maintainer-email you@example.com",
         )
 
 
@@ -126,5 +126,6 @@ def check_text(option: str, text: str) -> None:
     """
     if _UNWRITABLE.search(text):
         raise CommandError(
-            f"Aborted! The text of --{option} has characters that package.xml cannot hold: {text!a}"
+            f"Aborted! The text of --{option} contains characters that package.xml does not "
+            f"allow: {text!a}"
         )

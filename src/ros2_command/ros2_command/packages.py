@@ -29,7 +29,8 @@ def prefixes() -> list[Path]:
     if not given and not own:
         raise CommandError(
             "Environment variable 'AMENT_PREFIX_PATH' is not set or empty",
-            "It says where ROS packages are, so no package can be found.",
+            "The variable lists the folders of ROS packages, so without it no package can be "
+            "found.",
             "Run `source install/setup.bash` in your workspace, in this terminal.",
         )
     return given or own

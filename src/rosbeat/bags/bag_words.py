@@ -24,9 +24,11 @@ def _time(found: Contents, total: int) -> str:
     last = found.first_ns + found.duration_ns
     if found.notes:
         ran = f"The session ran {_seconds(found.notes.length_ns)} of virtual time"
-        return f"{ran}, messages came {_span(found.first_ns, last)}." if total else f"{ran}."
+        return (
+            f"{ran}, messages were published {_span(found.first_ns, last)}." if total else f"{ran}."
+        )
     if not total:
-        return "It has no times."
+        return "It has no timestamps."
     began = datetime.fromtimestamp(found.first_ns // NANOSECONDS, timezone.utc)
     return f"It lasts {_seconds(found.duration_ns)} and begins at {began:%Y-%m-%d %H:%M:%S} UTC."
 

@@ -247,7 +247,7 @@ def _check(
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if number and isfinite(value) and least <= value <= most:  # type: ignore[arg-type, operator]  # `number` says that it is one
         return
-    reach = f"a number from 0 to {high:g}" if high is not None else "a number from 0 up"
+    reach = f"a number from 0 to {high:g}" if high is not None else "a number of 0 or more"
     wanted = "a finite number" if low is None else reach
     raise refusals.bad_argument(call, f"{name}={value!r}", f"{wanted} for `{name}`")
 

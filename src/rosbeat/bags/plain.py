@@ -83,7 +83,7 @@ def _value(store: Typestore, holds: _Holds, value: _Value) -> _Value:
     inner, limit = detail
     items = [_value(store, inner, one) for one in value]
     if limit and (len(items) > limit or (kind == Nodetype.ARRAY and len(items) != limit)):
-        raise ValueError(f"{len(items)} items are in a place for {limit}")
+        raise ValueError(f"{len(items)} items were given where {limit} fit")
     if inner[0] == Nodetype.NAME or inner[1][0] == "string":
         return items
     with np.errstate(over="raise"):

@@ -110,7 +110,7 @@ def samples(path: Path, found: Contents, wanted: Iterable[str]) -> tuple[Sample,
 def _check_count(found: int, told: int) -> None:
     """Notice messages that were lost; the library leaves out what does not agree with itself."""
     if found != told:
-        raise ValueError(f"it tells of {told} messages, and {found} can be found")
+        raise ValueError(f"its metadata lists {told} messages, but the data contains {found}")
 
 
 @contextmanager

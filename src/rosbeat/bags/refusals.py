@@ -13,9 +13,10 @@ from rosbeat.records import Sample
 def exists_already(folder: Path) -> BagError:
     """Return the error for a new recording whose target already exists."""
     return BagError(
-        f"There is something at {folder} already.",
-        "A new recording does not overwrite an older one, nor anything else.",
-        "Choose another name, or keep the old one beside it: `record(..., keep_old=True)`.",
+        f"{folder} already exists.",
+        "A new recording does not overwrite an existing file or folder.",
+        "Choose another name, or keep the old recording under a new name: `record(..., "
+        "keep_old=True)`.",
     )
 
 
@@ -23,7 +24,7 @@ def unknown_storage(storage: object) -> BagError:
     """Return the error for a storage format that is not supported here."""
     return BagError(
         f"A recording cannot be stored as {storage!r}.",
-        "Two storages are known: MCAP, which is the default of ROS 2, and SQLite.",
+        "There are two storage formats: MCAP, which is the default in ROS 2, and SQLite.",
         'Write `storage="mcap"` or `storage="sqlite3"`.',
     )
 
@@ -31,11 +32,11 @@ def unknown_storage(storage: object) -> BagError:
 def unknown_type(name: str) -> BagError:
     """Return the error for a message type whose definition cannot be found."""
     return BagError(
-        f"The message type {name} is not known here.",
-        "It is not part of ROS 2, and no package that defines it is installed, so nobody can say "
-        "which fields it has.",
-        "Build the package that defines it and open the page again, or leave its topic out with "
-        "`topics=[...]`.",
+        f"The message type {name} is unknown.",
+        "The type is not part of ROS 2, and no package that defines it is installed, so its "
+        "fields are unknown.",
+        "Build the package that defines the type and open the page again, or leave out its topic "
+        "with `topics=[...]`.",
     )
 
 
@@ -44,9 +45,11 @@ def unknown_topic(topic: str, known: Iterable[str]) -> BagError:
     names = sorted(known)
     near = get_close_matches(f"/{topic.lstrip('/')}", names, n=1)
     return BagError(
-        f"There is no topic {topic!r} in what was recorded.",
-        f"Recorded: {', '.join(names)}." if names else "No topic was recorded at all.",
-        f"Did you mean {near[0]!r}?" if near else "Choose one of these, or record it first.",
+        f"The recording has no topic {topic!r}.",
+        f"Recorded topics: {', '.join(names)}." if names else "The recording has no topics.",
+        f"Did you mean {near[0]!r}?"
+        if near
+        else "Choose one of the recorded topics, or record this one first.",
     )
 
 
@@ -54,7 +57,7 @@ def not_a_name(topic: object) -> BagError:
     """Return the error for a topic name that is not a string."""
     return BagError(
         f"{topic!r} is not the name of a topic, but of type {type(topic).__name__}.",
-        "A recording is asked by name, and a name is a text.",
+        "The argument is a topic name, and a name is a string.",
         'Put it in quotation marks: `bag.messages("temperature")`.',
     )
 
@@ -62,9 +65,9 @@ def not_a_name(topic: object) -> BagError:
 def two_types(topic: str, types: Iterable[str]) -> BagError:
     """Return the error for a topic with messages of more than one type."""
     return BagError(
-        f"Messages of two types are on {topic}: {' and '.join(types)}.",
-        "In a recording a topic has one type, as it should have in a running system.",
-        "Let all its publishers use the same type, or leave it out with `topics=[...]`.",
+        f"The topic {topic} has messages of two types: {' and '.join(types)}.",
+        "In a recording, each topic has one type, as it should in a running system.",
+        "Use the same type in all its publishers, or leave the topic out with `topics=[...]`.",
     )
 
 
@@ -72,8 +75,8 @@ def no_observation(source: object) -> BagError:
     """Return the error for an object that is not a run."""
     return BagError(
         f"{type(source).__name__!r} is not a run.",
-        "It takes a session, what a session observed, or a recording.",
-        "Give it the session itself, as in `record(ros, ...)`, or `ros.observation()`.",
+        "A run is a session, a session's observation, or a recording.",
+        "Pass the session itself, as in `record(ros, ...)`, or `ros.observation()`.",
     )
 
 
@@ -81,8 +84,9 @@ def does_not_fit(topic: str, type_name: str, number: int, error: Exception) -> B
     """Return the error for a message with a value that its type cannot hold."""
     return BagError(
         f"Message {number} on {topic} is not a {type_name}: {error}.",
-        "Every message on a topic has the fields of its type, each with a value that it can hold.",
-        "Look at that message; a fault may have put a value into it that is too large.",
+        "Every message on a topic has the fields of its type, and each field has a value of the "
+        "right kind and size.",
+        "Check that message: a fault may have given it a value that is too large.",
     )
 
 
@@ -90,8 +94,8 @@ def not_written(folder: Path, error: Exception) -> BagError:
     """Return the error for a recording that could not be written."""
     return BagError(
         f"The recording could not be written to {folder}: {_words(error)}.",
-        "Nothing that was there before has changed.",
-        "Choose a folder in which you may write, on a disk with room left.",
+        "Existing files have not changed.",
+        "Choose a folder with write permission, on a disk with enough space.",
     )
 
 
@@ -99,9 +103,9 @@ def not_there(folder: Path) -> BagError:
     """Return the error for a path with no recording."""
     return BagError(
         f"There is no recording at {folder}.",
-        "A recording is a folder with a file metadata.yaml and the data beside it, or one file "
-        "that ends in .mcap or .db3.",
-        "Check the name and the folder in which you are, or record first.",
+        "A recording is a folder that contains metadata.yaml and the data, or a single file that "
+        "ends in .mcap or .db3.",
+        "Check the name and the current folder, or record first.",
     )
 
 
@@ -109,8 +113,8 @@ def damaged(folder: Path, error: Exception) -> BagError:
     """Return the error for a recording that is damaged, incomplete or of an unknown kind."""
     return BagError(
         f"The recording at {folder} cannot be read: {_words(error)}.",
-        "It is damaged, incomplete, or of a kind that is not known here. Nothing was changed.",
-        "If you have a copy, use that; if the recording was broken off, record again.",
+        "The recording is damaged, incomplete, or in an unknown format. Nothing was changed.",
+        "If you have a copy, use that; if the recording was interrupted, record again.",
     )
 
 
@@ -118,8 +122,8 @@ def no_place(folder: object) -> BagError:
     """Return the error for an object that is not the name of a folder."""
     return BagError(
         f"{folder!r} is not the name of a folder.",
-        "A recording is a folder, which a text names, or a `Path`.",
-        'Write for example `record(ros, "first_run")`.',
+        "The name of a recording's folder is a string or a `Path`.",
+        'For example, write `record(ros, "first_run")`.',
     )
 
 
@@ -127,8 +131,8 @@ def no_fault(found: object) -> BagError:
     """Return the error for an object that is not a fault."""
     return BagError(
         f"{found!r} is not a fault.",
-        "A fault is a function from messages to messages.",
-        "Write for example `faults=[stuck(at=20), dropouts(share=0.1)]`.",
+        "A fault is a function that takes messages and returns messages.",
+        "For example, write `faults=[stuck(at=20), dropouts(share=0.1)]`.",
     )
 
 
@@ -136,8 +140,8 @@ def bad_argument(call: str, what: str, wanted: str) -> BagError:
     """Return the error for a fault with an invalid argument."""
     return BagError(
         f"{call} was given {what}.",
-        f"It takes {wanted}.",
-        "Write for example `stuck(at=20, seconds=5)`, `drift(rate=0.1)`, `dropouts(share=0.2)`.",
+        f"The function takes {wanted}.",
+        "For example, write `stuck(at=20, seconds=5)`, `drift(rate=0.1)` or `dropouts(share=0.2)`.",
     )
 
 
@@ -147,19 +151,19 @@ def no_such_number(sample: Sample, field: str | None, numbers: Iterable[str]) ->
     where = f"the field {field!r}" if field else "one number"
     return BagError(
         f"A message on {sample.topic} does not have {where} to change.",
-        f"The numbers in a {sample.type_name} here are {names}."
+        f"The fields of this {sample.type_name} that hold numbers are {names}."
         if names
-        else f"A {sample.type_name} here holds no number.",
-        "Choose one with `field=...`, or the topic of the fault with `topic=...`.",
+        else f"This {sample.type_name} has no field that holds a number.",
+        "Choose a field with `field=...`, or another topic with `topic=...`.",
     )
 
 
 def whole_numbers_only(sample: Sample) -> BagError:
     """Return the error for NaN in a message that holds integers."""
     return BagError(
-        f"Messages on {sample.topic} hold whole numbers, and NaN is not one.",
-        f"NaN ('not a number') is a value of floating-point types only, and a {sample.type_name} "
-        "has none here.",
+        f"Messages on {sample.topic} hold whole numbers, and NaN is not a whole number.",
+        "NaN ('not a number') is a value of floating-point types only, and this "
+        f"{sample.type_name} has no floating-point field.",
         "Choose a topic with floating-point numbers, or another fault.",
     )
 
@@ -168,8 +172,8 @@ def no_number(speed: object) -> BagError:
     """Return the error for an invalid replay speed."""
     return BagError(
         f"speed={speed!r} cannot be used.",
-        "It is a number above 0: 2 replays twice as fast, 0.5 half as fast.",
-        "Leave it out to replay as it was.",
+        "The speed is a number above 0: 2 replays twice as fast, 0.5 half as fast.",
+        "Leave the speed out to replay at the original speed.",
     )
 
 

@@ -77,15 +77,16 @@ def _taught(rng: Random, place: str) -> Plan:
 
 
 _DARK = {
-    SENSOR: "{display} stays dark, and {diary} has nothing.",
+    SENSOR: "{display} stays dark, and {diary} is empty.",
     GUARD: "{display} stays dark. {diary} is fine.",
     DISPLAY: "{display} stays dark. {diary} is fine.",
-    DIARY: "{diary} has nothing. {display} is fine.",
+    DIARY: "{diary} is empty. {display} is fine.",
 }
 _FADED = {
-    SENSOR: "It began well. Then {display} stood still, and {diary} got nothing new.",
-    GUARD: "It began well. Then {display} stood still. {diary} is fine.",
-    DIARY: "It began well. Then {diary} got nothing new. {display} is fine.",
+    SENSOR: "At first, everything worked. Then {display} stopped changing, and {diary} got no new "
+    "entries.",
+    GUARD: "At first, everything worked. Then {display} stopped changing. {diary} is fine.",
+    DIARY: "At first, everything worked. Then {diary} got no new entries. {display} is fine.",
 }
 
 
@@ -104,51 +105,51 @@ _SILENT = (
     ("unspun", faults.unspun, _ANYWHERE, _DARK.__getitem__, house),
     ("quiet", faults.quiet, (SENSOR, GUARD), _FADED.__getitem__, house),
     ("late", faults.late, (DISPLAY,), _said(
-        "The plate is to show the rule, and it stays empty. All the others are fine."), _taught),
+        "The plate should show the rule, but it stays empty. Everything else is fine."), _taught),
 )  # fmt: skip
 _HEARD = (
     ("two sources", faults_heard.two_sources, (SENSOR,), _said(
-        "The readings jump up and down, as if there were two rooms."), house),
+        "The readings jump up and down, as if they came from two rooms."), house),
     ("wrong unit", faults_heard.wrong_unit, (SENSOR,), _said(
-        "{display} says High, day and night. It does not feel like that at all."), house),
+        "{display} says High, day and night. It doesn't feel that warm at all."), house),
     ("short queue", faults_heard.short_queue, (GUARD, DIARY), {
         GUARD: "{display} shows fewer readings than {diary} has.",
-        DIARY: "There are gaps in what {diary} has. {display} has shown more than that.",
+        DIARY: "There are gaps in {diary}. {display} has shown more readings than that.",
     }.__getitem__, _bursts),
     ("other topic", faults_heard.other_topic, (GUARD, DIARY), {
         GUARD: "{display} says High all the time. The readings of {diary} are fine.",
-        DIARY: "What {diary} has is not at all what {display} shows.",
+        DIARY: "The readings in {diary} don't match what {display} shows at all.",
     }.__getitem__, _humid),
     ("unclamped", faults_heard.unclamped, (SENSOR,), _said(
-        "{diary} has readings that {sensor} should never give."), house),
+        "{diary} contains readings that {sensor} should never send."), house),
     ("clamped first", faults_heard.clamped_first, (SENSOR,), _said(
-        "{diary} has a few readings that {sensor} should never give."), house),
+        "{diary} contains a few readings that {sensor} should never send."), house),
     ("other rate", faults_heard.other_rate, (SENSOR,), _said(
-        "I cannot say what it is. {diary} does not have as many lines as I expected."), house),
+        "Something is odd: {diary} doesn't have as many entries as I expected."), house),
     ("at the limit", faults_heard.at_the_limit, (GUARD,), _said(
-        "Now and then, {display} and I do not agree. Most of the time we do."), house),
+        "Now and then, {display} is wrong. Most of the time, it's right."), house),
     ("stuck", faults_heard.stuck, (SENSOR,), _said(
-        "{display} says Normal, always. I do not believe it."), house),
+        "{display} always says Normal. I don't believe it."), house),
 )  # fmt: skip
 _PAIRS: tuple[tuple[str, Fault, str, Fault, str, str, House], ...] = (
     ("misspelled, unfit", faults.misspelled, DIARY, faults.unfit, DISPLAY,
-     "{display} stays dark, and {diary} has nothing.", house),
+     "{display} stays dark, and {diary} is empty.", house),
     ("unfit, unspun", faults.unfit, GUARD, faults.unspun, DISPLAY,
-     "{display} stays dark. I changed {guard} a little, and it is still dark.", house),
+     "{display} stays dark. I changed {guard} a little, but {display} is still dark.", house),
     ("ended, namespaced", faults.ended, GUARD, faults.namespaced, DISPLAY,
      "{display} never showed anything, not even in the first seconds.", house),
     ("mute, misspelled", faults.mute, GUARD, faults.misspelled, DISPLAY,
      "{display} stays dark. {diary} is fine.", house),
     ("other topic, unclamped", faults_heard.other_topic, GUARD, faults_heard.unclamped, SENSOR,
-     "{display} says High all the time, and {diary} has strange readings.", _humid),
+     "{display} says High all the time, and {diary} contains strange readings.", _humid),
     ("two sources, stuck", faults_heard.two_sources, SENSOR, faults_heard.stuck, SENSOR,
-     "I do not trust the readings: some are good, and others are all alike.", house),
+     "I don't trust the readings: some look fine, and the others are all the same.", house),
     ("short queue, wrong unit", faults_heard.short_queue, DIARY, faults_heard.wrong_unit, SENSOR,
-     "{diary} has gaps, and what it has is hard to believe.", _bursts),
+     "{diary} has gaps, and its readings are hard to believe.", _bursts),
     ("at the limit, namespaced", faults_heard.at_the_limit, GUARD, faults.namespaced, DISPLAY,
      "{display} stays dark. Before we moved it, it was wrong now and then.", house),
     ("other rate, ended", faults_heard.other_rate, SENSOR, faults.ended, DIARY,
-     "{diary} gets nothing new. And something was odd with it before.", house),
+     "{diary} gets no new entries. And its entries looked odd before that.", house),
 )  # fmt: skip
 
 CASES: tuple[Case, ...] = (

@@ -140,7 +140,7 @@ class Diary(_Member):
         """Keep one reading."""
         self.count += 1
         if self.count > self.option("pages", 10_000):
-            raise OverflowError(f"the diary has {self.option('pages', 0)} pages, and all are full")
+            raise OverflowError(f"all {self.option('pages', 0)} pages of the diary are full")
         self.get_logger().info(f"Kept {msg.data:.1f}")
 
 

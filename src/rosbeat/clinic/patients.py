@@ -114,8 +114,8 @@ def _orders(plan: Plan) -> list[str]:
     return [
         *(_route(topic, orders.wiring) for topic in dict.fromkeys(w.topic for w in orders.wiring)),
         f"{burst} every {orders.period:g} s, {orders.least:g} to {orders.most:g} degrees Celsius,",
-        "up or down by half a degree each time, or not at all",
-        f"Low below {orders.low:g}, High above {orders.high:g}, and Normal else",
+        "each one half a degree above or below the last one, or equal to it",
+        f"Low below {orders.low:g}, High above {orders.high:g}, and Normal otherwise",
     ]
 
 
@@ -128,7 +128,7 @@ def _route(topic: str, wiring: Sequence[Wiring]) -> str:
         if one.kind == "publisher"
     )
     listeners = ", ".join(_short(one.node) for one in here if one.kind == "subscription")
-    return f"{speakers} -> {topic} -> {listeners or '(nobody)'}"
+    return f"{speakers} -> {topic} -> {listeners or '(no node)'}"
 
 
 def _short(node: str) -> str:

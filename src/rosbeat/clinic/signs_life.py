@@ -9,7 +9,7 @@ from rosbeat.diagnosis.silence import count, listing, seconds
 
 #: Silent for more than so many times its usual gap, a publisher has stopped.
 _GAPS = 3.0
-_NO_NODE = "this is about a node, and {} is a topic"
+_NO_NODE = "this diagnosis is about a node, but {} is a topic"
 
 
 def _member(chart: Chart, node: str) -> Member | None:
@@ -48,7 +48,7 @@ def _against_ended(chart: Chart, place: str) -> str:
     member = _member(chart, place)
     if member is None:
         return _NO_NODE.format(place)
-    return f"no exception has left a callback of {place} in {seconds(chart.seconds)}"
+    return f"no callback of {place} raised an exception in {seconds(chart.seconds)}"
 
 
 def _against_unspun(chart: Chart, place: str) -> str:
@@ -57,7 +57,7 @@ def _against_unspun(chart: Chart, place: str) -> str:
         return _NO_NODE.format(place)
     if member.callbacks:
         return f"callbacks of {place} ran {count(member.callbacks, 'time')}"
-    return f"{place} is spun, and nothing has come that could call it"
+    return f"{place} is spun, but no message or timer has triggered a callback"
 
 
 def _against_blocked(chart: Chart, place: str) -> str:
@@ -65,8 +65,8 @@ def _against_blocked(chart: Chart, place: str) -> str:
     if member is None:
         return _NO_NODE.format(place)
     if not member.callbacks:
-        return f"no callback of {place} has begun, so none can hold it up"
-    return f"{count(member.callbacks, 'callback')} of {place} ran, and each came back"
+        return f"no callback of {place} has started, so none can block the node"
+    return f"{count(member.callbacks, 'callback')} of {place} ran, and each of them returned"
 
 
 # Whether it speaks.
@@ -99,20 +99,20 @@ def _reason_until(chart: Chart, talk: Talk) -> float:
 def _against_silence(chart: Chart, place: str) -> str:
     talks = [one for one in chart.talks if place in (one.node, one.topic)]
     if not talks:
-        return f"nobody is to publish there: {place} only listens, or is only listened to"
+        return f"the orders require no publisher at {place}"
     return listing(_spoke(chart, talk) for talk in talks)
 
 
 def _spoke(chart: Chart, talk: Talk) -> str:
     if talk.count == 1 and _is_once(chart, talk):
         said = f"{talk.node} has published its message on {talk.topic} at {talk.last:g} s"
-        return f"{said}, and one is all that was ordered"
+        return f"{said}, and the orders require only one"
     if talk.count:
         said = f"{talk.node} has published {count(talk.count, 'message')} on {talk.topic}"
         return f"{said}, the last at {talk.last:g} s{_while(chart, talk)}"
     if not _is_driven(chart, talk.node):
-        return f"no callback of {talk.node} has run that could come as far as publish"
-    return f"{talk.node} has published nothing on {talk.topic} at any time"
+        return f"no callback of {talk.node} that could call publish has run"
+    return f"{talk.node} has never published on {talk.topic}"
 
 
 def _is_once(chart: Chart, talk: Talk) -> bool:
@@ -125,7 +125,7 @@ def _while(chart: Chart, talk: Talk) -> str:
     heard = chart.hears(talk.node)
     if not heard:
         return " and then ended" if _has_ended(chart, talk.node) else ""
-    return f", and heard its last one at {max(one.last for one in heard):g} s"
+    return f", and received its last message at {max(one.last for one in heard):g} s"
 
 
 # How many, and how often.
@@ -137,7 +137,7 @@ def _twins(chart: Chart) -> Iterator[tuple[str, ...]]:
 
 def _against_twins(chart: Chart, place: str) -> str:
     number = len(chart.nodes)
-    return f"the {number} nodes of this patient have {number} names"
+    return f"the {number} nodes of this patient have {number} different names"
 
 
 def _two_sources(chart: Chart) -> Iterator[tuple[str, ...]]:
@@ -151,9 +151,9 @@ def _two_sources(chart: Chart) -> Iterator[tuple[str, ...]]:
 def _against_two_sources(chart: Chart, place: str) -> str:
     talks = [one for one in chart.talks if place in (one.node, one.topic)]
     if not talks:
-        return f"nobody publishes there: {place} only listens, or is only listened to"
+        return f"there is no publisher at {place}"
     return listing(
-        f"{one.node} was ordered to publish on {one.topic}"
+        f"the orders require {one.node} to publish on {one.topic}"
         if len(_speakers(chart, one.topic)) > 1
         else f"only {one.node} publishes on {one.topic}"
         for one in talks
@@ -173,16 +173,16 @@ def _off_rate(chart: Chart) -> Iterator[tuple[str, ...]]:
 def _against_rate(chart: Chart, place: str) -> str:
     talks = [one for one in chart.talks if place in (one.node, one.topic) and one.gap]
     if not talks:
-        return "nothing comes from there, so nothing comes too often or too seldom"
+        return f"{place} publishes no messages, so it has no rate to check"
     return listing(_paced(chart, talk) for talk in talks)
 
 
 def _paced(chart: Chart, talk: Talk) -> str:
     if chart.hears(talk.node):
-        return f"{talk.node} publishes when it has heard something, and not by a timer"
+        return f"{talk.node} publishes when it receives a message, not with a timer"
     if talk.topic != chart.orders.topic:
-        return f"no rate was ordered for {talk.topic}"
-    return f"{talk.node} publishes every {talk.gap:g} s, as was ordered"
+        return f"the orders give no rate for {talk.topic}"
+    return f"{talk.node} publishes every {talk.gap:g} s, as ordered"
 
 
 SIGNS = {

@@ -60,9 +60,9 @@ def _against_name(chart: Chart, place: str, yet: Callable[[Chart, Endpoint], str
     stray = next((end for end, _ in _strays(chart) if place in (end.node, end.name)), None)
     if stray is None:
         names = sorted({end.name for end in chart.at(place)})
-        return f"what is used there is spelt as it was ordered: {listing(names)}"
+        return f"the names used there are spelled as ordered: {listing(names)}"
     if _is_used(chart, stray):
-        return f"{stray.name} is a topic with somebody on both of its sides"
+        return f"{stray.name} has both a publisher and a subscription"
     return yet(chart, stray)
 
 
@@ -79,18 +79,18 @@ def _against_elsewhere(chart: Chart, place: str) -> str:
 
 
 def _well_spelt(chart: Chart, end: Endpoint) -> str:
-    return f"the last part of {end.name} is spelt as it was ordered"
+    return f"the last part of {end.name} is spelled as ordered"
 
 
 def _at_home(chart: Chart, end: Endpoint) -> str:
-    return f"{end.name} is in the namespace that was ordered"
+    return f"{end.name} is in the namespace that the orders require"
 
 
 def _unused(chart: Chart, end: Endpoint) -> str:
     others = [one.node for one in chart.at(end.name) if one.node != end.node]
     if others:
-        return f"nobody is on the other side of {end.name}"
-    return f"nobody but {end.node} uses {end.name}, so it is no other topic of this system"
+        return f"no node is on the other side of {end.name}"
+    return f"only {end.node} uses {end.name}, so it is not another topic of this system"
 
 
 # Types and quality of service.
@@ -105,7 +105,7 @@ def _types(chart: Chart) -> Iterator[tuple[str, ...]]:
 
 def _against_types(chart: Chart, place: str) -> str:
     types = sorted({f"{end.name} has {_last(end.type_name)}" for end in chart.at(place)})
-    return f"everybody there agrees on the type: {listing(types)}"
+    return f"all endpoints there use the same type: {listing(types)}"
 
 
 def _unfit(chart: Chart) -> Iterator[tuple[str, ...]]:
@@ -133,7 +133,7 @@ def _matched(chart: Chart, end: Endpoint) -> str:
     sides = [one for one in chart.ends if one.name == end.name and one.kind == _OTHER[end.kind]]
     noun = f"{_OTHER[end.kind]}{'' if len(sides) == 1 else 's'}"
     if not sides:
-        return f"on {end.name} there is nobody on the other side to fit {end.node}"
+        return f"{end.name} has no endpoint that {end.node} could be incompatible with"
     fitting = [one for one in sides if _fits(one, end)]
     return f"{end.node} is matched with {len(fitting)} of {len(sides)} {noun} on {end.name}"
 
@@ -164,13 +164,14 @@ def _alive(chart: Chart) -> list[str]:
 
 
 def _against_short_queue(chart: Chart, place: str) -> str:
-    at_once = "one message comes" if chart.orders.burst == 1 else f"{chart.orders.burst} come"
+    burst = chart.orders.burst
+    at_once = "one message arrives" if burst == 1 else f"{burst} messages arrive"
     said = [
         f"the queue of {end.node} on {end.name} holds {end.qos.depth}, and {at_once} at once"
         for end in chart.at(place)
         if end.kind == "subscription"
     ]
-    return listing(said) or "it does not listen, so it has no queue for what it hears"
+    return listing(said) or "it has no subscription, so it has no queue for incoming messages"
 
 
 def _late(chart: Chart) -> Iterator[tuple[str, ...]]:
@@ -182,16 +183,16 @@ def _late(chart: Chart) -> Iterator[tuple[str, ...]]:
 
 def _against_late(chart: Chart, place: str) -> str:
     said = [_since(one) for one in _hearings(chart, place)]
-    return listing(said) or "it does not listen to anything that it could have missed"
+    return listing(said) or "it has no subscription that could have missed a message"
 
 
 def _since(one: Hearing) -> str:
     if one.before:
         return (
-            f"{one.sent} messages reached the queue of {one.node} after it began to listen on "
+            f"{one.sent} messages reached the queue of {one.node} after it subscribed to "
             f"{one.topic}"
         )
-    return f"nothing was published on {one.topic} before {one.node} began to listen"
+    return f"no message was published on {one.topic} before {one.node} subscribed"
 
 
 def _hearings(chart: Chart, place: str) -> list[Hearing]:

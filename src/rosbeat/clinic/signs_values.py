@@ -63,11 +63,11 @@ def _against_values(chart: Chart, place: str, yet: Callable[[Chart, Talk], str])
     orders = chart.orders
     said = [
         f"{one.node} published numbers from {one.values[0]:.5g} to {one.values[-1]:.5g} on "
-        f"{one.topic}, where {orders.least:g} to {orders.most:g} was ordered{yet(chart, one)}"
+        f"{one.topic}, while the orders say {orders.least:g} to {orders.most:g}{yet(chart, one)}"
         for one in _readings(chart)
         if place in (one.node, one.topic)
     ]
-    return listing(said) or "no reading in degrees comes from there"
+    return listing(said) or "no reading in degrees comes from that place"
 
 
 def _against_unit(chart: Chart, place: str) -> str:
@@ -90,20 +90,20 @@ def _near(chart: Chart, talk: Talk) -> str:
     over = _over(chart, talk)
     if not 0 < over <= _FAR:
         return ""
-    return f": {over:g} beyond at most, and in another unit not one would be within"
+    return f"; they are at most {over:g} outside, but in another unit all of them would be"
 
 
 def _held(chart: Chart, talk: Talk) -> str:
     over = _over(chart, talk)
     if 0 < over <= STEP:
-        return f": {over:g} beyond at most, and readings that nothing holds go farther"
+        return f"; they are at most {over:g} outside, but unclamped readings would go farther"
     return _afar(chart, talk)
 
 
 def _by_steps(chart: Chart, talk: Talk) -> str:
     over = _over(chart, talk)
     if STEP < over <= _FAR:
-        return f": {over:g} beyond, and a clamp before the step lets at most one step through"
+        return f"; they are {over:g} outside, but a clamp before the step allows one step at most"
     return _afar(chart, talk)
 
 
@@ -114,20 +114,22 @@ def _afar(chart: Chart, talk: Talk) -> str:
     span, asked = talk.values[-1] - talk.values[0], chart.orders.most - chart.orders.least
     # Kelvin moves all readings alike, to the precision of a Float32; Fahrenheit spreads them, too.
     if abs(span - asked) < _ALIKE:
-        return f": they span {asked:g} degrees, just as was ordered"
-    return f": farther off than {_FAR:g} degrees, which no reading of this room in Celsius is"
+        return f"; they span {asked:g} degrees, as ordered"
+    return (
+        f"; they are more than {_FAR:g} degrees outside, as no Celsius reading of this room can be"
+    )
 
 
 def _against_boundary(chart: Chart, place: str) -> str:
     limits = [f"{limit:.1f}" for limit in (chart.orders.low, chart.orders.high)]
     said = [
-        f"it says {text!r}, and a limit itself is Normal"
+        f"{talk.node} says {text!r}, but a reading at a limit is Normal"
         for talk in chart.talks
         if place in (talk.node, talk.topic)
         for text in talk.texts
         if text.split()[0] in limits
     ]
-    return listing(said) or "nobody there has judged a reading that is just at a limit"
+    return listing(said) or "no node there has judged a reading that is exactly at a limit"
 
 
 SIGNS = {

@@ -33,8 +33,8 @@ class Ward:
         if not isinstance(seed, int) or isinstance(seed, bool) or not 0 <= seed < 2**32:
             raise ExerciseError(
                 f"There is no ward {seed!r}.",
-                "A ward is drawn by its number, a whole one from 0 up.",
-                "Write for example clinic.Ward(seed=7).",
+                "A ward's number, its seed, is a whole number of 0 or more.",
+                "For example, write clinic.Ward(seed=7).",
             )
         self.seed = seed
 
@@ -74,7 +74,7 @@ class Ward:
             raise ExerciseError(
                 f"There is no patient {number!r}.",
                 f"The patients of this ward are numbered from 1 to {len(self)}.",
-                "Write for example ward.patient(1).",
+                "For example, write ward.patient(1).",
             )
         return self._ill[number - 1]
 

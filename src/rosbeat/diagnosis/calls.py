@@ -65,7 +65,7 @@ _WORDS = {
     "message_type": "the message type {}",
     "type": "the type {}",
     "module": "a module",
-    "str": "a text",
+    "str": "a string",
     "int": "a whole number",
     "float": "a number with a decimal point",
     "QoSProfile": "a QoS profile",
@@ -111,19 +111,19 @@ _MISSING = {"depth": "depth-missing", "callback": "callback-missing"}
 #: In which order each call takes its arguments.
 ORDER = {
     "create_publisher": "create_publisher takes the message type, the topic and the queue depth, "
-    "in this order.",
+    "in that order.",
     "create_subscription": "create_subscription takes the message type, the topic, the callback "
-    "and the queue depth, in this order.",
-    "create_timer": "create_timer takes the time between two calls, in seconds, and then the "
-    "callback.",
+    "and the queue depth, in that order.",
+    "create_timer": "create_timer takes the period in seconds, and then the callback.",
     "create_service": "create_service takes the service type, the name and the callback. Unlike a "
     "subscription, a service needs no queue depth.",
 }
 #: What belongs in each place.
 KINDS = {
-    "topic": "A topic's name is a text: it stands in quotes.",
-    "callback": "A callback is a function or a method: its name, without quotes and brackets.",
-    "depth": "The queue depth is a whole number from 1 up, without quotes.",
+    "topic": "A topic name is a string, so write it in quotes.",
+    "callback": "A callback is a function or a method. Give its name without quotes or "
+    "parentheses.",
+    "depth": "The queue depth is a whole number, 1 or more, without quotes.",
 }
 
 
@@ -138,7 +138,7 @@ def wrong_call(fault: Fault) -> Meaning | None:
         means = f"{call.method} has no argument called {unknown[0]}."
         return Meaning("wrong-argument", means, order)
     if len(call.given) > len(wanted):
-        means = f"{call.method} was given {len(call.given)} arguments, and takes {len(wanted)}."
+        means = f"{call.method} was given {len(call.given)} arguments, but takes {len(wanted)}."
         return Meaning("wrong-argument", means, order)
     left = [one for one in wanted if one.name not in call.named]
     return _missing(call, left) or _swapped(call, left) or _of_another_kind(call, left)
@@ -158,7 +158,7 @@ def _missing(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
     words = " and ".join(one.words for one in missing[:lacking])
     name = _MISSING.get(missing[0].role, "argument-missing") if lacking == 1 else "argument-missing"
     asks = " What is the last one for?" if name == "depth-missing" else ""
-    means = f"{call.method} got no argument for {words}."
+    means = f"{call.method} was called without {words}."
     return Meaning(name, means, ORDER[call.method] + asks)
 
 
@@ -167,7 +167,7 @@ def _swapped(call: FailedCall, left: list[_Parameter]) -> Meaning | None:
     if got == order or sorted(got) != sorted(order):
         return None
     at = next(at for at, role in enumerate(order) if got[at] != role)
-    means = f"{call.method} got {in_words(call.given[at])} in the place of {left[at].words}."
+    means = f"{call.method} got {in_words(call.given[at])} instead of {left[at].words}."
     return Meaning("arguments-swapped", means, ORDER[call.method])
 
 
@@ -180,10 +180,10 @@ def _of_another_kind(call: FailedCall, left: list[_Parameter]) -> Meaning | None
         if role == "type" and given.kind != "message_type":
             return no_message_type(given)
         if role == "callback" and given.kind == "NoneType":
-            return callback_called("The callback of the subscription")
+            return callback_called("The subscription's callback")
         if role != "type" and not (role == "callback" and found == "other"):
             mistake = "wrong-depth" if role == "depth" else "wrong-argument"
-            means = f"{call.method} got {in_words(given)} in the place of {words}."
+            means = f"{call.method} got {in_words(given)} instead of {words}."
             return Meaning(mistake, means, KINDS[role])
     return None
 
@@ -193,16 +193,17 @@ def no_message_type(given: Argument | None) -> Meaning:
     if given is not None and given.kind == "message":
         return Meaning(
             "not-a-message-type",
-            f"A message of type {given.name} stands where its class belongs.",
-            "Here the class itself is wanted: nothing is sent yet. What do the brackets do?",
+            f"A message of type {given.name} was given where its class is expected.",
+            "This call needs the class itself, because it doesn't send a message yet. What do "
+            "the parentheses do?",
         )
-    what = f"{in_words(given)}, which" if given is not None else "something that"
+    what = in_words(given) if given is not None else "something else"
     return Meaning(
         "not-a-message-type",
-        f"In the place of the message type stands {what} is none.",
-        "Message types are classes that are imported from a package of messages. Which one does "
-        "this topic carry?",
-        "(Never mind ROS 1 in the error: it guesses.)",
+        f"The message type is missing: this call got {what} instead.",
+        "A message type is a class that you import from a message package. Which type does this "
+        "topic carry?",
+        "(The error mentions ROS 1, but that's only a guess.)",
     )
 
 
@@ -210,18 +211,18 @@ def callback_called(subject: str) -> Meaning:
     """Return the meaning of a callback that is None, since it was called (row 9)."""
     return Meaning(
         "callback-called",
-        f"{subject} is None. That happens when a method is called on the spot and what it "
-        "returns, nothing, is handed over.",
-        "Hand over the method itself, without brackets after its name: ROS calls it later.",
+        f"{subject} is None. That happens when the method is called right here: its return "
+        "value, None, is passed instead of the method.",
+        "Pass the method itself, without parentheses after its name: ROS calls it later.",
     )
 
 
 # The callback of a subscription.
 
-_HAND_OVER = "Hand over the method itself, without brackets after its name: ROS calls it later."
+_HAND_OVER = "Pass the method itself, without parentheses after its name: ROS calls it later."
 _WITH_MESSAGE = (
-    "Python hands a method its own object first, and ROS hands a subscription's callback the "
-    "message: which two parameters does it need?"
+    "Python passes a method its own object, and ROS passes a subscription's callback the "
+    "message. Which two parameters does the callback need?"
 )
 
 
@@ -234,12 +235,12 @@ def refused_callback(fault: Fault) -> Meaning | None:
     if callback is None:
         return Meaning(
             "wrong-argument",
-            "What stands in the place of the callback cannot be called with a message.",
+            "The callback argument is something that cannot be called with a message.",
             f"A callback takes self and the message. {_HAND_OVER}",
         )
     role = role_of(callback)
     if role == "none":
-        return callback_called("The callback of the subscription")
+        return callback_called("The subscription's callback")
     return _parameters(callback) if role in ("callback", "unknown") else None
 
 
@@ -252,7 +253,9 @@ def _parameters(callback: Argument) -> Meaning:
     if names is None:
         means = f"{callback.name or 'The callback'} cannot be called with a message."
     elif names and names[0] != "self" and callback.kind == "method":
-        means = f"{callback.name} has no parameter self, so the message finds no place."
+        means = (
+            f"{callback.name} has no self parameter, so there is no parameter left for the message."
+        )
     else:
         means = f"{callback.name} has no parameter for the message."
     return Meaning("callback-parameters", means, _WITH_MESSAGE)
@@ -272,7 +275,7 @@ def called_at_once(fault: Fault) -> Meaning | None:
 
 
 def _called(name: str) -> Meaning:
-    means = f"{name} is called while the node is being made, and not handed over."
+    means = f"{name} is called while the node is being created, instead of being passed."
     return Meaning("callback-called", means, _HAND_OVER)
 
 
@@ -306,22 +309,22 @@ def wrong_timer(fault: Fault) -> Meaning | None:
     order = ORDER["create_timer"]
     period, callback = _part(call, 0, "timer_period_sec"), _part(call, 1, "callback")
     if period and role_of(period) == "callback" and callback:
-        means = "create_timer got the callback in the place of the period."
+        means = "create_timer got the callback instead of the period."
         return Meaning("arguments-swapped", means, order)
     if period is None or role_of(period) == "callback":
-        return Meaning("argument-missing", "create_timer was not told how often.", order)
+        return Meaning("argument-missing", "create_timer was called without a period.", order)
     if callback is None:
-        return Meaning("callback-missing", "create_timer was not told what to call.", order)
+        return Meaning("callback-missing", "create_timer was called without a callback.", order)
     if len(call.given) > 2:
-        return Meaning("wrong-argument", "create_timer was given an argument too many.", order)
-    means = f"create_timer got {in_words(period)} as the time between two calls."
+        return Meaning("wrong-argument", "create_timer was given too many arguments.", order)
+    means = f"create_timer got {in_words(period)} as its period."
     if period.kind in ("int", "float"):
-        means = "The time between two calls of the timer is a number that no clock can wait for."
+        means = "The timer's period is a number of seconds that no clock can measure."
     return Meaning("wrong-rate", means, PERIOD)
 
 
 #: What the period of a timer may be.
-PERIOD = "The period is a number of seconds above zero, such as 0.5 or 2."
+PERIOD = "A timer's period is a number of seconds above zero, such as 0.5 or 2."
 
 
 # A call as a line of source shows it. What the line does not tell is `unknown`.

@@ -116,21 +116,27 @@ _MADE_BY_NODE = (
     "_guards|_rate_group|_on_set_parameters_callbacks|_Node__\\w+"
 )
 _SUPER = (
-    "What makes a node of your class is the constructor of its parent: it has to be called first "
-    "of all in `__init__`, with the node's name."
+    "The parent's constructor turns your object into a node. Call it first in `__init__`, with "
+    "the node's name."
 )
-_NAME = "The parent's constructor, super().__init__, takes the node's name, a text in quotes."
+_NAME = "The parent's constructor, super().__init__, takes the node's name, a string in quotes."
 
 
 def _no_node(fault: Fault) -> Meaning | None:
     """Recognise something handed over that is no node; the sentence is the session's own."""
     if fault.kind != "NodeClassError" or not fault.text:
         return None
-    to_try = "Hand over the class that you wrote, by its name, without quotes and brackets."
+    to_try = "Pass the class that you wrote, by its name, without quotes or parentheses."
     if "is a class, but not a node" in fault.text:
-        to_try = "A class becomes a node by what stands in brackets behind its name: its parent."
+        to_try = (
+            "A class becomes a node through its parent, which is named in parentheses after the "
+            "class's own name."
+        )
     elif " returned, " in fault.text:
-        to_try = "A function that makes a node has to give it back. What does its last line do?"
+        to_try = (
+            "A function that creates a node has to return it. What does the function's last line "
+            "do?"
+        )
     return Meaning("no-node", fault.text, to_try)
 
 
@@ -143,15 +149,15 @@ def _name_missing(fault: Fault) -> Meaning | None:
         return None
     call = fault.asked
     if call and call.given and call.given[0].kind == "str":
-        means = "Node.__init__ was called without the node that it is to make."
+        means = "Node.__init__ was called without self, the node that it initializes."
         return Meaning("super-missing", means, _SUPER)
     if fault.line and fault.callback == "__init__":
-        return Meaning("node-name-missing", "The node was made without a name.", _NAME)
+        return Meaning("node-name-missing", "The node was created without a name.", _NAME)
     return Meaning(
         "node-name-missing",
         "The class has no constructor of its own that gives the node a name.",
         "Look at the line that should begin the constructor: is it spelled `__init__`, with two "
-        "underscores on both sides, and does it stand inside of the class?",
+        "underscores on each side, and is it inside the class?",
     )
 
 
@@ -161,12 +167,12 @@ def _wrong_name_argument(fault: Fault) -> Meaning | None:
     if call is None or call.method != "Node.__init__":
         return None
     if len(call.given) > 1 and call.given[0].kind == call.given[1].kind:
-        means = "super().__init__ was given self, which super() hands over by itself."
+        means = "super().__init__ was given self, although super() already passes it."
         return Meaning("wrong-argument", means, _NAME)
     name = call.named.get("node_name") or (call.given[1] if len(call.given) > 1 else None)
     if name is None or name.kind == "str":
         return None
-    means = f"The node got {calls.in_words(name)} in the place of its name."
+    means = f"The node got {calls.in_words(name)} instead of its name."
     return Meaning("wrong-argument", means, _NAME)
 
 
@@ -176,12 +182,12 @@ _NODE_RULES: tuple[Rule, ...] = (
         "exits",
         r"^SystemExit: ",
         "This line ends the whole program, and every node in it.",
-        "A node runs until somebody outside ends it. Take that line out.",
+        "A node runs until it is stopped from outside. Remove that line.",
     ),
     Row(
         "super-missing",
         rf"has no attribute '({_MADE_BY_NODE})'",
-        "The node is used before it is made: super().__init__ has not been called yet.",
+        "The node is used before it is initialized: super().__init__ has not been called yet.",
         _SUPER,
     ),
     Row(
@@ -193,7 +199,7 @@ _NODE_RULES: tuple[Rule, ...] = (
     Row(
         "super-missing",
         r"'__init__' requires a 'super' object",
-        "super itself was asked, and it is super(), with brackets, that finds the parent.",
+        "The parentheses after super are missing: super() finds the parent, super alone does not.",
         _SUPER,
     ),
     _name_missing,
@@ -201,27 +207,29 @@ _NODE_RULES: tuple[Rule, ...] = (
     Row(
         "invalid-name",
         r"unknown substitution|topic name .* is invalid",
-        "The topic's name holds braces, and nothing is known that belongs in them.",
-        "An f-string has an f before its quotes; in a plain text braces stay braces.",
+        "The topic's name contains braces, and ROS cannot substitute their content.",
+        "Only an f-string, with an f before its quotes, replaces braces with values.",
     ),
     Row(  # row 12; ROS says in a sentence what is wrong with the name, and then the name
         "invalid-name",
         r"^Invalid(?:NodeName|TopicName|ServiceName|Namespace)\w*: [\w ]+: (.+):\n\s*'(.*)'",
         "ROS does not allow the name '{2}': {1}.",
-        "Names hold letters of the English alphabet, digits and `_`, and begin with a letter. In "
-        "the name of a topic or a service, a slash may stand between two parts, not at the end.",
+        "Names consist of English letters, digits and `_`, and begin with a letter. In the name "
+        "of a topic or a service, a slash may separate two parts, but may not be the last "
+        "character.",
     ),
     Row(
         "type-mismatch",
         r"invalid allocator|existing topic name .* incompatible type",
-        "The topic exists already, with another message type.",
-        "One topic carries one type. Which one do the others use on this topic?",
+        "The topic already exists with another message type.",
+        "All messages on a topic have the same type. Which type do the other nodes use on this "
+        "topic?",
     ),
     Row(
         "not-initialised",
         r"^(?:NotInitializedException|NoSessionError): ",
-        "A node was made before ROS was started.",
-        "In a program one call starts ROS, and it comes before the first node. Look at the "
+        "A node was created before ROS was started.",
+        "A program starts ROS with one call, before it creates its first node. Look at the "
         "beginning of main.",
     ),
     Row(
@@ -230,21 +238,22 @@ _NODE_RULES: tuple[Rule, ...] = (
         r"Context\.init\(\) must only be called once|: __enter__$"
         r"|'NoneType' object does not support the context manager protocol",
         "In this version of ROS, `rclpy.init` returns nothing, so `with` has nothing to work with.",
-        "Documentation of newer versions writes it so. Here ROS is started and ended by two calls "
-        "of their own.",
+        "Newer versions of ROS support that form. Here, use two separate calls to start ROS and "
+        "to shut it down.",
         r"\bwith\b.*\binit\(",
     ),
     Row(
         "initialised-twice",
         r"Context\.init\(\) must only be called once",
         "ROS was started twice.",
-        "Once is enough for a program. Look for a second rclpy.init, in main and elsewhere.",
+        "A program starts ROS only once. Look for a second rclpy.init, in main and elsewhere.",
     ),
     Row(
         "shut-down-twice",
         r"must be initialized before it can be shutdown|rcl_shutdown already",
         "ROS was shut down a second time.",
-        "Ctrl+C shuts it down, too. `rclpy.try_shutdown` does so only if it still runs.",
+        "Ctrl+C also shuts ROS down. `rclpy.try_shutdown` does nothing if ROS is already shut "
+        "down.",
     ),
 )
 
@@ -252,8 +261,8 @@ _NODE_RULES: tuple[Rule, ...] = (
 # Callbacks: those that do not return, that have other parameters, or are nothing to call.
 
 _WHO_SPINS = (
-    "A node only says what is to be done, in callbacks that return soon; spinning is the "
-    "business of whoever runs the node."
+    "A node only provides callbacks, which return quickly. The program that runs the node spins "
+    "it, not the node itself."
 )
 
 
@@ -269,29 +278,28 @@ def _blocks(fault: Fault) -> Meaning | None:
     call = matched(fault, r"`?(rclpy\.\w+|[\w.]+)`? was called")
     return Meaning(
         "callback-blocks",
-        f"{call[1] if call else 'A wait'} waits for callbacks, and none can run before this one "
-        "has returned.",
+        f"{call[1] if call else 'A wait'} waits for callbacks, but no other callback can run "
+        "until this one returns.",
         _WHO_SPINS,
     )
 
 
 _NO_WAIT = (
-    "A callback must not wait: the node takes no message meanwhile. What comes later, or again and "
-    "again, is a timer's business."
+    "A callback must not wait, because the node processes no messages in the meantime. Use a "
+    "timer for anything that happens later or repeatedly."
 )
 _NO_LOOP = (
-    "A callback does its work once and returns. What is to happen again and again is a timer's "
-    "business."
+    "A callback does its work once and returns. Use a timer for anything that happens repeatedly."
 )
 _SET_UP = (
-    "A constructor sets the node up and returns; only then do callbacks run. What comes later, or "
-    "again and again, is a timer's business."
+    "A constructor sets the node up and returns; only then do callbacks run. Use a timer for "
+    "anything that happens later or repeatedly."
 )
 
 
 _ONCE = (
-    "A node makes its publishers, subscriptions and timers once, in the constructor, and keeps "
-    "them in self. A callback only uses them."
+    "A node creates its publishers, subscriptions and timers once, in the constructor, and "
+    "stores them in self. A callback only uses them."
 )
 
 
@@ -305,7 +313,8 @@ def _stuck(fault: Fault) -> Meaning:
     anew = re.match(r"(\d+ (?:publishers|subscriptions|timers)\b.*) in (\d+) calls$", fault.text)
     if anew:
         means = (
-            f"{fault.callback} made {anew[1]} in {anew[2]} calls, and each one slows the node down."
+            f"{fault.callback} created {anew[1]} in {anew[2]} calls, and each one slows the "
+            "node down."
         )
         return Meaning("made-anew", means, _ONCE)
     slow = re.match(r"(\d+) calls of callbacks took", fault.text)
@@ -315,10 +324,13 @@ def _stuck(fault: Fault) -> Meaning:
     waits = re.search(r"\b(sleep|wait|input|join)\(", fault.code) is not None
     loops = re.match(r"(while|for)\b", fault.code) is not None
     if fault.callback == "__init__":
-        ends = "There is no node before its constructor has returned. What ends it?"
+        ends = (
+            "The node does not exist until its constructor returns. What makes the constructor "
+            "return?"
+        )
         means = f"The constructor does not return: {fault.text}."
         return Meaning("constructor-blocks", means, _SET_UP if waits or loops else ends)
-    ends = "While it runs, the node can do nothing else. What ends it?"
+    ends = "While this callback runs, the node can do nothing else. What makes the callback return?"
     means = f"{fault.callback or 'The program'} does not return: {fault.text}."
     return Meaning("callback-blocks", means, _NO_WAIT if waits else _NO_LOOP if loops else ends)
 
@@ -332,20 +344,20 @@ def _endless(fault: Fault) -> Meaning | None:
     return Meaning(
         "endless-chain",
         fault.text,
-        "Each callback causes the next, and the clock stands still. Does a node hear what it "
-        "publishes itself?",
+        "Each callback triggers the next one, and no time passes. Does a node receive the "
+        "messages that it publishes itself?",
     )
 
 
 _HANDED_ONE = (
-    "One argument is handed to the callback of a subscription, the message; of an event, its info; "
-    "of an action, the goal's handle; of parameters, a list of them."
+    "Some callbacks take one argument: a subscription's callback takes the message, an event's "
+    "the event info, an action's the goal handle, and a parameter callback a list of parameters."
 )
-_HANDED_TWO = "A service's callback is handed two: the request, and a response to fill."
+_HANDED_TWO = "A service's callback takes two arguments: the request, and a response to fill."
 
 
-_NO_SELF = "takes no parameter, and Python hands every method its own object."
-_OTHER_DEFS = "Compare its `def` line with those of the other methods of a class."
+_NO_SELF = "has no parameters, but Python passes every method its own object."
+_OTHER_DEFS = "Compare the method's `def` line with those of the other methods in the class."
 
 
 def _called_with_others(fault: Fault) -> Meaning | None:
@@ -354,10 +366,10 @@ def _called_with_others(fault: Fault) -> Meaning | None:
     if not found or found[1] == "__init__" or not called_by_ros(fault):
         return None
     name = found[1]
-    means = f"{name} has more parameters than ROS fills in when it calls it."
+    means = f"{name} has more parameters than ROS passes arguments."
     to_try = (
-        f"A timer calls its callback without arguments. {_HANDED_ONE} {_HANDED_TWO} Which one "
-        f"calls {name}?"
+        f"A timer calls its callback without arguments. {_HANDED_ONE} {_HANDED_TWO} Which of "
+        f"them is {name}?"
     )
     if found[2] == "takes 0":
         means = f"{name} {_NO_SELF}"
@@ -371,10 +383,10 @@ def _nothing_to_call(fault: Fault) -> Meaning | None:
     if not found or not called_by_ros(fault):
         return None
     if found[1] == "NoneType":
-        return calls.callback_called("The callback of the timer")
+        return calls.callback_called("The timer's callback")
     return Meaning(
         "wrong-argument",
-        f"The timer was given an object of type {found[1]} to call, which cannot be called.",
+        f"The timer's callback is an object of type {found[1]}, which cannot be called.",
         calls.KINDS["callback"],
     )
 
@@ -396,20 +408,20 @@ _CALL_RULES: tuple[Rule, ...] = (
     Row(
         "wrong-depth",
         r"Expected QoSProfile or int|history depth must be greater",
-        "What stands in the place of the queue depth is no depth.",
+        "The value given as the queue depth is not a valid depth.",
         calls.KINDS["depth"],
     ),
     # Where the call itself is not known, in a terminal.
     Row(
         "depth-missing",
         r"create_publisher\(\) missing 1 .*: 'qos_profile'",
-        "An argument is missing: the queue depth was left out.",
+        "The last argument, the queue depth, is missing.",
         calls.ORDER["create_publisher"],
     ),
     Row(
         "argument-missing",
         r"create_\w+\(\) missing 1 .*: 'qos_profile'",
-        "An argument is missing: the queue depth, or the callback before it, was left out.",
+        "An argument is missing: either the queue depth, or the callback before it.",
         calls.ORDER["create_subscription"],
     ),
     calls.wrong_timer,
@@ -428,13 +440,17 @@ def _not_given_back(fault: Fault) -> Meaning | None:
         return None
     (given,) = call.given or (None,)
     if given is not None and given.kind == "NoneType":
-        means = f"{fault.callback} gives nothing back, so the client never gets an answer."
-        return Meaning("response-missing", means, "The last line of a service's callback: return.")
+        means = f"{fault.callback} returns nothing, so the client never gets a response."
+        return Meaning(
+            "response-missing",
+            means,
+            "A service's callback ends with a return. What does it return?",
+        )
     what = calls.in_words(given) if given is not None else "something"
     return Meaning(
         "response-wrong",
-        f"{fault.callback} gives back {what}, and not the response that it was handed.",
-        "ROS hands the callback an empty response: fill its fields, and give that one back.",
+        f"{fault.callback} returns {what} instead of the response that it received.",
+        "ROS passes the callback an empty response. Fill its fields, and return that object.",
     )
 
 
@@ -453,7 +469,7 @@ def _called_with_more(fault: Fault) -> Meaning | None:
     counted = f"{given} argument" if given == 1 else f"{given} arguments"
     return Meaning(
         "callback-parameters",
-        f"ROS calls {name} with {counted}{besides}, and it takes {takes or 'none'}.",
+        f"ROS calls {name} with {counted}{besides}, but {name} takes {takes or 'none'}.",
         _HANDED_ONE if given == 1 else _HANDED_TWO,
     )
 
@@ -462,72 +478,73 @@ _ANSWER_RULES: tuple[Rule, ...] = (
     Row(
         "wrong-argument",
         r"The service type provided is not valid \(<class '[\w.]*?(\w+)'>\)",
-        "{1} is no service type: it holds one message, and a service type holds two.",
-        "A service is made from a class that has a Request and a Response inside. Which one?",
+        "{1} is not a service type: it is a single message, and a service type consists of two.",
+        "A service type is a class that contains a Request and a Response. Which one does this "
+        "service use?",
     ),
     Row(
         "wrong-argument",
         r"^TypeError: Node\.create_service\(\) takes 4 positional",
-        "create_service was given an argument too many.",
+        "create_service was given too many arguments.",
         calls.ORDER["create_service"],
     ),
     Row(
         "callback-missing",
         r"^TypeError: Node\.create_service\(\) missing 1 .*: 'callback'",
-        "create_service was given no callback.",
+        "create_service was called without a callback.",
         calls.ORDER["create_service"],
     ),
     _not_given_back,
     Row(
         "result-missing",
         r"'result' field must be a sub message of type",
-        "The work on a goal ends and gives no Result back.",
-        "Make a Result of the action, fill its field, and return it.",
+        "The execute callback of a goal ended without returning a Result.",
+        "Create a Result of the action, fill its field, and return it.",
     ),
     Row(
         "feedback-wrong",
         r"^TypeError: $",
-        "publish_feedback was given something else than a Feedback of the action.",
-        "An action brings three classes: its Goal, its Feedback and its Result.",
+        "publish_feedback was given something other than a Feedback message of the action.",
+        "An action type contains three classes: Goal, Feedback and Result.",
         "publish_feedback",
     ),
     Row(
         "canceled-unasked",
         r"invalid transition from state \w+ with event CANCELED",
-        "A goal was reported canceled, and nobody had asked for that.",
-        "Ask the goal handle first.",
+        "A goal was reported as canceled, but no client had requested that.",
+        "Ask the goal handle first whether a cancel was requested.",
     ),
     Row(
         "ended-twice",
         r"invalid transition from state (\w+) with event",
-        "A goal that had ended ({1}) was ended again.",
-        "Each goal ends once: on each way only one of the calls.",
+        "A goal that had already ended ({1}) was ended again.",
+        "A goal ends once, so each path through the callback makes only one of these calls.",
     ),
     Row(
         "await-missing",
         r"^TypeError: (?!.* is not callable).*'Future'",
-        "A future stands where its result is meant.",
-        "A future is an answer that is still to come. What does await do with it?",
+        "A future is used instead of its result.",
+        "A future stands for a result that isn't available yet. What does await do with a future?",
     ),
     Row(
         "wrong-argument",
         r"non-integer .*range|'float' object cannot be interpreted as an integer",
-        "random.randint was given a number with a decimal point, and draws whole numbers only.",
-        "Which function of random draws a number with decimals?",
+        "random.randint was given a number with a decimal point, but it draws whole numbers only.",
+        "Which function of the random module draws a decimal number?",
         r"\brandint\(",
     ),
     Row(
         "await-missing",
         r"^TypeError: .*\bNoneType\b",
-        "A future was asked for its result before it had one, and result() gave None.",
-        "A future is an answer that is still to come. Which word waits for it?",
+        "result() was called on a future that had no result yet, so it returned None.",
+        "A future stands for a result that isn't available yet. Which keyword waits for it?",
         r"\.result\(\)",
     ),
     Row(
         "not-an-integer",
         r"'float' object cannot be interpreted as an integer",
-        "A number with a decimal point stands where a whole one belongs.",
-        "A sequence of int32 takes whole numbers only, and 19.0 is none for Python.",
+        "A number with a decimal point is used where a whole number is required.",
+        "A sequence of int32 takes whole numbers only, and to Python 19.0 is a float.",
     ),
     _called_with_more,
 )
@@ -539,46 +556,47 @@ _PARAMETER_RULES: tuple[Rule, ...] = (
     Row(
         "parameter-type",
         r"parameter '([^']+)' to '(.*)' of type '(\w+)', expecting type '(\w+)'",
-        "The parameter {1} got {2}, of type {3}, and it was declared with a value of type {4}.",
-        "The first value that declare_parameter gets decides about the type: 20 is an INTEGER, a "
-        "whole number, and 20.0 is a DOUBLE, a decimal one.",
+        "The parameter {1} was set to {2}, of type {3}, but was declared with a value of type {4}.",
+        "The default value in declare_parameter determines the type: 20 is an INTEGER, a whole "
+        "number, and 20.0 is a DOUBLE, a decimal number.",
     ),
     Row(
         "parameter-type",
         r"not one of the allowed types",
-        "A parameter got something that no parameter can have as a value.",
-        "Behind its name stands the first value: a number, a text, or True or False.",
+        "A parameter was given a value of a type that no parameter can have.",
+        "The argument after the name is the default value: a number, a string, True or False.",
     ),
     Row(
         "arguments-swapped",
         r"^TypeError: First element .* in parameters list is not a str",
-        "declare_parameter got something else in the place of the name.",
-        "The name comes first, in quotes, and then the first value.",
+        "declare_parameter got something else instead of the parameter's name.",
+        "The name comes first, in quotes, and the default value second.",
     ),
     Row(
         "wrong-argument",
         r"Node\.get_parameter\(\) takes 2 positional",
-        "get_parameter takes the name of a parameter, and was given more.",
-        "The first value is said once, where the parameter is declared.",
+        "get_parameter takes only the name of a parameter, but was given more arguments.",
+        "The default value is given once, where the parameter is declared.",
     ),
     Row(
         "parameter-undeclared",
         r"undeclared parameter\(s\): \W*(.+?)\W*$",
-        "The node asks for a parameter that is not declared: {1}.",
-        "A parameter is declared once, in the constructor, before its value is asked for. Compare "
+        "The node reads a parameter that is not declared: {1}.",
+        "Declare a parameter once, in the constructor, before the node reads its value. Compare "
         "the two names letter by letter.",
     ),
     Row(
         "parameter-twice",
         r"already declared: \W*(.+?)\W*$",
         "The parameter {1} is declared twice.",
-        "It is declared once, in the constructor; a callback only asks for its value.",
+        "Declare a parameter once, in the constructor; a callback only reads its value.",
     ),
     Row(
         "parameter-for-value",
         r"Error: .*'Parameter(?:Value)?'",
-        "A parameter, which has a name and a type, too, is used as if it were its value.",
-        "What does a parameter offer behind a dot?",
+        "A Parameter object, which has a name, a type and a value, is used as if it were the "
+        "value.",
+        "Which attribute of a parameter holds its value?",
     ),
 )
 
@@ -604,8 +622,8 @@ def _without_a_name(fault: Fault) -> Meaning | None:
         return None
     return Meaning(
         "wrong-argument",
-        f"{found[1]} was given something without a name.",
-        f"What it takes has a name in front: {_TAKES.get(found[1], _EVENTS)}.",
+        f"{found[1]} was given a positional argument.",
+        f"{found[1]} takes keyword arguments only: {_TAKES.get(found[1], _EVENTS)}.",
     )
 
 
@@ -619,7 +637,7 @@ def _of_another_name(fault: Fault) -> Meaning | None:
     return Meaning(
         "wrong-argument",
         f"{called} has no argument {name}.",
-        f"It takes {_TAKES.get(called, _EVENTS)}. Compare letter by letter.",
+        f"{called} takes {_TAKES.get(called, _EVENTS)}. Compare the names letter by letter.",
     )
 
 
@@ -641,9 +659,9 @@ def _policy_of_another_kind(fault: Fault) -> Meaning | None:
     which = policies[0] if len(policies) == 1 else "one of the policies"
     return Meaning(
         "wrong-argument",
-        f"QoSProfile was given something for {which} that cannot be one.",
-        "A depth is a whole number, a deadline or a lifespan is a Duration, and for reliability "
-        "and durability there are names in ReliabilityPolicy and DurabilityPolicy.",
+        f"QoSProfile was given an invalid value for {which}.",
+        "A depth is a whole number, and a deadline or a lifespan is a Duration. The values for "
+        "reliability and durability are in ReliabilityPolicy and DurabilityPolicy.",
     )
 
 
@@ -671,8 +689,8 @@ _QOS_RULES: tuple[Rule, ...] = (
     Row(
         "depth-missing",
         r"^InvalidQoSProfileException: .*depth",
-        "QoSProfile was not told how many messages the queue holds.",
-        "A profile is made with depth= and with whatever else is not as usual.",
+        "QoSProfile was called without depth=, the number of messages that the queue holds.",
+        "A profile needs depth=, and takes any other policy that differs from the default.",
     ),
     _without_a_name,
     _of_another_name,
@@ -681,22 +699,22 @@ _QOS_RULES: tuple[Rule, ...] = (
     Row(
         "callback-called",
         r"^TypeError: .*?(\w+)\(\) missing 1 required positional argument",
-        "{1} is called while the node is being made, and not handed over.",
-        "Hand over the method itself, without brackets after its name: it is called later.",
+        "{1} is called while the node is being created, instead of being passed.",
+        "Pass the method itself, without parentheses after its name: ROS calls it later.",
         when=_called_for_an_event,
     ),
     Row(
         "wrong-argument",
         r"'(\w+)' object has no attribute 'create_event_h",
-        "event_callbacks was given a {1}, which does not say for which event it is.",
+        "event_callbacks was given a {1}, which does not name an event.",
         "A subscription takes SubscriptionEventCallbacks(...), a publisher "
-        "PublisherEventCallbacks(...); inside, each event has a name.",
+        "PublisherEventCallbacks(...). Their keyword arguments name the events.",
     ),
     Row(
         "wrong-argument",
         r"incompatible constructor arguments.*\n.*EventHandle",
-        "The event callbacks are made for the other side of a topic.",
-        "A subscription takes SubscriptionEventCallbacks, a publisher PublisherEventCallbacks.",
+        "These event callbacks belong to the other side of a topic.",
+        "A subscription takes SubscriptionEventCallbacks, and a publisher PublisherEventCallbacks.",
     ),
 )
 
@@ -720,14 +738,14 @@ def _decimal_comma(fault: Fault) -> Meaning | None:
         return None
     return Meaning(
         "wrong-argument",
-        f"{found[0]} is not one number in Python, but two arguments: {found[1]} and {found[2]}.",
-        f"A decimal number is written with a point: {found[1]}.{found[2]}.",
+        f"{found[0]} isn't one number in Python, but two arguments: {found[1]} and {found[2]}.",
+        f"Write a decimal number with a point: {found[1]}.{found[2]}.",
     )
 
 
 _NO_COMMA = (
-    "Where does it get its value? In Python 22,5 is a tuple of two numbers; the decimal number is "
-    "written with a point: 22.5."
+    "Where does this value come from? In Python, 22,5 is a tuple of two numbers; the decimal "
+    "number is written with a point: 22.5."
 )
 _COMMA_RULES: tuple[Rule, ...] = (
     _decimal_comma,
@@ -737,7 +755,7 @@ _COMMA_RULES: tuple[Rule, ...] = (
         r"|(?:of|for) .*'(?:float|int)' and 'tuple'|(?:of|for) .*'tuple' and '(?:float|int)'"
         r"|real number, not '?tuple|passed to tuple\.__format__|type tuple doesn't define __round__"
         r"|bad operand type for abs\(\): 'tuple'",
-        "A tuple, which is several values, stands where a number belongs.",
+        "A tuple, which holds several values, is used where a number is required.",
         _NO_COMMA,
     ),
 )
@@ -745,16 +763,16 @@ _COMMA_RULES: tuple[Rule, ...] = (
 
 # Messages and their fields.
 
-_SHOW = "`ros2 interface show std_msgs/msg/{1}` in a terminal lists what a {1} has."
-_ENVELOPE = "The message is an envelope: what it carries is in one of its fields."
+_SHOW = "`ros2 interface show std_msgs/msg/{1}` in a terminal lists the fields of a {1}."
+_ENVELOPE = "A message isn't the value itself: it holds the value in one of its fields."
 _TO_MAKE = {
-    "float": "A number such as 18 is an int, and one in quotes is a text. A decimal point makes a "
-    "float, and so does float(...).",
-    "str": "A text stands in quotes; str(...) or an f-string makes one of a number.",
+    "float": "A number such as 18 is an int, and a number in quotes is a string. A decimal point "
+    "makes a float, and so does float(...).",
+    "str": "Write a string in quotes; str(...) or an f-string turns a number into a string.",
 }
 _NO_RETURN = (
-    "Where does this value come from? A function that ends without return gives None. Does each "
-    "way through it end with a return?"
+    "Where does this value come from? A function that ends without return gives None. Does every "
+    "path through the function end with a return?"
 )
 _PLAIN_KINDS = ("int", "bool", "str", "float", "bytes", "list", "tuple", "dict")
 
@@ -770,10 +788,10 @@ def _field_of_another_type(fault: Fault) -> Meaning | None:
     mistake, to_try = "not-a-float", _TO_MAKE.get(wanted, f"Give it {article(wanted)}.")
     if constant:
         kind = type(ast.literal_eval(constant)).__name__
-        got = f"{constant} is {'nothing at all' if kind == 'NoneType' else article(kind)}"
+        got = f"{constant} is {'no value' if kind == 'NoneType' else article(kind)}"
     elif given:
         plain = given.kind in _PLAIN_KINDS
-        got = f"what it was given is {article(given.kind) if plain else calls.in_words(given)}"
+        got = f"the value given is {article(given.kind) if plain else calls.in_words(given)}"
         others = {
             "message": ("message-for-value", _ENVELOPE),
             "NoneType": ("none-used", _NO_RETURN),
@@ -781,8 +799,8 @@ def _field_of_another_type(fault: Fault) -> Meaning | None:
         }
         mistake, to_try = others.get(given.kind, (mistake, to_try))
     else:
-        got = "what it was given is something else"
-    means = f"The field {name} of the message takes {article(wanted)}, and {got}."
+        got = "the value given is something else"
+    means = f"The field {name} of the message takes {article(wanted)}, but {got}."
     return Meaning(mistake, means, to_try)
 
 
@@ -811,7 +829,7 @@ def _field_of_another_name(fault: Fault) -> Meaning | None:
     kind = re.search(rf"\b({_MESSAGE})\(", fault.code)
     return Meaning(
         "wrong-keyword",
-        f"The message has no field called {found[1]}, so it cannot be given one.",
+        f"The message has no field called {found[1]}.",
         "Compare the name letter by letter. " + _SHOW.format("", kind[1] if kind else "Float32"),
     )
 
@@ -829,25 +847,25 @@ def _published(fault: Fault) -> Meaning | None:
         name = got.removeprefix("Metaclass_")
         return Meaning(
             "class-published",
-            f"publish was given the class {name} itself, and no message of it.",
-            f"{name} is the form; a filled-in form is made by calling it. How do you call a class?",
+            f"publish was given the class {name} itself instead of a message.",
+            "Calling a class creates an object, here a message. How do you call a class?",
         )
     if ".msg." in found[2]:
         return Meaning(
             "type-mismatch",
-            f"The publisher was made for messages of type {wanted}, and was given a {got}.",
-            "One topic carries one type. Compare the line that makes the publisher with the line "
-            "that makes the message.",
+            f"The publisher was created for messages of type {wanted}, but was given a {got}.",
+            "All messages on a topic have the same type. Compare the line that creates the "
+            "publisher with the line that creates the message.",
         )
     return _value_published(wanted, got)
 
 
 def _value_published(wanted: str, got: str) -> Meaning:
-    words = {"NoneType": "None", "bytes": "bytes"}.get(got, f"a bare value, {article(got)}")
+    words = {"NoneType": "None", "bytes": "bytes"}.get(got, article(got))
     return Meaning(
         "number-published",
-        f"publish was given {words}, and not a message.",
-        f"Make a {wanted} first and put the value into its field; publish sends that.",
+        f"publish was given {words} instead of a message.",
+        f"Create a {wanted} first and assign the value to its field, then publish that message.",
     )
 
 
@@ -857,20 +875,20 @@ _FIELD_RULES: tuple[Rule, ...] = (
         "wrong-values",
         r"The '(\w+)' field must be an? [\w ]+ in \[",
         "The number is too large for the field {1}.",
-        "Print it before that line, for each call: does it grow from one to the next?",
+        "Print the number before that line. Does it grow from one call to the next?",
     ),
     _field_of_another_name,
     Row(
         "field-without-name",
         rf"^TypeError: ({_MESSAGE})\.__init__\(\) takes 1 positional argument but \d",
-        "{1}(...) was given a value without the name of the field it belongs in.",
-        f"A message can have many fields, so each value is given by its field's name. {_SHOW}",
+        "{1}(...) was given a value without the name of its field.",
+        f"A message can have many fields, so pass each value with the name of its field. {_SHOW}",
     ),
     Row(
         "no-publisher",
         rf"'({_MESSAGE})' object has no attribute 'publish'",
-        "A message of type {1} stands where a publisher is meant.",
-        "A message only carries a value. Which method of a node makes a publisher?",
+        "A message of type {1} is used instead of a publisher.",
+        "A message only carries a value. Which method of a node creates a publisher?",
     ),
     Row(
         "wrong-field",
@@ -881,22 +899,22 @@ _FIELD_RULES: tuple[Rule, ...] = (
     Row(
         "class-changed",
         r"'(\w+)' object attribute '(\w+)' is read-only",
-        "Some line before this one has put a value into {2} of the class {1} itself. That has "
-        "spoilt the class for all messages; it is whole again now.",
-        "Look for a {1} without brackets behind it, then run your cells again.",
+        "An earlier line has assigned a value to {2} of the class {1} itself, which broke the "
+        "class for all messages. The class has been restored.",
+        "Look for a {1} without parentheses after it, then run your cells again.",
     ),
     _published,
     Row(
         "number-published",
         r"Publisher\.publish\(\) (takes|missing|got)",
-        "publish takes exactly one thing, a message, and was called with something else.",
-        "Make the message first, put the value into its field, and hand over the message alone.",
+        "publish takes exactly one argument, a message, but was called with something else.",
+        "Create the message first, assign the value to its field, and pass only the message.",
         when=lambda fault, _: not called_by_ros(fault),
     ),
     Row(
         "message-for-value",
         rf"^TypeError: (?!.* is not callable).*?(?:['\"]|not |type |to )({_MESSAGE})\b",
-        "A whole message of type {1} stands where the value in it is meant.",
+        "A whole message of type {1} is used instead of the value in its field.",
         f"{_ENVELOPE} {_SHOW}",
     ),
 )
@@ -926,22 +944,24 @@ def _name_error(fault: Fault) -> Meaning | None:
     if not found:
         return None
     meant = matched(fault, _SUGGESTED)
-    means = f"Python does not know the name {found[1]} here."
+    means = f"The name {found[1]} is not defined here."
     return Meaning("name-error", means, _about(found[1], meant[1] if meant else ""))
 
 
 def _about(name: str, meant: str) -> str:
     if name in _CAPITALS:
-        return "Python's words for yes, no and nothing begin with a capital letter."
+        return "True, False and None begin with a capital letter."
     if name in NODE_METHODS or meant.startswith("self."):
-        return "It belongs to the node, and inside of its methods the node is called self."
+        return (
+            "This name belongs to the node, and inside the node's methods the node is called self."
+        )
     if meant and meant != name:
-        return f"There is something of the name {meant}. Compare the two letter by letter."
+        return f"There is a similar name, {meant}. Compare the two letter by letter."
     if name in _IMPORTED:
-        return "It comes from a package: what stands in the imports at the top?"
+        return "This name comes from a package. Do the imports at the top include it?"
     return (
-        "A text needs quotes; a method or attribute of the node needs self. before it; and what "
-        "is imported or assigned elsewhere has to be spelled alike."
+        "A string needs quotes, and a method or attribute of the node needs self. before it. "
+        "Compare the spelling with the line that imports or assigns the name."
     )
 
 
@@ -952,14 +972,14 @@ def _not_assigned_yet(fault: Fault) -> Meaning | None:
     found = matched(fault, r"variable '(\w+)'")
     name = found[1] if found else "A variable"
     if re.search(rf"^{name} = .*\(\s*{name}\b", fault.code):
-        means = f"{name} has no value yet: this line asks for it, and only then gives it one."
-        to_try = "If its name is meant, it is a text, and a text needs quotes."
+        means = f"{name} has no value yet: this line reads {name} before it assigns a value."
+        to_try = "If you mean the name itself, it's a string, and a string needs quotes."
         return Meaning("no-value-yet", means, to_try)
     return Meaning(
         "no-value-yet",
         f"{name} has no value yet at this line.",
-        "It gets one in a branch that was not taken, or further below. What should be kept from "
-        "one call to the next belongs to the node: self. before it.",
+        "Its assignment is in a branch that was not taken, or on a later line. A value to keep "
+        "from one call to the next belongs to the node: write self. before its name.",
     )
 
 
@@ -976,10 +996,10 @@ def _no_such_attribute(fault: Fault) -> Meaning | None:
         alike = get_close_matches(name.lower(), [plain], 1, 0.7)
         return Meaning(
             "wrong-attribute",
-            f"{owner} has nothing called {name}; it has {meant}.",
-            "Compare the two letter by letter." if alike else "Is that the one?",
+            f"{owner} has no attribute {name}; it has {meant}.",
+            "Compare the two letter by letter." if alike else "Is that the one you mean?",
         )
-    return Meaning("wrong-attribute", f"{owner} has nothing called {name}.", _where(fault, found))
+    return Meaning("wrong-attribute", f"{owner} has no attribute {name}.", _where(fault, found))
 
 
 def _meant(fault: Fault, owner: str, name: str) -> str:
@@ -994,15 +1014,17 @@ def _meant(fault: Fault, owner: str, name: str) -> str:
 
 def _where(fault: Fault, found: Found) -> str:
     if found[2] or not re.search(rf"\bself\.{re.escape(found[4])}\b", fault.code):
-        return "Compare the name with the documentation, or with the line that makes it."
+        return (
+            "Compare the name with the documentation, or with the line that creates the attribute."
+        )
     if fault.callback == "__init__":
         return (
-            "What is used in the constructor has to be made on a line above; and a method belongs "
-            "to the class only if its def stands as far left as that of the constructor."
+            "An attribute has to be assigned on an earlier line of the constructor. A method "
+            "belongs to the class only if its def has the same indentation as the constructor's."
         )
     return (
-        "Compare the spelling with the line in the constructor that makes it. Does it begin with "
-        "self. there, and does that line run?"
+        "Compare the spelling with the line in the constructor that assigns the attribute. Does "
+        "the name begin with self. there, and does that line run?"
     )
 
 
@@ -1012,14 +1034,14 @@ def _not_importable(fault: Fault) -> Meaning | None:
     if name:
         near = get_close_matches(name[1], sorted(MESSAGES), 1, 0.6) if "msg" in name[2] else []
         meant = f" It has {near[0]}." if near and near[0] != name[1] else ""
-        hint = "Compare the name, and where the package keeps it, with the imports on the page."
+        hint = "Compare the name and its module with the imports on the page."
         return Meaning("not-importable", f"{name[2]} has no {name[1]}.{meant}", hint)
     module = matched(fault, r"No module named '([\w.]+)'")
     if not module:
         return None
     near = get_close_matches(module[1], _KNOWN_MODULES, 1, 0.7)
     meant = f" There is {near[0]}." if near and near[0] != module[1] else ""
-    hint = "Compare its name letter by letter with the imports on the page."
+    hint = "Compare the module's name letter by letter with the imports on the page."
     return Meaning("not-importable", f"There is no module called {module[1]} here.{meant}", hint)
 
 
@@ -1029,22 +1051,23 @@ _NAME_RULES: tuple[Rule, ...] = (
     Row(
         "brackets-missing",
         r"'(function|method|builtin_function_or_method)' object has no attribute '(\w+)'",
-        "A method itself was asked for {2}, and not what the method returns.",
-        "A method runs only if brackets follow its name. Which one on this line has none?",
+        "This line looks for {2} on a method itself, instead of on the value that the method "
+        "returns.",
+        "A method runs only if parentheses follow its name. Which method on this line has none?",
     ),
     Row(
         "name-taken",
         r"property '(\w+)' of '\w+' object has no setter|can't set attribute '(\w+)'"
         r"|^AttributeError: (\w+) cannot be modified after node creation",
-        "{1} is something that every node has already, and it cannot be replaced.",
-        "Take another name for your own attribute; an underscore at its end is enough.",
+        "Every node already has an attribute called {1}, which cannot be replaced.",
+        "Choose another name for your own attribute; an underscore at its end is enough.",
     ),
     Row(
         "name-taken",
         r"^TypeError: 'method' object is not iterable$",
-        "A method of the class has a name that every node needs for something else, such as "
-        "clients, services or timers.",
-        "Give the method another name, at its def and wherever it is handed over.",
+        "A method of the class has a name that every node already uses, such as clients, "
+        "services or timers.",
+        "Give the method another name, in its def line and wherever you pass it.",
         when=lambda fault, _: (
             fault.callback in ("add", "run")
         ),  # the session failed, not a callback
@@ -1052,15 +1075,16 @@ _NAME_RULES: tuple[Rule, ...] = (
     Row(
         "name-taken",
         r"'method' object does not support the context manager protocol|: __enter__$",
-        "A method of the class has the name handle, and every node has a handle of its own.",
-        "Give the method another name, at its def and wherever it is handed over.",
+        "A method of the class is called handle, but every node already has an attribute of that "
+        "name.",
+        "Give the method another name, in its def line and wherever you pass it.",
         r"\bsuper\(\)\.__init__\(",
     ),
     Row(
         "none-used",
         r"'NoneType' object has no attribute '(\w+)'",
-        "What stands before .{1} on this line is None.",
-        "Where does it get its value? A function without return gives None.",
+        "The value before .{1} on this line is None.",
+        "Where does this value come from? A function without return gives None.",
     ),
     _no_such_attribute,
     _not_importable,
@@ -1085,74 +1109,74 @@ _VALUE_RULES: tuple[Rule, ...] = (
     Row(
         "text-and-number",
         _TEXT_AND_NUMBER,
-        "A text and a number stand side by side where Python wants two of a kind.",
-        "An f-string puts a number into a text. A number in quotes is a text.",
+        "This line combines a string and a number, but Python needs two values of the same kind.",
+        "An f-string inserts a number into a string. A number in quotes is a string.",
     ),
     Row(
         "none-used",
         r"supported .*'NoneType'|real number, not '?NoneType"
         r"|'NoneType' object cannot be interpreted as an integer",
-        "Something on this line is None: it has no value, and a number belongs there.",
-        "Where does it get its value, and has it got one before the first message comes? A "
+        "A value on this line is None, but a number is required.",
+        "Where does this value come from, and is it set before the first message arrives? A "
         "function without return gives None, and so does a parameter that was declared without a "
-        "first value.",
+        "default value.",
     ),
     Row(
         "none-used",
         r"object of type 'NoneType' has no len\(\)"
         r"|'NoneType' object is not (?:iterable|subscriptable)",
-        "What this line takes for a list is None.",
-        "Where does it get its value? A function without return gives None, and so do append and "
-        "sort, which change the list itself.",
+        "This line needs a list, but the value is None.",
+        "Where does this value come from? A function without return gives None, and so do append "
+        "and sort, which change the list itself.",
         r"\bself\.\w+",
     ),
     Row(
         "format-code",
         r"Unknown format code '(.)' for object of type '(\w+)'",
-        "The letter {1} after the colon in the braces does not fit: the value there is of type "
-        "{2}.",
-        "f writes a float, with .2f to two decimals; d is for whole numbers, s for texts.",
+        "The format code {1} after the colon in the braces does not match the value, which is of "
+        "type {2}.",
+        "f formats a float, with .2f to two decimals; d is for whole numbers, and s for strings.",
     ),
     Row(
         "logged-no-text",
         r"rclpy_logging_rcutils_log\(\): incompatible function arguments"
         r"|Logger\.\w+\(\) (takes|missing|got) ",
-        "The logger takes one text, and was given something else.",
-        "Unlike print it puts nothing together. An f-string makes one text of many parts.",
+        "The logger takes one string, but was given something else.",
+        "Unlike print, the logger does not join several values. An f-string combines them into "
+        "one string.",
     ),
     Row(
         "wrong-argument",
         r"^TypeError: Node\.((?!__init__)\w+)\(\) takes 1 positional argument but",
-        "{1} was given something, and takes nothing.",
-        "Its brackets stay empty; what it returns does the work.",
+        "{1} takes no arguments, but was given one.",
+        "Leave its parentheses empty, and use the value that it returns.",
     ),
     Row(
         "not-callable",
         r"^TypeError: '(\w+)' object is not callable",
-        "Brackets follow something of type {1}, which is no function.",
-        "Which name on this line stands before the brackets? A module or an object keeps its "
-        "functions behind a dot; a value needs no brackets.",
+        "Parentheses follow an object of type {1}, which is not a function.",
+        "Which name on this line is before the parentheses? A function of a module or an object "
+        "comes after a dot; a value takes no parentheses.",
         when=lambda fault, _: not called_by_ros(fault),
     ),
     Row(
         "division-by-zero",
         r"^ZeroDivisionError: |^StatisticsError: .*at least one data point",
-        "A number is divided by zero, as by the count of a list that is still empty.",
+        "This line divides by zero, for example by the length of a list that is still empty.",
         "How many readings are there at the first call?",
     ),
     Row(
         "index-error",
         r"^IndexError: .*from (an )?empty",
-        "The list is empty, so nothing can be taken out of it.",
-        "When does this line run although nothing is there? Ask for that before you take something "
-        "out.",
+        "The list is empty, so it has no element to take.",
+        "When does this line run while the list is still empty? Check that first.",
     ),
     Row(
         "index-error",
         r"^IndexError: .*index out of range",
-        "The list has no such place: it is shorter than this line expects.",
-        "How long is it at the first call? Counting begins at 0, so the last place is its length "
-        "less one.",
+        "The list has no such index: it is shorter than this line expects.",
+        "How long is the list at the first call? Indexes begin at 0, so the last one is the "
+        "length minus one.",
     ),
     Row(
         "self-missing",
@@ -1163,22 +1187,23 @@ _VALUE_RULES: tuple[Rule, ...] = (
     Row(
         "argument-missing",
         r"(\w+)\(\) missing \d required positional arguments?: (.+)",
-        "{1} wants {2}, and is called with empty brackets.",
-        "Look at the line that begins with def {1}: what does it take besides self?",
+        "{1} requires {2}, but is called without arguments.",
+        "Look at the line that begins with def {1}: which parameters does it have besides self?",
         when=lambda fault, found: f"self.{found[1]}()" in fault.code,
     ),
     Row(
         "constructor-parameters",
         r"__init__\(\) missing \d .*?arguments?: (.+)",
-        "The constructor wants {1}, and the class is called without arguments.",
-        "Whoever runs your node cannot know what to give it: let the constructor take self alone.",
+        "The constructor requires {1}, but the class is called without arguments.",
+        "A session calls your class without arguments, so the constructor's only parameter "
+        "should be self.",
         when=lambda fault, _: not fault.line,
     ),
     Row(
         "calls-itself",
         r"^RecursionError: ",
-        "A function calls itself again and again, until Python gives up.",
-        "What is to happen again later is a timer's business; a callback only has to return.",
+        "A function calls itself endlessly, until Python stops it.",
+        "Use a timer for anything that happens again later; a callback only needs to return.",
     ),
 )
 

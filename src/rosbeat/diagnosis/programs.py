@@ -128,8 +128,8 @@ def _registered_twice(text: str) -> Meaning | None:
         return None
     return Meaning(
         "run-twice",
-        "Two nodes of the same name run in this program, and they share one place for their logs.",
-        "Was the node made twice? Each needs a name of its own.",
+        "Two nodes in this program have the same name, so they share one logger.",
+        "Is the node created twice? Each node needs its own name.",
     )
 
 
@@ -140,20 +140,21 @@ def _unreadable(fault: Fault) -> Meaning | None:
     return Meaning(
         "syntax-error",
         f"Python cannot read the file: {said or 'something is missing'}.",
-        "Look at that line and at the one above it: a bracket, a quote, a colon, the indentation?",
+        "Check the brackets, quotes and colons on that line and the line above it, and their "
+        "indentation.",
     )
 
 
 def _ended(fault: Fault) -> Meaning | None:
     if fault.kind in ("KeyboardInterrupt", "ExternalShutdownException"):
-        means = "The program was ended with Ctrl+C, and main does not expect that."
+        means = "Ctrl+C ended the program, but main does not handle that exception."
     elif matched(fault, r"rcl_shutdown already called"):
-        means = "Ctrl+C has shut ROS down already, and main shuts it down a second time."
+        means = "Ctrl+C has already shut ROS down, and main shuts it down a second time."
     else:
         return None
     return Meaning(
         "ctrl-c-traceback",
         means,
-        "Nothing is broken; only the end is untidy. What does main do when spin is interrupted, "
-        "and after it?",
+        "The node itself worked; only its exit isn't clean. What does main do when spin is "
+        "interrupted, and after that?",
     )

@@ -16,8 +16,8 @@ _TOO_LITTLE = {
 }
 #: For whoever hands over `ReliabilityPolicy.BEST_EFFORT` and no profile.
 POLICY_ALONE = (
-    "A policy alone is no profile: it counts as a number, and so as a depth. It belongs in the "
-    "brackets of a QoSProfile, with its name in front."
+    "A policy alone isn't a QoS profile: ROS reads it as a number, and so as a queue depth. Pass "
+    "it to QoSProfile as a keyword argument."
 )
 _RULES = {
     "reliability": "a subscription that asks for RELIABLE needs a publisher that offers RELIABLE; "

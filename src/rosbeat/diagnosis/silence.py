@@ -54,7 +54,7 @@ def difference(one: str, other: str) -> str:
     if one.lower() == other.lower():
         return "they differ in capital letters"
     if _tail(one) == _tail(other):
-        return "they differ in what stands before the last slash"
+        return "they differ before the last slash"
     if one.strip("/_").replace("_", "") == other.strip("/_").replace("_", ""):
         return "they differ in underscores"
     return f"they differ in {_letters(one, other)}"
@@ -270,12 +270,12 @@ def _type_clash(
     sent, asked = _two_types(publishers[0].type_name, listeners[0].type_name)
     return finding(
         "type-mismatch",
-        f"two message types on {topic}",
+        f"{topic} has two message types",
         f"{nodes_of(publishers)} {verb(publishers, 'publishes', 'publish')} {sent}, and "
         f"{nodes_of(listeners)} {verb(listeners, *_DOES['subscription'])} {asked}. ROS connects "
-        "them only if the type is the same.",
-        "Decide on one type, and name it in `create_publisher` and in `create_subscription`.",
-        [link(marked, f"sends {sent}", f"asks for {asked}")],
+        "them only if both use the same type.",
+        "Decide on one type, and use it in both `create_publisher` and `create_subscription`.",
+        [link(marked, f"sends {sent}", f"expects {asked}")],
     )
 
 
@@ -308,14 +308,14 @@ def _quality(publisher: Endpoint, subscription: Endpoint, marked: Endpoint) -> F
     rules = "; ".join(f"{one}: {rule(one)}" for one in policies)
     return finding(
         "qos-mismatch",
-        f"{listing(policies)} of {publisher.node} and {subscription.node} do not fit"
+        f"{listing(policies)} of {publisher.node} and {subscription.node} are incompatible"
         if len(policies) > 1
-        else f"the {policies[0]} of {publisher.node} and {subscription.node} does not fit",
-        f"{publisher.node} offers {offers}, and {subscription.node} asks for {asks}. The rule of "
-        f"{rules}.",
-        "The publisher has to offer at least what the subscription asks for. Give both sides the "
+        else f"the {policies[0]} of {publisher.node} and {subscription.node} is incompatible",
+        f"{publisher.node} offers {offers}, but {subscription.node} requests {asks}. The rule "
+        f"for {rules}.",
+        "A publisher has to offer at least what the subscription requests. Give both sides the "
         "same QoS.",
-        [link(marked, f"offers {offers}", f"asks for {asks}")],
+        [link(marked, f"offers {offers}", f"requests {asks}")],
     )
 
 
@@ -327,11 +327,11 @@ def _unconnected(sides: Sides) -> Iterator[Finding]:
         yield finding(
             UNKNOWN,
             f"{nodes_of(fitting)} and {end.node} are not connected",
-            f"{fitting[0].node} offers {qos_words(fitting[0].qos)}, {end.node} asks for "
-            f"{qos_words(end.qos)}, and the type is the same. Nothing of that stands in the way, "
-            "and the middleware has not connected them.",
-            "If they have only just begun, ask again in a moment. If not, look at the deadline, "
-            "the lifespan and the liveliness in the QoS of both sides.",
+            f"{fitting[0].node} offers {qos_words(fitting[0].qos)}, {end.node} requests "
+            f"{qos_words(end.qos)}, and both use the same type. They are compatible, but the "
+            "middleware has not connected them.",
+            "If the nodes have only just started, ask again in a moment. If not, compare the "
+            "deadline, the lifespan and the liveliness in the QoS of both sides.",
             [link(end, "not connected")],
         )
 
@@ -352,11 +352,11 @@ def _misspelled(sides: Sides, graph: GraphSnapshot) -> Finding | None:
     how = difference(sides.topic, name)
     return finding(
         "topic-misspelled",
-        f"{pair[0]} and {pair[1]} are two topics",
+        f"{pair[0]} and {pair[1]} are two different topics",
         f"{nodes_of(here)} {verb(here, *_DOES[_OTHER[wanted]])} {sides.topic}, and "
-        f"{nodes_of(there)} {verb(there, *_DOES[wanted])} {name}; {how}. To ROS these are two "
-        "names.",
-        "Compare the two names letter by letter, and write the same one on both sides.",
+        f"{nodes_of(there)} {verb(there, *_DOES[wanted])} {name}; {how}. To ROS, these are two "
+        "different topics.",
+        "Compare the two names letter by letter, and use the same one on both sides.",
         [_near_miss(*pair)],
     )
 
@@ -380,29 +380,29 @@ def _nobody(sides: Sides, scene: Scene) -> Finding:
         return _no_publisher(sides, scene)
     return finding(
         "no-subscription",
-        f"nobody subscribes to {sides.topic}",
-        f"{nodes_of(sides.publishers)} {verb(sides.publishers, 'publishes', 'publish')} there, and "
-        "no node listens: what is published goes nowhere.",
-        f"Start the node that listens{_how_to_start(scene)}, and compare the topic's name in its "
-        "`create_subscription`.",
+        f"no node subscribes to {sides.topic}",
+        f"{nodes_of(sides.publishers)} {verb(sides.publishers, 'publishes', 'publish')} there, "
+        "but no node subscribes, so the messages reach no node.",
+        f"Start the node that subscribes{_how_to_start(scene)}, and compare the topic name in "
+        "its `create_subscription`.",
     )
 
 
 def _no_publisher(sides: Sides, scene: Scene) -> Finding:
     listeners = sides.subscriptions
-    start = f"tart the node that publishes{_how_to_start(scene)}, and compare the topic's name in"
+    start = f"tart the node that publishes{_how_to_start(scene)}, and compare the topic name in"
     # Others listen to the near one, so it may well be another topic: a question, and no verdict.
     near = nearest(sides.topic, _with_publishers(scene.graph))
     asked = (
-        f"Is {near} meant, where somebody publishes? {difference(sides.topic, near).capitalize()}. "
-        f"If not, s"
+        f"Did you mean {near}, which has a publisher? "
+        f"{difference(sides.topic, near).capitalize()}. If not, s"
         if near
         else "S"
     )
     return finding(
         "no-publisher",
-        f"nobody publishes on {sides.topic}",
-        f"{nodes_of(listeners)} {verb(listeners, 'listens', 'listen')} there, and no node "
+        f"no node publishes on {sides.topic}",
+        f"{nodes_of(listeners)} {verb(listeners, 'subscribes', 'subscribe')} to it, but no node "
         f"publishes{_before(scene)}. {_published_topics(scene.graph)}",
         f"{asked}{start} its `create_publisher`.",
         [_near_miss(near, sides.topic)] if near else [],
@@ -415,11 +415,11 @@ def _before(scene: Scene) -> str:
         return ""
     last = scene.former[-1]
     who = "another process" if last.node == "?" else last.node
-    return f" now; {who} did until {_at(last.last_ns)}, and is no longer there"
+    return f" now; {who} published until {_at(last.last_ns)}, and is no longer running"
 
 
 def _published_topics(graph: GraphSnapshot) -> str:
-    return f"Topics that are published: {listing(_with_publishers(graph)) or 'none'}."
+    return f"Topics with a publisher: {listing(_with_publishers(graph)) or 'none'}."
 
 
 def _with_publishers(graph: GraphSnapshot) -> list[str]:
@@ -430,18 +430,18 @@ def _unknown(topic: str, scene: Scene) -> Finding:
     names = visible_topics(scene.graph)
     near = nearest(topic, names)
     hint = (
-        f"Did you mean {near}? Ask about that one."
+        f"Did you mean {near}? Ask about that topic."
         if near
-        else f"Start a node that uses it{_how_to_start(scene)}, or ask about one that is there."
+        else f"Start a node that uses it{_how_to_start(scene)}, or ask about a topic that exists."
     )
     return finding(
         "topic-unknown",
-        f"nobody uses {topic}",
-        f"No node publishes on it{_before(scene)}, and none subscribes. "
-        f"Topics that are used: {listing(names) or 'none'}.",
+        f"no node uses {topic}",
+        f"No node publishes on it{_before(scene)}, and no node subscribes to it. Topics in use: "
+        f"{listing(names) or 'none'}.",
         hint,
         [
-            Mark(TOPIC, topic, words=("nobody uses", "this name")),
+            Mark(TOPIC, topic, words=("no node uses", "this name")),
             *([_near_miss(near, topic)] if near else []),
         ],
     )
@@ -510,47 +510,47 @@ class _Cause:
     words: tuple[str, ...]
 
 
-_NOT_RUN = "nobody runs the callbacks of {node}"
+_NOT_RUN = "{node} is not spun"
 _CONDITIONS = {
     ENDED: _Cause(
         "node-ended",
         "{node} has ended",
-        "{node} called rclpy.shutdown(), which ends it.",
+        "{node} called rclpy.shutdown(), which ended the node.",
         "Take that call out of the callback, and add the node again.",
         ("has ended",),
     ),
     BLOCKED: _Cause(
         "callback-blocks",
         "a callback of {node} does not return",
-        "{callback} has begun and not ended. Until it does, no other callback of {node} "
+        "{callback} has started but not returned. Until it returns, no other callback of {node} "
         "runs{others}.",
-        "A callback does one thing and returns: no endless loop, no `time.sleep`, no waiting for "
-        "an answer. What comes again and again is a timer's work.",
+        "A callback does its work once and returns: no endless loop, no `time.sleep`, no waiting "
+        "for a response. Use a timer for anything that happens repeatedly.",
         ("callback does", "not return"),
     ),
     PAUSED: _Cause(
         "not-spun",
         _NOT_RUN,
-        "{node} is paused: its messages wait in its queues, and its timers do not fire.",
-        'Let it go on with `ros.resume("{name}")`.',
+        "{node} is paused: messages wait in its queues, and its timers do not fire.",
+        'Resume the node with `ros.resume("{name}")`.',
         ("paused",),
     ),
     NOT_ADDED: _Cause(
         "not-spun",
         _NOT_RUN,
-        "{node} was made, and never handed to the session: it is in the graph, and none of its "
+        "{node} was created, but never added to the session: it is in the graph, but none of its "
         "callbacks is ever called.",
-        "Hand it over with `ros.add(...)`. In a program, `rclpy.spin(node)` does that.",
+        "Add the node with `ros.add(...)`. In a program, call `rclpy.spin(node)`.",
         ("not spun",),
     ),
     SILENT: _Cause(
         "not-spun",
         "{node} does not answer",
-        "{node} is in the graph, and did not answer a question that every running node answers. "
-        "Its process runs none of its callbacks: it does not spin, or one callback does not "
-        "return.",
-        "Look for `rclpy.spin(node)` in its `main`, then for an endless loop or `time.sleep` in a "
-        "callback.",
+        "{node} is in the graph, but did not respond to a service that every spinning node "
+        "offers. Its callbacks do not run: either the node is not spun, or one of its callbacks "
+        "does not return.",
+        "Look for `rclpy.spin(node)` in the node's `main`, then for an endless loop or "
+        "`time.sleep` in a callback.",
         ("does not", "answer"),
     ),
 }
@@ -561,13 +561,13 @@ def _of(condition: Condition, scene: Scene) -> Finding:
     if condition.state == ENDED and fault:
         evidence = (
             f"At {fault.time:.6g} s {fault.callback} raised {fault.kind}: "
-            f"{first_sentence(fault.text)}.{line_of(fault)} An exception that leaves a callback "
+            f"{first_sentence(fault.text)}.{line_of(fault)} An uncaught exception in a callback "
             "ends its node."
         )
-        hint = "Mend that line, then run the cell that adds the node again."
+        hint = "Correct that line, then run the cell that adds the node again."
     else:
         alone = node in scene.own and not scene.virtual
-        others = ", and no other node of the session runs meanwhile" if alone else ""
+        others = ", and neither does any other node of the session" if alone else ""
         evidence = cause.evidence.format(node=node, callback=condition.callback, others=others)
         hint = cause.hint.format(name=node.lstrip("/"))
     mark = Mark(NODE, node, words=cause.words)
@@ -582,13 +582,17 @@ def _twins(ends: tuple[Endpoint, ...], scene: Scene) -> Iterator[Finding]:
         if number < 2 or known[node] < 2:
             continue
         speak = kind == "publisher"
-        effect = "each publishes, so more arrives than you expect" if speak else "each hears all"
+        effect = (
+            "each of them publishes, so more messages arrive than you expect"
+            if speak
+            else "each of them receives every message"
+        )
         yield finding(
             "run-twice",
             f"{known[node]} nodes are called {node}",
-            f"The graph has {known[node]} nodes of that name; {effect}.",
-            "End the one that you no longer need: a terminal that still runs it (Ctrl+C), or "
-            "another page. If you want both, give one another name.",
+            f"The graph has {known[node]} nodes with that name; {effect}.",
+            "End the node that you no longer need: it may still run in a terminal (press Ctrl+C "
+            "there) or on another page. If you want both nodes, give one of them another name.",
             [Mark(TWINS, node, words=(f"{known[node]} of this name",))],
         )
 
@@ -623,8 +627,8 @@ def _no_time(sides: Sides, scene: Scene) -> Finding:
     return finding(
         "not-spun",
         "no time has passed since the nodes were added",
-        f"Virtual time stands at {_at(scene.now_ns)}, and moves only while "
-        "`ros.run` is at work. No timer has fired since, and no callback has run.",
+        f"Virtual time is at {_at(scene.now_ns)}, and advances only during `ros.run`. No timer "
+        "has fired since then, and no callback has run.",
         "Let the nodes run: `ros.run(seconds=10)`.",
         [link(end, "nothing yet") for end in sides.publishers],
     )
@@ -648,50 +652,46 @@ def _never(end: Endpoint, scene: Scene) -> Finding:
     return finding(
         "never-published",
         f"{end.node} has not published anything",
-        f"{end.node} has a publisher on {end.name}, and in {seconds(watched)} no message "
-        f"came from it.{why}",
+        f"{end.node} has a publisher on {end.name}, but published no message in "
+        f"{seconds(watched)}.{why}",
         hint,
         [link(end, "no message", "so far")],
     )
 
 
-_LOOK = (
-    "Look whether `publish` is called on this publisher, and by what: usually the callback of a "
-    "timer."
-)
+_LOOK = "Check which code calls `publish` on this publisher: usually it is a timer's callback."
 _LONGER = (
-    "If it publishes only now and then, listen longer: `--seconds 30` in a terminal, `seconds=30` "
-    f"on a page. {_LOOK}"
+    "If the node publishes only occasionally, listen longer: `--seconds 30` in a terminal, "
+    f"`seconds=30` on a page. {_LOOK}"
 )
 
 
 def _timers(node: str, watched: float, scene: Scene) -> tuple[str, str]:
     timers = [one for one in scene.graph.timers if one.node == node]
     if not timers:
-        return " It has no timer that could call `publish`.", _LOOK
+        return " The node has no timer that could call `publish`.", _LOOK
     fired = [one for one in timers if one.calls]
     if fired:
         names = ", ".join(f"{one.callback} ran {count(one.calls, 'time')}" for one in fired)
-        return f" Its timer works: {names}.", (
-            "Look whether that callback comes as far as `publish`, and on which publisher it calls "
-            "it."
+        return f" The node's timer works: {names}.", (
+            "Check whether that callback reaches its call of `publish`, and on which publisher."
         )
     first = min(timers, key=lambda one: one.period_ns)
     period = first.period_ns / NANOSECONDS
-    said = f" Its timer has a period of {seconds(period)} and has not fired."
+    said = f" The node's timer has a period of {seconds(period)} and has not fired."
     if period > watched:
         return said, f"Wait longer than {seconds(period)}, or choose a shorter period."
-    return said, "Look whether something cancels the timer."
+    return said, "Check whether something cancels the timer."
 
 
 def _gone_quiet(end: Endpoint, number: int, last_ns: int, quiet: float) -> Finding:
     return finding(
         "gone-quiet",
         f"{end.node} has stopped publishing",
-        f"It published {count(number, 'message')}, the last at {_at(last_ns)}, and "
+        f"The node published {count(number, 'message')}, the last one at {_at(last_ns)}, and "
         f"nothing in the {seconds(quiet)} since.",
-        "Look at what its callback does after that message: a condition that is no longer true, or "
-        "a timer that was cancelled.",
+        "Check what changed after that message: perhaps a condition in the callback is no longer "
+        "true, or the timer was cancelled.",
         [link(end, "silent since", _at(last_ns))],
     )
 
@@ -703,11 +703,10 @@ def _subscription(end: Endpoint, scene: Scene) -> Iterator[Finding]:
     if beat.since > (0 if scene.virtual else _ON_THE_WAY):
         yield finding(
             UNKNOWN,
-            "this is new to me",
+            "the cause is unknown",
             f"{count(beat.since, 'message')} were published while {end.node} was subscribed and "
-            "connected, and its callback has not run.",
-            "Look at the callback that you gave to `create_subscription`, and at its callback "
-            "group.",
+            "connected, but its callback has not run.",
+            "Check the callback that you passed to `create_subscription`, and its callback group.",
             [link(end, "nothing", "arrives")],
         )
     elif beat.missed:
@@ -718,11 +717,11 @@ def _too_early(end: Endpoint, missed: int) -> Finding:
     said = "The only message was" if missed == 1 else f"All {missed} messages were"
     return finding(
         "first-messages-lost",
-        f"what was published came before {end.node} listened",
-        f"{said} published before {end.node} subscribed, and none since. A topic keeps nothing for "
-        "those who come later.",
-        "Begin to publish when the other side is there (`get_subscription_count()`), or again and "
-        "again with a timer; or give both sides the durability TRANSIENT_LOCAL.",
+        f"the messages were published before {end.node} subscribed",
+        f"{said} published before {end.node} subscribed, and none since. By default, a topic "
+        "keeps no messages for late-joining subscriptions.",
+        "Publish once the subscription is there (`get_subscription_count()`), or publish "
+        "repeatedly with a timer, or give both sides the durability TRANSIENT_LOCAL.",
         [link(end, "came", "too late")],
     )
 
@@ -754,11 +753,11 @@ def _other_domain(
     own = f"; this is domain {here}" if here >= 0 else ""
     return finding(
         "other-domain",
-        f"ROS domain {domain.domain_id} has what is missing here",
-        f"In ROS domain {domain.domain_id}, {listing(said)}{own}. Nodes in different domains never "
-        "hear each other.",
-        "Compare `echo $ROS_DOMAIN_ID` in both terminals. Both need the same number, set before "
-        "the nodes start; a page joins with `Session(domain_id=...)`.",
+        f"the missing side is in ROS domain {domain.domain_id}",
+        f"In ROS domain {domain.domain_id}, {listing(said)}{own}. Nodes in different domains "
+        "never discover each other.",
+        "Compare `echo $ROS_DOMAIN_ID` in both terminals. Both terminals need the same number, "
+        "set before the nodes start; a page joins a domain with `Session(domain_id=...)`.",
     )
 
 
@@ -769,8 +768,9 @@ def private_domains(scene: Scene) -> str:
         return ""
     word = "domain" if len(ids) == 1 else "domains"
     return (
-        f"Somebody also speaks in ROS {word} {listing(ids)}, as the sessions of pages do: each has "
-        "a domain to itself, unless it is opened with `Session(domain_id=...)`."
+        f"ROS {word} {listing(ids)} also {'has' if len(ids) == 1 else 'have'} participants, "
+        "probably the sessions of pages: each session has a private domain, unless it is opened "
+        "with `Session(domain_id=...)`."
     )
 
 
@@ -783,10 +783,10 @@ def stale(scene: Scene) -> Iterator[Finding]:
 def _not_rebuilt(build: StaleBuild) -> Finding:
     return finding(
         "not-rebuilt",
-        f"{build.executable} was edited and not built again",
-        f"{build.module} names this topic, and differs from the copy that `ros2 run "
+        f"{build.executable} was edited after the last build",
+        f"{build.module} names this topic, but differs from the copy that `ros2 run "
         f"{build.package} {build.executable}` starts.",
-        "Run `colcon build` in the workspace, then end the node and start it again.",
+        "Run `colcon build` in the workspace, then stop the node and start it again.",
     )
 
 
@@ -794,9 +794,9 @@ def _not_built(build: StaleBuild) -> Finding:
     return finding(
         "not-built",
         f"{build.package} is not built yet",
-        f"{build.module} names this topic, and the package {build.package} was never built, so "
-        "nothing of it can run.",
-        "In the workspace: `colcon build`, then `source install/setup.bash`, then `ros2 run "
+        f"{build.module} names this topic, but the package {build.package} was never built, so "
+        "its nodes cannot run.",
+        "In the workspace, run `colcon build`, then `source install/setup.bash`, then `ros2 run "
         f"{build.package} {build.executable}`.",
     )
 
@@ -817,7 +817,7 @@ def _sentences(sides: Sides, scene: Scene) -> Iterator[str]:
         beat = scene.beat(end)
         yield f"{end.node} subscribes to {_what(end)}{_heard(beat)}."
     if scene.arriving_hz:
-        yield f"Altogether {comes(scene.arriving_hz, 'comes', 'come')} from other processes."
+        yield f"In total, {comes(scene.arriving_hz, 'arrives', 'arrive')} from other processes."
     if sides.missing:
         yield private_domains(scene)
 
@@ -830,7 +830,7 @@ def _published_by(beat: Beat) -> str:
     if beat.count < 0:
         return ""
     if beat.count == 0:
-        return f": nothing in {seconds(beat.seconds)}"
+        return f": no messages in {seconds(beat.seconds)}"
     rate = f", {rate_words(beat.rate_hz)}" if beat.rate_hz else ""
     last = f", the last at {_at(beat.last_ns)}" if beat.last_ns >= 0 else ""
     return f": {count(beat.count, 'message')}{rate}{last}"
@@ -847,7 +847,7 @@ def _heard(beat: Beat) -> str:
 
 def arrival(sides: Sides, scene: Scene, rate_hz: float) -> str:
     """Say what arrives and where, if all is well."""
-    listeners = nodes_of(sides.subscriptions) or "somebody who is not shown here"
+    listeners = nodes_of(sides.subscriptions) or "a subscription that is not shown here"
     if rate_hz:
         return f"{comes(rate_hz, 'arrives', 'arrive')} at {listeners}"
     number = sum(scene.beat(end).count for end in sides.publishers if scene.beat(end).count > 0)
@@ -981,11 +981,11 @@ def _anything_came(sides: Sides, scene: Scene) -> bool:
 def _new(sides: Sides, scene: Scene) -> Finding:
     return finding(
         UNKNOWN,
-        "this is new to me",
-        "Both sides are there and fit, and whether messages come could not be seen.",
-        "Listen yourself, in a terminal: "
-        f"`ros2 topic echo {sides.topic}`. If that knows no such message type, run `source "
-        "install/setup.bash` in the workspace first.",
+        "the cause is unknown",
+        "Both sides exist and are compatible, but it could not be observed whether messages "
+        "arrive.",
+        f"Listen in a terminal with `ros2 topic echo {sides.topic}`. If the command does not "
+        "find the message type, run `source install/setup.bash` in the workspace first.",
         [link(end, "nothing seen") for end in sides.publishers],
     )
 

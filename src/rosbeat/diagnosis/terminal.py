@@ -396,7 +396,7 @@ def _says_it_itself(seen: Situation, found: Diagnosis) -> bool:
 _BASH = r"^bash: (?:line \d+: )?"
 _NO_FILE = "No such file or directory"
 _MKDIR = r"^mkdir: cannot create directory '"
-_TOP = "starts with `/`, and that is the top of the whole disk"
+_TOP = "starts with `/`, the root of the file system"
 
 
 def _way_to(relative: str = "") -> str:
@@ -425,8 +425,8 @@ def _folder_gone(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
     way = _way_to() if seen.workspace.is_dir() else "cd"
     return Diagnosis(
         "folder-gone",
-        "The folder that this terminal is in does not exist any more.",
-        f"Go to another: `{way}`",
+        "This terminal's current folder no longer exists.",
+        f"Change to another folder: `{way}`",
     )
 
 
@@ -444,8 +444,8 @@ def _mkdir_at_the_top(_: Situation, __: Call, found: Found) -> Diagnosis | None:
         return None
     return Diagnosis(
         "tilde-missing",
-        f"{path} {_TOP}, which is not yours.",
-        f"Your own folder is called `~`: write  mkdir -p ~/{shlex.quote(path.lstrip('/'))}",
+        f"{path} {_TOP}, where you may not create folders.",
+        f"Your home folder is `~`: write  mkdir -p ~/{shlex.quote(path.lstrip('/'))}",
     )
 
 
@@ -457,9 +457,9 @@ def _typed_a_backslash(seen: Situation, *_: object) -> bool:
 def _cd_with_a_blank_too_many(_: Situation, call: Call, __: Found) -> Diagnosis:
     return Diagnosis(
         "space-too-many",
-        f"`cd` goes to one folder, and {len(call.words) - 1} words follow it.",
-        "A path has no space in it: `/` joins its parts. "
-        "If a name has one, put quotes around the whole path.",
+        f"`cd` takes one folder, but {len(call.words) - 1} words follow it.",
+        "The parts of a path are joined by `/`, without spaces. If a name contains a space, put "
+        "quotes around the whole path.",
     )
 
 
@@ -486,16 +486,16 @@ def _at_the_top(seen: Situation, path: str) -> Diagnosis | None:
         return None
     rest = path.strip("/")
     there = (seen.home / rest).is_dir()
-    hint = f": write  cd ~/{shlex.quote(rest)}" if there else ", and `ls ~` shows what is there."
-    return Diagnosis("tilde-missing", f"{path} {_TOP}.", f"Your own folder is called `~`{hint}")
+    hint = f": write  cd ~/{shlex.quote(rest)}" if there else ", and `ls ~` lists its content."
+    return Diagnosis("tilde-missing", f"{path} {_TOP}.", f"Your home folder is `~`{hint}")
 
 
 def _not_here(place: Path, path: str) -> Diagnosis:
     meant = _near(place, path, folders=True)
-    where = "" if path.startswith("/") else " where this terminal is"
+    where = "" if path.startswith("/") else " in the current folder"
     if meant:
         return _absent(f"{path}{where}.", f"Did you mean {shlex.quote(meant)}?")
-    return _absent(f"{path}{where}.", "`pwd` shows where you are, `ls` what is there.")
+    return _absent(f"{path}{where}.", "`pwd` shows the current folder, and `ls` lists its content.")
 
 
 def _absent(what: str, hint: str) -> Diagnosis:
@@ -507,8 +507,8 @@ _CD_RULES = (
         "path-separator",
         "cd",
         rf"{_BASH}cd: .+: {_NO_FILE}",
-        r"There is a `\` in the path, and bash takes it away.",
-        "On Linux `/` stands between the parts of a path.",
+        r"The path contains a `\`, which bash removes.",
+        "On Linux, `/` separates the parts of a path.",
         _typed_a_backslash,
     ),
     Rule("cd", rf"{_BASH}cd: (.+): {_NO_FILE}", _cd_failed),
@@ -517,8 +517,8 @@ _CD_RULES = (
         "not-a-folder",
         "cd",
         rf"{_BASH}cd: *(\S.*?) *: Not a directory",
-        "{1} is a file, and `cd` goes into folders.",
-        "`cat` shows what is in a file.",
+        "{1} is a file, but `cd` needs a folder.",
+        "`cat` shows the content of a file.",
     ),
 )
 _MKDIR_RULES = (
@@ -526,37 +526,37 @@ _MKDIR_RULES = (
         "folder-exists",
         "mkdir",
         rf"{_MKDIR}([^']+)': File exists",
-        "{1} is there already, so there is nothing to do.",
-        "With -p, `mkdir` says nothing about that.",
+        "{1} already exists, so `mkdir` changed nothing.",
+        "With -p, `mkdir` does not complain about an existing folder.",
     ),
     Rule("mkdir", rf"{_MKDIR}([^']+)': (?:No such|Permission den)", _mkdir_at_the_top),
     Row(
         "parents-missing",
         "mkdir",
         rf"{_MKDIR}(?:[^']*/)?([^'/]+)/*': No such file",
-        "The folder in which {1} should be made does not exist.",
-        "With -p, `mkdir` makes it too.",
+        "The parent folder of {1} does not exist.",
+        "With -p, `mkdir` also creates missing parent folders.",
     ),
     Row(
         "option-misspelled",
         "mkdir",
         r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'P'",
-        "`mkdir` has no option -P, so it made nothing.",
-        "The option is a small letter: -p",
+        "`mkdir` has no option -P, so it created nothing.",
+        "The option is a lower-case letter: -p",
     ),
     Row(
         "option-misspelled",
         "mkdir",
         r"^mkdir: (?:invalid|unrecognized) option (?:-- )?'([^']+)'",
-        "`mkdir` has no option -{1}, so it made nothing.",
-        "`mkdir --help` lists what it takes.",
+        "`mkdir` has no option -{1}, so it created nothing.",
+        "`mkdir --help` lists its options.",
     ),
     Row(
         "word-missing",
         "mkdir",
         r"mkdir: missing operand",
-        "`mkdir` was not told which folder to make.",
-        "Its name, or a path to it, comes after a space.",
+        "`mkdir` was called without the name of a folder.",
+        "Write the folder's name or path after `mkdir`, separated by a space.",
     ),
 )
 
@@ -595,15 +595,15 @@ def _misspelt(_: Situation, __: Call, found: Found) -> Diagnosis | None:
 def _no_such_file(seen: Situation, call: Call, found: Found) -> Diagnosis:
     """Say where in the workspace a file lies that is not here, or which one was meant."""
     path = found[1]
-    where = "" if path.startswith("/") else " where this terminal is"
+    where = "" if path.startswith("/") else " in the current folder"
     same = sorted(seen.workspace.glob(f"src/**/{escape(Path(path).name)}"))
     file = next((one for one in same if one.is_file()), None)
     if file:
         folder = file.parent.relative_to(seen.workspace).as_posix()
         return Diagnosis(
             "wrong-folder",
-            f"There is no {path}{where}; it lies in {folder} of your workspace.",
-            f"Go there first, with  {_way_to(folder)}",
+            f"There is no {path}{where}; it is in {folder} of your workspace.",
+            f"Go to that folder first, with  {_way_to(folder)}",
         )
     meant = _near(call.place, path)
     hint = f"Did you mean {shlex.quote(meant)}?" if meant else "`ls` shows what is there."
@@ -614,9 +614,9 @@ def _not_executable(_: Situation, __: Call, found: Found) -> Diagnosis:
     path = shlex.quote(found[1])
     return Diagnosis(
         "not-executable",
-        f"{path} may not be started as a program.",
-        f"`chmod +x {path}` allows it. "
-        "`ros2 run` needs no such right: it uses the entry points in setup.py.",
+        f"{path} has no permission to run as a program.",
+        f"`chmod +x {path}` grants it. `ros2 run` does not need that permission: it uses the "
+        "entry points in setup.py.",
     )
 
 
@@ -625,7 +625,7 @@ _COMMAND_RULES = (
         "dot-slash-missing",
         "{1}",
         _not_found(),
-        "{1} is here, but the shell does not look here by itself:",
+        "{1} is in this folder, but the shell does not search the current folder for programs:",
         "write ./{1}",
         lambda _, call, found: (call.place / found[1]).is_file(),
     ),
@@ -633,37 +633,36 @@ _COMMAND_RULES = (
         "prompt-typed",
         "{1}",
         _not_found("[$#%]"),
-        "`{1}` is the sign with which a terminal waits for you, and no command.",
-        "Type only what stands behind it.",
+        "`{1}` is the terminal's prompt, not a command.",
+        "Type only the text after the prompt.",
     ),
     Row(
         "not-installed",
         "{1}",
         _not_found("nano|gedit|vim|vi|code|emacs"),
         "The editor {1} is not installed here.",
-        "Open the file in JupyterLab's file browser with a double click, or write it with a "
-        "`%%save` cell.",
+        "Double-click the file in JupyterLab's file browser, or write it with a `%%save` cell.",
     ),
     Row(
         "environment-inactive",
         "{1}",
         _not_found("ros2|colcon"),
-        "This terminal does not know {1}: the environment of the course is not active in it.",
-        "Open the terminal from the course, or start with `./environment/course shell`.",
+        "This terminal cannot find {1}: the course's environment is not active in it.",
+        "Open a terminal from the course, or run `./environment/course shell` first.",
     ),
     Row(
         "ros-1-command",
         "{1}",
         _not_found("roscore|rosrun|rosnode|rostopic|roslaunch|catkin_make"),
         "`{1}` is not installed here:",
-        "it belongs to ROS 1, and ROS 2 does without it.",
+        "it belongs to ROS 1, and ROS 2 does not have it.",
     ),
     Row(
         "not-installed",
         "{1}",
         _not_found(_NOT_HERE),
         "The program `{1}` is not installed here.",
-        "The course does without it.",
+        "The course does not need it.",
     ),
     Rule("{1}", _not_found(), _misspelt),
 )
@@ -673,23 +672,23 @@ _FILE_RULES: Rules = (
         "word-misspelled",
         "chmod",
         r"^chmod: invalid mode: ",
-        "`chmod` cannot read its first word.",
-        "A plus sign adds a permission: `+x` adds the one to execute.",
+        "`chmod` does not understand its first argument.",
+        "A plus sign adds a permission: `+x` adds the permission to execute.",
     ),
     Row(
         "word-missing",
         "chmod",
         r"chmod: missing operand",
-        "`chmod` needs two words: what to change, and the file.",
-        "As in  chmod +x temperature_publisher.py",
+        "`chmod` needs two arguments: the change and the file.",
+        "For example:  chmod +x temperature_publisher.py",
     ),
     Row(
         "is-a-folder",
         "rm",
         r"^rm: cannot remove '([^']+)': Is a directory",
-        "{1} is a folder, and `rm` alone removes files.",
-        "`rm -r` removes a folder with all that is in it, and there is no bin: read the line "
-        "twice.",
+        "{1} is a folder, but without an option `rm` removes only files.",
+        "`rm -r` removes a folder with all its content, and there is no trash to restore it "
+        "from: check the line before you run it.",
     ),
     # Python shows the whole path, also of a name that was typed alone.
     Rule(r"python[\d.]*", r"can't open file '(?:[^']*/)?([^'/]+)': \[Errno 2\]", _no_such_file),
@@ -697,14 +696,14 @@ _FILE_RULES: Rules = (
         "ros-elsewhere",
         _SOURCE,
         rf"{_BASH}/opt/ros/\S+: {_NO_FILE}",
-        "That file comes with an installed ROS.",
-        "In this course every terminal has ROS already; leave the line out.",
+        "That file belongs to a ROS installation, which this course does not use.",
+        "Every terminal of this course already has ROS, so leave the line out.",
     ),
     Row(
         "not-built",
         _SOURCE,
         rf"{_BASH}({_SETUP}): {_NO_FILE}",
-        "{1} does not exist yet: `colcon build` makes it.",
+        "{1} does not exist yet: `colcon build` creates it.",
         "Build in the workspace first, then source.",
         lambda seen, *_: not (seen.workspace / "install" / "setup.bash").is_file(),
     ),
@@ -714,12 +713,12 @@ _FILE_RULES: Rules = (
             _SOURCE,
             rf"{_BASH}({start}{_SETUP}): {_NO_FILE}",
             f"{{1}} {where}.",
-            f"It lies in your workspace: go there first, with  {_way_to()}",
+            f"That file is in your workspace: go there first, with  {_way_to()}",
             lambda seen, _, found: (seen.workspace / "install" / Path(found[1]).name).is_file(),
         )
         for start, where in (
             ("(?=/)", "does not exist"),
-            ("", "is not where this terminal is"),
+            ("", "is not in the current folder"),
         )
     ),
     Rule(r"\S*{2}", rf"{_BASH}((?:\S*/)?([^\s/]+\.py)): Permission denied", _not_executable),
@@ -745,8 +744,8 @@ def _unknown_word(_: Situation, __: Call, found: Found) -> Diagnosis:
     return Diagnosis(
         # A build type is asked for by a word, too, and has a mistake of its own.
         "build-type" if word.startswith("ament") else "word-misspelled",
-        f"`{program}` does not know the word `{word}`.",
-        f"Did you mean `{meant}`?" if meant else f"It knows: {', '.join(names)}.",
+        f"`{program}` does not recognize `{word}`.",
+        f"Did you mean `{meant}`?" if meant else f"You can choose from: {', '.join(names)}.",
     )
 
 
@@ -754,8 +753,8 @@ def _unknown_option(_: Situation, __: Call, found: Found) -> Diagnosis:
     """Name the nearest option that exists."""
     program, word = found[1], found[2].split()[0]
     meant = _option_like(word.split("=")[0])
-    hint = f"Did you mean `{meant}`?" if meant else f"`{program} --help` lists what it takes."
-    return Diagnosis("option-misspelled", f"`{program}` cannot do anything with `{word}`.", hint)
+    hint = f"Did you mean `{meant}`?" if meant else f"`{program} --help` lists the options."
+    return Diagnosis("option-misspelled", f"`{program}` does not recognize `{word}`.", hint)
 
 
 def _option_like(word: str) -> str | None:
@@ -768,7 +767,7 @@ def _option_like(word: str) -> str | None:
 
 def _missing_word(_: Situation, __: Call, found: Found) -> Diagnosis:
     names = found[2].removesuffix(", argv").replace("_", " ")
-    said = f"`{found[1]}` needs something more behind it:"
+    said = f"A required argument is missing after `{found[1]}`:"
     return Diagnosis("word-missing", said, f"{names}.")
 
 
@@ -783,8 +782,8 @@ _WORD_RULES = (
         "word-missing",
         _RUN,
         r"^ros2.*: error: (unrecognized|the following) arguments",
-        "`ros2 run` got fewer than two names.",
-        "After `ros2 run` come two names: the package and the executable.",
+        "`ros2 run` was called with fewer than two names.",
+        "`ros2 run` takes two names: the package and the executable.",
         lambda _, call, __: len(_names_to_run(call)) < 2,
     ),
     Rule("{1}", r"^(colcon|ros2).*: error: unrecognized arguments: (.*\S.*)$", _unknown_option),
@@ -792,9 +791,9 @@ _WORD_RULES = (
         "word-missing",
         "ros2",
         rf"^ros2 pkg create: {_REQUIRED}",
-        "The name of the package is missing, or an option before it has taken it: "
-        "`--dependencies` takes every word behind it.",
-        "Put the name first.",
+        "The package's name is missing, or an option has consumed it: `--dependencies` takes "
+        "every word that follows it.",
+        "Write the package's name first.",
     ),
     Rule("ros2", rf"^(ros2 .*): {_REQUIRED}(.+)$", _missing_word),
 )
@@ -816,7 +815,7 @@ def _options_missing(_: Situation, call: Call, found: Found) -> Diagnosis | None
     return Diagnosis(
         "option-missing",
         f"The option{plural[0]} {' and '.join(missing)} {plural[1]} missing.",
-        "Each option stands before the words that belong to it.",
+        "Write each option before its values.",
     )
 
 
@@ -833,9 +832,10 @@ def _made_for_cpp(seen: Situation, call: Call, found: Found) -> Diagnosis | None
     name = package.name
     return Diagnosis(
         "build-type",
-        f"{name} has become a package for C++: it has a CMakeLists.txt and no setup.py, "
-        "because `--build-type ament_python` was left out.",
-        f"Rename the folder {name} or move it away, then make the package again with that option.",
+        f"{name} is a C++ package: it has a CMakeLists.txt and no setup.py, because "
+        "`--build-type ament_python` was left out.",
+        f"Rename the folder {name} or move it away, then create the package again with that "
+        "option.",
     )
 
 
@@ -849,8 +849,9 @@ def _made_elsewhere(seen: Situation, call: Call, _: Found) -> Diagnosis | None:
     way = "src/" if place == seen.workspace.resolve() else f'"${VARIABLE}"/src/'
     return Diagnosis(
         "wrong-folder",
-        f"The package {name} was made in {call.place.name or '/'}, where this terminal is.",
-        f"Packages belong into the folder src of the workspace. Move it there: mv {name} {way}",
+        f"The package {name} was created in {call.place.name or '/'}, this terminal's current "
+        "folder.",
+        f"Packages belong in the src folder of the workspace. Move this one there: mv {name} {way}",
     )
 
 
@@ -859,16 +860,17 @@ _CREATE_RULES = (
         "package-exists",
         _CREATE,
         r"The directory already exists: (?:\S*/)?([^\s/]*)",
-        "A folder {1} is there already, most likely from the first time you ran this command.",
-        "Nothing was changed. If it is your package, go on with it; if not, rename it first.",
+        "A folder {1} already exists, probably from the first time you ran this command.",
+        "Nothing was changed. If that folder is your package, continue with it; if not, rename "
+        "it first.",
     ),
     Row(
         "build-type",
         _CREATE,
         r"is left out here",
-        "Without `--build-type ament_python`, `ros2 pkg create` makes a package for C++, and that "
-        "is not what your node needs.",
-        "Add it; the rest of the command stays as it is.",
+        "Without `--build-type ament_python`, `ros2 pkg create` creates a C++ package, but your "
+        "nodes are in Python.",
+        "Add that option; the rest of the command stays the same.",
         _no_build_type,
     ),
     Rule(_CREATE, "", _made_for_cpp),
@@ -876,22 +878,23 @@ _CREATE_RULES = (
         "build-type",
         _CREATE,
         r"is left out here",
-        "The build type that was asked for is one for C++, and your nodes are in Python.",
-        "Write ament_python behind --build-type; the rest of the command stays as it is.",
+        "The command asks for a build type for C++, but your nodes are in Python.",
+        "Write ament_python after --build-type; the rest of the command stays the same.",
     ),
     Row(
         "package-name",
         _CREATE,
         r"cannot be the name of a package(?! to depend on)",
-        "A package for Python is imported under its name, so the name follows Python's rule:",
-        "small letters, digits and `_`, and a letter first.",
+        "A Python package is imported by its name, so the name follows Python's rules:",
+        "lower-case letters, digits and `_`, beginning with a letter.",
     ),
     Row(
         "wrong-folder",
         _CREATE,
         re.escape(_INSIDE),
-        "This terminal is in a package, and no package lies in another one.",
-        "Packages belong into the folder src of the workspace: go there first.",
+        "This terminal's current folder is inside a package, and a package cannot contain "
+        "another one.",
+        "Packages belong in the src folder of the workspace: go there first.",
     ),
     Rule(_CREATE, "", _made_elsewhere),
 )
@@ -902,8 +905,8 @@ _OPTION_RULES = (
         "commas-between-names",
         _CREATE,
         "",
-        "There are commas behind --dependencies.",
-        "Names are separated by spaces, not by commas.",
+        "There are commas after --dependencies.",
+        "Separate the names with spaces, not with commas.",
         lambda seen, call, _: seen.code and "," in "".join(call.after("--dependencies")),
     ),
 )
@@ -925,19 +928,21 @@ def _is_for_cpp(package: Package, _: str = "") -> bool:
     return package.manifest.build_type.endswith("cmake")
 
 
-_STILL = "Nothing new was installed; if there was a build before, `ros2 run` still starts that."
+_STILL = (
+    "Nothing new was installed, so `ros2 run` still starts the previous build, if there is one."
+)
 _FOR_CPP = PackageRow(
     "build-type",
     _is_for_cpp,
-    "{name} is a package for C++: its package.xml says {manifest.build_type}.",
-    "A package for Python is made with `--build-type ament_python`. Rename the folder {name} "
-    "or move it away, then make the package again with that option.",
+    "{name} is a C++ package: the build type in its package.xml is {manifest.build_type}.",
+    "`--build-type ament_python` creates a Python package. Rename the folder {name} or move it "
+    "away, then create the package again with that option.",
 )
 _NOT_INSTALLED = PackageRow(
     "packages-missing",
     lambda package, _: not package.setup.installs(package.name),
-    "setup.py of {name} does not install the folder {name} with its modules: `packages` leaves it "
-    "out.",
+    "The setup.py of {name} does not install the folder {name} with its modules: its `packages` "
+    "argument leaves that folder out.",
     "Write packages=find_packages(exclude=['test']), and build again.",
 )
 #: Files that `ros2 pkg create` made and that are gone (27).
@@ -946,42 +951,42 @@ _PARTS = (
         "marker-missing",
         lambda package, _: not (package.folder / "setup.py").is_file(),
         "The package {name} has no setup.py, so colcon cannot build it.",
-        "Write it again as page 05 shows it.",
+        "Write that file again, as page 05 shows.",
     ),
     PackageRow(
         "marker-missing",
         lambda package, _: (package.folder / package.name).is_dir() and not package.has_init,
-        "The file {name}/__init__.py is gone from the package {name}, so Python does not see that "
-        "folder as a package, and its modules are not installed.",
-        "Make an empty one: touch src/{name}/{name}/__init__.py",
+        "The file {name}/__init__.py is missing from the package {name}, so Python does not "
+        "treat that folder as a package, and its modules are not installed.",
+        "Create an empty one: touch src/{name}/{name}/__init__.py",
     ),
     PackageRow(
         "marker-missing",
         lambda package, _: not package.scripts_are_found,
-        "setup.cfg of the package {name} is gone or changed. It says that executables go to "
-        "lib/{name}, the only place where `ros2 run` looks.",
-        "It needs the two lines `[install]` and `install_scripts=$base/lib/{name}`.",
+        "The setup.cfg of the package {name} is missing or changed. It installs the executables "
+        "in lib/{name}, the only folder that `ros2 run` searches.",
+        "That file needs the two lines `[install]` and `install_scripts=$base/lib/{name}`.",
     ),
 )
 _NO_MARKER = PackageRow(
     "marker-missing",
     lambda package, _: not package.has_marker,
-    "The file resource/{name} is gone from the package {name}. It is empty, and by it ROS knows "
-    "that the package exists.",
-    "Make it again in the folder of the package: touch resource/{name}",
+    "The file resource/{name} is missing from the package {name}. ROS finds packages by this "
+    "empty marker file.",
+    "Create it again in the package's folder: touch resource/{name}",
 )
 _SETUP_UNREADABLE = PackageRow(
     "syntax-error",
     lambda package, _: package.setup.line,
-    "Python cannot read setup.py of {name}: {setup.problem}, at line {setup.line} or just before "
-    "it.",
-    f"Look for a quote, a comma or a bracket that is missing there. {_STILL}",
+    "Python cannot read the setup.py of {name}: {setup.problem}, on line {setup.line} or just "
+    "before it.",
+    f"Look for a missing quote, comma or bracket there. {_STILL}",
 )
 _SETUP_NOT_CALLED = PackageRow(
     "no-setup-call",
     lambda package, _: package.setup.problem == NO_CALL,
-    "setup.py of {name} can be read, and {setup.problem}.",
-    f"The call begins at the left margin: setup( ... ). {_STILL}",
+    "Python can read the setup.py of {name}, but {setup.problem}.",
+    f"Write the call without indentation: setup( ... ). {_STILL}",
 )
 
 
@@ -1005,7 +1010,9 @@ def _unknown_package(seen: Situation, call: Call, found: Found) -> Diagnosis:
     return Diagnosis(
         "package-misspelled",
         f"colcon found no package {found[1]}, so it {did} nothing.",
-        f"Did you mean {meant}?" if meant else "`colcon list` shows the packages that it sees.",
+        f"Did you mean {meant}?"
+        if meant
+        else "`colcon list` lists the packages that colcon finds.",
     )
 
 
@@ -1018,7 +1025,7 @@ def _twice_the_same(seen: Situation, _: Call, __: Found) -> Diagnosis | None:
     places = " and ".join(str(one.relative_to(seen.workspace)) for one in folders)
     return Diagnosis(
         "package-twice",
-        f"Two folders hold a package {twice}: {places}. colcon cannot tell which one you mean.",
+        f"Two folders contain a package {twice}: {places}. colcon cannot tell which one to build.",
         "Move one of them out of the workspace.",
     )
 
@@ -1031,7 +1038,7 @@ def _entry_point_built(seen: Situation, call: Call, _: Found) -> Diagnosis | Non
     found = diagnose_flaw(flaws[0])
     if found.mistake == "syntax-error":  # its words say already that a build does not notice
         return found
-    rest = _STILL if seen.code else "The build does not notice; `ros2 run` would."
+    rest = _STILL if seen.code else "The build does not detect that; `ros2 run` would fail."
     return replace(found, hint=f"{found.hint} {rest}")
 
 
@@ -1044,8 +1051,8 @@ _BUILD_RULES = (
         "wrong-folder",
         _BUILD,
         "",
-        "You built inside the folder {here}, so build, install and log are there now, where nobody "
-        "looks for them.",
+        "You ran the build inside the folder {here}, so build, install and log are there now "
+        "instead of in the workspace.",
         f"Go to the workspace with `{_way_to()}` and build there; "
         "you may remove the three folders from {here}.",
         _built_in_src,
@@ -1054,7 +1061,7 @@ _BUILD_RULES = (
         "option-misspelled",
         "colcon",
         r"ignoring unknown package '(symlink[-_]install|packages[-_]select)'",
-        "`{1}` was taken for a package:",
+        "colcon treated `{1}` as a package:",
         "an option begins with two dashes.",
     ),
     Rule("colcon", r"ignoring unknown package '([^']+)'", _unknown_package),
@@ -1063,7 +1070,7 @@ _BUILD_RULES = (
         "wrong-folder",
         _BUILD,
         _NO_PACKAGES,
-        "colcon looked in {here} and found no package there.",
+        "colcon searched {here} and found no package there.",
         f"Go to the workspace with `{_way_to()}` and build there.",
         lambda seen, call, _: seen.packages and call.place.resolve() != seen.workspace.resolve(),
     ),
@@ -1071,8 +1078,8 @@ _BUILD_RULES = (
         "no-packages",
         _BUILD,
         _NO_PACKAGES,
-        "colcon found no package: no folder below here holds a package.xml.",
-        "Make one in src with `ros2 pkg create` first.",
+        "colcon found no package: no folder below this one contains a package.xml.",
+        "Create a package in src with `ros2 pkg create` first.",
         lambda seen, *_: not seen.packages,
     ),
     PackageRule(
@@ -1104,7 +1111,7 @@ _BUILD_RULES = (
 # `ros2 run`.
 
 _NO_PACKAGE = r"Package '([^']+)' not found"
-_BEFORE = "A build fails because of that, so what ran here is the build before."
+_BEFORE = "The build fails because of that, so `ros2 run` started the previous build."
 _AGAIN = "Build again with `colcon build` in the workspace."
 _NO_MODULE = ("ModuleNotFoundError", "ImportError")
 _UNREADABLE = ("SyntaxError", "IndentationError", "TabError")
@@ -1149,9 +1156,9 @@ def _is_module_only(package: Package, name: str) -> bool:
 def _no_such_executable(package: Package, name: str) -> Diagnosis:
     known, stem = _executables(package), name.removesuffix(".py")
     meant = stem if stem in known else nearest(name, known)
-    hint = f"It has: {', '.join(known)}." if known else "I see no entry point in its setup.py."
+    hint = f"It has: {', '.join(known)}." if known else "Its setup.py has no entry points."
     if meant:
-        hint = f"Did you mean {meant}? The name is the one before the `=` in setup.py."
+        hint = f"Did you mean {meant}? The executable's name is the one before the `=` in setup.py."
     return Diagnosis(
         "executable-misspelled" if known else "entry-point-missing",
         f"The package {package.name} has no executable {name}.",
@@ -1186,7 +1193,7 @@ def _refused_since(package: Package, name: str) -> Diagnosis | None:
     """Recognise that a build of this source fails, so an older one runs (22)."""
     setup, flaw = package.setup, _refused_flaw(package, name)
     if setup.line:
-        said = f"Python cannot read setup.py: {setup.problem}, at line {setup.line}."
+        said = f"Python cannot read setup.py: {setup.problem}, on line {setup.line}."
         return Diagnosis("syntax-error", said, _BEFORE)
     return replace(flaw, hint=f"{flaw.hint} {_BEFORE}") if flaw else None
 
@@ -1201,9 +1208,9 @@ def _edited(package: Package, name: str) -> Diagnosis | None:
         return None
     return Diagnosis(
         "not-rebuilt",
-        f"{edited[0]} has been edited since the last build, and `ros2 run` starts the copy in "
-        "install: what you see is the old version.",
-        f"{_AGAIN} With `--symlink-install`, edits count without a build.",
+        f"{edited[0]} has been edited since the last build, but `ros2 run` starts the copy in "
+        "install, so you see the old version.",
+        f"{_AGAIN} With `--symlink-install`, edits take effect without a build.",
     )
 
 
@@ -1212,7 +1219,7 @@ _RUN_RULES = (
         "not-built",
         "ros2",
         _NO_PACKAGE,
-        "The package {1} is in src and has not been built yet.",
+        "The package {1} is in src, but it has not been built yet.",
         "In the workspace, run `colcon build` and then `source install/setup.bash`.",
         lambda seen, _, found: (package := seen.package(found[1])) and not package.installed,
     ),
@@ -1220,9 +1227,9 @@ _RUN_RULES = (
         "not-sourced",
         "ros2",
         _NO_PACKAGE,
-        "The package {1} is built, and this terminal does not know it yet.",
-        "Every new terminal has to be told: run `source install/setup.bash` in the workspace, then "
-        "try again.",
+        "The package {1} is built, but the workspace is not sourced in this terminal.",
+        "Source the workspace in every new terminal: run `source install/setup.bash` in the "
+        "workspace, then try again.",
         lambda seen, _, found: seen.package(found[1]),
     ),
     Rule("ros2", _NO_PACKAGE, _no_such_package),
@@ -1235,8 +1242,8 @@ _RUN_RULES = (
             PackageRow(
                 "not-rebuilt",
                 lambda package, name: name in _executables(package),
-                "setup.py has the entry point {executable}, and the build in install is older than "
-                "that.",
+                "setup.py has the entry point {executable}, but the build in install is older "
+                "than that line.",
                 _AGAIN,
             ),
         ),
@@ -1248,22 +1255,22 @@ _RUN_RULES = (
             PackageRow(
                 "group-misspelled",
                 lambda package, _: package.setup.misspelled_group,
-                "setup.py puts its entries under {setup.misspelled_group}, and nobody looks for "
-                "them there.",
+                "setup.py lists its entry points under {setup.misspelled_group}, where `ros2 "
+                "run` does not find them.",
                 f"Compare that word with page 05, letter by letter. {_AGAIN}",
             ),
             PackageRow(
                 "entry-point-missing",
                 _is_module_only,
-                "{stem}.py is in the package, and setup.py has no entry point for it, so there is "
-                "nothing that `ros2 run` could start.",
-                "Add one, 'executable = package.module:function', and build again.",
+                "{stem}.py is in the package, but setup.py has no entry point for it, so `ros2 "
+                "run` cannot start it.",
+                "Add an entry point, 'executable = package.module:function', and build again.",
             ),
             PackageRow(
                 "executable-misspelled",
                 _names_a_node,
                 "{executable} is the name of a node or its class.",
-                "`ros2 run` wants the executable, the name before the `=` in setup.py.",
+                "`ros2 run` takes the executable, the name before the `=` in setup.py.",
             ),
             _no_such_executable,
         ),
@@ -1304,8 +1311,8 @@ _LOADING_RULES = (
         "other-python",
         PYTHON,
         "",
-        "The Python that ran is not the one of the course, and it has no ROS.",
-        "`which python3` shows which one a terminal uses; open a terminal from the course, or "
+        "The program ran with another Python than the course's, and that Python has no ROS.",
+        "`which python3` shows which Python a terminal uses. Open a terminal from the course, or "
         "run `./environment/course shell` first.",
         lambda seen, *_: seen.code and "No module named 'rclpy'" in seen.error,
     ),
@@ -1313,7 +1320,8 @@ _LOADING_RULES = (
         "not-sourced",
         _RUN,
         "",
-        "The package is installed as a link now, and this terminal was loaded before that.",
+        "The package is now installed as a symbolic link, but this terminal sourced the "
+        "workspace before that build.",
         "Run `source install/setup.bash` again.",
         _linked_since,
     ),
@@ -1330,10 +1338,10 @@ _ENDING_RULES = (
         "ctrl-c-traceback",
         PYTHON,
         "",
-        "Ctrl+C has shut ROS down already when `main` calls `rclpy.shutdown()`, and a second time "
-        "is an error.",
-        "The node did its work; only its end is untidy. "
-        "Write `rclpy.try_shutdown()` in `main` instead.",
+        "Ctrl+C has already shut ROS down when `main` calls `rclpy.shutdown()`, and shutting ROS "
+        "down twice is an error.",
+        "The node itself worked; only its exit isn't clean. Write `rclpy.try_shutdown()` in "
+        "`main` instead.",
         lambda seen, *_: seen.code and "rcl_shutdown already called" in seen.error,
     ),
     Row(
@@ -1341,7 +1349,7 @@ _ENDING_RULES = (
         PYTHON,
         "",
         "Ctrl+C came while the node was still starting, before `main` could catch it.",
-        "Nothing is broken: start it again, and wait for its first line.",
+        "Nothing is broken: start the node again, and wait for its first line of output.",
         _ended_by("ExternalShutdownException|KeyboardInterrupt", "in __init__"),
     ),
     *(
@@ -1349,9 +1357,9 @@ _ENDING_RULES = (
             "ctrl-c-traceback",
             PYTHON,
             "",
-            f"{cause}, and `main` does not expect that, so Python shows a traceback.",
-            "Nothing is broken. Put `rclpy.spin(node)` into `try:`, and below it  "
-            "except (KeyboardInterrupt, ExternalShutdownException): pass",
+            f"{cause}, but `main` does not catch the exception, so Python shows a traceback.",
+            "Nothing is broken. Put `rclpy.spin(node)` in a `try:` block, and below it  except "
+            "(KeyboardInterrupt, ExternalShutdownException): pass",
             _ended_by(kind),
         )
         for kind, cause in (
@@ -1374,9 +1382,9 @@ _RULES: Rules = (
         "not-sourced",
         "{1}",
         rf"{_BASH}({_SETUP}): Permission denied",
-        "{1} is not to be started: it tells something to this terminal, and a program of its own "
-        "could not.",
-        "Put `source` and a space before it: source {1}",
+        "{1} is not a program to start: it changes this terminal's environment, so it has to be "
+        "sourced.",
+        "Write `source` and a space before it: source {1}",
     ),
     *_COMMAND_RULES,
     *_MKDIR_RULES,

@@ -54,12 +54,13 @@ def diagnose_unpublished(
         return _wrong_type(here[0], wire) or _unused(observation, wire, besides, hint)
     others = [end for end in made if end.name not in besides]
     if others:
-        return _elsewhere(others, wire, "publishes", _published(observation))
-    how = "for" if made else "at all, so nothing came on"
+        return _elsewhere(others, wire, "publishes on", _published(observation))
+    how = "for" if made else "at all, so nothing was published on"
     return Diagnosis(
         "no-publisher",
         f"The node has no publisher {how} {wire.topic}.",
-        "Something has to be made in the constructor with which the node can publish.",
+        "The constructor needs to create something that can publish. Which method of a node does "
+        "that?",
     )
 
 
@@ -85,15 +86,17 @@ def diagnose_unheard(observation: Observation, wire: Wire) -> Diagnosis | None:
         found = _wrong_type(here, wire) or _unfit(observation, here) or _not_run(observation, here)
         return found or Diagnosis(
             UNKNOWN,
-            f"Messages were published on {wire.topic}, and the node got none of them.",
-            "Is it connected? Compare what it asks for with what the publisher offers.",
+            f"Messages were published on {wire.topic}, but the node received none of them.",
+            "Is the subscription connected? Compare the QoS that it requests with the QoS that "
+            "the publisher offers.",
         )
     if made:
-        return _elsewhere(made, wire, "listens", {})
+        return _elsewhere(made, wire, "subscribes to", {})
     return Diagnosis(
         "no-subscription",
-        f"The node has no subscription, so what is published on {wire.topic} passes it by.",
-        "Something has to be made in the constructor that names the topic and the callback.",
+        f"The node has no subscription, so it never receives what is published on {wire.topic}.",
+        "The constructor needs to create something that connects the topic with the callback. "
+        "Which method of a node does that?",
     )
 
 
@@ -153,7 +156,7 @@ def why_raised(observation: Observation, fault: Fault) -> Diagnosis | None:
         found.mistake,
         f"{found.evidence} On {names[0]}, your node uses {own} and the other side "
         f"{others[names[0]]}.",
-        "One topic carries one type, and both sides have to name the same one.",
+        "All messages on a topic have the same type, so both sides have to name the same one.",
     )
 
 
@@ -167,26 +170,28 @@ def _elsewhere(made: list[Endpoint], wire: Wire, does: str, counts: dict[str, in
     if near:
         return Diagnosis(
             "topic-misspelled",
-            f"The node {does} on {near}, and {wire.topic} is what is asked for: "
-            f"{difference(near, wire.topic)}.",
+            f"The node {does} {near} instead of {wire.topic}; {difference(near, wire.topic)}.",
             _names(near, wire.topic),
         )
     return Diagnosis(
         "wrong-topic",
-        f"The node {does} on {name}, and not on {wire.topic}.",
-        "A topic is nothing but a name: both sides have to write the same one.",
+        f"The node {does} {name} instead of {wire.topic}.",
+        "Nodes find each other by the topic's name, so both sides have to use the same one.",
     )
 
 
 def _names(name: str, wanted: str) -> str:
     if name.lower() == wanted.lower():
-        return "Names of topics match letter by letter, and a capital is another letter."
+        return "Topic names are case-sensitive: they have to match letter by letter."
     if name.endswith(f"/{wanted.strip('/')}"):
         return (
-            "Something stands before the name: a namespace, the node's own name, or a part of the "
-            "topic's. Which of them is asked for?"
+            "The name has a prefix: a namespace, the node's own name, or an extra part. Which "
+            "name does the task give?"
         )
-    return "Names of topics match letter by letter. ROS does not mind a wrong one: nobody hears it."
+    return (
+        "Topic names have to match letter by letter. ROS reports no error for a misspelled name: "
+        "it's simply another topic."
+    )
 
 
 def _wrong_type(end: Endpoint, wire: Wire) -> Diagnosis | None:
@@ -194,9 +199,9 @@ def _wrong_type(end: Endpoint, wire: Wire) -> Diagnosis | None:
         return None
     return Diagnosis(
         "type-mismatch",
-        f"On {wire.topic} the node has a {end.kind} for {end.type_name}, and "
-        f"{wire.type_name} is what is asked for.",
-        "One topic carries one type, and both sides have to name the same one.",
+        f"On {wire.topic}, the node has a {end.kind} for {end.type_name} instead of "
+        f"{wire.type_name}.",
+        "All messages on a topic have the same type, so both sides have to name the same one.",
     )
 
 
@@ -207,21 +212,23 @@ def _unused(observation: Observation, wire: Wire, besides: Collection[str], hint
     counts = _published(observation)
     used = [end for end in _made(observation, "publisher") if counts.get(end.name)]
     used = [end for end in used if end.name not in besides]
-    return _elsewhere(used, wire, "publishes", counts) if used else _silent(observation, wire, hint)
+    return (
+        _elsewhere(used, wire, "publishes on", counts) if used else _silent(observation, wire, hint)
+    )
 
 
 def _silent(observation: Observation, wire: Wire, known: str) -> Diagnosis:
     ran = [one for one in observation.callbacks if one.node == _subject(observation)]
-    hint = "Which line calls publish, and who calls the function that it is in?"
+    hint = "Which line calls publish, and what calls the function that contains it?"
     if known:
         hint = known
     elif ran:
-        hint = f"{ran[0].name} was called. Does it get as far as publishing, and when?"
+        hint = f"{ran[0].name} was called. Does it reach the line that publishes, and when?"
     elif any(one.node == _subject(observation) for one in observation.graph.timers):
-        hint = "Its timer never ticked. Does the constructor cancel it, or shut ROS down?"
+        hint = "The timer never fired. Does the constructor cancel it, or shut ROS down?"
     return (_never_called(observation, wire) if not ran else None) or Diagnosis(
         "never-published",
-        f"The node has a publisher on {wire.topic}, and it was never used.",
+        f"The node has a publisher on {wire.topic}, but never used it.",
         hint,
     )
 
@@ -234,16 +241,18 @@ def _never_called(observation: Observation, wire: Wire) -> Diagnosis | None:
             return None
         return Diagnosis(
             "wrong-rate",
-            f"The node's timer waits {timer.period_ns / 1e9:g} s before its first call; the node "
-            f"was watched for {observation.time:g} s, and {wire.topic} stayed silent.",
-            "The period of a timer is the time between two calls, in seconds.",
+            f"The node's timer waits {timer.period_ns / 1e9:g} s before its first call. The "
+            f"check ran the node for {observation.time:g} s, and no message came on {wire.topic}.",
+            "A timer's period is the time between two calls, in seconds.",
         )
     if _made(observation, "subscription"):
         return None
     return Diagnosis(
         "no-timer",
-        f"The node has a publisher on {wire.topic}, and nothing that ever calls a method of it.",
-        "A node does something only when a callback is called. What calls one once in a while?",
+        f"The node has a publisher on {wire.topic}, but nothing ever calls one of the node's "
+        "methods.",
+        "A node acts only when one of its callbacks is called. What calls a callback at regular "
+        "intervals?",
     )
 
 
@@ -255,10 +264,10 @@ def _unfit(observation: Observation, end: Endpoint) -> Diagnosis | None:
         for policy in incompatible(publisher.qos, end.qos):
             return Diagnosis(
                 "qos-mismatch",
-                f"The subscription to {end.name} asks for {words(end.qos, policy)}, and "
-                f"{publisher.node} offers {words(publisher.qos, policy)}, so they are not "
-                "connected.",
-                f"The rule of {policy}: {rule(policy)}.",
+                f"The subscription to {end.name} requests {words(end.qos, policy)}, but "
+                f"{publisher.node} offers {words(publisher.qos, policy)}, so ROS does not "
+                "connect them.",
+                f"The rule for {policy}: {rule(policy)}.",
             )
     return None
 
@@ -270,7 +279,8 @@ def _not_run(observation: Observation, end: Endpoint) -> Diagnosis | None:
         return None
     return Diagnosis(
         "not-spun",
-        f"{end.node} is connected to {end.name}, {sent} messages were published there, and its "
-        "callback ran for none of them.",
-        "A callback runs only while somebody spins its node and no other callback holds it up.",
+        f"{end.node} is connected to {end.name}, and {sent} messages were published there, but "
+        "its callback ran for none of them.",
+        "A callback runs only while an executor spins its node and no other callback blocks that "
+        "executor.",
     )

@@ -152,13 +152,13 @@ class ActionEnd:
         return None if handle is None else self.entity._get_result(handle)
 
     def _result(self, method: str, future: Future) -> Message:
-        reason = f"an answer from the action {self.name}"
+        reason = f"a response from the action {self.name}"
         if not self._world.wait(f"client.{method}", reason, future.done, None, self.entity):
             raise SessionError(
-                f"Nobody has answered {method} for the action {self.name}.",
-                "Either no node of this session offers that action, or its work does not end. "
-                "Outside a page the call would wait for ever.",
-                "Add the node that offers the action first, and compare the two names.",
+                f"No action server has responded to {method} for the action {self.name}.",
+                "Either no node of this session offers that action, or its execute callback does "
+                "not return. Outside a page, the call would wait forever.",
+                "Add the node that offers the action first, and compare the two action names.",
             )
         return future.result()
 

@@ -14,12 +14,12 @@ from rosbeat.records import Fault, LogRecord
 MOST_LINES = 100
 
 _NODE_ENDS = (
-    "n exception that leaves a callback ends its node, as it would end the node's process. The "
-    "other nodes go on."
+    "n uncaught exception in a callback ends its node, as it would end the node's process. The "
+    "other nodes keep running."
 )
 _GOAL_ENDS = (
-    "n exception in the work on a goal aborts that goal: the client gets an empty result. The node "
-    "goes on."
+    "n uncaught exception in an execute callback aborts its goal, and the client gets an empty "
+    "result. The node keeps running."
 )
 _MEANS = "\n  What it means: "
 
@@ -45,14 +45,14 @@ def fault_text(fault: Fault, event: str = "stopped", outcome: str = _NODE_ENDS) 
         f"{fault.node} {event} at {time} s, in {fault.callback}: {fault.kind}: {text}",
         fault,
         f"{known.beside_error} A{outcome}" if known else f"a{outcome}",
-        f"{known.to_try if known else 'mend that line,'} {'Then' if known else 'then'} "
-        "run the cell that adds the node again.",
+        f"{known.to_try if known else 'correct that line,'} {'Then' if known else 'then'} run "
+        "the cell that adds the node again.",
     )
 
 
 def work_text(fault: Fault) -> str:
     """Format an exception in the work on a goal, in three parts."""
-    return fault_text(fault, "gave a goal up", _GOAL_ENDS)
+    return fault_text(fault, "aborted a goal", _GOAL_ENDS)
 
 
 def deadlock_text(fault: Fault, error: RosbeatError) -> str:

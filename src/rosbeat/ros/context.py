@@ -231,7 +231,7 @@ def install_learner_calls() -> None:
         if in_kernel():
             options.setdefault("signal_handler_options", rclpy.signals.SignalHandlerOptions.NO)
             if context is None and target.ok():
-                note("ROS is running already in this kernel; rclpy.init() changes nothing.")
+                note("ROS is already running in this kernel, so rclpy.init() changes nothing.")
                 return
             args = [] if args is None else args  # sys.argv is the kernel's, not the node's
         original(args=args, context=context, **options)

@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
 #: What to write in the place of a call that waits in a callback.
 INSTEAD_OF_WAITING = (
-    "For a service use `call_async` and add a done callback, or make the callback `async def` and "
-    "await the future, with the client in a callback group of its own. To do something again and "
-    "again, create a timer."
+    "For a service, use `call_async` and add a done callback, or make the callback `async def` "
+    "and await the future, with the client in its own callback group. To do something "
+    "repeatedly, create a timer."
 )
 #: About 31 years; a longer span is a slip, and ROS time ends at 2**63 nanoseconds.
 _LONGEST = 1e9
@@ -48,7 +48,7 @@ def check_whole(name: str, value: object, low: int, high: int, example: str = ""
     raise SessionError(
         f"{name}={value!r} cannot be used.",
         f"It must be a whole number from {low} to {high if high < 2**63 else 'about 9e18'}.",
-        f"Write for example {example or f'Session({name}=7)'}.",
+        f"For example, write {example or f'Session({name}=7)'}.",
     )
 
 
@@ -62,7 +62,7 @@ def check_name(call: str, value: object) -> str:
         return value
     raise SessionError(
         f"{call}(...) was given {value!r}, which is of type {type(value).__name__}.",
-        "It is asked by name, and a name is a text.",
+        "The argument is a name, and a name is a string.",
         f'Put it in quotation marks: `ros.{call}("temperature")`.',
     )
 
@@ -76,9 +76,9 @@ def check_end(time_ns: int) -> int:
     if time_ns < 2**63:
         return time_ns
     raise DurationError(
-        "The session would run beyond the end of time.",
-        "ROS counts nanoseconds in 64 bits, which end after 292 years.",
-        "Open a new session; it begins at zero again.",
+        "The session would run beyond the latest time that ROS can represent.",
+        "ROS counts nanoseconds in 64 bits, which is enough for 292 years.",
+        "Open a new session: its time begins at zero again.",
     )
 
 
@@ -104,13 +104,13 @@ def duration_ns(seconds: object, what: str = "run(seconds=...)") -> int:
         if not isfinite(span):
             problem = f"{span}."
         elif span < 0:
-            problem = f"{span:g}: a negative time."
+            problem = f"{span:g}, which is a negative time."
         else:
-            problem = f"{span:g}: more than {_LONGEST:g} seconds."
+            problem = f"{span:g}, which is more than {_LONGEST:g} seconds."
     raise DurationError(
         f"{what} was given {problem}",
         "Time in a session only moves forward, by a number of seconds.",
-        "Give a number from 0 up, such as 60 for one minute.",
+        "Give a number of 0 or more, such as 60 for one minute.",
     )
 
 
@@ -121,7 +121,7 @@ def session_is_live(call: str = "run") -> SessionError:
     """Return the error for what needs virtual time, while live."""
     return SessionError(
         "This session is live, so its time passes by itself.",
-        f"`{call}` moves virtual time, which stands still while the wall clock counts.",
+        f"`{call}` advances virtual time, but a live session runs on the wall clock.",
         "Use `ros.wait(seconds)`, or `ros.stop()` first.",
     )
 
@@ -130,7 +130,7 @@ def session_is_not_live() -> SessionError:
     """Return the error for `wait` in virtual time."""
     return SessionError(
         "This session is not live, so there is nothing to wait for.",
-        "In virtual time nothing happens by itself.",
+        "In virtual time, nothing happens until `ros.run` advances the clock.",
         "Use `ros.run(seconds)`, or `ros.start()` first.",
     )
 
@@ -138,30 +138,30 @@ def session_is_not_live() -> SessionError:
 def session_has_ended() -> ClosedSessionError:
     """Return the error for anything but reading, after `close`."""
     return ClosedSessionError(
-        "This session has ended.",
-        "Its nodes and its ROS context are gone; what it recorded can still be read.",
-        "Open a new one: `ros = Session()`.",
+        "This session is closed.",
+        "Its nodes and its ROS context no longer exist, but its recordings can still be read.",
+        "Open a new session: `ros = Session()`.",
     )
 
 
 def node_has_ended(name: str) -> SessionError:
     """Return the error for `resume` of a node that raised."""
     return SessionError(
-        f"{name} has ended and cannot go on.",
-        "An exception left one of its callbacks, or it called rclpy.shutdown().",
-        "Add it again: `ros.add(...)` makes a new node in its place.",
+        f"{name} has ended and cannot be resumed.",
+        "Either one of its callbacks raised an exception, or the node called rclpy.shutdown().",
+        "Add the node again: `ros.add(...)` creates a new node in its place.",
     )
 
 
 def deadlock(waits: Sequence[Wait]) -> DeadlockError:
     """Return the error for callbacks that can never go on, by what they wait for."""
     told = [f"{w.call.node} waits in `{w.call.name}` for {w.reason}" for w in waits if w.call]
-    why = "Nothing else is left to do, so nobody will end that"
+    why = "No other callback is left to run, so the wait never ends"
     if waits[0].needs is not None and len(waits) == 1:
-        why = "Its own executor would have to take that, and it is busy with this very callback"
+        why = "The executor that would have to process it is busy with this same callback"
     return DeadlockError(
-        f"{'; '.join(told)}: for ever.",
-        f"{why}: a deadlock, on a real robot too.",
+        f"{'; '.join(told)}, forever.",
+        f"{why}: this is a deadlock, on a real robot too.",
         INSTEAD_OF_WAITING,
     )
 
@@ -169,10 +169,10 @@ def deadlock(waits: Sequence[Wait]) -> DeadlockError:
 def never_made(seconds: float) -> SessionError:
     """Return the error for a constructor that waits on and on while a cell calls it."""
     return SessionError(
-        f"The constructor still waits after {seconds:g} s of virtual time.",
-        "`ros.add` returns the node, so it cannot return before there is one.",
-        "Add first what it waits for, such as the node that offers the service. A program that "
-        "waits for another one can be started with `ros.spawn`.",
+        f"The constructor is still waiting after {seconds:g} s of virtual time.",
+        "`ros.add` returns the node, so it cannot return until the constructor does.",
+        "First add the node that the constructor waits for, such as the one that offers the "
+        "service. Use `ros.spawn` to start a program that waits for another one.",
     )
 
 
@@ -180,9 +180,9 @@ def foreign_node(node: Node, name: str | None = None) -> NodeClassError:
     """Return the error for a node of another context, or a destroyed one with a known name."""
     return NodeClassError(
         f"The node {name or node_name(node)} does not belong to this session.",
-        "It was made before the session was opened, in another session, or it has been "
-        "destroyed; a node cannot move from one ROS context to another.",
-        "Hand over its class instead: `ros.add(TemperatureSensor)`.",
+        "The node was created before the session was opened or in another session, or it has "
+        "been destroyed. A node cannot move from one ROS context to another.",
+        "Pass the node's class instead: `ros.add(TemperatureSensor)`.",
     )
 
 
@@ -191,7 +191,7 @@ def no_such_node(name: str, names: list[str]) -> SessionError:
     return SessionError(
         f"This session has no node {name}.",
         f"Its nodes are: {', '.join(names) or 'none yet'}.",
-        nearest(name, names, "Add it first with `ros.add(...)`."),
+        nearest(name, names, "Add the node first, with `ros.add(...)`."),
     )
 
 
@@ -200,17 +200,17 @@ def unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTo
     outside = [end.node for end in graph.on(name, "publisher")]
     if outside and name not in INFRASTRUCTURE_TOPICS:  # there, own nodes publish as well
         return UnknownTopicError(
-            f"No node of this session listens on {name}.",
-            f"{', '.join(outside)} publishes there, in another process; what comes from others is "
-            "recorded when a node of the session gets it.",
-            "Add a node that subscribes there, with `ros.add(...)`.",
+            f"No node of this session subscribes to {name}.",
+            f"{', '.join(outside)} publishes on it, in another process. A session records "
+            "messages from other processes only when one of its own nodes receives them.",
+            "Add a node that subscribes to the topic, with `ros.add(...)`.",
         )
     listening = graph.on(name, "subscription")
     if any(end.matched > 0 for end in listening):
         return UnknownTopicError(
             f"No node of this session has published on {name}.",
-            "Another process publishes there. What it sends is not recorded, only delivered.",
-            "Log or keep the messages in the callback of a node that subscribes.",
+            "Another process publishes on it. Its messages are delivered, but not recorded.",
+            "Log or store the messages in the callback of a node that subscribes.",
         )
     listeners = ", ".join(end.node for end in listening)
     add = "Add the publishing node first, with `ros.add(...)`."
@@ -220,9 +220,10 @@ def unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTo
     if listening and to_try != add:
         to_try += f" If not, add the node that publishes on {name}."
     return UnknownTopicError(
-        f"Nobody has published on {name}.",
-        f"{f'{listeners} listens there, but no' if listeners else 'No'} node of this session has "
-        f"a publisher of that name. Published topics: {', '.join(sorted(known)) or 'none yet'}.",
+        f"No messages were published on {name}.",
+        f"{f'{listeners} subscribes to it, but no' if listeners else 'No'} node of this session "
+        "has a publisher with that name. Published topics: "
+        f"{', '.join(sorted(known)) or 'none yet'}.",
         to_try,
     )
 

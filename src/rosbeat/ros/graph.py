@@ -342,9 +342,9 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     observer = world.graph_observer
     if observer is None:
         raise SessionError(
-            "This session does not see nodes of other processes.",
-            "It has a domain to itself, and the nodes of a terminal are in another one.",
-            'Join theirs: `Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))`.',
+            "This session cannot see nodes of other processes.",
+            "A session has a private ROS domain, and the nodes of a terminal are in another one.",
+            'Join their domain: `Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))`.',
         )
     wanted, looks = set(names), observer.looks()
 
@@ -356,21 +356,21 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     try:
         poll(are_there, time.monotonic() + seconds)
     except KeyboardInterrupt as interrupt:
-        show_briefly(interrupt, "you stopped waiting; the session goes on.")
+        show_briefly(interrupt, "you stopped waiting; the session keeps running.")
         raise
     seen = world.graph().nodes
     missing = [name for name in names if name not in seen]
     if missing:
         others = [name for name in seen if name not in missing]
         raise SessionError(
-            f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not there after "
+            f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not in the graph after "
             f"{seconds:g} s.",
             f"In domain {world.domain_id} the session sees: {', '.join(seen) or 'no node at all'}.",
             nearest(
                 missing[0],
                 others,
-                "Start it in a terminal, and look whether it goes on running. Both sides need the "
-                "same ROS_DOMAIN_ID.",
+                "Start the node in a terminal, and check that it keeps running. Both sides need "
+                "the same ROS_DOMAIN_ID.",
             ),
         )
 

@@ -132,8 +132,8 @@ def restart_node(world: World, name: str, maker: Maker) -> None:
     if rclpy.utilities.g_default_context is not world.context:
         raise SessionError(
             f"{name} cannot be started now.",
-            "Another session is open, and a new node would belong to that one.",
-            "Close the other session first, or wait until the check that runs has ended.",
+            "Another session is open, and a new node would belong to that session.",
+            "Close the other session first, or wait until the running check has ended.",
         )
     (made,) = build_in(world, [maker.make], maker.start)
     world.makers[made] = maker

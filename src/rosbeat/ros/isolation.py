@@ -419,7 +419,7 @@ def _quietly(put_back: Callable[[], object]) -> None:
 
 
 def _refuse_input(*_: object) -> NoReturn:
-    raise EOFError("input() was called, and nobody types while a node runs")
+    raise EOFError("input() was called, but a node has no keyboard input")
 
 
 def _refuse_to_quit() -> NoReturn:

@@ -89,16 +89,16 @@ def checked(
     """Make a `Launch`; raise a SessionError for a name or value that cannot be one."""
     for what, one in (("name", name), ("namespace", namespace)):
         if one is not None and not (isinstance(one, str) and one.strip("/")):
-            raise _refused(f"{what}={one!r}", "It has to be a name in quotation marks.")
+            raise _refused(f"{what}={one!r}", "The value has to be a name in quotation marks.")
     renamed, values = _mapping("remappings", remappings), _mapping("parameters", parameters)
     for old, new in renamed.items():
         if not (isinstance(new, str) and new):
-            raise _refused(f"{old!r}: {new!r} in remappings", "The new name has to be a text.")
+            raise _refused(f"{old!r}: {new!r} in remappings", "The new name has to be a string.")
     for key, value in values.items():
         if not _is_value(value):
             raise _refused(
                 f"{key!r}: {value!r} in parameters",
-                "A parameter is a number, a text, True or False, or a list of one of these.",
+                "A parameter is a number, a string, True or False, or a list of one of these.",
             )
     return Launch(str(name or ""), str(namespace or ""), renamed, values)
 
@@ -108,7 +108,7 @@ def _mapping(what: str, given: object) -> dict[str, Any]:
         return {}
     if isinstance(given, Mapping) and all(isinstance(key, str) and key for key in given):
         return dict(given)
-    raise _refused(f"{what}={given!r}", "It has to be a dict, with names on the left.")
+    raise _refused(f"{what}={given!r}", "The value has to be a dict whose keys are names.")
 
 
 def _is_value(value: object) -> bool:
@@ -124,7 +124,7 @@ def _refused(what: str, means: str) -> SessionError:
     return SessionError(
         f"A node cannot be started with {what}.",
         means,
-        'Write for example `ros.add(TemperatureMonitor, remappings={"temperature": "humidity"}, '
+        'For example, write `ros.add(TemperatureMonitor, remappings={"temperature": "humidity"}, '
         'parameters={"high": 60.0})`.',
     )
 
@@ -176,8 +176,8 @@ def _build_node(target: Any) -> Node:  # noqa: ANN401 - unchecked input
 def _not_a_node(subject: str, found: object) -> NodeClassError:
     return NodeClassError(
         f"{subject} is not a node, but of type {type(found).__name__}.",
-        "A session runs nodes: it needs the class, a function that returns a node, or a node.",
-        "Hand over the class itself, without quotes or brackets: `ros.add(TemperatureSensor)`.",
+        "A session runs nodes: it needs a node class, a function that returns a node, or a node.",
+        "Pass the class itself, without quotes or parentheses: `ros.add(TemperatureSensor)`.",
     )
 
 
@@ -198,7 +198,7 @@ def _construction_error(name: str, error: BaseException) -> NodeConstructionErro
         line = f"line {fault.line}, then run the cell again." if fault.line else "`__init__`."
         to_try = f"Mend {line}"
     where = f"\n    line {fault.line}: {fault.code}" if fault.line else ""
-    what = f"{name} could not be made: {fault.kind}: {text}{where}"
+    what = f"{name} could not be created: {fault.kind}: {text}{where}"
     return NodeConstructionError(what, means, to_try)
 
 

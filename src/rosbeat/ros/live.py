@@ -38,7 +38,7 @@ class BrokenOff(BaseException):
     """Signal to a callback that does not return that it has been asked to end."""
 
     def __str__(self) -> str:
-        return "it did not return, so it was broken off"
+        return "it did not return, so it was interrupted"
 
 
 class LiveExecutor(SingleThreadedExecutor):

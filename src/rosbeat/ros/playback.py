@@ -83,7 +83,7 @@ def _class_of(topic: PlayedTopic) -> type:
     except (ImportError, AttributeError, ValueError) as error:
         raise BagError(
             f"Messages of the type {topic.type_name} cannot be published here.",
-            f"{topic.topic} has this type, and no package that defines it is installed.",
-            "Build and source the package that defines it, or leave the topic out with "
+            f"{topic.topic} has this type, but no package that defines the type is installed.",
+            "Build and source the package that defines the type, or leave the topic out with "
             "`topics=[...]`.",
         ) from error

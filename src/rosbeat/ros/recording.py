@@ -543,11 +543,11 @@ def _make_alone(make: Callable[[], None]) -> None:
         if not in_kernel():
             raise
         raise NoSessionError(
-            "A node was made, and no session is open.",
-            "A node needs ROS to be running. On a page a session starts it, and the last session "
-            "has been closed.",
-            "Run the cell with `Session()` again; or call `rclpy.init()` first, as a program does. "
-            "In a check, hand over the class itself, without brackets.",
+            "A node was created, but no session is open.",
+            "A node needs ROS to be running. On a page, a session starts ROS, and the last "
+            "session is closed.",
+            "Run the cell with `Session()` again, or call `rclpy.init()` first, as a program "
+            "does. For a check, pass the class itself, without parentheses.",
         ) from None
 
 
@@ -582,9 +582,9 @@ def _refuse_a_message(call: str, kind: object) -> None:
     if not isinstance(kind, type) and is_message_class(type(kind)):
         name = type(kind).__name__
         raise SessionError(
-            f"{call} was given a message of type {name}, and not the class {name}.",
-            "rclpy notices nothing yet, and fails when the first message is to be sent.",
-            "Hand over the class itself: nothing is sent at this line.",
+            f"{call} was given a message of type {name} instead of the class {name}.",
+            "rclpy does not detect this here, but fails when the node sends its first message.",
+            "Pass the class itself, without parentheses: this line does not send a message.",
         )
 
 

@@ -641,16 +641,16 @@ def _makers(answer: Any) -> list[Maker]:  # noqa: ANN401 - whatever a learner ha
     is_node = isinstance(answer, Node) or (isclass(answer) and issubclass(answer, Node))
     found = answer() if callable(answer) and not is_node else answer
     if found is None:
-        raise _no_system("The function gave nothing back.")
+        raise _no_system("The function returned nothing.")
     try:
         listed = None if isinstance(found, str | Mapping) else list(found)
     except TypeError:
         listed = None
     if listed is None:
         kind = f"of type {type(found).__name__}"
-        kind = "one node, and no list" if isinstance(found, Node) else kind
-        kind = "one class, and no list" if isclass(found) else kind
-        raise _no_system(f"What came is {kind}.")
+        kind = "one node, not a list" if isinstance(found, Node) else kind
+        kind = "one class, not a list" if isclass(found) else kind
+        raise _no_system(f"The returned object is {kind}.")
     if not 0 < len(listed) <= MOST_NODES:
         raise _no_system(f"The list holds {len(listed)} nodes.")
     return [_maker(one) for one in listed]
@@ -662,12 +662,12 @@ def _maker(one: Any) -> Maker:  # noqa: ANN401 - whatever a learner hands over
     if not isinstance(one, tuple | list):
         return Maker(one)
     if len(one) != 2 or not isinstance(one[1], Mapping):
-        raise _no_system("A pair in the list is not of a class and a dict.")
+        raise _no_system("A pair in the list does not consist of a class and a dict.")
     known = ("name", "namespace", "remappings", "parameters")
     for option in one[1]:
         if option not in known:
             raise _no_system(
-                f"A node cannot be started with {option!r}; known are {', '.join(known)}."
+                f"A node cannot be started with {option!r}; the options are {', '.join(known)}."
             )
     return Maker(one[0], checked(**one[1]))
 
@@ -675,6 +675,6 @@ def _maker(one: Any) -> Maker:  # noqa: ANN401 - whatever a learner hands over
 def _no_system(what: str) -> NoSystemError:
     return NoSystemError(
         what,
-        "A system is a list of nodes, each with a dict of options if it needs some.",
+        "A system is a list of nodes, each with a dict of options if it needs any.",
         "Return a list of classes: `return [SomeNode, OtherNode]`.",
     )

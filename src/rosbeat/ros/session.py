@@ -143,15 +143,15 @@ class Session:
         check_whole("threads", threads, 1, 1000, "ros.add(TemperatureSensor, threads=4)")
         if not nodes:
             raise SessionError(
-                "`ros.add()` was given no node.",
-                "It starts a process, and a process without a node does nothing.",
-                "Hand over a class, without brackets: `ros.add(TemperatureSensor)`.",
+                "`ros.add()` was called without a node.",
+                "`ros.add` starts a process, and a process without a node does nothing.",
+                "Pass a class, without parentheses: `ros.add(TemperatureSensor)`.",
             )
         if name is not None and len(nodes) > 1:
             raise SessionError(
-                f"Several nodes cannot all be called {name!r}.",
+                f"One call cannot give the name {name!r} to several nodes.",
                 "`name` renames every node that is started, as `__node` does on a command line.",
-                "Add them without `name`, or each by itself.",
+                "Add the nodes without `name`, or each one in its own call.",
             )
         with self._running("add", [node for node in nodes if not isinstance(node, Node)]):
             made = self._start_process(nodes, start, threads)
@@ -163,10 +163,10 @@ class Session:
         ready = [node for node in given if isinstance(node, Node)]
         if start and ready:
             raise SessionError(
-                f"The node {node_name(ready[0])} is made already and cannot be started in another "
-                "way.",
-                "Its name, topics and parameters are settled while it is made.",
-                "Hand over its class, without brackets: the session then makes the node.",
+                f"The node {node_name(ready[0])} already exists, so it cannot be started with "
+                "other options.",
+                "A node's name, topics and parameters are set while the node is created.",
+                "Pass the class, without parentheses, so that the session creates the node.",
             )
         process = Process(threads)
         made = build_in(self._world, given, start, process)
@@ -275,7 +275,7 @@ class Session:
                 self._world.virtual.run_until(check_end(self._world.now() + span))
             except KeyboardInterrupt as interrupt:
                 ended = self._world.break_endless_off(interrupt)
-                usual = f"stopped at {self.time:g} s; the session goes on."
+                usual = f"stopped at {self.time:g} s; the session is still open."
                 show_briefly(interrupt, ended or usual)
                 raise
             finally:

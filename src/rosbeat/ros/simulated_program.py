@@ -119,7 +119,7 @@ class SimulatedProgram:
         if number not in _KNOWN_SIGNALS:
             raise SessionError(
                 f"The signal {number!r} cannot be sent to a simulated program.",
-                "A session plays what Ctrl+C, the system's request to end and `kill -9` do.",
+                "A session simulates Ctrl+C, the system's request to terminate, and `kill -9`.",
                 "Use `signal.SIGINT`, `signal.SIGTERM` or `signal.SIGKILL`.",
             )
         self._world.refuse_in_callback("send_signal")
@@ -357,9 +357,9 @@ def _checked(target: Any) -> Any:  # noqa: ANN401 - unchecked input
     if isinstance(target, str | Path):
         return _checked_file(str(target))
     raise SessionError(
-        f"{target!r} is no program.",
+        f"{target!r} is not a program.",
         "`ros.spawn` runs a Python file with a function `main`, or such a function.",
-        'Write for example `ros.spawn("temperature_publisher.py")`; a class goes to `ros.add`.',
+        'For example, write `ros.spawn("temperature_publisher.py")`; for a class, use `ros.add`.',
     )
 
 
@@ -370,7 +370,7 @@ def _checked_file(name: str) -> Path:
         if file.is_file() and file.suffix == ".py":
             return file
         if file.exists():
-            kind = "a folder" if file.is_dir() else "no Python file: its name has no `.py`"
+            kind = "a folder" if file.is_dir() else "not a Python file: its name lacks `.py`"
             raise SessionError(
                 f"{name!r} is {kind}.", meaning, "Name the file itself, such as `my_node.py`."
             )
@@ -379,10 +379,11 @@ def _checked_file(name: str) -> Path:
         raise SessionError(
             f"{reprlib.repr(name)} cannot be the name of a file.",
             meaning,
-            "Look for a name that is too long, or for a character that does not belong there.",
+            "Check whether the name is too long, or contains a character that does not belong "
+            "there.",
         ) from None
     raise SessionError(
-        f"There is no file {name!r}.", meaning, f"Look at the folder: `{file.parent}` {there}."
+        f"There is no file {name!r}.", meaning, f"Check the folder: `{file.parent}` {there}."
     )
 
 

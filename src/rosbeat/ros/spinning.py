@@ -88,7 +88,7 @@ def _spin_once(original: Callable[..., None]) -> Callable[..., None]:
             raise SessionError(
                 "rclpy.spin_once was called for a node of a session.",
                 "The session runs this node's callbacks itself.",
-                "Use `ros.run(seconds=1)`, or any other number of seconds.",
+                "Use `ros.run(seconds=1)`, with any number of seconds.",
             )
 
     return spin_once
@@ -133,11 +133,11 @@ def _refuse_thread(world: _World, program: SimulatedProgram | None) -> None:
         return
     try:
         raise SessionError(
-            f"{program.name} spins in a thread of its own.",
-            "A session plays all programs in one thread, in virtual time, and threads of their own "
-            "count real time. In a terminal the program works.",
-            "Spin in `main`, and do the work of its loop in a timer's callback. Or start the "
-            "program in a terminal, with `ros2 run`.",
+            f"{program.name} spins its node in a separate thread.",
+            "A session runs all programs in one thread, in virtual time, but a separate thread "
+            "runs in real time. The program does work in a terminal.",
+            "Spin in `main`, and move the work of the program's loop to a timer's callback. Or "
+            "start the program in a terminal, with `ros2 run`.",
         )
     except SessionError as error:
         program.fail(error)
@@ -271,8 +271,8 @@ def _global_executor(world: _World, node: Node) -> Iterator[list[NodeState]]:
     if taken_away:
         world.pause_node(state)
         note(
-            f"a spin function of rclpy has taken {state.name} from the executor of its process, "
-            "and given it to nobody: its callbacks run no more."
+            f"a spin function of rclpy has removed {state.name} from the executor of its "
+            "process, so its callbacks no longer run."
         )
 
 
@@ -316,7 +316,7 @@ def _spin_in_session(world: _World, node: Node) -> None:
                 world.show_news()
                 pulse.wait(PULSE / 2)
     except KeyboardInterrupt as interrupt:
-        show_briefly(interrupt, f"{state.name} has stopped spinning; the session goes on.")
+        show_briefly(interrupt, f"{state.name} has stopped spinning; the session is still open.")
         world.interrupt()
         raise
     finally:
@@ -337,8 +337,9 @@ def _refuse_in_constructor(node: Node) -> None:
         if code.co_name == "__init__" and frame.f_locals.get(code.co_varnames[0]) is node:
             raise SessionError(
                 "`rclpy.spin` was called from inside the constructor.",
-                "It does not return while the node runs, so the constructor does not end either, "
-                "on a real robot too.",
-                "Whoever makes the node spins it, when it is ready. In a session: `ros.run(10)`.",
+                "`rclpy.spin` does not return while the node runs, so the constructor does not "
+                "return either, on a real robot too.",
+                "The program that creates the node spins it, after the constructor has returned. "
+                "In a session, use `ros.run(10)`.",
             )
         frame = frame.f_back

@@ -156,8 +156,9 @@ class ChainGuard:
         if self._firings > MOST_FIRINGS:
             self._firings = 0
             raise EndlessChainError(
-                f"A timer of {entry.state.name} fired {MOST_FIRINGS} times and no time passed.",
-                f"Its period is zero, so `{entry.label.name}` is always due and the clock stands.",
+                f"A timer of {entry.state.name} fired {MOST_FIRINGS} times while no time passed.",
+                f"The timer's period is zero, so `{entry.label.name}` is always due and virtual "
+                "time cannot advance.",
                 "Give create_timer a period above zero, in seconds.",
             )
 
@@ -176,9 +177,10 @@ class ChainGuard:
                 program.kill()  # it would never let the others run
             name = call.node or (program.name if program is not None else "A node")
             raise EndlessChainError(
-                f"{call.name} of {name} waited {MOST_FIRINGS} times and no time passed.",
-                "It waits in a loop, and each wait ends at once: its timeout is zero, or ROS has "
-                "been shut down. On a real robot it would keep a processor core busy for ever.",
+                f"{call.name} of {name} waited {MOST_FIRINGS} times while no time passed.",
+                "The call is in a loop, and each wait ends immediately: either its timeout is "
+                "zero, or ROS has been shut down. On a real robot, the loop would keep a "
+                "processor core busy forever.",
                 "Wait with a timeout above zero, and leave the loop when `rclpy.ok()` is False.",
             )
 
@@ -199,11 +201,11 @@ class ChainGuard:
                 self.depth = self._followers = 0
                 self._trail.clear()
                 raise EndlessChainError(
-                    f"Messages go round without end: {' -> '.join([*names, names[0]])}.",
-                    "Each callback causes the next one, and no time passes between them, so the "
-                    "clock stands still. On a real robot these nodes would keep a processor core "
-                    "busy for ever.",
-                    "Break the circle: publish from a timer, or only if something has changed.",
+                    "Callbacks trigger each other in an endless loop: "
+                    f"{' -> '.join([*names, names[0]])}.",
+                    "Each callback triggers the next one, so virtual time cannot advance. On a "
+                    "real robot, these nodes would keep a processor core busy forever.",
+                    "Break the loop: publish from a timer, or only when a value has changed.",
                 )
 
 
@@ -649,8 +651,8 @@ class VirtualTimeExecutor(WaitSetExecutor):
             waits = "".join(f", where {one.name} of {one.node} waits" for one in self.suspended[:1])
             raise SessionError(
                 f"This session runs in another thread{waits}.",
-                "A callback that has begun goes on in the thread in which it has begun.",
-                "Call `ros.run` in that thread, or open a session for each thread.",
+                "A callback always continues in the thread in which it started.",
+                "Call `ros.run` in that thread, or open a separate session for each thread.",
             )
         self.thread = threading.get_ident()
         self._idle.clear()
@@ -1026,9 +1028,9 @@ class VirtualTimeExecutor(WaitSetExecutor):
         names = [f"{w.state.name} ({w.name})" for w in self._coroutines.waiting if w.state]
         names = list(dict.fromkeys(names)) or [s.name for s in self._host.states() if s.spinning]
         return EndlessChainError(
-            f"Callbacks wait for each other without end: {', '.join(names)}.",
-            "Each gets further whenever another has run, and no time passes meanwhile.",
-            "Break the circle: begin each piece of work from a timer.",
+            f"Callbacks wait for each other endlessly: {', '.join(names)}.",
+            "Each callback continues whenever another one has run, so virtual time cannot advance.",
+            "Break the loop: start each piece of work from a timer.",
         )
 
 

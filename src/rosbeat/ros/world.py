@@ -257,7 +257,7 @@ class World:
 
     def explain_init(self) -> None:
         """Answer `rclpy.init()` of a learner."""
-        note("rclpy.init() has nothing to do here: the session has started ROS already.")
+        note("rclpy.init() has no effect here, because the session has already started ROS.")
 
     def explain_shutdown(self) -> None:
         """Answer `rclpy.shutdown()` of a learner: in a callback it ends that node's process."""
@@ -266,12 +266,12 @@ class World:
         if self.live is not None and self.live.is_this_thread():
             state = self.state_of(self.live.current)
         if state is None:
-            note("rclpy.shutdown() leaves this session open; `ros.close()` ends it.")
+            note("rclpy.shutdown() does not close this session; use `ros.close()`.")
             return
         for one in state.process.states:
             one.spinning, one.ended = False, True
         state.process.refresh()
-        note(f"{state.name} called rclpy.shutdown() and stops; the other nodes go on.")
+        note(f"{state.name} called rclpy.shutdown() and stops; the other nodes keep running.")
 
     def refuse_in_callback(self, call: str) -> None:
         """Refuse a call that runs the simulation, if a node makes it.
@@ -283,8 +283,8 @@ class World:
         if running or (self.live is not None and self.live.is_this_thread()):
             raise SessionError(
                 f"`{call}` was called from inside a callback.",
-                "It waits for other callbacks, and they can only run when this one has returned: "
-                "a deadlock, on a real robot too.",
+                f"`{call}` waits for other callbacks, which cannot run until this one returns: "
+                "this is a deadlock, on a real robot too.",
                 INSTEAD_OF_WAITING,
             )
 
@@ -474,10 +474,11 @@ class World:
         waiting = self.virtual.suspended
         if waiting:
             raise SessionError(
-                f"The session cannot go live: `{waiting[0].name}` of {waiting[0].node} still "
-                "waits.",
-                "It began in virtual time, and what it waits for comes in virtual time.",
-                "Let it return first, with `ros.run(seconds)`, or remove the node.",
+                f"The session cannot go live: `{waiting[0].name}` of {waiting[0].node} is still "
+                "waiting.",
+                "The callback started in virtual time, and the event that it waits for happens "
+                "in virtual time.",
+                "Let the callback return first, with `ros.run(seconds)`, or remove the node.",
             )
         self.live = LiveExecutor(self.context, self)
         self.virtual.deadlines.forget()
@@ -586,7 +587,7 @@ class World:
             return
         entry.kind = "wall timer"
         note(
-            f"a timer of {entry.state.name} has a clock of its own, which counts real time: it "
+            f"a timer of {entry.state.name} has its own clock, which counts real time, so it "
             "fires only while the session is live."
         )
 
@@ -648,11 +649,11 @@ class World:
             self.refuse_in_callback("client.call")
         if not entry.state.spinning and entry.state.process.program is None:
             raise SessionError(
-                f"{entry.state.name} asks {entry.name} before it runs itself.",
-                "Nobody takes the answer of a node that is still being made, was not added, or is "
-                "paused. Outside a page the call would wait for ever.",
-                "Add the node first, with `ros.add(...)`, and ask then, or in a timer's callback "
-                "with `call_async`.",
+                f"{entry.state.name} calls {entry.name} before the node itself runs.",
+                "A node that is still being created, was not added, or is paused cannot receive "
+                "a response. Outside a page, the call would wait forever.",
+                "Add the node first, with `ros.add(...)`, and call the service after that, or in "
+                "a timer's callback with `call_async`.",
             )
 
     def _wait_for_answer(
@@ -660,16 +661,17 @@ class World:
     ) -> Message:
         """Do what `client.call` does when it has sent its request (rclpy, `client.py`)."""
         in_callback = self.live is None and self.virtual.in_callback
-        reason = f"an answer from {client.service_name}"
+        reason = f"a response from {client.service_name}"
         self.wait("client.call", reason, future.done, timeout_sec, client)
         if not future.done():
             client.remove_pending_request(future)
             if timeout_sec is None and not in_callback:
                 raise SessionError(
-                    f"Nobody has answered the call to {client.service_name}.",
-                    "Either no node of this session offers that service, or its callback does not "
-                    "end. Outside a page the call would wait for ever.",
-                    "Add the node that offers the service first, and compare the two names.",
+                    f"No node has responded to the call of {client.service_name}.",
+                    "Either no node of this session offers that service, or its callback does "
+                    "not return. Outside a page, the call would wait forever.",
+                    "Add the node that offers the service first, and compare the two service "
+                    "names.",
                 )
         return future.result()
 
@@ -730,8 +732,8 @@ def full_topic(call: str, topic: object) -> str:
         raise SessionError(
             f"{topic!r} cannot be the name of a topic.",
             f"ROS does not allow it: {reason}.",
-            "Names have letters, digits, `_` and `/`, and no part of them begins with a digit: "
-            "`room_1/temperature`.",
+            "A topic name consists of letters, digits, `_` and `/`, and none of its parts begins "
+            "with a digit, as in `room_1/temperature`.",
         ) from None
     return name
 

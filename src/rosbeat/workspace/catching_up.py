@@ -54,11 +54,11 @@ class Report:
         return not self.attention
 
     def __str__(self) -> str:
-        rows = [f"Please look: {one}" for one in self.attention]
+        rows = [f"Please check: {one}" for one in self.attention]
         if self.made:
             made = "; ".join(self.made)
-            rows.insert(0, f"Made for you, because it was not there yet: {made}.")
-        rows = rows or ["Everything this page needs is there."]
+            rows.insert(0, f"Created for you, because it did not exist yet: {made}.")
+        rows = rows or ["Everything that this page needs exists."]
         return "\n".join(textwrap.fill(row, 100, break_long_words=False, break_on_hyphens=False)
                          for row in rows)  # fmt: skip
 
@@ -108,8 +108,8 @@ def _number(page: str) -> int:
     if not found:
         raise WorkspaceError(
             f"There is no page {page!r}.",
-            "catch_up makes what the pages before a certain page make.",
-            'Name the page by its number:  workspace.catch_up("05")',
+            "`catch_up` creates the files of all pages before the given one.",
+            'Give the number of the page:  workspace.catch_up("05")',
         )
     return int(found[1])
 
@@ -135,7 +135,7 @@ def folders(root: Path) -> str:
     missing = [one for one in FOLDERS if not (root / one).is_dir()]
     for one in missing:
         if (root / one).exists():
-            raise InTheWay(f"{one} is a file, and it has to be a folder. Rename the file.")
+            raise InTheWay(f"{one} is a file, but it has to be a folder. Rename the file.")
         (root / one).mkdir(parents=True, exist_ok=True)
     plural = "s" if len(missing) > 1 else ""
     return f"the folder{plural} {_listed(missing)} (page 01)" if missing else ""
@@ -150,7 +150,7 @@ def package(root: Path) -> str:
     with tempfile.TemporaryDirectory(prefix=".making-", dir=root) as name:
         code, output = run_command(_CREATE, Path(name), _MAKING)
         if code:
-            raise InTheWay(f"`ros2 pkg create` did not work: {_last_line(output)}")
+            raise InTheWay(f"`ros2 pkg create` failed: {_last_line(output)}")
         _fill_in(Path(name) / PACKAGE)
         _put_in_place(Path(name) / PACKAGE, folder)
     return f"the package {PACKAGE} (page 02)"
@@ -162,7 +162,7 @@ def _put_in_place(made: Path, folder: Path) -> None:
     except OSError as error:
         if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
             raise
-        raise InTheWay("another page has just made the package: run the cell again.") from None
+        raise InTheWay("another page has just created the package: run the cell again.") from None
 
 
 def _check_place(folder: Path, root: Path) -> None:
@@ -181,7 +181,10 @@ def _check_place(folder: Path, root: Path) -> None:
     if folder.is_dir() and not (folder / "package.xml").is_file():
         raise InTheWay(_half_made(folder))
     if folder.exists() and not folder.is_dir():
-        raise InTheWay(f"src/{PACKAGE} is a file where the package would be. Rename it.")
+        raise InTheWay(
+            f"src/{PACKAGE} is a file, but the package needs a folder of that name. "
+            "Rename the file."
+        )
     _check_kind(folder, root)
 
 
@@ -195,32 +198,32 @@ def _check_kind(folder: Path, root: Path) -> None:
     if manifest.build_type != "ament_python":
         raise InTheWay(
             f"the package {PACKAGE} has the build type {manifest.build_type or '(none)'}: it was "
-            f"made without `--build-type ament_python`. Move it out of the workspace with "
-            f"`mv src/{PACKAGE} ~/{PACKAGE}-old`, then make it again with the whole command."
+            "created without `--build-type ament_python`. Move it out of the workspace with `mv "
+            f"src/{PACKAGE} ~/{PACKAGE}-old`, then create it again with the whole command."
         )
 
 
 def _elsewhere(place: str, twice: bool) -> str:
     if twice:
         return (
-            f"there is a second package {PACKAGE} in {place}, and colcon builds neither of two. "
-            f"Keep one, in src, and move the other one out of the workspace."
+            f"there is a second package {PACKAGE} in {place}, and colcon builds neither of them. "
+            "Keep the one in src, and move the other one out of the workspace."
         )
     return (
-        f"the package {PACKAGE} lies in {place}, and it belongs into src. "
-        f"Move it there: `mv {place} src/` in the workspace."
+        f"the package {PACKAGE} is in {place}, but it belongs in src. In the workspace, move it "
+        f"with `mv {place} src/`."
     )
 
 
 def _half_made(folder: Path) -> str:
     if any(folder.iterdir()):
         return (
-            f"the folder src/{PACKAGE} has no package.xml, so it is no package. Rename it, "
-            f"then run this cell again and move your files over."
+            f"the folder src/{PACKAGE} has no package.xml, so it is not a package. Rename the "
+            "folder, then run this cell again and move your files to the new package."
         )
     return (
-        f"the folder src/{PACKAGE} is there and empty, so `ros2 pkg create` would refuse. "
-        f"Remove it with `rmdir src/{PACKAGE}`, then run this cell again."
+        f"the folder src/{PACKAGE} already exists and is empty, so `ros2 pkg create` would fail. "
+        f"Remove the folder with `rmdir src/{PACKAGE}`, then run this cell again."
     )
 
 
@@ -258,7 +261,7 @@ def entry_points(root: Path) -> str:
     """Put the entry points of page 05 into a `setup.py` that has none yet."""
     path = f"src/{PACKAGE}/setup.py"
     if not (root / path).exists():
-        raise InTheWay(f"{path} is not there. Page 05 shows the whole file.")
+        raise InTheWay(f"{path} does not exist. Page 05 shows the whole file.")
     setup = read_package(root / "src" / PACKAGE, root).setup
     if setup.problem:
         line = f" (line {setup.line})" if setup.line else ""
@@ -273,8 +276,8 @@ def entry_points(root: Path) -> str:
         after = with_entry_points(root / path, _SCRIPTS)
     if after is None:
         raise InTheWay(
-            f"I see no entry point for {_listed(missing)} in {path}. "
-            "The file is yours, so it stays as it is; page 05 shows the line."
+            f"{path} has no entry point for {_listed(missing)}. The file was not changed, "
+            "because you wrote it; page 05 shows the line."
         )
     save_bytes(path, after, root)
     return "the entry points in setup.py (page 05)"
@@ -285,13 +288,13 @@ def build(root: Path) -> str:
     installed = read_package(root / "src" / PACKAGE, root).installed
     if installed and set(NODES) <= set(installed.executables):
         return ""
-    print("Building the package with colcon; this takes some seconds ...", flush=True)
+    print("Building the package with colcon; this takes a few seconds ...", flush=True)
     command = ("colcon", "build", "--packages-select", PACKAGE)
     code, output = run_command(command, root, _BUILDING)
     if code:
         raise InTheWay(
-            f"`colcon build` did not work: {_last_line(output)}. "
-            "Run it in a terminal to see everything that it says."
+            f"`colcon build` failed: {_last_line(output)}. Run it in a terminal to see its whole "
+            "output."
         )
     return "the build (page 06)"
 
@@ -300,7 +303,7 @@ def _last_line(output: str) -> str:
     """Return the last line that names an error, or else the last line."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     errors = [line for line in lines if "rror" in line and len(line) < 300]
-    return next(reversed(errors or lines), "it said nothing").rstrip(".")
+    return next(reversed(errors or lines), "it printed nothing").rstrip(".")
 
 
 def _listed(names: list[str]) -> str:
@@ -350,15 +353,15 @@ def run_command(command: Sequence[str], folder: Path, seconds: float) -> tuple[i
 
 def _not_installed(program: str) -> WorkspaceError:
     return WorkspaceError(
-        f"The program {program} is not installed beside this Python.",
-        "It makes or builds packages, and this page needs one.",
-        "Start the course with `./environment/course lab`; it installs what is missing.",
+        f"The program {program} is not installed in this Python environment.",
+        "This page needs a package, and that program creates or builds it.",
+        "Start the course with `./environment/course lab`, which installs missing programs.",
     )
 
 
 def _too_slow(command: Sequence[str], seconds: float) -> WorkspaceError:
     return WorkspaceError(
-        f"`{' '.join(command)}` was not done after {seconds:g} seconds and has been stopped.",
-        "The computer is very busy, or the program waits for something.",
+        f"`{' '.join(command)}` did not finish within {seconds:g} seconds and was stopped.",
+        "Either the computer is very busy, or the program is waiting for something.",
         "Run the cell again when the computer is less busy.",
     )

@@ -21,9 +21,9 @@ _USAGE = """\
 %%terminal NAME [--until TEXT [--lines N]] [--for SECONDS] [--timeout SECONDS] [--answer]
     types the cell into the terminal NAME
 %terminal NAME [--until TEXT [--lines N]] [--for SECONDS] [--timeout SECONDS]
-    shows what came since the last look
+    shows the output since the last time
 %terminal NAME --ctrl-c | --ctrl-d | --kill [--timeout SECONDS]
-    presses a key, or ends what runs
+    presses a key, or kills the running program
 %terminal NAME --close
     ends the terminal
 %terminal
@@ -70,7 +70,7 @@ def run(shell: InteractiveShell, line: str, cell: str | None) -> None:
 
 def _type(terminals: Terminals, options: _Options, cell: str) -> None:
     if not cell.strip():
-        raise UsageError("There is nothing to type: write the commands below `%%terminal NAME`.")
+        raise UsageError("The cell has no commands: write them below `%%terminal NAME`.")
     terminal = terminals.get(options.name)
     act = terminal.answer if options.action == "answer" else terminal.type
     act(cell, **options.watching())  # type: ignore[arg-type] # the names fit
@@ -80,8 +80,8 @@ def _look(terminals: Terminals, options: _Options) -> None:
     terminal = terminals.find(options.name)
     if terminal is None:
         raise UsageError(
-            f"There is no terminal `{options.name}`. {_names(terminals)} "
-            f"`%%terminal {options.name}` with commands below opens it."
+            f"There is no terminal `{options.name}`. {_names(terminals)} `%%terminal "
+            f"{options.name}` with commands below it opens that terminal."
         )
     if options.action:
         getattr(terminal, options.action)(**options.ending())
@@ -91,7 +91,7 @@ def _look(terminals: Terminals, options: _Options) -> None:
 
 def _names(terminals: Terminals) -> str:
     names = ", ".join(f"`{one.name}`" for one in terminals)
-    return f"There is: {names}." if names else "None is open."
+    return f"Open terminals: {names}." if names else "No terminal is open."
 
 
 def _list(terminals: Terminals) -> None:
@@ -204,9 +204,10 @@ def _seconds(text: str) -> float:
 
 def _unknown(word: str) -> UsageError:
     if word.startswith("-"):
-        return UsageError(f"There is no option `{word}`. These exist:\n{_USAGE}")
+        return UsageError(f"There is no option `{word}`. The options are:\n{_USAGE}")
     return UsageError(
-        f"One name is enough, and `{word}` is too much. A text with spaces needs quotes.\n{_USAGE}"
+        f"The command takes one name, so `{word}` is one word too many. A text with spaces needs "
+        f"quotes.\n{_USAGE}"
     )
 
 
@@ -217,14 +218,18 @@ def _require_sense(given: argparse.Namespace, action: str, in_cell: bool) -> Non
         UsageError: Then.
     """
     if not given.name and (in_cell or action or given.until or given.seconds is not None):
-        raise UsageError(f"Which terminal? Give it a name: `terminal sensor`.\n{_USAGE}")
+        raise UsageError(
+            f"The terminal's name is missing. Give it one, as in `terminal sensor`.\n{_USAGE}"
+        )
     if given.name and not _NAME.fullmatch(given.name):
-        raise UsageError(f"`{given.name}` is no name: use letters, digits, `-` and `_`.")
+        raise UsageError(f"`{given.name}` is not a valid name: use letters, digits, `-` and `_`.")
     if in_cell and action not in ("", "answer"):
         option = action.replace("_", "-")
-        raise UsageError(f"`--{option}` belongs into a line: `%terminal {given.name} --{option}`.")
+        raise UsageError(
+            f"`--{option}` works only in a line of its own: `%terminal {given.name} --{option}`."
+        )
     if not in_cell and action == "answer":
-        raise UsageError("`--answer` types the cell below it: it needs `%%terminal`.")
+        raise UsageError("`--answer` types the rest of the cell, so it needs `%%terminal`.")
     _require_one_purpose(given, action)
     if given.until == "":
         raise UsageError("`--until` needs a text to wait for.")
@@ -246,4 +251,4 @@ def _require_one_purpose(given: argparse.Namespace, action: str) -> None:
     for option, value in useless.items():
         if value is not None:
             word = action.replace("_", "-")
-            raise UsageError(f"`--{option}` does not go with `--{word}`.\n{_USAGE}")
+            raise UsageError(f"`--{option}` cannot be combined with `--{word}`.\n{_USAGE}")

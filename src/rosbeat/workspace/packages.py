@@ -174,7 +174,7 @@ def _refuse_definitions(data: bytes) -> None:
 
 
 def _refuse(*_: object) -> NoReturn:
-    raise ValueError("it holds a document type (<!DOCTYPE ...>), which no package.xml needs")
+    raise ValueError("it contains a document type (<!DOCTYPE ...>), which no package.xml needs")
 
 
 # The build.

@@ -25,16 +25,17 @@ RESERVED = ("build", "install", "log", KEPT)
 _NOT_A_PACKAGE = "COLCON_IGNORE"
 _EXAMPLE = "src/sensor_simulator/sensor_simulator/temperature_publisher.py"
 _SPACE = (
-    "The disk is full, or your share of it is.",
-    "Make room (empty the trash, remove downloads) and run the cell again. Nothing was changed.",
+    "The disk, or your share of it, is full.",
+    "Free some space (empty the trash, remove downloads) and run the cell again. Nothing was "
+    "changed.",
 )
 _MAY_NOT = (
-    "You may not write there: the file or its folder is read-only.",
-    "Give yourself the right with `chmod u+w` on it, or save under another name.",
+    "You have no permission to write there: the file or its folder is read-only.",
+    "Add the permission with `chmod u+w`, or save under another name.",
 )
 _FILE_FOLDER = (
-    "A file is in the way where a folder has to be, or the other way round.",
-    "Rename what is in the way, then run the cell again.",
+    "A file has the name that a folder needs, or a folder has the file's name.",
+    "Rename that file or folder, then run the cell again.",
 )
 _MEANINGS = {
     **dict.fromkeys((errno.ENOSPC, errno.EDQUOT), _SPACE),
@@ -62,7 +63,7 @@ class Saved:
     kept: PurePosixPath | None = None
 
     def __str__(self) -> str:
-        before = f" (the version before is in {self.kept})" if self.kept else ""
+        before = f" (the previous version is in {self.kept})" if self.kept else ""
         return f"saved {self.path}{before}"
 
 
@@ -136,9 +137,9 @@ def _bytes(relative: PurePosixPath, text: str) -> bytes:
     except UnicodeEncodeError as error:
         line = ended.count("\n", 0, error.start) + 1
         raise WorkspaceError(
-            f"{relative} cannot be saved: line {line} holds a character that is none.",
-            "Half of a character was pasted, and no file can hold that.",
-            f"Delete what looks odd in line {line} and type it again.",
+            f"{relative} cannot be saved: line {line} contains an invalid character.",
+            "Only half of a character was pasted, and a file cannot store that.",
+            f"Delete the odd-looking character in line {line} and type it again.",
         ) from None
 
 
@@ -159,15 +160,16 @@ def _mode_of(relative: PurePosixPath, target: Path) -> int:
     """Return the permissions of a file that may be replaced."""
     if not target.is_file():
         raise WorkspaceError(
-            f"{relative} cannot be saved: there is a folder of that name, or a device.",
-            "A file cannot have the name of something else that is there.",
-            "Choose another name, or rename what is there.",
+            f"{relative} cannot be saved: a folder or a device with that name exists.",
+            "A file cannot have the same name as a folder or a device.",
+            "Choose another name, or rename the existing folder.",
         )
     if not os.access(target, os.W_OK):
         raise WorkspaceError(
             f"{relative} cannot be saved: the file is write-protected.",
-            "Somebody took the right to write away, perhaps you, to keep the file as it is.",
-            f"Allow it with  chmod u+w {relative}  in the workspace, or save under another name.",
+            "The write permission was removed, perhaps by you, to protect the file from changes.",
+            f"Restore the permission with  chmod u+w {relative}  in the workspace, or save under "
+            "another name.",
         )
     return stat.S_IMODE(target.stat().st_mode)
 
@@ -273,8 +275,8 @@ def _refuse_reserved(relative: PurePosixPath, real: str) -> None:
     for first in (relative.parts[0], real):
         if first in RESERVED:
             raise WorkspaceError(
-                f"{relative} cannot be saved: {first} is not for files of yours.",
-                "colcon and this course write build, install, log and kept themselves.",
+                f"{relative} cannot be saved: {first} is not a folder for your files.",
+                "The folders build, install, log and kept belong to colcon and to this course.",
                 "Save into src, docs, scripts or resources.",
             )
 
@@ -283,9 +285,9 @@ def _relative(typed: str) -> PurePosixPath:
     text = typed.strip().strip("'\"")
     if not text or "\0" in text:
         raise WorkspaceError(
-            "There is no path to save to.",
-            "The path says which file of your workspace the text becomes.",
-            f"Write it behind the command:  %%save {_EXAMPLE}",
+            "`%%save` was called without a path.",
+            "The path is the file in your workspace in which the text is saved.",
+            f"Write the path after the command:  %%save {_EXAMPLE}",
         )
     _refuse_more_than_a_path(text)
     path = PurePosixPath(text)
@@ -294,14 +296,14 @@ def _relative(typed: str) -> PurePosixPath:
     if not path.parts or text.endswith("/"):
         raise WorkspaceError(
             f"{text} names a folder, not a file.",
-            "What is saved becomes one file.",
-            f"Put the file's name at the end, as in {_EXAMPLE}",
+            "`%%save` writes one file.",
+            f"Add the file's name at the end, as in {_EXAMPLE}",
         )
     if path.parts[0] == NAME:
         raise WorkspaceError(
             f"{text} begins with the workspace itself.",
-            f"Paths count from inside the workspace, so this would be {NAME} in {NAME}.",
-            f"Leave the first part out:  {'/'.join(path.parts[1:]) or _EXAMPLE}",
+            f"Paths are relative to the workspace, so this one would be {NAME} in {NAME}.",
+            f"Leave out the first part:  {'/'.join(path.parts[1:]) or _EXAMPLE}",
         )
     return path
 
@@ -311,13 +313,13 @@ def _refuse_more_than_a_path(text: str) -> None:
     if mark:
         raise WorkspaceError(
             f"{text} is more than a path.",
-            "All of that line would be the file's name, also what looks like a comment.",
-            f"Leave the comment out:  {path.rstrip()}",
+            "The whole line would become the file's name, including the comment.",
+            f"Leave out the comment:  {path.rstrip()}",
         )
     if "\\" in text:
         raise WorkspaceError(
-            f"{text} has a `\\` in it.",
-            "ROS 2 runs on Linux here, and there `/` stands between the parts of a path.",
+            f"{text} contains a `\\`.",
+            "On Linux, `/` separates the parts of a path.",
             f"Write  {text.replace(chr(92), '/')}",
         )
 
@@ -327,7 +329,7 @@ def _real(base: Path, relative: PurePosixPath) -> Path:
         return (base / relative).resolve()
     except (OSError, RuntimeError):  # links that lead in a circle
         raise WorkspaceError(
-            f"{relative} leads nowhere.",
+            f"{relative} cannot be resolved.",
             "A symbolic link on this path points back to itself.",
             "Remove that link, or save under another name.",
         ) from None
@@ -336,7 +338,7 @@ def _real(base: Path, relative: PurePosixPath) -> Path:
 def _outside(typed: str) -> WorkspaceError:
     return WorkspaceError(
         f"{typed.strip()} is not a path inside your workspace.",
-        f"Files are saved in {NAME} only, so that nothing else can be overwritten by mistake.",
+        f"`%%save` writes only inside {NAME}, so that it cannot overwrite other files by mistake.",
         f"Write a path that starts inside the workspace, as in {_EXAMPLE}",
     )
 
@@ -354,6 +356,6 @@ def trouble(doing: str, error: OSError) -> WorkspaceError:
     code = error.errno or 0
     reason = os.strerror(code) if code else str(error)
     means, to_try = _MEANINGS.get(
-        code, ("The operating system refused.", "Mend the cause, then run the cell again.")
+        code, ("The operating system refused.", "Fix the cause, then run the cell again.")
     )
     return WorkspaceError(f"{doing}: {reason}.", means, to_try)

@@ -90,9 +90,9 @@ def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
 def _refuse_nothing(relative: PurePosixPath, cell: str) -> None:
     if not cell.strip():
         raise WorkspaceError(
-            f"{relative} is not saved: there is nothing to save.",
-            "What stands below the line with `%%save` becomes the file.",
-            f"Write it there. For an empty file, type `touch {relative}` in a terminal.",
+            f"{relative} is not saved: the cell has no text to save.",
+            "The text below the `%%save` line becomes the file.",
+            f"Write the text there. For an empty file, type `touch {relative}` in a terminal.",
         )
 
 
@@ -109,9 +109,9 @@ def _make_room(relative: PurePosixPath, root: Path) -> None:
     print(report)
     if not (root / "src" / PACKAGE / "package.xml").is_file():
         raise WorkspaceError(
-            f"{relative} is not saved: the package {PACKAGE} is not there.",
-            "The file belongs into that package.",
-            "Do what stands above, then run this cell again.",
+            f"{relative} is not saved: the package {PACKAGE} does not exist.",
+            "The file belongs in that package.",
+            "Follow the instructions above, then run this cell again.",
         )
 
 
@@ -119,9 +119,9 @@ def _no_such_package(package: str, root: Path) -> WorkspaceError:
     there = sorted(one.parent.name for one in root.glob("src/*/package.xml"))
     meant = nearest(package, [*there, PACKAGE])
     return WorkspaceError(
-        f"There is no package {package} in the folder src of your workspace.",
+        f"There is no package {package} in the src folder of your workspace.",
         "A file in src belongs to a package: a folder with a package.xml.",
-        f"Did you mean {meant}?" if meant else "Make it with `ros2 pkg create` first.",
+        f"Did you mean {meant}?" if meant else "Create it with `ros2 pkg create` first.",
     )
 
 
@@ -141,8 +141,8 @@ def refuse_other_place(relative: PurePosixPath, root: Path) -> None:
     meant = _meant(relative, root)
     if meant and not (root / relative).exists():
         raise WorkspaceError(
-            f"{relative} is not saved: that is not where a package has its files.",
-            "Packages lie in src, and the modules of one in a second folder of the same name.",
+            f"{relative} is not saved: a package does not keep its files there.",
+            "Packages are in src, and a package's modules are in an inner folder of the same name.",
             f"Did you mean {meant}?",
         )
 
@@ -229,8 +229,8 @@ def refuse_magics(text: str, transform: Callable[[str], str]) -> None:
         number, line = lines[0]
         raise WorkspaceError(
             f"Nothing was saved: line {number} of the file would be `{line}`.",
-            "Lines with % or ! or ? are commands of the notebook, and Python on a robot has none.",
-            "Put that line into a cell of its own.",
+            "Lines with % or ! or ? are notebook commands, which Python on a robot does not have.",
+            "Put that line in a separate cell.",
         )
 
 

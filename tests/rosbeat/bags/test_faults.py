@@ -171,12 +171,12 @@ def on(value, fault):
         (lambda: delayed(-1), "seconds=-1"),
         (lambda: delayed(1, jitter=-1), "jitter=-1"),
         # A message that cannot have the fault.
-        (on("warm", drift(1)), "holds no number"),
-        (on(True, drift(1)), "holds no number"),
+        (on("warm", drift(1)), "no field that holds a number"),
+        (on(True, drift(1)), "no field that holds a number"),
         (on(IMU, drift(1)), "'angular.x', 'angular.y'"),
         (on(IMU, drift(1, field="angular.z")), "the field 'angular.z'"),
         (on(IMU, with_nan(field="angular")), "the field 'angular'"),
-        (on(3, with_nan()), "whole numbers, and NaN is not one"),
+        (on(3, with_nan()), "whole numbers, and NaN is not a whole number"),
         # What is no fault, no run, no topic.
         (lambda: inject((), 3), "is not a fault"),
         (lambda: inject(3, stuck()), "is not a run"),

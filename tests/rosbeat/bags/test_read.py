@@ -204,7 +204,7 @@ def test_messages_that_cannot_be_found_are_missed(tmp_path, says):
     path.write_text(path.read_text().replace("reliability: reliable", "reliability: best_effort"))
     with pytest.raises(BagError) as caught:
         Bag(tmp_path / "run").messages("temperature")
-    says(caught.value, "it tells of 2 messages, and 0 can be found")
+    says(caught.value, "its metadata lists 2 messages, but the data contains 0")
 
 
 def damage(data, dice):

@@ -148,7 +148,7 @@ def test_it_describes_itself(tmp_path):
     run = replace(run, graph=GraphSnapshot((), (*run.graph.endpoints, door)))
     assert str(record(run, tmp_path / "run")) == (
         "Recording run, stored as MCAP: 2 messages on 2 topics.\n"
-        "The session ran 2 s of virtual time, messages came from 1 s to 2 s.\n"
+        "The session ran 2 s of virtual time, messages were published from 1 s to 2 s.\n"
         "  /temperature: 2 messages of type std_msgs/msg/Float32 from /sensor (reliable, volatile, "
         "keep last 10)\n"
         "  /door: no messages of type std_msgs/msg/Bool from /lock (reliable, volatile, "
@@ -203,7 +203,7 @@ def test_an_older_recording_is_not_overwritten(tmp_path, says):
     before = digest(tmp_path / "run")
     with pytest.raises(BagError) as caught:
         record(run_of([2.0]), tmp_path / "run")
-    says(caught.value, "something at", "keep_old=True")
+    says(caught.value, "already exists", "keep_old=True")
     assert digest(tmp_path / "run") == before
     assert [path.name for path in tmp_path.iterdir()] == ["run"]
 
@@ -225,7 +225,7 @@ def test_nothing_else_is_overwritten_either(tmp_path, says, kind):
     }[kind]()
     with pytest.raises(BagError) as caught:
         record(run_of([1.0]), place)
-    says(caught.value, "something at")
+    says(caught.value, "already exists")
     assert kind != "file" or place.read_text() == "mine"
 
 
@@ -298,7 +298,7 @@ TWO_TYPES = replace(
         *(({"folder": folder}, "not the name of a folder")
           for folder in ("", "  ", None, 3, b"run", "a\0b")),
         *(({"source": source}, "is not a run") for source in (3, Session, Watcher)),
-        ({"source": TWO_TYPES}, "Messages of two types are on /temperature"),
+        ({"source": TWO_TYPES}, "The topic /temperature has messages of two types"),
         *(({"source": run_of([1.0, "warm"]), "storage": storage},
            "Message 2 on /temperature is not a std_msgs/msg/Float32: 'warm' is not")
           for storage in STORAGES),

@@ -175,7 +175,7 @@ def test_a_type_of_ones_own_is_read_from_where_it_is_installed(package):
 def test_an_unknown_type_gets_three_parts(package, says, name):
     with pytest.raises(BagError) as caught:
         installed_types([name])
-    says(caught.value, "is not known here", "topics=")
+    says(caught.value, "is unknown", "topics=")
 
 
 def test_a_bag_s_own_definition_counts():

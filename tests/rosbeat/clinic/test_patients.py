@@ -117,8 +117,8 @@ def test_a_session_opens_when_it_is_asked_for_and_once():
     ("number", "row"),
     [
         (6, "water_probe -> /water_temperature -> water_guard, water_diary"),
-        (6, "water_hygrometer -> /water_humidity -> (nobody)"),
-        (6, "Low below 23, High above 26, and Normal else"),
+        (6, "water_hygrometer -> /water_humidity -> (no node)"),
+        (6, "Low below 23, High above 26, and Normal otherwise"),
         (2, "cellar_rules (once, soon after its start) -> /cellar_rule -> cellar_plate"),
     ],
 )

@@ -167,15 +167,15 @@ def test_something_speaks_against_every_other_diagnosis(name):
 @pytest.mark.parametrize(
     ("number", "name", "place", "said"),
     [
-        (2, "gone-quiet", "/cellar_rules", "at 1 s, and one is all that was ordered"),
-        (2, "gone-quiet", "/cellar_rule", "and one is all that was ordered"),
-        (5, "no-clamp", "/leaf_sensor", "they span 10 degrees, just as was ordered"),
-        (5, "clamped-too-early", "/leaf_sensor", "they span 10 degrees, just as was ordered"),
-        (8, "clamped-too-early", "/pool_sensor", "2.5 beyond, and a clamp before the step"),
-        (8, "wrong-unit", "/pool_sensor", "in another unit not one would be within"),
-        (1, "wrong-topic", "/hall_notebook", "nobody but /hall_notebook uses /hall_Temperature"),
-        (10, "wrong-topic", "/stall_logger", "nobody but /stall_logger uses /stall_tep"),
-        (1, "wrong-namespace", "/hall_notebook", "is in the namespace that was ordered"),
+        (2, "gone-quiet", "/cellar_rules", "at 1 s, and the orders require only one"),
+        (2, "gone-quiet", "/cellar_rule", "and the orders require only one"),
+        (5, "no-clamp", "/leaf_sensor", "they span 10 degrees, as ordered"),
+        (5, "clamped-too-early", "/leaf_sensor", "they span 10 degrees, as ordered"),
+        (8, "clamped-too-early", "/pool_sensor", "2.5 outside, but a clamp before the step"),
+        (8, "wrong-unit", "/pool_sensor", "in another unit all of them would be"),
+        (1, "wrong-topic", "/hall_notebook", "only /hall_notebook uses /hall_Temperature"),
+        (10, "wrong-topic", "/stall_logger", "only /stall_logger uses /stall_tep"),
+        (1, "wrong-namespace", "/hall_notebook", "is in the namespace that the orders require"),
     ],
 )
 def test_the_evidence_refutes_and_does_not_agree(number, name, place, said):
@@ -185,10 +185,10 @@ def test_the_evidence_refutes_and_does_not_agree(number, name, place, said):
 @pytest.mark.parametrize(
     ("shown", "name", "place", "said"),
     [
-        ("wrong-unit", "no-clamp", "/sensor", "farther off than 5 degrees"),
-        ("clamped-too-early", "no-clamp", "/sensor", "readings that nothing holds go farther"),
-        ("wrong-namespace", "topic-misspelled", "/lamp", "is spelt as it was ordered"),
-        ("wrong-namespace", "wrong-topic", "/lamp", "nobody but /lamp uses /north/status"),
+        ("wrong-unit", "no-clamp", "/sensor", "more than 5 degrees outside"),
+        ("clamped-too-early", "no-clamp", "/sensor", "unclamped readings would go farther"),
+        ("wrong-namespace", "topic-misspelled", "/lamp", "is spelled as ordered"),
+        ("wrong-namespace", "wrong-topic", "/lamp", "only /lamp uses /north/status"),
     ],
 )
 def test_the_evidence_refutes_in_other_wards_too(shown, name, place, said):

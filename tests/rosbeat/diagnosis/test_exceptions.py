@@ -72,8 +72,9 @@ KNOWN = [
      "Node.get_parameter() takes 2 positional arguments but 3 were given"),
     ("index-error", "IndexError", "pop from an empty deque"),
     ("index-error", "IndexError", "pop from empty list"),
-    ("wrong-rate", "EndlessChainError", "A timer of /s fired 10000 times and no time passed."),
-    ("endless-chain", "EndlessChainError", "Messages go round without end: a -> b -> a."),
+    ("wrong-rate", "EndlessChainError", "A timer of /s fired 10000 times while no time passed."),
+    ("endless-chain", "EndlessChainError",
+     "Callbacks trigger each other in an endless loop: a -> b -> a."),
     ("constructor-parameters", "TypeError",
      "AlarmNode.__init__() missing 1 required positional argument: 'node_name'"),
 ]  # fmt: skip
@@ -107,7 +108,7 @@ def test_by_the_call_that_failed(mistake, asked):
     assert named("TypeError", "whatever it says", "x()", asked) == mistake
 
 
-TUPLE = "In Python 22,5 is a tuple of two numbers"
+TUPLE = "In Python, 22,5 is a tuple of two numbers"
 DECIMAL_COMMAS = [
     ("wrong-argument", "Random.uniform() takes 3 positional arguments but 5 were given",
      "self.t += random.uniform(-0,5, 0,5)", "with a point: 0.5"),
@@ -139,8 +140,8 @@ def test_a_decimal_comma_in_a_timer_s_period():
     code, asked = "self.create_timer(0,5, self.tick)", "create_timer(int, int, method[tick(self)])"
     found = diagnose_fault(fault("AttributeError", "'int' object", code, asked))
     assert found.mistake == "wrong-argument"
-    assert "0,5 is not one number in Python, but two arguments: 0 and 5." in found.evidence
-    assert found.hint == "A decimal number is written with a point: 0.5."
+    assert "0,5 isn't one number in Python, but two arguments: 0 and 5." in found.evidence
+    assert found.hint == "Write a decimal number with a point: 0.5."
 
 
 def test_a_field_that_got_two_numbers_tells_of_the_point():
@@ -224,20 +225,20 @@ SAID = [
       "x()"), "callback-missing", ""),
     # What ROS calls a callback with, whichever calls it.
     (("TypeError", "A.tick() takes 1 positional argument but 2 were given"), "callback-parameters",
-     "ROS calls tick with 1 argument besides self, and it takes none. One argument is"),
+     "ROS calls tick with 1 argument besides self, but tick takes none. Some callbacks"),
     (("TypeError", "A.tick() takes 2 positional arguments but 3 were given"), "callback-parameters",
-     "ROS calls tick with 2 arguments besides self, and it takes 1. A service's callback"),
+     "ROS calls tick with 2 arguments besides self, but tick takes 1. A service's callback"),
     (("TypeError", "make.<locals>.tick() takes 1 positional argument but 2 were given"),
-     "callback-parameters", "ROS calls tick with 2 arguments, and it takes 1. A service's"),
+     "callback-parameters", "ROS calls tick with 2 arguments, but tick takes 1. A service's"),
     (("TypeError", "A.tick() missing 1 required positional argument: 'info'"),
-     "callback-parameters", "of an event, its info"),
+     "callback-parameters", "an event's the event info"),
     (("TypeError", "M.change() missing 1 required positional argument: 'mode'", "self.change()"),
-     "argument-missing", "change wants mode"),
+     "argument-missing", "change requires mode"),
     # Quality of service.
     (("InvalidQoSProfileException", "('Invalid', 'History and/or depth settings are required.')",
-      "QoSProfile()"), "depth-missing", "how many messages"),
+      "QoSProfile()"), "depth-missing", "the number of messages"),
     (("TypeError", "Duration.__init__() takes 1 positional argument but 2 were given",
-      "Duration(2)"), "wrong-argument", "without a name"),
+      "Duration(2)"), "wrong-argument", "a positional argument"),
     (("TypeError", "Duration.__init__() got an unexpected keyword argument 'second'",
       "Duration(second=2)"), "wrong-argument", "Duration has no argument second"),
     (("TypeError", "SubscriptionEventCallbacks.__init__() got an unexpected keyword argument "
@@ -260,15 +261,15 @@ SAID = [
         "self.create_subscription("), "wrong-argument", f"a {kind}") for kind in ("method", "str")),
     # Evidence is who raised what it means, and the line; and what Python or the session said.
     (("TypeError", KNOWN[5][2], "self.publisher_.publish(25.0)"), "number-published",
-     "tick raised TypeError. publish was given a bare value, a float, and not a message. "
+     "tick raised TypeError. publish was given a float instead of a message. "
      "Line 4: `self.publisher_.publish(25.0)`."),
     *(((*KNOWN[0][1:], "msg.data = 9 * 2", asked), None,
-       f"takes a float, and what it was given {words}") for asked, words in
+       f"takes a float, but the value given {words}") for asked, words in
       (("field(int)", "is an int."), ("field(NoneType)", "is None."), ("field(str)", "is a str."),
        ("field(Decimal)", "is an object of type Decimal."), ("", "is something else."))),
     (("AttributeError", "'A' object has no attribute 'publish_temperature'. Did you mean: "
       "'publish_humidity'?"), "wrong-attribute",
-     "publish_temperature; it has publish_humidity. Is that the one?"),
+     "publish_temperature; it has publish_humidity. Is that the one you mean?"),
     (("UnboundLocalError", "cannot access local variable 'low' where it is not associated with a "
       "value", "low = self.get_parameter(low).value"), "no-value-yet", "quotes"),
     (("AttributeError", "__enter__", "with rclpy.init():"), "init-in-with", ""),  # Python 3.10
@@ -280,7 +281,7 @@ SAID = [
      "tick does not return: still running after 5 s. Line 4: `while True:`."),
     *((("DeadlinePassed", ENDED, code, "", "__init__"), "constructor-blocks", hint)
       for code, hint in (("while True:", "timer"), ("time.sleep(9)", "timer"),
-                         ("x = solve(y)", "What ends it?"),
+                         ("x = solve(y)", "What makes the constructor return?"),
                          ("x", "The constructor does not return: still running after 5 s."))),
 ]  # fmt: skip
 
@@ -298,9 +299,9 @@ def test_what_is_said(given_fault, mistake, said):
 def test_what_is_said_beside_the_error_has_no_lead_of_its_own():
     one = fault(*KNOWN[10][1:], "self.create_publisher(float, 't', 10)")
     assert "ROS 1" not in diagnose_fault(one).evidence
-    assert "Never mind ROS 1" in meaning_of(one).beside_error
+    assert "The error mentions ROS 1" in meaning_of(one).beside_error
     two_types = fault("RCLError", "Failed to create subscription: invalid allocator, at /x.c:261")
-    assert meaning_of(two_types).beside_error.startswith("The topic exists already")
+    assert meaning_of(two_types).beside_error.startswith("The topic already exists")
 
 
 @pytest.mark.parametrize("what", ["publishers on /temperature", "subscriptions to /t", "timers"])
@@ -309,7 +310,7 @@ def test_what_is_made_at_each_call_is_no_callback_that_does_not_return(what):
     found = diagnose_fault(late)
     assert found.mistake == "made-anew"
     assert found.evidence == (
-        f"tick made 600 {what} in 599 calls, and each one slows the node down. Line 4: "
+        f"tick created 600 {what} in 599 calls, and each one slows the node down. Line 4: "
         "`self.create(x)`."
     )
     assert "once, in the constructor" in found.hint

@@ -66,14 +66,14 @@ def test_a_right_node_raises_nothing():
 def test_the_type_of_a_value_that_was_calculated_is_known():
     (broken,) = (one for one in BROKEN if one.name == "a calculated int")
     found = diagnose_fault(observation_of(broken)[0].faults[0])
-    assert "what it was given is an int." in found.evidence
+    assert "the value given is an int." in found.evidence
 
 
 # What rclpy says of parameters.
 
 PARAMETERS = {
     "whole": ("parameter-type", lambda node: node.declare_parameter("low", 20),
-              "The parameter low got 40.0, of type DOUBLE, and it was declared with a value of"),
+              "The parameter low was set to 40.0, of type DOUBLE, but was declared with a value"),
     "text": ("parameter-type", lambda node: node.declare_parameter("low", "20"),
              "declared with a value of type STRING."),
     "list": ("parameter-type", lambda node: node.declare_parameter("low", [20.0]),
@@ -83,9 +83,9 @@ PARAMETERS = {
     "twice": ("parameter-twice", lambda node: [node.declare_parameter("low", 1.0) for _ in "ab"],
               "The parameter low is declared twice."),
     "compared": ("parameter-for-value", lambda node: node.declare_parameter("low", 1.0) > 3,
-                 "as if it were its value."),
+                 "as if it were the value."),
     "added": ("parameter-for-value", lambda node: 3.0 - node.declare_parameter("low", 1.0),
-              "as if it were its value."),
+              "as if it were the value."),
 }  # fmt: skip
 
 

@@ -31,7 +31,7 @@ def test_the_record_of_a_traceback():
     )
     assert fault.text == "The 'data' field must be of type 'float'"
     assert diagnose_output(text).evidence == (
-        "tick raised AssertionError. The field data of the message takes a float, and 25 is an "
+        "tick raised AssertionError. The field data of the message takes a float, but 25 is an "
         "int. Line 9: `msg.data = 25`."
     )
 

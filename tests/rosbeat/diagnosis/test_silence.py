@@ -93,28 +93,29 @@ CASES = {
     # One side is missing, or the two do not fit.
     "nobody publishes": (
         scene(sub(), pub("/other", "/humidity"), beats=[heard(number=0, since=0)]), "no-publisher",
-        ["Nobody publishes on /temperature.", "/monitor listens there", "with `ros.add(...)`, and",
-         "Topics that are published: /humidity."]),
+        ["No node publishes on /temperature.", "/monitor subscribes to it",
+         "with `ros.add(...)`, and",
+         "Topics with a publisher: /humidity."]),
     "somebody did before": (scene(sub(), former=FORMER), "no-publisher",
-        ["/sensor did until 5 s, and is no longer there"]),
+        ["/sensor published until 5 s, and is no longer running"]),
     "another process did": (scene(sub(), former=(Former("?", 1, seconds(1)),)), "no-publisher",
-        ["another process did until 1 s"]),
+        ["another process published until 1 s"]),
     "with a domain": (scene(sub(), domain_id=7), "no-publisher", ["or in a terminal"]),
     "from a terminal": (elsewhere(scene(sub())), "no-publisher", ["with `ros2 run`"]),
     "nobody subscribes": (scene(pub(matched=0), beats=[spoke()]), "no-subscription",
-        ["Nobody subscribes to /temperature."]),
+        ["No node subscribes to /temperature."]),
     "a listener that is not shown": (scene(pub(matched=1), beats=[spoke()]), "", []),
     "nobody uses it": (scene(pub("/a", "/humidity"), sub("/b", "/humidity")), "topic-unknown",
-        ["Nobody uses /temperature.", "Topics that are used: /humidity."]),
-    "an empty graph": (scene(), "topic-unknown", ["Topics that are used: none."]),
+        ["No node uses /temperature.", "Topics in use: /humidity."]),
+    "an empty graph": (scene(), "topic-unknown", ["Topics in use: none."]),
     "a misspelt topic": (scene(pub(topic="/temprature", matched=0), LISTENS), "topic-misspelled",
-        ["/temprature and /temperature are two topics.", "one letter"]),
+        ["/temprature and /temperature are two different topics.", "one letter"]),
     "a near name with both sides": (
         scene(sub(), pub("/a", "/temperature_2"), sub("/b", "/temperature_2")), "no-publisher", []),
     "another word": (scene(pub(topic="/humidity", matched=0), LISTENS), "no-publisher", []),
     "two types": (
         scene(pub(kind=STRING, matched=0), LISTENS, beats=UNHEARD), "type-mismatch",
-        ["Two message types on /temperature.",
+        ["/temperature has two message types.",
          "/sensor publishes String, and /monitor subscribes to Float32"]),
     "two types of one name": (
         scene(pub(kind="my_msgs/msg/Float32", matched=0), LISTENS, beats=[spoke()]),
@@ -123,12 +124,12 @@ CASES = {
         scene(pub(), pub("/other", kind=STRING, matched=0), sub(), beats=[spoke(), heard()]),
         "type-mismatch", ["/other publishes String, and /monitor subscribes to Float32"]),
     "reliability": (clash(SENSOR_DATA), "qos-mismatch",
-        ["the reliability of /sensor and /monitor does not fit.",
-         "The rule of reliability: a subscription that asks for"]),
+        ["the reliability of /sensor and /monitor is incompatible.",
+         "The rule for reliability: a subscription that asks for"]),
     "durability": (clash(asked=LATCHED), "qos-mismatch",
-        ["the durability of /sensor and /monitor does not fit.", "The rule of durability"]),
+        ["the durability of /sensor and /monitor is incompatible.", "The rule for durability"]),
     "both policies": (clash(SENSOR_DATA, LATCHED), "qos-mismatch",
-        ["reliability and durability of /sensor and /monitor do not fit."]),
+        ["reliability and durability of /sensor and /monitor are incompatible."]),
     "one of two publishers fits": (
         scene(pub(qos=SENSOR_DATA, matched=0), pub("/good"), sub(),
               beats=[spoke(), spoke("/good"), heard()]), "qos-mismatch", ["/sensor and /monitor"]),
@@ -148,7 +149,7 @@ CASES = {
     "blocked": (unrun("blocked"), "callback-blocks", ["no `time.sleep`"]),
     "who blocks need not be on the topic": (
         replace(BUSY, own=BUSY.own | {"/busy"}, virtual=False), "callback-blocks",
-        ["no other node of the session"]),
+        ["neither does any other node of the session"]),
     "a publisher in a loop of its own": (
         elsewhere(well(conditions=(Condition("/sensor", "no answer"),))), "", []),
     "a monitor that does not answer": (
@@ -161,28 +162,28 @@ CASES = {
             spoke(number=1, last=0, rate=0.0, watched=0), heard(number=0, since=1))),
         "not-spun", []),
     "no timer": (silent(), "never-published",
-        ["/sensor has not published anything.", "It has no timer"]),
+        ["/sensor has not published anything.", "The node has no timer"]),
     "a timer that ran": (silent(timers=(timer(calls=10),)), "never-published",
-        ["publish_temperature ran 10 times", "as far as `publish`"]),
+        ["publish_temperature ran 10 times", "reaches its call of `publish`"]),
     "a slow timer": (silent(timers=(timer(period=60.0),)), "never-published",
         ["a period of 60 s and has not fired", "longer than 60 s"]),
     "a timer that did not": (silent(timers=(timer(),)), "never-published",
         ["a period of 1 s and has not fired", "cancels"]),
     "a silent publisher of another process": (elsewhere(silent()), "never-published",
-        ["in 10 s no message came", "--seconds 30"]),
+        ["published no message in 10 s", "--seconds 30"]),
     "has stopped": (
         scene(pub(), sub(), beats=(spoke(number=4, last=4.0), heard(number=4, last=4.0))),
         "gone-quiet", ["/sensor has stopped publishing.",
-                       "4 messages, the last at 4 s, and nothing in the 6 s since"]),
+                       "4 messages, the last one at 4 s, and nothing in the 6 s since"]),
     "a slow one": (
         scene(pub(), sub(), beats=(spoke(number=2, last=6.0, rate=0.25), heard(number=2))), "", []),
     "only once": (
         scene(pub(), sub(), beats=(spoke(number=1, last=1.0, rate=0.0), heard(number=1))), "", []),
     "two nodes of one name": (TWO, "run-twice",
-        ["2 nodes are called /sensor.", "each publishes"]),
+        ["2 nodes are called /sensor.", "each of them publishes"]),
     "two monitors of one name": (
         scene(pub(), sub(), sub(), twins=("/monitor",), beats=(spoke(), heard())), "run-twice",
-        ["each hears all"]),
+        ["each of them receives every message"]),
     "another of that name, not on the topic": (
         scene(pub(), sub(), twins=("/sensor",), beats=(spoke(), heard())), "", []),
     "two publishers of one node": (scene(pub(), pub(), sub(), beats=(spoke(), heard())), "", []),
@@ -191,7 +192,7 @@ CASES = {
     "the first five are lost": (lost(5), "first-messages-lost", ["All 5 messages were"]),
     "messages that nobody can account for": (
         scene(pub(), sub(), beats=(spoke(), heard(number=0, since=3))), UNKNOWN,
-        ["this is new to me."]),
+        ["the cause is unknown."]),
     # Live, a message or two may be on their way.
     "on their way": (
         scene(pub(), sub(), beats=(spoke(), heard(number=0, since=2)), virtual=False), "", []),
@@ -201,7 +202,7 @@ CASES = {
     "in another domain": (
         elsewhere(scene(sub(), other_domains=(OTHER,))), "other-domain no-publisher",
         ["In ROS domain 12, /sensor publishes on /temperature; this is domain 7.", "ROS_DOMAIN_ID",
-         "Also: nobody publishes on /temperature."]),
+         "Also: no node publishes on /temperature."]),
     "both sides in another domain": (
         elsewhere(scene(other_domains=(OTHER,))), "other-domain topic-unknown",
         ["/display subscribes to"]),
@@ -269,15 +270,15 @@ def test_an_old_build_is_among_the_causes_of_silence():
         ("nobody uses it", TOPIC, [("topic", TOPIC, "", None)]),
         ("a misspelt topic", TOPIC, [("near", "/temprature", TOPIC, None)]),
         ("a misspelt topic", "/temprature", [("near", "/temprature", TOPIC, None)]),
-        ("two types", TOPIC, [(None, None, None, ("sends String", "asks for Float32"))]),
+        ("two types", TOPIC, [(None, None, None, ("sends String", "expects Float32"))]),
         ("another type beside a publisher that is heard", TOPIC,
-         [(None, None, None, ("sends String", "asks for Float32"))]),
+         [(None, None, None, ("sends String", "expects Float32"))]),
         ("reliability", TOPIC,
-         [(None, "/monitor", None, ("offers BEST_EFFORT", "asks for RELIABLE"))]),
+         [(None, "/monitor", None, ("offers BEST_EFFORT", "requests RELIABLE"))]),
         ("durability", TOPIC,
-         [(None, "/monitor", None, ("offers VOLATILE", "asks for TRANSIENT_LOCAL"))]),
+         [(None, "/monitor", None, ("offers VOLATILE", "requests TRANSIENT_LOCAL"))]),
         ("both policies", TOPIC, [(None, None, None,
-         ("offers BEST_EFFORT and VOLATILE", "asks for RELIABLE and TRANSIENT_LOCAL"))]),
+         ("offers BEST_EFFORT and VOLATILE", "requests RELIABLE and TRANSIENT_LOCAL"))]),
         ("one of two publishers fits", TOPIC, [(None, "/sensor", None, None)]),
         ("has ended", TOPIC, [("node", "/sensor", None, None)]),
         *((state, TOPIC, [("node", "/sensor", None, None)]) for state in
@@ -310,10 +311,10 @@ def test_the_question_itself_is_misspelt():
         (elsewhere(scene(pub(qos=QoS(depth=0)), sub(qos=QoS(depth=0)), arriving_hz=4.0)), (
             "/sensor publishes Float32 (RELIABLE, VOLATILE).",
             "/monitor subscribes to Float32 (RELIABLE, VOLATILE).",
-            "Altogether 4 messages a second come from other processes.")),
+            "In total, 4 messages a second arrive from other processes.")),
         (scene(pub(), sub(), beats=(Beat("/sensor", "publisher", 0, watched_ns=seconds(3)),
                                     heard(number=0, since=0))), (
-            "/sensor publishes Float32 (RELIABLE, VOLATILE, depth 10): nothing in 3 s.",
+            "/sensor publishes Float32 (RELIABLE, VOLATILE, depth 10): no messages in 3 s.",
             "/monitor subscribes to Float32 (RELIABLE, VOLATILE, depth 10): its callback has not "
             "run.")),
     ],
@@ -386,10 +387,10 @@ def test_pairs_of_causes_are_both_named_the_likelier_first(one, other):
 
 def test_the_text():
     assert str(explain(TOPIC, scene(sub()))).splitlines() == [
-        "\N{BALLOT X} Nobody publishes on /temperature.",
-        "  Seen: /monitor listens there, and no node publishes. Topics that are published: none.",
-        "  Hint: Start the node that publishes, with `ros.add(...)`, and compare the topic's name "
-        "in its",
+        "\N{BALLOT X} No node publishes on /temperature.",
+        "  Seen: /monitor subscribes to it, but no node publishes. Topics with a publisher: none.",
+        "  Hint: Start the node that publishes, with `ros.add(...)`, and compare the topic name in "
+        "its",
         "        `create_publisher`.",
         "  - /monitor subscribes to Float32 (RELIABLE, VOLATILE, depth 10).",
     ]

@@ -54,9 +54,9 @@ SILENT = [
     ("topic-misspelled", seen(end("publisher", "/Temperature")), "capital"),
     ("topic-misspelled", seen(end("publisher", "/temperatures")), "/temperatures"),
     ("topic-misspelled", seen(end("publisher", "/answer/temperature")), "before the last slash"),
-    ("wrong-topic", seen(end("publisher", "/humidity")), "/humidity, and not on /temperature"),
+    ("wrong-topic", seen(end("publisher", "/humidity")), "/humidity instead of /temperature"),
     ("type-mismatch", seen(end("publisher", type_name="std_msgs/msg/String")), "std_msgs/msg/Str"),
-    ("no-timer", seen(end("publisher")), "nothing that ever calls"),
+    ("no-timer", seen(end("publisher")), "nothing ever calls"),
     ("never-published", seen(end("publisher"), timers=(tick(),), callbacks=RAN), "never used"),
     ("never-published", seen(end("publisher"), end("subscription", "/a")), "never used"),
     ("wrong-rate", seen(end("publisher"), timers=(tick(0, 1000.0),)), "1000 s before its first"),
@@ -64,13 +64,13 @@ SILENT = [
 ]
 DEAF = [
     ("no-subscription", seen(ROSOUT, end("publisher", node=ROOM)), "has no subscription"),
-    ("topic-misspelled", seen(end("subscription", "/temprature")), "listens on /temprature"),
+    ("topic-misspelled", seen(end("subscription", "/temprature")), "subscribes to /temprature"),
     ("wrong-topic", seen(end("subscription", "/humidity")), "/humidity"),
     ("type-mismatch", seen(end("subscription", type_name="std_msgs/msg/String")), "String"),
     (
         "qos-mismatch",
         seen(end("publisher", node=ROOM, qos=BEST_EFFORT), end("subscription", matched=0)),
-        "asks for RELIABLE, and /room offers BEST_EFFORT",
+        "requests RELIABLE, but /room offers BEST_EFFORT",
     ),
     (
         "qos-mismatch",
@@ -78,7 +78,7 @@ DEAF = [
             end("publisher", node=ROOM),
             end("subscription", qos=QoS(durability="TRANSIENT_LOCAL"), matched=0),
         ),
-        "asks for TRANSIENT_LOCAL, and /room offers VOLATILE",
+        "requests TRANSIENT_LOCAL, but /room offers VOLATILE",
     ),
     ("not-spun", seen(end("subscription"), samples=HEARD), "ran for none of them"),
 ]

@@ -146,7 +146,7 @@ def test_the_first_hint_after_a_check_is_about_the_mistake_it_named():
     fail_with("topic-misspelled")
     first, second, third = str(hint("03a")), str(hint("03a")), hint("03a")
     assert first == (
-        "• Your last check of 03a found: a topic's name that nobody else uses. "
+        "• Your last check of 03a found: a topic name that no other node uses. "
         'Compare the two names.\n  One more: hint("03a")'
     )
     assert HINTS[1] in second

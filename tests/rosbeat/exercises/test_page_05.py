@@ -49,7 +49,7 @@ def test_what_differs_from_the_manifest_is_a_remark(judged):
         ("publisher:main',", "publisher:main'", "comma is missing"),
         ("publisher:main", "publisher.py:main", "names a file"),
         ("publisher:main", "publisher", "no function in it"),
-        ("publisher:main", "publsher:main", "there is none of that name"),
+        ("publisher:main", "publsher:main", "which does not exist"),
         ("publisher =", "publisher ==", "more than one `=`"),
         ("subscriber:main", "publisher:main", "temperature_subscriber would call"),
         ("['package.xml']", "[]", "leaves out package.xml"),

@@ -44,7 +44,7 @@ def text(page):
         "Feedback for Ana Muster",
         "7.5 of 17 points so far",
         "In 60 s there were 60 messages on /temperature.",
-        "A topic's name that nobody else uses.",
+        "A topic name that no other node uses.",
         "Compare the two names letter by letter.",
         "Open the page and run hint(\"03b\").",
         "it has no name for this mistake yet",

@@ -58,7 +58,7 @@ def sections(page):
         "1 learner, 10 exercises. 1 answer waits for you to look at.",
         "Judged by version 0.1.0",
         "40 to 49 %: 1 learner",
-        "A topic's name that nobody else uses",
+        "A topic name that no other node uses",
         "Hint for the class: Compare the two names letter by letter.",
         "03 Write a publisher",
         "Ana Muster (4711), 04b raise the alarm in 04.ipynb It used more memory than there is.",

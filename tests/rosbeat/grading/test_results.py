@@ -223,7 +223,7 @@ def test_the_most_frequent_mistake_is_named():
     marks = [mark("03b", "failed", mistake="topic-misspelled")] * 3
     marks += [mark("03a", "failed", mistake="depth-missing")] * 2
     told = summary(book(*marks), OUT)
-    assert "a topic's name that nobody else uses (3 times, in 03b)" in told
+    assert "a topic name that no other node uses (3 times, in 03b)" in told
     assert "queue depth" not in told
 
 

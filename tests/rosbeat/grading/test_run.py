@@ -248,7 +248,7 @@ PARTS = (Part("R1", "t", True), Part("R2", "t", False))
         (Outcome("03a", "passed"), "It does what is asked."),
         (Outcome("03a", "not attempted"), "Nothing was tried yet."),
         (Outcome("03a", "failed", "One.\nTwo.", mistake="new-to-me"), "One."),
-        (Outcome("03a", "failed", "One.", mistake="crashed"), "A process that died: One."),
+        (Outcome("03a", "failed", "One.", mistake="crashed"), "A process that crashed: One."),
         (Outcome("13b", "failed", "One.", parts=PARTS), "1 of 2 requirements are met."),
         (Outcome("03a", "failed", "a\x1b[31m\u202eb"), "a\\u001b[31m\\u202eb"),
     ],

@@ -360,11 +360,11 @@ def test_every_word_of_a_mark_is_in_the_picture_and_in_the_text(case):
     [
         ("all is well", TOPIC, set(), "All is well on /temperature", "- -", 2),
         # The half of an arrow before the words has no head.
-        ("qos", TOPIC, {"offers BEST_EFFORT", "asks for RELIABLE"},
+        ("qos", TOPIC, {"offers BEST_EFFORT", "requests RELIABLE"},
          "Between /temperature_monitor and /temperature is a broken line", "-- -- --", 2),
         ("one of two", TOPIC, set(), "", "- - -- --", 3),
         ("near", TOPIC, {"/temprature", "/temperature", "almost the", "same name"}, "", None, 2),
-        ("near", "/temperatur", {"/temperatur", "nobody uses", "this name"}, "", None, None),
+        ("near", "/temperatur", {"/temperatur", "no node uses", "this name"}, "", None, None),
         ("twins", TOPIC, {"2 of this name"}, "stands for several nodes", None, None),
         ("ended", TOPIC, {"has ended"}, "/temperature_sensor has a cross: has ended.", None, None),
     ],

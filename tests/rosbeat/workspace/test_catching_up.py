@@ -63,7 +63,7 @@ def test_the_whole_course_from_nothing_and_it_can_be_built(root, capsys):
     assert found.installed.changed == ()
     assert found.flaws == ()
     assert "Building" in capsys.readouterr().out
-    assert repr(catch_up("07")) == "Everything this page needs is there."
+    assert repr(catch_up("07")) == "Everything that this page needs exists."
     assert capsys.readouterr().out == ""
 
 
@@ -174,10 +174,10 @@ def test_entry_points_go_into_an_empty_list_and_nothing_else_changes(furnished, 
         (finished("setup.py").replace("temperature_subscriber = ", "monitor = "), "subscriber"),
         (EMPTY.replace("'console_scripts': [", "'console_scripts': "), "cannot be read"),
         ("from setuptools import setup\nsetup(name='a')\n", "page 05"),
-        (EMPTY.replace("[\n        ]", "()"), "I see no entry point"),
-        (EMPTY.replace("[\n        ]", "names()"), "I see no entry point"),
+        (EMPTY.replace("[\n        ]", "()"), "has no entry point"),
+        (EMPTY.replace("[\n        ]", "names()"), "has no entry point"),
         ("x = 1\n", "it does not call setup()."),
-        (None, "is not there"),
+        (None, "does not exist"),
     ],
 )
 def test_a_setup_py_of_one_s_own_stays(furnished, package, text, says):
@@ -208,7 +208,7 @@ def test_another_page_makes_the_package_at_the_same_time(root, monkeypatch):
         return 0, ""
 
     monkeypatch.setattr(catching_up, "run_command", slow)
-    assert "another page has just made the package: run the cell" in str(catch_up("03"))
+    assert "another page has just created the package: run the cell" in str(catch_up("03"))
     assert [one for one in root.iterdir() if one.name.startswith(".")] == []
 
 

@@ -69,8 +69,8 @@ def test_errors_are_explained_without_a_stack(kernel):
     assert "no option `--untill`" in reply.text
     assert "Traceback" not in reply.text
     assert kernel.run("%%terminal\nls").error == "UsageError"
-    assert "Which terminal" in kernel.run("%%terminal\nls").text
-    assert "nothing to type" in kernel.run("%%terminal sensor\n  \n").text
+    assert "terminal's name is missing" in kernel.run("%%terminal\nls").text
+    assert "has no commands" in kernel.run("%%terminal sensor\n  \n").text
     assert "There is no terminal `sensor`" in kernel.run("%terminal sensor").text
     reply = kernel.run("%%terminal sensor --until xyz\necho abc")
     assert reply.error == "TerminalError"
@@ -99,13 +99,13 @@ def test_ctrl_c_has_the_time_that_it_is_given(kernel):
 @pytest.mark.parametrize(
     ("line", "in_cell", "said"),
     [
-        ("", True, "Which terminal"),
-        ("--ctrl-c", False, "Which terminal"),
-        ("--until x", False, "Which terminal"),
+        ("", True, "terminal's name is missing"),
+        ("--ctrl-c", False, "terminal's name is missing"),
+        ("--until x", False, "terminal's name is missing"),
         ("sensor --untill x", True, "no option `--untill`(.|\n)*--until TEXT"),
         ("sensor --unt x", True, "no option `--unt`"),
         ("sensor --help", False, "--until TEXT"),
-        ("sensor monitor", True, "`monitor` is too much"),
+        ("sensor monitor", True, "`monitor` is one word too many"),
         ("sensor --until", True, "--until: expected one argument"),
         ("sensor --until ''", True, "needs a text"),
         ('sensor --until "a', True, "quote is not closed"),
@@ -119,12 +119,12 @@ def test_ctrl_c_has_the_time_that_it_is_given(kernel):
         ("sensor --kill --close", False, "not allowed with"),
         ("sensor --ctrl-c", True, "%terminal sensor --ctrl-c"),
         ("sensor --close", True, "%terminal sensor --close"),
-        ("sensor --ctrl-c --until x", False, "`--until` does not go with `--ctrl-c`"),
-        ("sensor --kill --for 0", False, "`--for` does not go with `--kill`"),
-        ("sensor --close --timeout 3", False, "`--timeout` does not go with `--close`"),
+        ("sensor --ctrl-c --until x", False, "`--until` cannot be combined with `--ctrl-c`"),
+        ("sensor --kill --for 0", False, "`--for` cannot be combined with `--kill`"),
+        ("sensor --close --timeout 3", False, "`--timeout` cannot be combined with `--close`"),
         ("sensor --answer", False, "needs `%%terminal`"),
-        ("sen/sor", True, "is no name"),
-        ("../x", False, "is no name"),
+        ("sen/sor", True, "is not a valid name"),
+        ("../x", False, "is not a valid name"),
     ],
 )
 def test_what_cannot_be_is_explained(line, in_cell, said):

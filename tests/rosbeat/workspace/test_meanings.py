@@ -89,8 +89,8 @@ def required(names, command="ros2 pkg create"):
         # Folders.
         ("mkdir /Documents/ROS2/", mkdir("/Documents/ROS2/"), "mkdir -p ~/Documents/ROS2/"),
         ("mkdir /Documents", mkdir("/Documents", "Permission denied"), "mkdir -p ~/Documents"),
-        ("mkdir a/b", mkdir("a/b"), "The folder in which b should be made"),
-        ("mkdir src", mkdir("src", "File exists"), "src is there already"),
+        ("mkdir a/b", mkdir("a/b"), "The parent folder of b does"),
+        ("mkdir src", mkdir("src", "File exists"), "src already exists"),
         ("mkdir -x a", "mkdir: invalid option -- 'x'", "no option -x"),
         ("cd scr", f"bash: line 1: cd: scr: {NO_FILE}", "Did you mean src?"),
         ("cd nothing_like_it", f"bash: cd: nothing_like_it: {NO_FILE}", "`pwd`"),
@@ -101,7 +101,7 @@ def required(names, command="ros2 pkg create"):
         ("rso2 run a b", "bash: rso2: command not found", "Did you mean `ros2`?"),
         ("A=1 colcn list", "bash: colcn: command not found", "`colcon`"),
         ("nano setup.py", "bash: nano: command not found", "JupyterLab"),
-        ("ros2 run a b", "bash: ros2: command not found", "environment of the course"),
+        ("ros2 run a b", "bash: ros2: command not found", "the course's environment"),
         ("tree", "bash: tree: command not found", "`tree` is not installed here"),
         ("screen", "bash: screen: command not found", "`screen` is not installed here"),
         ("roscore", "bash: roscore: command not found", "ROS 1"),
@@ -111,23 +111,24 @@ def required(names, command="ros2 pkg create"):
         # Words.
         ("colcon biuld", chosen("'biuld'"), "Did you mean `build`?"),
         ("ros2 lits a", chosen("lits", "ros2"), "Did you mean `list`?"),  # as newer Pythons say it
-        ("colcon xyzzy", chosen("'xyzzy'"), "It knows: build, "),
+        ("colcon xyzzy", chosen("'xyzzy'"), "You can choose from: build, "),
         ("colcon build --package-select a", refused("--package-select a"), "`--packages-select`"),
         ("colcon build --symlink_install", refused("--symlink_install"), "`--symlink-install`"),
         ("colcon build symlink-install", refused("symlink-install"), "`--symlink-install`"),
         ("colcon build -symlink-install", refused("-symlink-install"), "`--symlink-install`"),
         ("colcon build --xyzzy", refused("--xyzzy"), "`colcon --help`"),
-        ("ros2 run a", required("executable_name, argv", "ros2 run"), "come two names"),
-        ("ros2 run a --ros-args -r b:=c", refused("--ros-args -r", "ros2"), "come two names"),
+        ("ros2 run a", required("executable_name, argv", "ros2 run"), "takes two names"),
+        ("ros2 run a --ros-args -r b:=c", refused("--ros-args -r", "ros2"), "takes two names"),
         ("ros2 topic echo", required("topic_name, argv", "ros2 topic echo"), "topic name."),
         ("ros2 pkg create --dependencies rclpy a", required("package_name"), "takes every word"),
         # Packages.
-        (CREATE, f"The directory already exists: ./{PACKAGE}", f"A folder {PACKAGE} is there"),
-        ("ros2 pkg create a", "'ament_cmake' is left out here", "Add it; the rest"),
+        (CREATE, f"The directory already exists: ./{PACKAGE}",
+         f"A folder {PACKAGE} already exists"),
+        ("ros2 pkg create a", "'ament_cmake' is left out here", "Add that option; the rest"),
         ("ros2 pkg create --build-type ament_cmake a", "is left out here", "Write ament_python"),
-        (CREATE, "'a-b' cannot be the name of a package: '-' is minus", "small letters"),
-        (f"{CREATE}, a", "Aborted!", "by spaces, not by commas."),
-        ("colcon build", NONE, "holds a package.xml"),
+        (CREATE, "'a-b' cannot be the name of a package: '-' is minus", "lower-case letters"),
+        (f"{CREATE}, a", "Aborted!", "with spaces, not with commas."),
+        ("colcon build", NONE, "contains a package.xml"),
         ("colcon test --packages-select a", f"ignoring unknown package 'a'{NONE}", "it tested no"),
         ("colcon build --packages-select a symlink-install",
          f"ignoring unknown package 'symlink-install' in --packages-select{NONE}", "two dashes"),
@@ -207,10 +208,10 @@ def test_only_what_is_not_at_the_top_is_taken_for_one_s_own_folder(meaning, root
         ("..", "/home/ROS2_and_RL_Tutorials/my foldr", "cd \"$ROS2_WORKSPACE\"/'my folder'"),
         (".", "my foldr", "Did you mean 'my folder'?"),
         (".", "./srcc", "Did you mean src?"),
-        (".", "nowhere/srcc", "`ls` what is there."),
-        (".", "fill", "`ls` what is there."),  # a file is not proposed
+        (".", "nowhere/srcc", "`ls` lists its content."),
+        (".", "fill", "`ls` lists its content."),  # a file is not proposed
         (".", "/Documents/my x", "cd ~/'Documents/my x'"),
-        (".", "/Documents/xyz", "`ls ~` shows what is there."),
+        (".", "/Documents/xyz", "`ls ~` lists its content."),
     ],
 )
 def test_the_folder_that_was_meant(meaning, root, folder, typed, end):
@@ -225,14 +226,14 @@ def test_the_folder_of_the_terminal_has_gone(meaning, root):
     gone = root / "gone"
     output = "Traceback (most recent call last):\n    os.getcwd()\nFileNotFoundError: [Errno 2] No"
     said = meaning("colcon build", output, 1, gone)
-    assert said.endswith('Go to another: `cd "$ROS2_WORKSPACE"`')
+    assert said.endswith('Change to another folder: `cd "$ROS2_WORKSPACE"`')
     # A new folder has the name of the one that has gone, or the exit code is that of `tail`.
     assert meaning("colcon build", output) == said
     assert meaning("colcon build | tail -2", chosen("'build'"), 0, gone) == said
     assert meaning("cd ..", "", 0, gone) is None
     assert meaning("cd .. && false", "", 1, gone) is None
     shutil.rmtree(root)
-    assert meaning("colcon build", output, 1, gone).endswith("Go to another: `cd`")
+    assert meaning("colcon build", output, 1, gone).endswith("Change to another folder: `cd`")
 
 
 def test_a_file_that_lies_elsewhere(meaning, root, package):
@@ -240,7 +241,7 @@ def test_a_file_that_lies_elsewhere(meaning, root, package):
     said = meaning(f"chmod +x {name}", f"chmod: cannot access '{name}': {NO_FILE}")
     assert said.endswith('cd "$ROS2_WORKSPACE"/src/sensor_simulator/sensor_simulator')
     output = f"python3: can't open file '{root}/setup.py': [Errno 2] {NO_FILE}"
-    assert "There is no setup.py where this terminal is" in meaning("python3 setup.py", output, 2)
+    assert "There is no setup.py in the current folder" in meaning("python3 setup.py", output, 2)
     output = f"chmod: cannot access 'temperatur_publisher.py': {NO_FILE}"
     said = meaning("chmod +x temperatur_publisher.py", output, 1, package / PACKAGE)
     assert said.endswith(f"Did you mean {name}?")
@@ -250,7 +251,7 @@ def test_source_of_a_build_that_lies_elsewhere(meaning, root, installed):
     output = f"bash: line 1: {{}}: {NO_FILE}"
     path = "install/setup.bash"
     said = meaning(f"source {path}", output.format(path), 1, root / "src")
-    assert "is not where this terminal is" in said
+    assert "is not in the current folder" in said
     assert said.endswith('go there first, with  cd "$ROS2_WORKSPACE"')
     path = "/home/you/a/install/setup.bash"
     assert f"{path} does not exist." in meaning(
@@ -268,7 +269,7 @@ def test_source_of_a_build_that_lies_elsewhere(meaning, root, installed):
          "The options --build-type and --dependencies are missing."),
         ("ament_python a", "a", "The option --build-type is missing."),
         ("--build-type ament_python a rclpy", "rclpy", "The option --dependencies is missing."),
-        ("--licence x a", "--licence", "`ros2` cannot do anything with `--licence`."),
+        ("--licence x a", "--licence", "`ros2` does not recognize `--licence`."),
     ],
 )  # fmt: skip
 def test_options_that_are_left_out(meaning, command, rest, start):
@@ -305,17 +306,18 @@ LINE = f"'temperature_publisher = {ENTRY}',"
     ("name", "old", "new", "code", "output", "texts"),
     [
         (SETUP, ENTRY, ENTRY.replace("publisher:", "publishr:"), 0, FINE,
-         ["Did you mean", "not notice"]),
-        (SETUP, ENTRY, ENTRY.replace(":", ".py:"), 0, FINE, ["no `.py` at its end"]),
+         ["Did you mean", "not detect"]),
+        (SETUP, ENTRY, ENTRY.replace(":", ".py:"), 0, FINE, ["does not end in `.py`"]),
         (SETUP, ENTRY, ENTRY + "e", 0, FINE, ["function maine", "Did you mean main?"]),
-        (SETUP, ENTRY, ENTRY.removesuffix(":main"), 0, FINE, ["behind a colon"]),
+        (SETUP, ENTRY, ENTRY.removesuffix(":main"), 0, FINE, ["after a colon"]),
         (SETUP, ENTRY, "xyz.xyz:main", 0, FINE, ["Compare it with the names of your files"]),
         (SETUP, ENTRY, ENTRY.replace(":main", ":xyz"), 0, FINE,
-         ["Define it, or name the right one."]),
-        (SETUP, ENTRY, ENTRY.replace(".", "/"), 1, NEVER_CALLED, ["`/`", "a build before"]),
+         ["Define that function, or name one that exists."]),
+        (SETUP, ENTRY, ENTRY.replace(".", "/"), 1, NEVER_CALLED, ["`/`", "the previous build"]),
         (SETUP, f"{ENTRY}',", f"{ENTRY}'", 1, NEVER_CALLED,
-         ["A comma is missing", "a build before"]),
-        (SETUP, f"{ENTRY}',", f"{ENTRY},", 1, "SyntaxError", ["cannot read setup.py", "a quote"]),
+         ["A comma is missing", "the previous build"]),
+        (SETUP, f"{ENTRY}',", f"{ENTRY},", 1, "SyntaxError",
+         ["cannot read the setup.py", "missing quote"]),
         (SETUP, f"publisher = {ENTRY}", f"publisher == {ENTRY}", 0, FINE, ["more than one `=`"]),
         # A part of the package is gone.
         ("setup.cfg", None, None, 0, FINE, ["$base/lib/sensor_simulator"]),
@@ -357,14 +359,16 @@ def test_only_the_selected_package_is_spoken_about(meaning, root, package):
     (other / "setup.cfg").write_text("[install]\ninstall-scripts=$base/lib/other\n")
     (package / PACKAGE / "another.py").write_text("x = 1\ndef f(:\n")
     said = meaning("colcon build", FINE, 0)
-    assert f"{PACKAGE}/another.py: there is a syntax error at line 2" in said
+    assert f"{PACKAGE}/another.py: there is a syntax error on line 2" in said
     assert meaning("colcon build --packages-select other", FINE, 0) is None
 
 
 def test_a_build_in_the_wrong_folder(meaning, root, package, tmp_path):
     for name in ("build", "install", "log"):
         (root / "src" / name).mkdir()
-    assert "You built inside the folder src" in meaning("colcon build", FINE, 0, root / "src")
+    assert "You ran the build inside the folder src" in meaning(
+        "colcon build", FINE, 0, root / "src"
+    )
     assert "inside the folder src" in meaning("cd src; colcon build", FINE, 0)
     assert meaning("colcon build", FINE, 0) is None
     assert meaning("cd .. && colcon build", FINE, 0, root / "src") is None
@@ -392,7 +396,7 @@ def run_of(output):
 
 
 MODULE = "ModuleNotFoundError: No module named "
-BEFORE = "what ran here is the build before."
+BEFORE = "started the previous build."
 
 
 @pytest.mark.parametrize(
@@ -423,7 +427,8 @@ BEFORE = "what ran here is the build before."
          f"Did you mean {PACKAGE}.temperature_publisher?"),
         (ENTRY, ENTRY.replace(":", ".py:"),
          run_of(traceback(f"{MODULE}'{PACKAGE}.temperature_publisher.py'; "
-                          f"'{PACKAGE}.temperature_publisher' is not a package")), "no `.py`"),
+                          f"'{PACKAGE}.temperature_publisher' is not a package")),
+         "not end in `.py`"),
         (ENTRY, ENTRY + "e", run_of(traceback(
             f"AttributeError: module '{PACKAGE}.temperature_publisher' has no attribute 'maine'. "
             "Did you mean: 'main'?")), "Did you mean main?"),
@@ -442,7 +447,7 @@ def test_a_run(meaning, installed, edit, old, new, given, text):
 
 
 def test_a_package_that_is_not_found(meaning, root, installed):
-    assert "Every new terminal" in meaning(RUN, NOT_FOUND)
+    assert "in every new terminal" in meaning(RUN, NOT_FOUND)
     output = "Package 'sensor_simulatr' not found\n"
     assert f"Did you mean {PACKAGE}?" in meaning("ros2 run sensor_simulatr x", output)
     asked = f"{output}Did you mean '{PACKAGE}'?\n"
@@ -454,7 +459,7 @@ def test_a_package_that_is_not_found(meaning, root, installed):
 def test_a_syntax_error_and_one_that_is_mended_and_not_rebuilt(meaning, installed, package):
     module, output = package / PACKAGE / f"{NODES[0]}.py", traceback("SyntaxError: invalid syntax")
     module.write_text("x = 1\ndef f(:\n")
-    assert "at line 2" in meaning(RUN, output)
+    assert "on line 2" in meaning(RUN, output)
     module.write_text("def main():\n    pass\n")
     assert "edited since the last build" in meaning(RUN, output)
 
@@ -472,7 +477,7 @@ def test_a_package_that_became_a_link_after_this_terminal_was_told(meaning, inst
     last = "importlib.metadata.PackageNotFoundError: No package metadata was found for "
     assert meaning(RUN, traceback(f"{last}sensor-simulator")) is None
     (installed / "lib/python3.11/site-packages/sensor-simulator.egg-link").touch()
-    assert "a link now" in meaning(RUN, traceback(f"{last}sensor-simulator"))
+    assert "a symbolic link" in meaning(RUN, traceback(f"{last}sensor-simulator"))
     assert meaning(RUN, traceback(f"{last}another")) is None
 
 
@@ -488,8 +493,8 @@ WITH = "TypeError: 'NoneType' object does not support the context manager protoc
     [
         ("AssertionError: The 'data' field must be of type 'float'", "pass", "a float"),
         ("RuntimeError: Context.init() must only be called once", "pass", "twice"),
-        ("NameError: name 'Nod' is not defined. Did you mean: 'Node'?", "pass", "the name Nod"),
-        (QOS, SUBSCRIBE.format(10), "for the callback"),
+        ("NameError: name 'Nod' is not defined. Did you mean: 'Node'?", "pass", "The name Nod"),
+        (QOS, SUBSCRIBE.format(10), "without the callback"),
         (QOS, SUBSCRIBE.format("self.listen"), "queue depth"),
         (WITH, "with rclpy.init(args=args):", "nothing to work with"),
         (WITH, "with self.lock:", None),
@@ -516,7 +521,7 @@ def test_of_a_script_without_ros_nothing_is_said_about_ros(meaning):
     for last in ("KeyboardInterrupt", QOS.replace("Node.create_subscription", "create_view")):
         assert meaning("python3 a.py", traceback(last), 130) is None
         assert meaning("python3 a.py", traceback(last, "rclpy.spin(node)"), 130)
-    assert "the name x" in meaning("./a.py", traceback("NameError: name 'x' is not defined"))
+    assert "The name x" in meaning("./a.py", traceback("NameError: name 'x' is not defined"))
 
 
 # Whatever there is.
@@ -619,7 +624,7 @@ def test_from_one_mistake_to_the_next_with_the_real_programs(root, meaning):
 
     code, said = after(RUN)
     assert code
-    assert "Every new terminal" in said
+    assert "in every new terminal" in said
 
     code, said = after("colcon biuld")
     assert code

@@ -62,7 +62,7 @@ def test_one_file_written_in_many_ways_with_its_folders(root, typed):
 def test_the_version_before_is_kept_and_named_and_each_content_once(root):
     for text in ("a", "b", "a", "b"):
         saved = save("src/a.py", text, root)
-    assert str(saved) == "saved src/a.py (the version before is in kept/src/a.py-1)"
+    assert str(saved) == "saved src/a.py (the previous version is in kept/src/a.py-1)"
     assert inside(root / "kept") == ["COLCON_IGNORE", "src/a.py-1", "src/a.py-2"]
     assert [(root / f"kept/src/a.py-{k}").read_text() for k in (1, 2)] == ["a\n", "b\n"]
     before = (root / "src/a.py").stat()
@@ -117,7 +117,7 @@ def test_a_link_inside_the_workspace_stays_a_link(root):
     [
         (lambda path: os.mkdir(path), "src/a.py", "src/a.py"),
         (lambda path: os.mkfifo(path), "src/a.py", "src/a.py"),
-        (lambda path: path.write_text("x"), "src/a.py/b.py", "in the way"),
+        (lambda path: path.write_text("x"), "src/a.py/b.py", "the name that a folder needs"),
     ],
 )
 def test_what_is_no_file_stays(root, says, spoil, path, words):
@@ -244,25 +244,25 @@ def test_an_error_shows_the_cell_s_own_lines_and_none_of_ours(run, root, body, l
 @pytest.mark.parametrize(
     ("cell", "parts"),
     [
-        *((f"%%save {PUBLISHER}\nx = 1\n{line}\n", ["line 2", "a cell of its own"])
+        *((f"%%save {PUBLISHER}\nx = 1\n{line}\n", ["line 2", "a separate cell"])
           for line in ("%time 3", "!ls", "x = !ls", "print?", "%%time")),
-        *((f"%%save {PUBLISHER}{body}", ["there is nothing to save"])
+        *((f"%%save {PUBLISHER}{body}", ["the cell has no text to save"])
           for body in ("", "\n", "\n\n  \n")),
         *((f"%%save {line}\nx = 1\n", ["What it means", "What to try"])
           for line in ("", "../a.py", "src/sensor_simulater/a.py")),
         ("%%save src/sensor_simulater/a.py\nx\n", ["Did you mean sensor_simulator?"]),
         *((f"%%save {typed}\nx = 1\n", [text]) for typed, text in (
-            (f"{PUBLISHER} # my file", f"Leave the comment out:  {PUBLISHER}"),
+            (f"{PUBLISHER} # my file", f"Leave out the comment:  {PUBLISHER}"),
             (PUBLISHER.replace("/", "\\"), PUBLISHER),
             (f"{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
             (f"{PACKAGE}/{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
             (f"src/{PACKAGE}/temperature_publisher.py", f"Did you mean {PUBLISHER}?"),
             (f"{PACKAGE}/setup.py", f"Did you mean src/{PACKAGE}/setup.py?"),
-            (f"ROS2_and_RL_Tutorials/{PUBLISHER}", f"Leave the first part out:  {PUBLISHER}"),
+            (f"ROS2_and_RL_Tutorials/{PUBLISHER}", f"Leave out the first part:  {PUBLISHER}"),
             ("other/other/a.py", "Did you mean src/other/other/a.py?"),
             ("other/a.py", "Did you mean src/other/other/a.py?"),
             ("src/other/a.py", "Did you mean src/other/other/a.py?"),
-            ("linked/a.py", "kept is not for files of yours"))),
+            ("linked/a.py", "kept is not a folder for your files"))),
     ],
 )  # fmt: skip
 def test_what_is_not_saved_is_explained_and_nothing_changes(run, root, cell, parts):
@@ -340,7 +340,7 @@ def test_a_missing_package_is_made_and_that_is_said(run, root, package):
     shutil.rmtree(package)
     result, shown = run(f"%%save {PUBLISHER}\nx = 1\n")
     assert result.success
-    assert "Made for you" in shown
+    assert "Created for you" in shown
     assert f"saved {PUBLISHER}" in shown
     assert (root / PUBLISHER).read_text() == "x = 1\n"
 

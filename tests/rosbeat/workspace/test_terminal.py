@@ -134,7 +134,7 @@ def test_the_folder_is_followed_and_variables_last(seen, home, terminal):
     [
         ('echo "abc', 'closing quote `"`'),
         ("echo 'abc", "closing quote `'`"),
-        ("echo $(", "closing bracket `)`"),
+        ("echo $(", "closing parenthesis `)`"),
         ("echo ${HOME", "closing brace `}`"),
         ("echo `ls", "closing backquote"),
         ("for i in 1; do", "`done`"),
@@ -310,7 +310,7 @@ def test_a_program_that_does_not_read_is_given_up(terminal, says, monkeypatch):
     monkeypatch.setattr(shell, "_TAKES_WITHIN", 0.3)
     with pytest.raises(TerminalError) as caught:
         terminal.answer("\n".join(["x" * 4000] * 40), show=str, seconds=0.01)
-    says(caught.value, "takes no more input", "Ctrl+C")
+    says(caught.value, "accepts no more input", "Ctrl+C")
 
 
 # How long a page follows a command, and what is refused meanwhile.
@@ -566,7 +566,7 @@ def test_colcon_builds_in_a_workspace_only(seen, folders, folder, command, outsi
 @pytest.mark.parametrize(
     ("typed", "parts"),
     [
-        ("colcon build", ["the terminal is in `a`, which is outside", "Page 01 makes"]),
+        ("colcon build", ["the terminal is in `a`, which is outside", "Page 01 creates"]),
         ("vi setup.py", ["file browser"]),
         ("cat /dev/null | less", ["cat FILE"]),
         ("cd ..; sudo nano x", ["file browser"]),

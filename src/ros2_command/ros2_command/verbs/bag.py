@@ -29,7 +29,10 @@ from ros2_command.untyped import Untyped
 _STORAGES = ["mcap", "sqlite3"]
 _LEVELS = ["debug", "info", "warn", "error", "fatal"]
 _TOPICS_ONLY = "only topics are recorded and played here, not the calls of services."
-_KEYBOARD = "nothing listens to the keyboard here. Start it when you need it, stop it with Ctrl+C."
+_KEYBOARD = (
+    "this subset does not read the keyboard. Start the command when you need it, and stop it "
+    "with Ctrl+C."
+)
 _OVERRIDES = "recording and playing follow the publishers' quality of service here."
 _ONE_FILE = "a recording is one plain file here, as the library `rosbags` writes it."
 _NO_EFFECT = "(here: no effect)"

@@ -174,8 +174,8 @@ def _echo(args: Namespace) -> None:
         topic, style = f"{name}/_service_event", style_of(args)
         if topic not in dict(graph.topics()):
             print(
-                f"Nobody tells of calls to '{name}' yet. A service or a client does after "
-                "configure_introspection(). Waiting.",
+                f"No node publishes the events of calls to '{name}' yet. A service or a client "
+                "does after configure_introspection(). Waiting.",
                 file=sys.stderr,
             )
 

@@ -227,7 +227,7 @@ def _echo(args: Namespace) -> None:
         kind = topic_class(args.topic_name, args.message_type, graph)
         publishers = _publishers(graph, name)
         if not publishers and args.timeout is None:
-            print(f"Nobody publishes on '{args.topic_name}' yet. Waiting.", file=sys.stderr)
+            print(f"No node publishes on '{args.topic_name}' yet. Waiting.", file=sys.stderr)
         profile = asked_profile(args, "sensor_data")
         follow_publishers(profile, args, publishers)
         count = 0
@@ -502,7 +502,7 @@ def _why_nobody(graph: Graph, topic: str) -> str:
     types = {one.topic_type for one in graph.others(graph.subscriptions(name))}
     if types:
         return f"'{name}' is subscribed to with {', '.join(sorted(types))}."
-    return f"Nobody listens to '{name}'. {suggestion(name, heard)}"
+    return f"No node subscribes to '{name}'. {suggestion(name, heard)}"
 
 
 def _publish(

@@ -34,8 +34,8 @@ def lines_of(cell: str) -> list[str]:
     key = _CONTROL.search(cell)
     if key:
         raise TerminalError(
-            f"The cell holds the control character {key[0]!r}.",
-            "In a terminal such a character is a key of its own and not a part of the command.",
+            f"The cell contains the control character {key[0]!r}.",
+            "In a terminal, such a character is a key press and not part of the command.",
             "Delete it; `%terminal NAME --ctrl-c` sends Ctrl+C.",
         )
     return cell.rstrip().split("\n")
@@ -82,10 +82,10 @@ def build_outside(line: str, folder: Path, workspace: Path, here: str) -> str:
     above = (folder, *folder.parents)
     if workspace in above or any(_holds_package(one) for one in above if one not in around):
         return ""
-    way = 'Go there first: `cd "$ROS2_WORKSPACE"`.' if exists else "Page 01 makes the workspace."
+    way = 'Go there first: `cd "$ROS2_WORKSPACE"`.' if exists else "Page 01 creates the workspace."
     return (
-        f"the terminal is in `{here}`, which is outside of your workspace. "
-        f"colcon would build everything that lies below it. {way}"
+        f"the terminal is in `{here}`, which is outside of your workspace. colcon would build "
+        f"every package below that folder. {way}"
     )
 
 
@@ -116,7 +116,10 @@ def full_screen(line: str) -> str:
         rest = [word for word in words if word not in _BEFORE]
         name = Path(rest[0]).name if rest else ""
         if name in _FULL_SCREEN and not _PRINTS & set(rest[1:]):
-            return f"`{name}` needs a whole screen, and a page has none. {_instead(name)}"
+            return (
+                f"`{name}` needs a full-screen terminal, which a page does not have. "
+                f"{_instead(name)}"
+            )
     return ""
 
 
@@ -126,7 +129,7 @@ def _instead(name: str) -> str:
     if name in _PAGERS:
         return "`cat FILE` prints a whole file into the page."
     printed = "`top -b -n 1` prints the list once. " if name == "top" else ""
-    return f"{printed}JupyterLab has a terminal of its own that can do that: File, New, Terminal."
+    return f"{printed}JupyterLab's own terminal can do that: choose File, New, Terminal."
 
 
 # Errors.
@@ -137,7 +140,7 @@ def busy(name: str, command: str) -> TerminalError:
     other = {"sensor": "monitor", "monitor": "sensor"}.get(name, f"{name}2")
     return TerminalError(
         f"The terminal `{name}` is busy: `{short(command)}` runs in it.",
-        "A terminal runs one command at a time, and this one has not ended.",
+        "A terminal runs one command at a time, and this command has not finished.",
         f"Stop it with `%terminal {name} --ctrl-c`, or use another terminal: "
         f"`%%terminal {other}`. To type into the program, add `--answer`.",
     )
@@ -155,9 +158,10 @@ def does_not_stop(name: str, command: str, key: str, seconds: float) -> Terminal
     after = {"^C": "Ctrl+C", "^D": "Ctrl+D"}.get(key, "it was killed")
     end = f"`%terminal {name} --kill`" if key else f"`%terminal {name} --close`"
     return TerminalError(
-        f"`{short(command)}` still runs {seconds:g} s after {after}.",
-        "The program does not listen to that, it takes long to tidy up, or it starts others.",
-        f"Wait a little and look with `%terminal {name}`, or end it at once with {end}.",
+        f"`{short(command)}` is still running {seconds:g} s after {after}.",
+        "The program ignores the request, needs more time to shut down, or keeps starting other "
+        "programs.",
+        f"Wait a little and check with `%terminal {name}`, or end it immediately with {end}.",
     )
 
 
@@ -176,7 +180,8 @@ def not_seen(text: str, lines: int, seconds: float | None, last: list[str]) -> T
     return TerminalError(
         f"`{text}` did not appear{often} {when}.",
         f"The terminal printed something else. Its last lines:{shown}",
-        "Compare the text with what the command prints. A slow computer needs more `--timeout`.",
+        "Compare the text with the command's output. A slow computer may need a longer "
+        "`--timeout`.",
     )
 
 
@@ -184,17 +189,19 @@ def ended(name: str) -> TerminalError:
     """Return the error for a command to a terminal whose shell is gone."""
     return TerminalError(
         f"The terminal `{name}` has ended.",
-        "Its shell is gone, and what was set in it, too.",
-        f'`%%terminal {name}` and `workspace.terminal("{name}")` open a new one of this name.',
+        "Its shell no longer exists, and neither do the variables that were set in it.",
+        f'`%%terminal {name}` and `workspace.terminal("{name}")` open a new terminal with this '
+        "name.",
     )
 
 
 def nothing_to_answer(name: str) -> TerminalError:
     """Return the error for an answer that no program waits for."""
     return TerminalError(
-        f"No program runs in the terminal `{name}`, so nothing can be answered.",
-        "`--answer` types into a running program. Here bash itself waits for a command.",
-        "Leave `--answer` out to type a command.",
+        f"No program is running in the terminal `{name}`, so `--answer` has no program to type "
+        "into.",
+        "`--answer` types into a running program, but here bash is waiting for a command.",
+        "To type a command, leave out `--answer`.",
     )
 
 
@@ -202,7 +209,7 @@ def too_long() -> TerminalError:
     """Return the error for an answer that a terminal would cut."""
     return TerminalError(
         "A line of the answer is longer than 4,095 bytes.",
-        "A terminal gives a program no longer lines: it would cut the rest.",
+        "A terminal cuts off longer lines before the program receives them.",
         "Write the text to a file, and let the program read the file.",
     )
 
@@ -210,7 +217,7 @@ def too_long() -> TerminalError:
 _MISSING = {
     '"': 'a closing quote `"`',
     "'": "a closing quote `'`",
-    ")": "a closing bracket `)`",
+    ")": "a closing parenthesis `)`",
     "}": "a closing brace `}`",
     "`": "a closing backquote",
 }
@@ -234,6 +241,6 @@ def unfinished(command: str) -> TerminalError:
         missing = _MISSING.get(found[1]) or f"the line `{found[2]}` that ends the text"
     return TerminalError(
         f"The command is not finished: {missing} is missing.",
-        "bash waited for the rest of it. The command was dropped, and nothing of it ran.",
+        "bash was waiting for the rest. The command was discarded, and no part of it ran.",
         "Complete the command in the cell, then run the cell again.",
     )

@@ -128,8 +128,8 @@ def terminal(name: str) -> Terminal:
     shell = get_ipython()
     if shell is None:
         raise TerminalError(
-            "There is no page here, so there are no terminals.",
-            "The terminals belong to the kernel of a page.",
+            "This program is not a page, so it has no terminals.",
+            "Terminals belong to the kernel of a page.",
             "In a program, use `with Terminals() as terminals: terminals.get(name)`.",
         )
     return terminals_of(shell).get(name)

@@ -104,7 +104,7 @@ class Shell:
             self.hang_up()
             raise TerminalError(
                 "The terminal did not start.",
-                f"bash did not come to its first prompt. It said: {self.text() or 'nothing'}",
+                f"bash did not show its first prompt. Its output: {self.text() or 'nothing'}",
                 "Run the cell again. A very busy computer may need a moment.",
             )
         self.code = None
@@ -213,8 +213,8 @@ class Shell:
             rest = rest[self._write_some(rest) :]
             if rest and time.monotonic() > deadline:
                 raise TerminalError(
-                    "The terminal takes no more input.",
-                    "The program that runs in it does not read what is typed.",
+                    "The terminal accepts no more input.",
+                    "The program that runs in the terminal does not read its input.",
                     "Stop it with Ctrl+C, then try again.",
                 )
 
@@ -434,7 +434,7 @@ def _start_bash(folder: Path, token: str) -> PtyProcess:
     if command is None:
         raise TerminalError(
             "This computer has no bash.",
-            "A terminal of a page is a real bash, and the program is not on the search path.",
+            "A terminal of a page is a real bash, but the program bash is not on the search path.",
             "Install it (`sudo apt install bash`), then restart the kernel.",
         )
     # PWD keeps bash from finding its own idea of where it is.
@@ -453,7 +453,7 @@ def _start_bash(folder: Path, token: str) -> PtyProcess:
         raise TerminalError(
             f"A terminal cannot start in {folder}: {error}.",
             "The operating system refused.",
-            "See whether the folder is there and whether the computer is short of memory.",
+            "Check whether the folder exists, and whether the computer is low on memory.",
         ) from error
 
 
