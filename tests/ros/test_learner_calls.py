@@ -240,4 +240,4 @@ def test_on_a_page_a_node_without_a_session_is_explained(monkeypatch):
         Node("alone")
     assert caught.value.means
     assert "Session()" in caught.value.to_try
-    assert "the class itself, without brackets" in caught.value.to_try
+    assert "the class itself, without parentheses" in caught.value.to_try
