@@ -23,10 +23,9 @@ def describe(name: str, found: Contents) -> str:
 def _time(found: Contents, total: int) -> str:
     last = found.first_ns + found.duration_ns
     if found.notes:
-        ran = f"The session ran {_seconds(found.notes.length_ns)} of virtual time"
-        return (
-            f"{ran}, messages were published {_span(found.first_ns, last)}." if total else f"{ran}."
-        )
+        ran = f"The session ran for {_seconds(found.notes.length_ns)} of virtual time"
+        came = f" and published messages {_span(found.first_ns, last)}" if total else ""
+        return f"{ran}{came}."
     if not total:
         return "It has no timestamps."
     began = datetime.fromtimestamp(found.first_ns // NANOSECONDS, timezone.utc)

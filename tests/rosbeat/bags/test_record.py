@@ -148,7 +148,7 @@ def test_it_describes_itself(tmp_path):
     run = replace(run, graph=GraphSnapshot((), (*run.graph.endpoints, door)))
     assert str(record(run, tmp_path / "run")) == (
         "Recording run, stored as MCAP: 2 messages on 2 topics.\n"
-        "The session ran 2 s of virtual time, messages were published from 1 s to 2 s.\n"
+        "The session ran for 2 s of virtual time and published messages from 1 s to 2 s.\n"
         "  /temperature: 2 messages of type std_msgs/msg/Float32 from /sensor (reliable, volatile, "
         "keep last 10)\n"
         "  /door: no messages of type std_msgs/msg/Bool from /lock (reliable, volatile, "
@@ -157,7 +157,7 @@ def test_it_describes_itself(tmp_path):
     silent = record(Observation(1_500_000_000, 0), tmp_path / "silent", storage="sqlite3")
     assert str(silent) == (
         "Recording silent, stored as SQLite: no messages on no topics.\n"
-        "The session ran 1.5 s of virtual time."
+        "The session ran for 1.5 s of virtual time."
     )
 
 

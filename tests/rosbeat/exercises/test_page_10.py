@@ -110,7 +110,7 @@ def test_every_wrong_patient_is_told_what_speaks_against_it_and_not_what_is_righ
         "Patient 3 is right. Patient 1: you say qos-mismatch at /hall_monitor; yet /hall_monitor "
         "is matched with 1 of 1 subscription on /hall_status and /hall_monitor is matched with 1 "
         "of 1 publisher on /hall_temperature. Patient 4: you say node-ended at /booth_probe; yet "
-        "no exception"
+        "no callback"
     )
     assert "misspelled" not in outcome.evidence + outcome.hint
 
