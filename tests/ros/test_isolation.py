@@ -104,6 +104,20 @@ def state():
     )  # fmt: skip
 
 
+def test_code_that_gets_on_has_more_time():
+    looks = []
+    with Deadline(4, gets_on=lambda: not looks.append(1)) as deadline:
+        while len(looks) < 17:  # four a second
+            pass
+    assert not deadline.passed
+
+
+def test_code_that_gets_on_for_ever_ends_all_the_same():
+    with Deadline(SHORT, gets_on=lambda: True) as deadline:
+        loop()
+    assert deadline.passed
+
+
 @pytest.mark.parametrize("case", ENDLESS)
 def test_endless_code_ends_and_nothing_is_left(case):
     before = state()

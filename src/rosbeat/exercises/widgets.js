@@ -62,7 +62,7 @@ function talk(model, whole, status, changed) {
 
 const CHANGED =
   "The cell above was changed after it ran. This is the verdict on what ran: " +
-  "run the cell above, and then Run again.";
+  "run the cell above, then check again.";
 
 /** Whether the code cell above this one was changed after it ran; JupyterLab marks such a cell. */
 function isAboveChanged(el) {

@@ -31,9 +31,9 @@ class Withheld:
         self._kept: list[tuple[str, Any]] = []
         self._is_keeping = True
         self._is_shown = False
+        self._publisher.register_hook(self._keep)
         sys.stdout = _Keeper("stdout", sys.stdout, self._kept)
         sys.stderr = _Keeper("stderr", sys.stderr, self._kept)
-        self._publisher.register_hook(self._keep)
 
     def ask(self) -> bool:
         """End the keeping where the prediction is; return whether it is the first of the cell."""
@@ -59,9 +59,7 @@ class Withheld:
         """
         kept, self._kept = self._kept, []
         before = self._shell.get_parent()
-        self._shell.set_parent(self._parent)
-        for stream in self._streams.values():  # the shell has told the present ones only
-            getattr(stream, "set_parent", print)(self._parent)
+        self._set_parent(self._parent)
         try:
             for name, what in kept:
                 if name in self._streams:
@@ -72,7 +70,14 @@ class Withheld:
             for one in more:
                 display(one)
         finally:
-            self._shell.set_parent(before)
+            self._set_parent(before)
+
+    def _set_parent(self, parent: Any) -> None:  # noqa: ANN401 - a message of Jupyter's
+        """Let what is shown from now on belong to the cell of a message."""
+        self._shell.set_parent(parent)
+        for stream in self._streams.values():  # the shell has told those that are in place now
+            if hasattr(stream, "set_parent"):
+                stream.set_parent(parent)
 
     def _end_keeping(self) -> None:
         if self._is_keeping:

@@ -363,7 +363,7 @@ class _Run:
         self._steps = Steps(self._session, steps)
         self._deadline = Deadline(deadline, self._note_expiry, self._gets_on)
         self._calls = 0  # of callbacks, when the deadline looked last
-        self._called_at = self._took = 0.0  # when it saw a new one; seconds until the time was up
+        self._took = 0.0  # seconds until the time was up
         self._is_slow = False
         self._faults: list[Fault] = []
         self._late: Fault | None = None  # of a callback or constructor that never came to an end
@@ -482,13 +482,12 @@ class _Run:
         before, self._calls = self._calls, self._world.recorder.calls()
         if self._calls == before:
             return False
-        self._called_at = time.monotonic()
         return not self._made_anew(*self._callback())
 
     def _note_expiry(self) -> None:
         now = time.monotonic()
         # An endless call has had all of the time for itself, unless the run had none left.
-        self._is_slow = now - self._called_at < self._deadline.seconds / 2
+        self._is_slow = now - self._world.recorder.began < self._deadline.seconds / 2
         self._took = now - self._began
         # Not `len`: the code that is running may have replaced it.
         self._expired = self._callback(), self._world.recorder.faults.__len__()

@@ -174,6 +174,47 @@ def test_a_file_that_was_changed_by_hand_later_is_judged(page, tmp_path):
     assert "still a blank" not in page((CHECK, LOOK)).text
 
 
+# The buttons below a card, as the browser presses them.
+
+PRESS = """
+from rosbeat.exercises.cells import cells_of
+def press(what):
+    buttons = cells_of().cards["03a"]
+    buttons._hear({"do": what})
+    print(buttons.done, buttons.passed, buttons.said)
+"""
+SHALLOW = RIGHT.replace('"humidity", 5', '"humidity", 6')
+CARD = 'check("03a", HumiditySensor)'
+
+
+def test_buttons_below_a_card_help_and_judge_anew(page):
+    page((EXERCISE, SHALLOW), (CHECK, CARD), ("", PRESS))
+    assert "Hint 1 of" in page(("", "press('hint')")).text
+    assert "Hint 2 of" in page(("", "press('hint')")).text
+    assert "class HumiditySensor" not in page(("", "for _ in range(5): press('hint')")).text
+    assert "class HumiditySensor" in page(("", "press('answer')")).text
+    page((EXERCISE, BROKEN))
+    said = page(("", "press('again')")).text
+    assert "False" in said
+    assert "The cell above did not run (line 7: SyntaxError" in said
+    page((EXERCISE, RIGHT))
+    assert page(("", "press('again')")).text == "10 True \n"
+
+
+def test_a_button_says_what_went_wrong(page):
+    page((EXERCISE, SHALLOW), (CHECK, CARD), ("", PRESS), ("", "del HumiditySensor"))
+    said = page(("", "press('again')")).text
+    assert "NameError: name " in said
+    assert "is not defined" in said
+    assert page(("", "press('something else')")).error == ""
+
+
+def test_a_new_card_takes_the_buttons_of_the_one_before(page):
+    page((EXERCISE, SHALLOW), (CHECK, CARD), ("", PRESS), ("", "old = cells_of().cards['03a']"))
+    page((CHECK, CARD))
+    assert page(("", "print(old.comm, cells_of().cards['03a'] is old)")).text == "None False\n"
+
+
 # Nothing said means what was worked on last.
 
 

@@ -29,6 +29,23 @@ def test_an_open_prediction_keeps_back_what_the_cell_prints(kernel):
     assert kernel.run("print(found)").text == "44\n"
 
 
+ANSWER = """
+from ipywidgets.widgets.widget import _instances
+field = [one for one in _instances.values() if getattr(one, "kind", "") == "predict"][-1]
+for sent in ({"do": "guess", "guess": "some words"}, {"do": "guess", "guess": "44"}):
+    field._hear(sent)
+    print(field.passed, field.said)
+"""
+
+
+def test_a_guess_that_cannot_be_compared_may_be_made_again(kernel):
+    assert run(kernel, CELL).text == ""
+    assert kernel.run(ANSWER).text == (
+        "False That cannot be compared with what happened: write a number.\n"
+        "True What happened is below.\n"
+    )
+
+
 def test_a_front_end_without_cell_ids_gets_everything(kernel):
     assert kernel.run(CELL).text == "first 41\n"
 
