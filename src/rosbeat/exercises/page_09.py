@@ -405,7 +405,7 @@ WORK_SUSPECTS = suspects(
      "check whether another is waiting.", _started_by_orders),
     ("order-lost", "Two orders may have the same number, and each of them is to be done.",
      _each_number_once,
-     _worker(put=lambda waiting, order: order in waiting or waiting.append(order))),
+     _worker(put=lambda waiting, order: waiting.extend({order} - {*waiting}))),
     ("order-lost", f"No order could wait. {_WAITS}", _worker(_keep(1))),
     ("order-lost", f"Only one order could wait. {_WAITS}", _worker(_keep(2))),
     ("order-lost", f"Only two orders could wait. {_WAITS}", _worker(_keep(3))),
