@@ -90,6 +90,8 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
     if not any(option.startswith(_TERMINALS) for option in options):
         # The same as `course shell`: a person's start file may put another Python or ROS first.
         command.append(f"{_TERMINALS}={ {'shell_command': commands.interactive_shell()}!r}")
+    # Open tabs are remembered by their paths, which in another folder would be those of no file.
+    command += [f"--LabApp.workspaces_dir={layout.notes / 'workspaces'}"]
     command += ["--LabApp.custom_css=True"]
     command += [f"--ServerApp.tornado_settings={ {'static_custom_path': [str(_STYLE)]}!r}"]
     if not any(option.endswith(".ipynb") for option in options):
