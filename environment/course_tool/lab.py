@@ -9,6 +9,7 @@ import socket
 import subprocess
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -64,10 +65,15 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
             say(f"Ctrl+C stops it. JupyterLab's messages go to {log.relative_to(layout.root)}")
         code = server.wait()
     except KeyboardInterrupt:
-        say("\nStopping JupyterLab and its kernels ...")
+        with suppress(OSError):  # nobody reads it if the terminal was closed
+            say("\nStopping JupyterLab and its kernels ...")
         end(server)
-        say("Stopped. Your pages are as you saved them.")
+        with suppress(OSError):
+            say("Stopped. Your pages are as you saved them.")
         return 0
+    finally:
+        if server.poll() is None:
+            end(server)
     if code == 0:
         say("JupyterLab was shut down." if info else log.read_text(errors="replace").rstrip())
         return 0
