@@ -9,6 +9,7 @@ import socket
 import subprocess
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -68,10 +69,15 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
             say(f"Ctrl+C stops it. JupyterLab's messages go to {log.relative_to(layout.root)}")
         code = server.wait()
     except KeyboardInterrupt:
-        say("\nStopping JupyterLab and its kernels ...")
+        with suppress(OSError):  # nobody reads it if the terminal was closed
+            say("\nStopping JupyterLab and its kernels ...")
         end(server)
-        say("Stopped. Your pages are as you saved them.")
+        with suppress(OSError):
+            say("Stopped. Your pages are as you saved them.")
         return 0
+    finally:
+        if server.poll() is None:
+            end(server)
     if code == 0:
         say("JupyterLab was shut down." if info else log.read_text(errors="replace").rstrip())
         return 0
@@ -94,6 +100,8 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
     if not any(option.startswith(_TERMINALS) for option in options):
         # The same as `course shell`: a person's start file may put another Python or ROS first.
         command.append(f"{_TERMINALS}={ {'shell_command': commands.interactive_shell()}!r}")
+    # Open tabs are remembered by their paths, which in another folder would be those of no file.
+    command += [f"--LabApp.workspaces_dir={layout.notes / 'workspaces'}"]
     command += ["--LabApp.custom_css=True"]
     command += [f"--ServerApp.tornado_settings={ {'static_custom_path': [str(_STYLE)]}!r}"]
     if not any(option.endswith(".ipynb") for option in options):

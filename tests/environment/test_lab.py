@@ -125,8 +125,18 @@ def start(made, tmp_path):
     for process in started:
         if process.poll() is None:
             process.kill()
-        process.communicate()
+        process.wait()
+        process.stdout.close()
+        process.stderr.close()
     port.close()
+
+
+def is_there(number):
+    try:
+        os.kill(number, 0)
+    except ProcessLookupError:
+        return False
+    return True
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -143,11 +153,22 @@ def test_two_lines_and_then_it_ends_as_one_asks(start, made, number):
     out, err = process.communicate(timeout=100)
     assert (process.returncode, err) == (0, "")
     assert out.splitlines()[-1].startswith("Stopped.")
-    with pytest.raises(ProcessLookupError):
-        os.kill(int(info.stem.partition("-")[2]), 0)
+    assert not is_there(int(info.stem.partition("-")[2]))
     log = made.notes / "lab.log"
     assert log.read_text() == "[W] a warning that frightens\n"
     assert log.stat().st_mode & 0o777 == 0o600  # a real one has the token in it
+
+
+def test_nothing_is_left_when_its_terminal_is_closed(start, made):
+    process = start(OPENS)
+    while "Ctrl+C" not in process.stdout.readline():
+        pass
+    (info,) = (made.notes / "run").glob("jpserver-*.json")
+    process.stdout.close()
+    process.stderr.close()
+    process.send_signal(signal.SIGHUP)
+    process.wait(timeout=100)
+    assert not is_there(int(info.stem.partition("-")[2]))
 
 
 def test_an_option_that_is_wrong_is_said_in_three_parts(start):
@@ -166,7 +187,8 @@ def test_help_is_shown(start):
 
 def test_a_server_that_dies_later_is_told_too(start):
     process = start(OPENS.replace("exec sleep 1000", "exit 3"))
-    assert "JupyterLab ended" in process.communicate(timeout=100)[1]  # before or after it was open
+    said = process.communicate(timeout=100)[1]  # before or after it could be opened
+    assert "What happened:       JupyterLab " in said
     assert process.returncode == 1
 
 
