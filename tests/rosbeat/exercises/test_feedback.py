@@ -89,7 +89,7 @@ TOLD = [
      "Back was due, and the node said nothing."),
     ("09b", ("create_timer(3.0", "create_timer(3.4"), "order 7 was done at 5.9 s"),
     ("09b", ("create_timer(3.0", "create_timer(2.9"), "The work itself takes 3 s."),
-    ("09b", ("self.waiting.append(msg.data)", "self.waiting = self.waiting[:2] + [msg.data]"),
+    ("09b", ("self.waiting.append(msg.data)", "self.waiting = [*self.waiting, msg.data][:2]"),
      "has to wait somewhere"),
     ("09b", ("self.waiting.append(msg.data)", "self.waiting = self.waiting or [msg.data]"),
      "No order could wait. An order that comes while another one is worked on has to wait "

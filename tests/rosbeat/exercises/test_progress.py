@@ -262,7 +262,7 @@ def shown():
 def test_an_untouched_course_is_all_open(home):
     words = repr(progress())
     assert words.startswith(f"Your progress: 0 of {len(EXERCISES)} exercises passed, 0 of ")
-    assert words.endswith(" Not attempted yet: all.")
+    assert words.endswith(" Still open: all.")
 
 
 def test_what_was_checked_is_told_in_words(home):
@@ -286,8 +286,8 @@ def test_a_page_shows_its_exercises_and_the_course_in_two_lines(open_page):
     found = shown()
     assert found.items == [
         f"✗ 03a {EXERCISES['03a'].title}: not there yet, 0 of 2 points",
-        f"○ 03b {EXERCISES['03b'].title}: not attempted yet, 0 of 2 points",
-        f"○ 03c {EXERCISES['03c'].title}: not attempted yet, 0 of 4 points",
+        f"○ 03b {EXERCISES['03b'].title}: still open, 0 of 2 points",
+        f"○ 03c {EXERCISES['03c'].title}: still open, 0 of 4 points",
     ]
     core, electives = found.paragraphs[-2:]
     assert core.startswith("Core pages: ✓ 00 2/2, 01 0/")
@@ -365,7 +365,7 @@ def test_a_list_changes_when_a_check_passes_in_another_kernel(tmp_path, monkeypa
         for cell in KERNEL_CELLS:
             kernel.await_reply(kernel.execute_cell_input(cell), 60)
         first = message(kernel, "display_data")
-        assert "Not attempted yet: all." in first["data"]["text/plain"]
+        assert "Still open: all." in first["data"]["text/plain"]
         assert "text/html" in first["data"]
         right = replace(passed(""), points=1)
         ProgressFile(tmp_path / ".rosbeat").change("00a", lambda before: before.after(right))
