@@ -13,8 +13,17 @@ import subprocess
 import sys
 import tempfile
 from contextlib import ExitStack
+from importlib import import_module
 from pathlib import Path
 
+IMPORTED = (
+    "numpy",
+    "rclpy.action",
+    "rcl_interfaces.srv",
+    "test_msgs.action",
+    "std_srvs.srv",
+    "yaml",
+)
 _MOST = 1 << 17  # bytes of a request; most of them are the environment
 
 
@@ -89,26 +98,13 @@ def become(words, environment, cwd, streams):
 
 def prepare():
     """Import what commands import, and start nothing."""
-    import action_msgs.msg
-    import action_msgs.srv
-    import numpy
-    import rcl_interfaces.srv
-    import rclpy.action
-    import rosgraph_msgs.msg
-    import service_msgs.msg
-    import std_msgs.msg
-    import std_srvs.srv
-    import test_msgs.action
-    import yaml
+    for name in IMPORTED:
+        import_module(name)
     from ros2_command.registry import COMMANDS, load
 
     for command, about in COMMANDS.items():
         for verb in about.verbs or [None]:
             load(command, verb)
-    return (
-        *(action_msgs, numpy, rcl_interfaces, rclpy, rosgraph_msgs, service_msgs, std_msgs),
-        *(std_srvs, test_msgs, yaml),
-    )
 
 
 if __name__ == "__main__":
