@@ -161,7 +161,7 @@ def _looked_at(part: Part) -> tuple[str, str]:
 def _named(mistake: str) -> tuple[str, str]:
     known = MISTAKES.get(mistake)
     if known is None:
-        return "", "This is new to me: I have no name for this mistake."
+        return "", "The check doesn't recognize this mistake."
     return "Mistake", f"{known.title}."
 
 

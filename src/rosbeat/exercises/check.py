@@ -80,7 +80,7 @@ def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
             return cells.answer(found.id)
     raise ExerciseError(
         f"`check` was given no answer to exercise {found.id}.",
-        "It looks at what the cell above has made, such as a class.",
+        "It needs what the cell above defines, such as a class.",
         f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
     )
 

@@ -38,12 +38,11 @@ def are_here() -> bool:
 
 #: For an exercise that has no hint of its own.
 _READ_AGAIN = (
-    "Read once more what the exercise asks for, word by word, and compare it with what the check "
-    "says.",
+    ("Read the exercise once more, word by word, and compare it with what the check says."),
 )
 
 #: Where there are no answers, as in what an instructor releases to a class.
-_LAST = "This was the last one. Who teaches the course can tell you more."
+_LAST = "This was the last hint. Your instructor can tell you more."
 
 
 @dataclass(frozen=True)
@@ -152,7 +151,7 @@ def reveal(exercise: str) -> Hint:
     if not are_here():
         raise ExerciseError(
             f"The answer to exercise {found.id} is not here.",
-            "A course that was released to a class comes without answers.",
+            ("A course that was released to a class doesn't include the answers."),
             f'Take one hint more: hint("{found.id}").',
         )
     progress_file().change(found.id, lambda before: replace(before, answer=True))

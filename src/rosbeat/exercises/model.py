@@ -244,7 +244,7 @@ def status_of(value: float, low: float, high: float) -> str:
 
 
 #: What is wrong with `if value:` as a test for whether there is a value.
-ZERO_IS_FALSE = "Python treats 0 as false, so `if value:` does not ask whether there is a value."
+ZERO_IS_FALSE = "Python treats 0 as false, so `if value:` doesn't test whether there is a value."
 #: The words that `status_of` returns.
 STATUSES = ("High", "Low", "Normal")
 
@@ -361,13 +361,15 @@ _BEATS = suspects(
     ),
     (
         "gone-quiet",
-        "Something ends the beat. Does the callback cancel its timer, or shut ROS down, or is a "
-        "condition never true again?",
+        (
+            "Something ends the messages. Does the callback cancel its timer or "
+            "shut ROS down? Is a condition never true again?"
+        ),
         lambda beat: dict(list(beat.right.items())[: len(beat.done)]),
     ),
     (
         "wrong-rate",
-        "The first tick comes after one period. What publishes while the node is being made?",
+        ("The first tick comes after one period. What publishes in the constructor?"),
         lambda beat: {0: (1,), **beat.right},
     ),
     (
@@ -452,7 +454,7 @@ def diagnose_beat(
     if waited:
         return waited
     if observation.subject not in observation.graph.nodes:
-        hint = "The program around a node destroys it in the end. Which line of the node does so?"
+        hint = "The program destroys its node at the end. Which line of the node does so earlier?"
         return Diagnosis("node-ended", f"The node was destroyed. {evidence}", hint)
     return name_mistake(matching(beat, done, _BEATS), Diagnosis("wrong-rate", evidence, _COUNT))
 
@@ -477,13 +479,13 @@ def before_reading(seen: Report, example: str) -> Verdict | None:
         hint = f"Hand over the function itself, by its name: {example}."
         return Diagnosis("no-function", "What was handed over is no function.", hint)
     if kind == "NotPlain":
-        hint = "Give back numbers, texts, lists and dicts only."
+        hint = "Return only numbers, strings, lists and dictionaries."
         return Diagnosis("not-plain", f"The result cannot be read: {said}.", hint)
     if kind:
-        hint = "What is to be a text stands in quotes; numbers stand without."
+        hint = "Write strings in quotes, and numbers without."
         name = "name-error" if kind == "NameError" else "raised"
         return Diagnosis(name, f"The function raised {seen.problem}.", hint)
     if seen.type_name == "NoneType":
-        hint = "The function needs a return: print gives back nothing."
-        return Diagnosis("returns-nothing", "The function gave nothing back.", hint)
+        hint = "The function needs a return: print returns nothing."
+        return Diagnosis("returns-nothing", "The function returned nothing.", hint)
     return None

@@ -73,8 +73,10 @@ def _judge_reader(observation: Observation, seconds: Seconds) -> Verdict:
         return Diagnosis(
             "wrong-topic",
             f"The reader's callback ran {count} times, for messages on {', '.join(sorted(heard))}.",
-            "It should run for /weather only. The second argument of create_subscription is the "
-            "topic.",
+            (
+                "It should run for /weather only. The topic is the second argument of"
+                " create_subscription."
+            ),
         )
     if count < articles:
         evidence = f"The reader heard {count} of {articles} articles on /weather."
@@ -83,7 +85,7 @@ def _judge_reader(observation: Observation, seconds: Seconds) -> Verdict:
     return Diagnosis(
         "heard-twice",
         f"There were {articles} articles, and the reader's callback ran {count} times.",
-        "One subscription is enough. Is create_subscription there twice?",
+        ("One subscription is enough. Do you call create_subscription twice?"),
     )
 
 
@@ -107,7 +109,7 @@ def _read_one_text_only(observation: Observation, seconds: Seconds) -> Diagnosis
     if [one for one in articles if any(one in log.text for log in observation.logs)] != [_SHOWN]:
         return None
     evidence = f"Of {len(articles)} articles on /weather, the reader logged only {_SHOWN!r}."
-    hint = "The topic selects already: whatever comes on it is weather, with any text."
+    hint = "The topic selects the articles: whatever arrives on it is weather, whatever its text."
     return Diagnosis("nothing-logged", evidence, hint)
 
 
@@ -145,7 +147,7 @@ def _empty_article(observation: Observation) -> Diagnosis | None:
     return Diagnosis(
         "wrong-values",
         f"The article at {empty.time:g} s is empty.",
-        "A new String holds an empty text. Which line puts the article into its field data?",
+        ("A new String is empty. Which line assigns the article to its field data?"),
     )
 
 
@@ -157,9 +159,11 @@ EXERCISES = (
         "read the weather",
         1,
         (
-            "Look at the Reader of this page: the topic is the second thing that "
-            "create_subscription is given.",
-            "The name of a topic is a text, so it stands in quotes.",
+            (
+                "Look at the Reader on this page: the topic is the second argument of"
+                " create_subscription."
+            ),
+            "The name of a topic is a string, so it needs quotes.",
         ),
         draw=draw_articles,
     ),
@@ -170,9 +174,14 @@ EXERCISES = (
         "report on sports",
         1,
         (
-            "Two things are missing: where the articles go, and how long it is from one to the "
-            "next.",
-            "The topic is a text in quotes. The timer wants a number: seconds between two calls.",
+            (
+                "Two things are missing: the topic of the articles, and the time from"
+                " one to the next."
+            ),
+            (
+                "The topic is a string in quotes. The timer needs a number: the "
+                "seconds between two calls."
+            ),
         ),
         draw=draw_seconds,
         explains=partial(explain_subscription, _SPORTS),

@@ -175,7 +175,7 @@ def _judge_folder(seen: FolderMaking) -> Verdict:
 def _diagnose_outside(line: str) -> Diagnosis:
     """Return what is wrong with a line in a cell that is run by no terminal."""
     said = f"You typed `{line}` in a cell that no terminal runs."
-    hint = "Begin the cell with `%%terminal one`, as it was given; nothing may stand above that."
+    hint = "Begin the cell with `%%terminal one`, as it was given, with nothing above that line."
     if re.search(r"(?<!\S)-(-parents|\w*p)\b", line):
         return Diagnosis(UNKNOWN, said, hint)
     said += " It also names a folder in a folder that is not there yet."
@@ -194,15 +194,15 @@ def _letters(path: str) -> str:
 
 
 _BOTH = _PARENT + _CHILD
-_PWD = "A relative path begins where the terminal is. pwd says where that is."
-_PARENTS = "Which option of mkdir makes the folders in between, too?"
-_ONE_LEVEL = "One level is missing. A path may name several folders: outer/inner."
-_BETWEEN = "One level is missing: what lies between the two?"
+_PWD = "A relative path starts from the terminal's current folder; pwd prints it."
+_PARENTS = "Which option of mkdir also creates the missing parent folders?"
+_ONE_LEVEL = "One level is missing. A path can contain several folders: outer/inner."
+_BETWEEN = "One level is missing: which folder is between the two?"
 _SIDE_BY_SIDE = (
     "Names with a space between them become folders side by side; `/` puts one inside the other. A "
     "relative path begins where the terminal is."
 )
-_OUTER_FIRST = "The outer folder comes first, then the one that is in it."
+_OUTER_FIRST = "Write the outer folder first, then the one inside it."
 
 
 def _makes(mistake: str, hint: str, *paths: str) -> Suspect:
@@ -240,7 +240,9 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
     near = max(typed or there, key=_nearness)
     if near == _ALARM and _ALARM not in seen.workspace.folders:
         said = f"What you typed makes {_ALARM}, and it is not there any more."
-        return Diagnosis(UNKNOWN, said, "What did you type after that? Make the folder once more.")
+        return Diagnosis(
+            UNKNOWN, said, "What did you type after that? Create the folder once more."
+        )
     evidence = f"There is {near}, but not {_ALARM}."
     if _ALARM in seen.workspace.folders:
         evidence = f"What you typed makes {near}. {_ALARM} is there from before."
@@ -253,13 +255,13 @@ def _diagnose_making(typed: set[str], there: set[str], seen: FolderMaking) -> Di
 def _of_spelling(near: str, evidence: str) -> tuple[str, str, str]:
     """Return the mistake in a path that no suspect makes; how it is spelled cannot be listed."""
     if "\\" in near or _BOTH in _letters(near.rpartition("/")[2]):
-        hint = "Paths use `/` between two names, on Linux everywhere."
+        hint = "On Linux, paths always use `/` between two names."
         return "path-separator", evidence, hint
     for wanted in (_ALARM, _RUNS_THROUGH):
         parts, goals = near.split("/"), wanted.split("/")
         unlike = sum(not alike(part, goal) for part, goal in zip(parts, goals, strict=False))
         if len(parts) == len(goals) and unlike <= (wanted == _ALARM and parts[0] == goals[0]):
-            hint = "Compare the path letter by letter; capital letters count, too."
+            hint = "Compare the path letter by letter, including capital letters."
             return "path-misspelled", evidence, hint
     return "wrong-folder", evidence, _PWD
 
@@ -371,15 +373,15 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
     """
     first, rest = words[0], words[1:]
     if first.startswith("cd") and first[2:3] in tuple("./~\\"):
-        return "space-missing", "A space belongs between `cd` and the path."
+        return "space-missing", "Put a space between `cd` and the path."
     if "\\" in " ".join(words):
-        return "path-separator", "Paths use `/` between two names, on Linux everywhere."
+        return "path-separator", "On Linux, paths always use `/` between two names."
     if first.startswith((".", "/")):
-        return "word-missing", "A path alone is no command. Which one changes the folder?"
+        return "word-missing", ("A path alone isn't a command. Which command changes the folder?")
     if first not in ("cd", "pushd"):
         return ("command-misspelled" if alike(first, "cd") else UNKNOWN), _UPWARDS
     if len(rest) > 1 and not rest[0].startswith("-"):
-        return "space-too-many", "A path has no space in it: `/` joins its parts."
+        return "space-too-many", "A path contains no spaces: `/` joins its parts."
     if _is_absolute(rest):
         return "absolute-path", _RELATIVE
     # Where the path leads from the start, whether there is such a folder or not.
@@ -388,7 +390,7 @@ def _of_words(words: list[str], folder: str) -> tuple[str, str]:
     if name == _GOAL or goal in (".", "..", "resources") or goal.strip("./") == "":
         return "levels-miscounted", _UPWARDS
     if goal != _GOAL and alike(name, _GOAL) and folder == _START:
-        return "path-misspelled", "Compare the name letter by letter; capital letters count, too."
+        return "path-misspelled", "Compare the name letter by letter, including capital letters."
     return ("folder-not-found" if folder == _START else "wrong-folder"), _UPWARDS
 
 
@@ -399,9 +401,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _judge_folder,
         title="a folder in a folder",
         hints=(
-            "One `mkdir` may make several folders, one in another.",
-            "In a path, `/` stands between the outer folder and the one in it.",
-            "A folder in between that is missing, too, needs the option that stands for parents.",
+            "One `mkdir` can create several folders, one inside another.",
+            ("In a path, `/` separates the outer folder from the one inside it."),
+            ("If a parent folder is missing, too, you need the option that is short for parents."),
         ),
     ),
     Exercise(
@@ -410,9 +412,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _judge_way,
         title="from here to there",
         hints=(
-            "`..` stands for the folder around the one where you are.",
+            "`..` is the folder that contains the current one.",
             f"Count the levels from {_START} up to the workspace.",
-            "Go up as often as that, and then down into the folder that you want, in one path.",
+            ("Go up that many levels and then down into the folder you want, all in one path."),
         ),
     ),
 )

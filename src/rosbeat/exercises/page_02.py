@@ -126,7 +126,10 @@ def _slips_of_values(manifest: Manifest, todo: list[str]) -> Iterator[Diagnosis]
         yield Diagnosis(
             "manifest-value",
             f"The version is {manifest.version or 'not given'}.",
-            "A version is three numbers with dots between them, and colcon builds nothing without.",
+            (
+                "A version consists of three numbers, separated by dots. Without one,"
+                " colcon doesn't build the package."
+            ),
         )
     if not manifest.maintainer or not _EMAIL.fullmatch(manifest.email):
         yield Diagnosis(
@@ -247,7 +250,7 @@ def _nothing_made(tried: str) -> Verdict:
     return Diagnosis(
         UNKNOWN,
         f"You typed `{tried}`, and there is no package {_SECOND}.",
-        "The last lines that the command printed say what it could not do.",
+        "The last lines that the command printed say what went wrong.",
     )
 
 
@@ -325,9 +328,8 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         title="fill in the manifest",
         points=2,
         hints=(
-            "Two places of the manifest are still open. Look for the blanks.",
-            "One says in a sentence what the package does; the other says what others may do "
-            "with it.",
+            ("Two entries of the manifest are still open. Look for the blanks."),
+            ("One describes the package in a sentence; the other says what others may do with it."),
             "A licence is named by its short name, without spaces. ROS itself uses one of them, "
             "and the text above the cell names it.",
         ),
@@ -339,9 +341,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         title="a second package",
         points=2,
         hints=(
-            "It is the command that made the first package, with other names.",
-            "One blank says what kind of package it is, the other one what it needs.",
-            "Both blanks begin with an option, two dashes and a word, as in the table above.",
+            ("It's the command that created the first package, with other names."),
+            ("One blank is for the kind of package, the other for its dependencies."),
+            ("Both blanks begin with an option: two dashes and a word, as in the table above."),
         ),
     ),
 )

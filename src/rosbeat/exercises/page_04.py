@@ -61,15 +61,15 @@ FRIDGE_SUSPECTS = suspects(
      _each(partial(_state, high=7.999, low=2.001))),
     ("wrong-state", "These are the monitor's limits. A fridge has limits of its own.",
      _each(partial(_state, high=26.0, low=20.0))),
-    ("wrong-state", "Warm and Frost have changed places.",
+    ("wrong-state", "Warm and Frost are swapped.",
      _each(lambda value: {"Warm": "Frost", "Frost": "Warm"}.get(_state(value), "Fine"))),
-    ("wrong-state", "Whole degrees are too coarse: compare the reading as it comes.",
+    ("wrong-state", ("Whole degrees aren't precise enough: compare the reading itself."),
      _each(lambda value: _state(int(value))), _each(lambda value: _state(round(value)))),
-    ("wrong-state", "Your node compares the rounded number. Compare the reading as it comes, "
-     "and round only what you show.", _each(lambda value: _state(round(value, 1))),
+    ("wrong-state", ("Your node compares the rounded number. Compare the reading itself, "
+"and round only what you display."), _each(lambda value: _state(round(value, 1))),
      _each(lambda value: _state(round(value, 2)))),
-    ("wrong-state", "It is the state of the reading before. Which comes first, to keep a reading "
-     "or to judge it?", lambda fed: _each(_state)([fed[0], *fed[:-1]])),
+    ("wrong-state", ("It's the state of the previous reading. Does your node store a "
+"reading before it judges it?"), lambda fed: _each(_state)([fed[0], *fed[:-1]])),
 )  # fmt: skip
 
 
@@ -148,7 +148,7 @@ def _about_word(strange: str) -> str:
     """Return a hint that fits what stands in the place of a state."""
     if re.search(r"\bNone\b", strange):
         return "None came instead of a word. A function that ends without return gives None."
-    hint = "The three words are Warm, Frost and Fine, letter by letter: capitals count."
+    hint = "The three words are Warm, Frost and Fine, spelled exactly like this, with capitals."
     return f"{hint} A list with a word in it is not the word." if strange[0] in "[({" else hint
 
 
@@ -184,8 +184,8 @@ ROOM_SUSPECTS = suspects(
     ("alert-missing", "Your node compares the rounded number. Compare the reading as it comes.",
      *(lambda fed, digits=digits: _alerts()([round(one, digits) for one in fed])
        for digits in (0, 1, 2)), lambda fed: _alerts()([int(one) for one in fed])),
-    ("alert-too-many", "The readings that are fine get the alerts. Which side of your condition "
-     "are they on?", lambda fed: {at: ("alert",) for at in range(1, len(fed) + 1)
+    ("alert-too-many", ("The normal readings get the alerts. Is your condition the wrong way "
+"round?"), lambda fed: {at: ("alert",) for at in range(1, len(fed) + 1)
                                   if at not in _alerts()(fed)}),
     ("alert-missing", f"Low readings got no alert. {_BOTH_COUNT}", _alerts(low=-inf)),
     ("alert-missing", f"High readings got no alert. {_BOTH_COUNT}", _alerts(high=inf)),
@@ -226,8 +226,8 @@ def draw_room(draw: Draw) -> Readings:
 
 
 _NEVER_TRUE = (
-    "Is your condition ever true? No reading is above 26 and below 20 at once. And is there a "
-    "publish behind it?"
+    "Is your condition ever true? No reading is above 26 and below 20 at "
+    "once. And does a publish follow it?"
 )
 
 
@@ -437,8 +437,9 @@ def _statuses(
 
 
 _NOTHING_KEEPS = (
-    "The limits may be right, but nothing keeps the status from one reading to the next. A local "
-    "variable is gone when the callback returns: keep the new status in self."
+    "The limits may be right, but the status isn't kept from one reading "
+    "to the next. A local variable is gone when the callback returns: "
+    "store the new status in self."
 )
 _ONLY_CHANGES = "Compare the new status with the old one, and publish only a change."
 #: A reading at a limit, and the limit of a node that counts it to the wrong side.
@@ -560,9 +561,11 @@ EXERCISES = (
         (
             "The publisher is made once, in __init__, like the sensor's; the message type and the "
             "topic are others.",
-            "One reading is enough for an alert if it is too high or if it is too low: join the "
-            "two conditions with `or`.",
-            "A String is made like a Float32, with text in its field data.",
+            (
+                "A reading gets an alert if it's too high or too low: join the two "
+                "conditions with `or`."
+            ),
+            "Create a String like a Float32, with a text in its field data.",
         ),
         draw=draw_room,
     ),
@@ -573,13 +576,17 @@ EXERCISES = (
         "a calm monitor, alone",
         4,
         (
-            "Do one thing after the other and check in between: first the mean, then the status.",
-            "Keep the readings in a list. readings[-5:] are the last five of it, or all if there "
-            "are fewer.",
+            ("Do one thing at a time, and check in between: first the mean, then the status."),
+            (
+                "Keep the readings in a list. readings[-5:] is its last five items, "
+                "or all of them if there are fewer."
+            ),
             "The status needs a memory: self.status. Find the new one from the reading and from "
             "the old one, and publish it only if they differ.",
-            "Ask for High and for Low first: they do not depend on what was before. Then ask "
-            "whether a High or a Low has come back far enough.",
+            (
+                "Test for High and Low first: they don't depend on the old status. "
+                "Then test whether a High or a Low has come back far enough."
+            ),
         ),
         draw=draw_hysteresis,
     ),

@@ -110,7 +110,7 @@ def _shown(result: object) -> str:
     return repr(result)
 
 
-_GIVES_TEXT = 'The function gives back one text. f"{executable} ..." puts values into a text.'
+_GIVES_TEXT = 'The function returns one string. f"{executable} ..." inserts values into a string.'
 #: How an exception begins or reads, the mistake behind it, and where to look.
 _PROBLEMS = (
     (r"Deadline", "does-not-return", "The function needs no loop: it returns one text."),
@@ -206,7 +206,7 @@ def _slip(results: Sequence[str], calls: Calls) -> tuple[str, str]:
     The names with which the function was called are looked for in what it returned; what is left
     between them are the signs.
     """
-    unknown = UNKNOWN, "Compare it with the table of the page, sign by sign and in their order."
+    unknown = UNKNOWN, "Compare it with the table on the page, character by character."
     plain = [_without_spaces(one).lower().replace("-", "_") for one in results]
     if plain == [_right(given).lower() for given in calls]:
         return "wrong-values", "Names count letter by letter: put the parameters in as they are."
@@ -221,7 +221,7 @@ def _slip(results: Sequence[str], calls: Calls) -> tuple[str, str]:
         if names and not (at_place and len(words) == len(given)):
             return unknown
         always_main = f"{_COLON} It is not always main."
-        use_all = "The text has to change with what the function is given: put its parameters in."
+        use_all = "The result has to depend on the arguments: use the function's parameters."
         return "swallowed-parameter", always_main if words[:3] == names else use_all
     for at, (name, sign) in enumerate(zip(given, "=..:", strict=True)):
         if names[at : at + 1] != [name]:
@@ -230,7 +230,7 @@ def _slip(results: Sequence[str], calls: Calls) -> tuple[str, str]:
         if found != sign:
             return _SLIPS_OF_SIGNS.get((sign, found), _SLIPS[sign])
     if before or signs[-1]:
-        return "stray-characters", "Return the bare text: nothing stands before or after it."
+        return "stray-characters", "Return just the entry point, with nothing before or after it."
     return unknown
 
 
@@ -242,11 +242,16 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         title="two programs",
         points=2,
         hints=(
-            "Each program needs one line of text in the list of console scripts.",
-            "A line is made of what you type after `ros2 run` and its package, an equals sign, "
-            "and where the code is.",
-            "Where the code is: the package, a dot, the file without .py, a colon, the function.",
-            "Two lines are two texts: quotes around each, and a comma after each.",
+            "Each program needs one string in the list of console scripts.",
+            (
+                "An entry consists of the name that you type after `ros2 run` and the"
+                " package, an equals sign, and the place of the code."
+            ),
+            (
+                "The place of the code is: the package, a dot, the file without .py, "
+                "a colon, the function."
+            ),
+            ("Two entries are two strings: put quotes around each, and a comma after each."),
         ),
     ),
     Exercise(
@@ -255,10 +260,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _judge_calls,
         title="write entry points",
         hints=(
-            "The function gives back one text, made of what it was given.",
-            "An f before the first quote fills in what stands between braces.",
-            "Four values are to be filled in, and three signs stand between them, as in the table "
-            "above.",
+            "The function returns one string, made of its arguments.",
+            ("An f before the opening quote inserts values where the braces are."),
+            ("Insert four values, with three characters between them, as in the table above."),
         ),
         draw=draw_calls,
     ),

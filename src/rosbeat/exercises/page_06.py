@@ -41,7 +41,7 @@ def _judge_monitor(seen: TypedIn) -> Verdict:
         meaning = diagnosis_of(seen.meaning)
         if meaning and alike(typed[: len(_RUN)], _RUN):
             return meaning
-        return not_attempted("Nothing was run in this terminal yet.")
+        return not_attempted("Nothing has been run in this terminal yet.")
     # What the nodes have said since a command was typed for the last time.
     said = _LOG.findall(seen.text.rpartition(runs[-1])[2])
     heard = [text for name, text in said if name == _NAME]
@@ -64,7 +64,7 @@ def _diagnose_silence(said: list[str]) -> Diagnosis:
         return Diagnosis(
             "other-executable",
             f"{_NAME} runs and has heard nothing: it publishes.",
-            "A second monitor was asked for. Which of the two executables is the monitor?",
+            ("Start a second monitor. Which of the two executables is the monitor?"),
         )
     return Diagnosis(
         "nobody-publishes",
@@ -74,8 +74,7 @@ def _diagnose_silence(said: list[str]) -> Diagnosis:
 
 
 _RENAME = (
-    "After `--ros-args` comes `-r`, and then `__node`, with two underscores before it, `:=` and "
-    "the name."
+    "After `--ros-args`, write `-r`, then `__node` with two underscores, then `:=` and the name."
 )
 
 
@@ -150,9 +149,9 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _judge_monitor,
         title="one more monitor",
         hints=(
-            "The second monitor is the same program as the first one, run once more.",
-            "After `ros2 run` come two names: the package, and the executable.",
-            "Look at what was typed in the terminal `monitor`.",
+            ("The second monitor is the same program as the first one, started once more."),
+            "`ros2 run` takes two names: the package and the executable.",
+            "Look at the command in the terminal `monitor`.",
         ),
     ),
     Exercise(
@@ -161,9 +160,11 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         _judge_links,
         title="link instead of copy",
         hints=(
-            "colcon has an option for it, and its own help says what the option is called.",
-            "The line above the cell looks for a word in that help. An option begins with two "
-            "dashes.",
+            ("colcon has an option for this, and its help lists the option's name."),
+            (
+                "The line above the cell searches that help for a word. An option "
+                "begins with two dashes."
+            ),
         ),
     ),
 )

@@ -125,7 +125,7 @@ def _questions(house: Greenhouse) -> tuple[_Question, ...]:
             | {rate: ("finding-wrong", f"That is the rate of {topic}.")
                for topic, rate in rates.items()},
             "The messages come at another rate.",
-            "ros2 topic hz measures it, if you wait for a second line."),
+            "ros2 topic hz measures it; wait for its second line."),
         _Question(
             "queue depth of /gardener for /moisture", "number",
             [depths["subscription", "/gardener"]],
@@ -147,7 +147,7 @@ def _questions(house: Greenhouse) -> tuple[_Question, ...]:
             {_full(log.name): ("finding-wrong", "It logs, but it never warns.")
              for log in house.run.logs},
             "It never logs a line.",
-            "Log lines come over /rosout; the field level of a warning is 30."),
+            "Log lines are published on /rosout; a warning has level 30."),
         _Question(
             "dry_below of /gardener", "number", [house.parameters["/gardener dry_below"]],
             {value: ("finding-wrong", f"That is the value of `{name}`.")
@@ -166,7 +166,7 @@ def _rate(run: Observation, topic: str) -> float:
 
 def _used(nodes: Mapping[str, list[str]], confused: set[str], does: str) -> dict[Any, Any]:
     """Return what is true of topics that have the side which a question says is missing."""
-    brought = "Every node brings this topic along; the greenhouse itself does not use it."
+    brought = "Every node has this topic; the greenhouse itself doesn't use it."
     return {
         topic: ("sides-confused" if topic in confused else "finding-wrong",
                 f"Nodes that {does} it: {', '.join(there)}.")
@@ -273,7 +273,7 @@ _FINDINGS = Exercise(
     "a system of strangers",
     3,
     (
-        "Ask about one thing at a time, in the terminal `look`, and write down what you see.",
+        ("Ask one question at a time, in the terminal `look`, and write down what you see."),
         "ros2 topic info --verbose names both sides of a topic; ros2 topic hz counts; ros2 "
         "param get reads; the field name of a log line names the node that logged it.",
         "Terminals do not know the depth of a queue, but this kernel made the greenhouse: "
@@ -469,7 +469,9 @@ def default_suspects(readings: Collection[float]) -> tuple[Suspect, ...]:
     limits = product((0.0, *sorted({*readings}), 99.0), repeat=2)
     starts = ({"low": low, "high": high} for low, high in limits)
     models = (_monitor(start=start) for start in starts if start != _DEFAULTS)
-    return suspects(("other-default", "`low` begins at 20.0, and `high` at 26.0.", *models))
+    return suspects(
+        ("other-default", "The default of `low` is 20.0, and that of `high` is 26.0.", *models)
+    )
 
 
 def _judge_tuning(observation: Observation, fed: Tuning) -> Verdict:
@@ -548,8 +550,10 @@ _TUNING = Exercise(
     (
         "A parameter is declared in the constructor, with its name and its first value.",
         "get_parameter returns the parameter; its attribute `value` holds the number.",
-        "The constructor runs once, so what it asks for is asked for once. The callback runs at "
-        "each reading.",
+        (
+            "The constructor runs once, so a value that it gets there never "
+            "changes. The callback runs at each reading."
+        ),
     ),
     draw=draw_tuning,
 )
@@ -748,7 +752,7 @@ def _wrong_lines(said: Track, lines: Lines) -> Diagnosis | None:
         evidence = f"{what} was published for a line of level {_LEVELS[line.level]}: {line.msg!r}."
         if mismatch.done:
             return Diagnosis("level-too-low", evidence, _BY_NUMBER)
-        hint = "What does your method do with this line, step by step?"
+        hint = "Go through your method step by step: what does it do with this line?"
         return Diagnosis(UNKNOWN, evidence, hint)
 
     return diagnose(lines, done, right, watchers, describe)
@@ -782,10 +786,10 @@ _LOG_WATCHER = Exercise(
     "a log watcher",
     3,
     (
-        "It is an alarm like that of page 04, with a subscription for another message type.",
+        ("It's an alarm like the one on page 04, with another message type."),
         "create_subscription takes Log, the topic, your method and a depth. The message has "
         "the fields level, name and msg.",
-        "Levels are numbers, and worse is greater. Log.WARN is the number of a warning.",
+        ("Levels are numbers: the worse, the higher. Log.WARN is the number of a warning."),
     ),
     draw=draw_lines,
 )

@@ -160,7 +160,7 @@ def _keep_mode(
     return said
 
 
-_REPEATED = "A command for the mode that there is changes nothing, and needs no message."
+_REPEATED = "A command for the current mode changes nothing, so it needs no message."
 _CHANGE = "A command for another mode is a change. Does your node keep it, and publish it?"
 _BEGIN = f"Publish {_START!r} in the constructor, as soon as there is something to publish with."
 _FIRST_MODE = f"Before the first command there is a mode, too: {_START!r}."
@@ -204,14 +204,17 @@ def _heard_by_displays(modes: Modes, qos: QoS) -> Track:
     return heard
 
 
-_STORE = "The publisher has to keep what it said for those who come late. Which policy says so?"
+_STORE = (
+    "The publisher has to store its messages for late-joining "
+    "subscriptions. Which policy does that?"
+)
 _DEPTH = (
-    "For those who come late, the publisher keeps as many messages as its queue is long. How many "
-    "of them are still true?"
+    "For late-joining subscriptions, the publisher stores as many "
+    "messages as its depth. How many of them are still true?"
 )
 _EXPIRES = (
-    "A lifespan throws away what is older. A mode stays true until the next one, however long that "
-    "takes."
+    "A lifespan drops older messages. A mode stays valid until the next "
+    "one, however long that takes."
 )
 _MODE_POLICIES = (
     ("durability", "not-kept", _STORE),
@@ -394,8 +397,8 @@ _QUEUE = (
     "queue."
 )
 _EQUAL = "Two sensors may report the same value, and equal readings are still two readings."
-_TWICE = "One subscription is enough, if it asks for no more than the poorest sensor offers."
-_WAITS = "A lifespan throws away what has waited longer. How long may a reading have to wait?"
+_TWICE = "One subscription is enough if it asks for no more than the least that any sensor offers."
+_WAITS = "A lifespan drops readings that have waited longer. How long may a reading have to wait?"
 _READING_POLICIES = (
     ("reliability", "qos-mismatch", f"The rule of reliability: {rule('reliability')}."),
     ("durability", "qos-mismatch", f"The rule of durability: {rule('durability')}."),
@@ -556,15 +559,15 @@ def _watch(
     return {number: (one,) for number, one in enumerate(said)}
 
 
-_REMEMBER = "The node has to remember what it said last, and to say only what is new."
+_REMEMBER = "The node has to remember its last message, and publish only a different one."
 _EACH = "It has to notice each silence, and the end of each. What does it remember?"
 _DUE = f"{LOST!r} is due when nothing has come for {LIMIT:g} s."
-_RESTART = f"{_DUE} What measures that has to begin again with each reading."
+_RESTART = f"{_DUE} Whatever measures the silence must start again at each reading."
 _FIRST = f"Only what was lost can be back. What does the node know before its first {LOST!r}?"
-_EVENTS = "The event comes again in each further period of silence."
+_EVENTS = "The event repeats after each further period of silence."
 _NO_END = f"{BACK!r} has to be published, too, before {LOST!r} is news again."
 _ONLY_END = f"{BACK!r} is the end of {LOST!r}, and only of that."
-_TOTAL = "If it looks at total_count: that goes on from one silence to the next."
+_TOTAL = "total_count is never reset: it keeps counting from one silence to the next."
 _SECOND = f"{_DUE} How long has it been silent when a later event comes?"
 
 
@@ -661,7 +664,7 @@ def _describe_word(mismatch: Mismatch, fed: Silences) -> Diagnosis:
             return Diagnosis("wrong-start", evidence, _FIRST)
         return Diagnosis("status-repeated", evidence, _REMEMBER)
     if word == BACK:
-        hint = "The first reading after the silence brings the news. Which callback is called then?"
+        hint = "The first reading ends the silence. Which callback is called then?"
         return Diagnosis("wrong-rate", evidence, hint)
     return Diagnosis("wrong-deadline", evidence, _RESTART if at < due else _DUE)
 
@@ -693,7 +696,7 @@ def _unmeasured(observation: Observation) -> Diagnosis | None:
             "deadline-wrong-side",
             f"The publisher on {bounded['publisher'].name} has a deadline, and the subscription "
             "to /temperature has none.",
-            "Readings are what is waited for. Which end of the node gets them?",
+            ("The node waits for readings. Which of its endpoints receives them?"),
         )
     return Diagnosis(
         "no-deadline",
@@ -711,10 +714,15 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "the last word waits",
         2,
         (
-            "Two questions: does somebody who comes late get old messages at all, and if so, how "
-            "many? One policy answers the first, the depth the second.",
-            "A profile is made with QoSProfile(depth=..., durability=...). What you leave out "
-            "stays as it is by default, and that is reliable.",
+            (
+                "There are two questions: does a late-joining subscription get old "
+                "messages at all, and if so, how many? A policy answers the first, "
+                "and the depth answers the second."
+            ),
+            (
+                "QoSProfile(depth=..., durability=...) creates a profile. The "
+                "policies that you leave out keep their defaults, such as reliable."
+            ),
             "In the callback, compare the command with self.mode, and do nothing if they are "
             "the same.",
         ),
@@ -727,10 +735,15 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "listen to everybody",
         2,
         (
-            "Two decisions: what may you ask for, so that nobody is shut out? And how many "
-            "readings have to wait?",
-            "Ask for no more than the poorest sensor offers. The others offer more, and that fits.",
-            "Both sensors fill the same queue. Count what comes from the two in eight seconds.",
+            (
+                "There are two decisions: what can you ask for, so that no sensor is "
+                "left out? And how many readings have to wait?"
+            ),
+            (
+                "Ask for no more than the least that any sensor offers. The other "
+                "sensor offers more, and that's compatible."
+            ),
+            ("Both sensors fill the same queue. Count the readings of both in eight seconds."),
         ),
         draw=draw_sensors,
     ),
@@ -741,12 +754,18 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "silence is news",
         3,
         (
-            "Three things belong together: a deadline in the QoS of the subscription, a callback "
-            "for its event, and a memory of what was said last.",
-            "QoSProfile takes deadline=Duration(...), and the events are handed over as "
-            "SubscriptionEventCallbacks(deadline=...): the method, without brackets.",
-            "Both methods say their word again and again. self.word is what was said last: only "
-            "another word is news, and then it has to be remembered.",
+            (
+                "You need three things: a deadline in the QoS of the subscription, a "
+                "callback for its event, and a variable that holds the last word."
+            ),
+            (
+                "QoSProfile takes deadline=Duration(...). Pass the method, without "
+                "parentheses, as SubscriptionEventCallbacks(deadline=...)."
+            ),
+            (
+                "Both methods are called again and again. self.word holds the last "
+                "word: publish only a different one, and then store it."
+            ),
         ),
         draw=draw_silences,
     ),

@@ -122,8 +122,9 @@ def _watch(after: float = SILENCE, at_once: bool = False, most: int | None = Non
 
 
 _UNSEEN = (
-    "A message cannot tell that there is none. What else calls the node, again and again, and by "
-    "which clock does it count? A session's time is the node's own clock."
+    "No message can tell you that none are coming. What else can call the"
+    " node regularly, and by which clock? In a session, time is measured "
+    "by the node's own clock."
 )
 _IN_TIME = f"At most {LATE:g} s late: how often does the node look?"
 _COUNT = f"Count from the last reading, and wait for {SILENCE:g} s of silence."
@@ -131,8 +132,8 @@ SILENCE_SUSPECTS = suspects(
     ("silence-unnoticed", _UNSEEN, _watch(after=100.0)),
     ("silence-unnoticed", "The first silence was noticed, and the second was not. What does the "
      "node remember after `back`?", _watch(most=2)),
-    ("noticed-afterwards", "The callback of a subscription runs when a message comes. What looks "
-     "when none comes?", _watch(at_once=True)),
+    ("noticed-afterwards", ("The callback of a subscription runs when a message arrives. What "
+"runs when none arrives?"), _watch(at_once=True)),
     ("noticed-early", _COUNT, *(_watch(after=after) for after in (0.0, 1.5, 2.6))),
     ("noticed-late", _IN_TIME, _watch(after=5.0)),
 )  # fmt: skip
@@ -190,7 +191,9 @@ def _first_word(mismatch: Mismatch, evidence: str) -> Diagnosis:
         hint = "Before the first reading there is nothing to lose. How does the node know of one?"
         return Diagnosis("lost-before-found", evidence, hint)
     if word == "lost" and any(one.startswith("lost") for one in done[:same]):
-        return Diagnosis("status-repeated", evidence, "Once is enough: what must be remembered?")
+        return Diagnosis(
+            "status-repeated", evidence, "Once is enough: what does the node have to remember?"
+        )
     if when == "early":
         return Diagnosis("noticed-early", evidence, _COUNT)
     return Diagnosis("noticed-late", evidence, _IN_TIME)
@@ -393,10 +396,10 @@ _WAITS = "An order that comes while another one is worked on has to wait somewhe
 _ONE_AT_A_TIME = f"Orders are done one after the other: the next {WORK:g} s begin when one is done."
 _FIRST_COME = "The order that came first is done first."
 WORK_SUSPECTS = suspects(
-    ("work-too-short", "The timer runs on by itself: begin its period anew when the work on an "
-     "order begins.", _free_running),
-    ("work-too-long", "Each order that comes begins the time anew. It has to go on for the order "
-     "that is being worked on.", _worker(restart=True)),
+    ("work-too-short", ("The timer keeps running: restart its period when the work on an "
+"order begins."), _free_running),
+    ("work-too-long", ("Each new order restarts the time. It should keep running for the "
+"order in progress."), _worker(restart=True)),
     ("work-at-once", _ONE_AT_A_TIME, _independent,
      _worker(take=lambda waiting: [waiting.pop(0) for _ in waiting[:]])),
     ("order-lost", f"Only the newest order is kept. {_WAITS}",
@@ -473,7 +476,7 @@ def _first_report(mismatch: Mismatch, reports: Track, evidence: str, fed: Work) 
     ordered = [number for _, number in fed.orders]
     is_early, again = done and done[1] < 0, done and done[0] in numbers[: mismatch.at]
     if done and (done[0] not in ordered or (is_early and not again)):
-        return Diagnosis("wrong-values", evidence, "What was ordered is what gets done.")
+        return Diagnosis("wrong-values", evidence, "Publish the number that was ordered.")
     before = reports.get(mismatch.at - 1)
     if done and before and done[1] == 0 and done[0] != before[0]:
         return Diagnosis("work-at-once", evidence, _ONE_AT_A_TIME)
@@ -748,7 +751,10 @@ def _wrong_states(
             f"reading of {place.readings[number]:g}.{_undeclared(observation)}"
         )
         if mismatch.done[0] not in STATUSES or len(mismatch.done) > 1:
-            hint = "One of three words stands in each text: High, Low or Normal, letter by letter."
+            hint = (
+                "Each text contains one of three words: High, Low or Normal, spelled "
+                "exactly like this."
+            )
             return Diagnosis("wrong-word", evidence, f"{hint} Capitals count.")
         home, told, _ = places
         elsewhere = _states(str(one.value) for one in _published(observation, told))
@@ -845,12 +851,14 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "notice the silence",
         3,
         (
-            "Two callbacks: one for what comes, and one that looks at what does not come.",
-            "What they have to share: when the last reading came, and whether the sensor is lost.",
+            ("You need two callbacks: one for readings, and one that notices their absence."),
+            ("They share two facts: when the last reading came, and whether the sensor is lost."),
             "self.get_clock().now() is a time, and the difference of two has nanoseconds. Or let a "
             "timer begin anew with each reading.",
-            "Before the first reading there is nothing to lose. Say a word only when what is "
-            "remembered changes.",
+            (
+                "Before the first reading, no sensor can be lost. Publish only when "
+                "the status you remember changes."
+            ),
         ),
         draw=draw_readings,
     ),
@@ -861,13 +869,16 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "work, and go on beating",
         3,
         (
-            "No callback may last: each does something short, returns, and is called again.",
-            "Waiting is what timers are for. One of them can tell that the work on an order is "
-            "done.",
-            "A list remembers the orders that wait: new ones go to its end, and the one that is "
-            "worked on is its first.",
-            "A timer can be stopped with cancel() and begins anew with reset(); is_canceled() says "
-            "whether it is stopped.",
+            ("No callback may take long: each one does a little, returns, and is called again."),
+            ("To wait, use timers. One of them can signal that the work on an order is done."),
+            (
+                "A list holds the waiting orders: append new ones at its end; the "
+                "first one is in progress."
+            ),
+            (
+                "cancel() stops a timer, and reset() starts its period again; "
+                "is_canceled() says whether it's stopped."
+            ),
         ),
         draw=draw_work,
     ),
@@ -878,10 +889,14 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "a monitor for any place",
         3,
         (
-            "Whatever differs from place to place comes from outside; the code only says what it "
-            "is if nobody says anything.",
-            "Look at the sensor of this page: a parameter is declared once, with its default, and "
-            "what it holds is asked for by the same name.",
+            (
+                "Whatever differs from place to place comes from outside; the code "
+                "only provides the default."
+            ),
+            (
+                "Look at the sensor on this page: declare a parameter once, with its "
+                "default, and get its value by the same name."
+            ),
             "A name without a slash in front is completed by the node's namespace, and can be "
             "remapped there.",
             "Decide first: above one limit, below the other, or neither. Then make one text of the "

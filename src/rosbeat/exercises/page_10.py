@@ -120,7 +120,7 @@ def _nameless(chart: Chart, claim: Claim) -> Diagnosis | None:
         return Diagnosis("arguments-swapped", evidence, "First the diagnosis, then the place.")
     if claim.mistake not in KNOWN:
         evidence = f"the clinic knows no diagnosis {claim.mistake!r}."
-        hint = "`clinic.names()` lists all that may be given: copy one, letter by letter."
+        hint = "`clinic.names()` lists all possible diagnoses: copy one, letter by letter."
         return Diagnosis("no-such-diagnosis", evidence, hint)
     if _place(chart, claim.place):
         return None
@@ -140,9 +140,9 @@ def _refuted(chart: Chart, claim: Claim) -> Diagnosis | None:
     yet = signs.against(chart, claim.mistake, place)
     evidence = f"you say {claim.mistake} at {place}; yet {yet}."
     if places:
-        hint = "Such a fault is there. Follow the messages: where do they still come, where not?"
+        hint = "There is such a fault, but not there. Follow the messages: how far do they get?"
         return Diagnosis("other-place", evidence, hint)
-    hint = "Which instrument would show it, if it were so? Use it, and compare with the order."
+    hint = "Which instrument would show this fault? Use it, and compare with the order."
     return Diagnosis("contradicted", evidence, hint)
 
 
@@ -153,8 +153,10 @@ def _half(chart: Chart, claims: Sequence[Claim]) -> Diagnosis | None:
     return Diagnosis(
         "half-a-diagnosis",
         f"{listing(sorted(known))} is right, and it is not the only fault.",
-        "Imagine that this fault is mended. Would the owner be content? Look at the rest of "
-        "the system with the same instruments.",
+        (
+            "Imagine that this fault is fixed. Would the owner be satisfied? "
+            "Examine the rest of the system with the same instruments."
+        ),
     )
 
 
@@ -195,7 +197,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "four patients, and something is silent",
         2,
         (
-            "The owner says what is fine. Whatever those nodes need is fine too: cross it out.",
+            ("The owner says what is fine. Whatever those nodes need is fine, too: rule it out."),
             "`ros.graph()` first: is every name as it was ordered, letter by letter? Then "
             "`ros.explain(...)` of the topic on which the silence begins, seen from the sensor.",
             "In ward 7: of patient 1 compare the picture of the graph with the order. Of patient "
@@ -231,7 +233,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "three patients with two faults each",
         4,
         (
-            "Find one fault, imagine that it is mended, and begin again at the sensor.",
+            ("Find one fault, imagine that it's fixed, and begin again at the sensor."),
             "The two are at two places. Go through the nodes one by one: is it published, is it "
             "matched, is it taken, is the value right?",
             "In ward 7: of patient 9 count what each listener has heard, and look at the numbers. "

@@ -161,11 +161,11 @@ def _findings(*rows: tuple[Any, ...]) -> tuple[Suspect, ...]:
     return variants(_in_each, options)
 
 
-_EVERY = "A reading that is no number was a message all the same."
+_EVERY = "A reading of NaN is a message all the same."
 _FENCE = "Between five messages there are four gaps. Which of the two numbers is asked for?"
 _UNIT = "The record of a message has its time twice, in two units. In which one is this?"
 _GAP = "A gap lies between two messages that follow each other; the longest of them is asked for."
-_PLAIN = "The sum of the numbers, divided by how many they are."
+_PLAIN = "Divide the sum of the numbers by how many there are."
 #: What is asked for, each with other ways to get a number.
 ASKED: dict[str, tuple[Callable[[_Readings], float], tuple[Suspect, ...]]] = {
     "messages": (len, _findings(
@@ -192,9 +192,10 @@ ASKED: dict[str, tuple[Callable[[_Readings], float], tuple[Suspect, ...]]] = {
          lambda r: max(abs(b - a) for a, b in pairwise(_numbers(r)))),
     )),
     "mean": (lambda r: sum(_numbers(r)) / len(_numbers(r)), _findings(
-        ("nan-spreads", "A sum with NaN in it is NaN. Leave out what is no number before you add.",
+        ("nan-spreads", "A sum that contains NaN is NaN. Leave NaN out before you add.",
          lambda r: sum(value for _, value in r) / len(r)),
-        ("wrong-share", "What is left out of the sum is left out of the count as well.",
+        ("wrong-share", ("If you leave a reading out of the sum, leave it out of the count, "
+"too."),
          lambda r: sum(_numbers(r)) / len(r)),
         ("other-mean", "A value that occurs twice counts twice, but a set holds it only once.",
          lambda r: sum(set(_numbers(r))) / len(set(_numbers(r)))),
@@ -261,7 +262,10 @@ def _diagnose_shape(seen: BagReports) -> Diagnosis | None:
             return Diagnosis(
                 "no-dict",
                 f"The function gave back a {one.type_name}.",
-                "Give back a dict in braces, as the cell shows, with a name before each number.",
+                (
+                    "Return a dictionary in braces, as the cell shows, with a name before"
+                    " each number."
+                ),
             )
         absent = [key for key in ASKED if key not in one.value]
         if absent:
@@ -282,7 +286,7 @@ def _diagnose_number(
     found = [one.value[key] for one in seen.reports]
     odd = [one for one in found if isinstance(one, bool) or not isinstance(one, int | float)]
     if odd:
-        hint = "Give back the number itself, not a list of them and no text."
+        hint = "Return the number itself, not a list or a string."
         return Diagnosis("no-number", f"For {key!r} the function gave back {odd[0]!r}.", hint)
     done = {number: (one,) for number, one in enumerate(found)}
     right, suspects = ASKED[key]
@@ -665,16 +669,16 @@ _NAN = (
     "function that asks for it."
 )
 _NAN_KEPT = (
-    "After a NaN the node has NaN in its memory, and nothing is far from it or equal to it. Which "
-    "reading should it remember there?"
+    "After a NaN, the node has stored NaN, and nothing is far from it or "
+    "equal to it. Which reading should it store instead?"
 )
-_FIRST = "With what is the very first reading compared? There is no reading before it."
+_FIRST = "What is the very first reading compared with? There's no reading before it."
 _BOTH = "A jump may go up or down. What is the sign of your difference?"
 _JUMP = "More than 5 degrees is a jump; 5 degrees are none, and 6 are one."
 _MEMORY = "What does your node remember of the reading before, and when does it change that?"
 _COUNT = "Count on paper: which is the fifth equal reading in a row, if the first one is the first?"
-_AGAIN = "Say it once, when it is found. The next time is after the sensor has moved again."
-_MOVED = "What has to happen to your memory when the sensor moves again?"
+_AGAIN = "Report it once. Report it again only after the reading has changed."
+_MOVED = "What has to happen to the stored state when the reading changes again?"
 _QUIETLY = "A sensor in a quiet room moves very little, and that is no hang: compare exactly."
 SICK_SUSPECTS = variants(_watch_one, (
     ("nan-compared", _NAN, {"hears_nan": False, "keeps_nan": True}, {"hears_nan": False}),
@@ -958,7 +962,10 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "notice a sick sensor",
         3,
         (
-            "Ask for NaN first. If it is one, everything else has to wait for the next reading.",
+            (
+                "Test for NaN first. If the reading is NaN, leave everything else for"
+                " the next reading."
+            ),
             "A jump is a difference, and its sign does not matter: abs takes it away. Before the "
             "first reading there is nothing to compare with.",
             "Count how many equal readings there were in a row. When does the count begin anew? "
@@ -973,12 +980,20 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "compare two sensors, alone",
         4,
         (
-            "Two subscriptions, two callbacks. One of them only remembers; the other one decides.",
+            (
+                "Use two subscriptions with two callbacks. One callback only stores "
+                "the reading; the other one decides."
+            ),
             "Keep the differences in a list and leave NaN out of it, also before there is a "
             "reference.",
-            "Page 04 has a list of the last few readings. Here it has to be full before it counts.",
-            "The node has to remember whether it has spoken: only from well to drifting it says "
-            "something.",
+            (
+                "Page 04 has a list of the last few readings. Here, the list has to "
+                "be full before it counts."
+            ),
+            (
+                "The node has to remember whether it has reported the drift, and "
+                "publish only when a drift begins."
+            ),
         ),
         draw=draw_two,
     ),

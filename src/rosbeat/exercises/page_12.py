@@ -330,7 +330,7 @@ NOT_FILLED = Suspect(
 )
 NOT_VALIDATED = Suspect(
     "not-validated",
-    "Is the callback registered? And is there a way on which it refuses?",
+    "Is the callback registered? And does it ever refuse?",
     lambda one: _reaction(one, True),
 )
 #: Monitors that are wrong about the first request at which they are not right.
@@ -388,13 +388,13 @@ MONITORS = (
     ),
     _suspect(
         "refused-and-kept",
-        "Look first, keep afterwards: a refused value must not change anything.",
+        ("Check first, store afterwards: a refused value must not change anything."),
         _is_nonsense,
         lambda one: _reaction(one, False, one.asked),
     ),
     _suspect(
         "reason-missing",
-        "A client that is refused needs to know why: there is a field for a text.",
+        ("A client needs to know why it was refused: the response has a field for the reason."),
         _is_nonsense,
         lambda one: _reaction(one, False, one.before, False),
     ),
@@ -517,7 +517,7 @@ def _judge_service(seen: Observation, requests: _Requests) -> Verdict:
         found = Diagnosis(
             "response-missing",
             f"{_SERVICE} was called {len(requests) - 1} times, and never answered.",
-            "Does the callback come to its return?",
+            "Does the callback reach its return?",
         )
     answers = [replies.get(number, _Answer()) for number in range(1, len(requests))]
     found = found or _wrong_monitor(seen, requests, answers, [NOT_FILLED])
@@ -699,7 +699,7 @@ def _at(
 
 _STOPPED, _RUNS_ON = (lambda goal: goal.is_canceled), (lambda goal: not goal.is_canceled)
 _RANGE = "Goals from 10 to 26 make sense. Compare in the callback that decides."
-_TWO_ENDS = "There are two ways for the work to end. Which call belongs to which?"
+_TWO_ENDS = "The work can end in two ways. Which call belongs to which?"
 _ALL_READ = "A result holds every temperature that was read since the goal came, in order."
 THERMOSTATS = (
     _at("nonsense-accepted", _RANGE, Work.DECISION, "accepted", lambda goal: not goal.is_good),
@@ -730,7 +730,7 @@ THERMOSTATS = (
     ),
     _at(
         "wrong-state",
-        "If the room is warm enough, there is nothing to wait for.",
+        ("If the room is already warm enough, there's nothing to wait for."),
         Work.END, "too late", lambda goal: goal.is_reached,
     ),
     _at(
@@ -756,7 +756,7 @@ THERMOSTATS = (
         "ends-too-soon", "The work goes on as long as the room is colder than the target.",
         Work.DEGREES, "too few", _RUNS_ON,
     ),
-    _at("boundary", "Exactly the target is warm enough.",
+    _at("boundary", "The target itself is warm enough.",
         Work.DEGREES, "one too many", _RUNS_ON),
     _at("result-wrong", _ALL_READ, Work.DEGREES, "others"),
     _at("feedback-missing",

@@ -838,7 +838,7 @@ def _repeated(seen: Observation, topic: str) -> Diagnosis | None:
     for (first, was), (second, now) in pairwise(commands):
         if was == now:
             evidence = f"{topic} got {now} at {_stamp(first)}, and again at {_stamp(second)}."
-            hint = "Remember the last command, and publish only another one."
+            hint = "Remember the last command, and publish only a different one."
             return Diagnosis("status-repeated", evidence, hint)
     if any(is_on for _, is_on in commands):
         return None
@@ -907,7 +907,7 @@ def _shared_variable(trials: Trials, days: Weather, graph: GraphSnapshot) -> Dia
         for source in sources:
             if topic not in reached(graph, source) and judge(trials, days) is None:
                 evidence = f"{topic} depends on {source}, and no topic or service leads there."
-                hint = "Do two nodes share a Python variable? Two processes would each have one."
+                hint = "Do two nodes share a Python variable? In two processes, each has its own."
                 return Diagnosis("shared-variable", evidence, hint)
     return None
 
@@ -960,7 +960,9 @@ def _kept_limits(trials: Trials, days: Weather) -> Diagnosis | None:
     refused = next((one for one in seen.faults if "arameter" in one.kind), None)
     if refused:
         evidence = f"With other limits, a node was not made: {refused.kind}: {refused.text}"
-        return Diagnosis("limit-fixed", evidence, "All three hold floats: 28.0 is one, 28 is none.")
+        return Diagnosis(
+            "limit-fixed", evidence, "All three are floats: 28.0 is a float, but 28 isn't."
+        )
     vent, pump = _spans(seen, "/vent"), _spans(seen, "/pump")
     if len(vent) != 1 or not _begins_in_time(vent, marks["warm"], react):
         evidence = "The vent was started with other values of open_above and close_below. It went"
@@ -1042,7 +1044,7 @@ def _raised(fault: Fault) -> Diagnosis:
     if known:
         return Diagnosis(known.mistake, node + known.evidence, known.hint)
     if fault.callback in ("add", "run"):
-        return Diagnosis("no-node", fault.text, "Hand over classes, or functions that make a node.")
+        return Diagnosis("no-node", fault.text, "Use classes, or functions that create a node.")
     text = f"{node}{fault.callback} raised {fault.kind}: {first_sentence(fault.text)}."
     return Diagnosis(UNKNOWN, f"{text}{line_of(fault)}", NEW_TO_ME)
 
@@ -1060,10 +1062,15 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "the vent alone",
         3,
         (
-            "You have written such a node on page 04: the calm monitor. What does it remember?",
-            "The new state follows from the temperature and from the old state. Ask for above and "
-            "for below; in between nothing happens.",
-            "Keep what was published last in a variable of the node; publish only what differs.",
+            ("You wrote a node like this on page 04: the calm monitor. What does it remember?"),
+            (
+                "The new state depends on the temperature and on the old state. Test "
+                "for above and below; in between, nothing happens."
+            ),
+            (
+                "Store the last published command in a variable of the node, and "
+                "publish only a different one."
+            ),
         ),
         draw=draw_weather,
         given=_given,
@@ -1075,14 +1082,24 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "a greenhouse",
         TOTAL,
         (
-            "Do one requirement after the other, and run the check in between: it gives points for "
-            "each one that is met.",
-            "For the pump, draw its states: ready, running, resting. Which event leads from one to "
-            "the next, and when may it not?",
-            "A silence is no event. A timer looks once in a while at how long ago the last message "
-            "was: self.get_clock().now() tells the time.",
-            "Where a reading is checked is up to you: in each node, or in one that passes on what "
-            "can be on topics of its own. The second is shorter.",
+            (
+                "Do one requirement at a time, and run the check in between: it gives"
+                " points for each one that is met."
+            ),
+            (
+                "For the pump, draw its states: ready, running, resting. Which event "
+                "leads from one to the next, and when must it not?"
+            ),
+            (
+                "A silence doesn't trigger a callback. Let a timer check regularly "
+                "how long ago the last message was: self.get_clock().now() is the "
+                "time."
+            ),
+            (
+                "Where you check a reading is up to you: in each node, or in one node"
+                " that passes plausible readings on, on topics of its own. The second"
+                " way is shorter."
+            ),
         ),
         draw=draw_weather,
         given=_given,

@@ -234,8 +234,8 @@ def look_at_workspace(answer: Answer) -> Workspace:
     if root is None or not root.is_dir():
         raise ExerciseError(
             f"There is no workspace at {root or repr(answer)}.",
-            "This check looks at the folders of your workspace.",
-            "Write workspace.folder(), and run the cells above first: they make it.",
+            "This check examines the folders of your workspace.",
+            ("Write workspace.folder(), and run the cells above first: they create the workspace."),
         )
     found = [_relative(read_package(folder, root), root) for folder in find_packages(root)]
     # Of two with one name, the one in src under that name counts; a backup has its name, too.

@@ -45,9 +45,9 @@ FLAW_HINTS = {
     "slash": "Modules are written with dots: package.module.",
     "suffix": "Leave out .py: a module is named without it.",
     "no-function-part": "After the module comes a colon and the name of the function.",
-    "called": "The name of the function is enough: no brackets behind it.",
+    "called": "The name of the function is enough, without parentheses.",
     "no-module": "The module is package.file: the folder with __init__.py, a dot, the file's name.",
-    "syntax-error": "Mend the file, on page 03 or 04, and run its cell again.",
+    "syntax-error": "Correct the file, on page 03 or 04, and run its cell again.",
     "no-function": "Look for `def` in the file. Compare the two names letter by letter.",
 }
 
@@ -63,7 +63,7 @@ def diagnose_script(package: Package) -> Diagnosis | None:
         return Diagnosis(
             "no-setup-call",
             f"setup.py cannot be used: {setup.problem}.",
-            "setup(...) has to be called when the file is run, at its left margin.",
+            ("setup(...) has to be called when the file is run, without indentation."),
         )
     if setup.problem and not setup.line and "No such file" in setup.problem:
         hint = "Run the cell above again: it writes the file."
@@ -73,8 +73,10 @@ def diagnose_script(package: Package) -> Diagnosis | None:
         return Diagnosis(
             "syntax-error",
             f"setup.py cannot be read: {setup.problem}{where}.",
-            "Each entry is a text between quotes, with a comma after it, inside the square "
-            "brackets.",
+            (
+                "Each entry is a string in quotes, with a comma after it, inside the "
+                "square brackets."
+            ),
         )
     if setup.misspelled_group:
         return Diagnosis(

@@ -48,7 +48,7 @@ def test_what_nobody_knows_stays_unnamed(broken):
     outcome = before_judging(observation)
     assert outcome.mistake == "new-to-me"
     assert fault.kind in outcome.evidence
-    assert "new to me" not in outcome.hint  # what shows an outcome says that
+    assert "recognize" not in outcome.hint  # what shows an outcome says that
     assert "The last sentence of an error" in outcome.hint
 
 

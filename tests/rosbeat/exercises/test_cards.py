@@ -65,19 +65,19 @@ def test_a_known_mistake_is_named(mistake):
     for view in views(failed("03a", "Nothing.", "Look.", mistake)):
         assert "Mistake:" in view
         assert MISTAKES[mistake].title.split("'")[0] in view
-        assert "new to me" not in view
+        assert "recognize this mistake" not in view
 
 
 @pytest.mark.parametrize("mistake", ["new-to-me", "", "a-name-that-nobody-knows"])
 def test_another_one_is_said_to_be_new(mistake):
     for view in views(failed("03a", "Nothing.", "Look.", mistake)):
-        assert view.count("new to me") == 1
+        assert view.count("recognize this mistake") == 1
         assert "Mistake:" not in view
 
 
 def test_evidence_of_several_lines_keeps_its_shape():
     text, html = views(failed("03a", "It said:\n  x = 1\n      ^", "Look."))
-    assert "It said:\n    x = 1\n        ^\n  This" in text
+    assert "It said:\n    x = 1\n        ^\n  The check" in text
     assert "<pre>It said:\n  x = 1\n      ^</pre>" in html
 
 

@@ -96,7 +96,7 @@ def test_without_answers_the_last_hint_stays(monkeypatch):
     second, third = str(hint("03a")), str(hint("03a"))
     assert HINTS[1] in second
     assert second == third
-    assert "This was the last one. Who teaches the course can tell you more." in second
+    assert "This was the last hint. Your instructor can tell you more." in second
     assert not progress_file().standings()["03a"].answer
 
 
