@@ -1,17 +1,37 @@
-"""Explain a `NameError` on a page: say which cells to run again."""
+"""Explain an exception that a cell of a page raises: say what it means and what to try."""
 
 from __future__ import annotations
 
+import linecache
 from difflib import get_close_matches
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from rosbeat.errors import RosbeatError
+
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
+_RUN = "Run, Run All Above Selected Cell in the menu."
+_SYNTAX = (
+    "Python can't read this cell, so none of its lines ran.",
+    "Look at the place that is marked, and at the end of the line above it: a quote, a bracket, a "
+    "comma or a colon may be missing.",
+)
+_INDENTATION = (
+    "Python can't read this cell, so none of its lines ran: the spaces at the beginning of a line "
+    "don't match the lines around it.",
+    "Lines of one block begin with the same number of spaces. After a line that ends with a colon, "
+    "indent by four more.",
+)
+_UNKNOWN = (
+    "The cell stopped at the line that is marked; the lines below it didn't run.",
+    f"Compare that line with the page. If a cell above hasn't run yet, choose {_RUN}",
+)
+
 
 def register(shell: InteractiveShell) -> None:
-    """Explain names that no cell has defined; a second time changes nothing.
+    """Explain what a cell raises; a second time changes nothing.
 
     A handler for exceptions that somebody else has set stays.
 
@@ -19,44 +39,74 @@ def register(shell: InteractiveShell) -> None:
         shell: The running shell.
     """
     if not shell.custom_exceptions:
-        shell.set_custom_exc((NameError,), _show)
+        shell.set_custom_exc((Exception,), _show)
 
 
 def _show(
     shell: InteractiveShell,
-    kind: type[NameError],
-    error: NameError,
-    trace: TracebackType,
+    kind: type[Exception],
+    error: Exception,
+    trace: TracebackType | None,
     tb_offset: int | None = None,
 ) -> None:
-    """Show a `NameError` as IPython does, with two lines behind it if a cell has raised it."""
-    more = _explained(shell, error, trace)
-    if more:
+    """Show an exception as IPython does, with two lines below it."""
+    means = _explained(shell, error, trace)
+    below = [f"  What it means: {means[0]}", f"  What to try:   {means[1]}"] if means else []
+    if isinstance(error, SyntaxError):
+        # `showtraceback` passes the lines of such an error over.
+        above = shell.SyntaxTB.structured_traceback(kind, error, [])
+        shell._showtraceback(kind, error, [*above, *below])
+        return
+    if below:
         render = getattr(error, "_render_traceback_", None) or (
             lambda: shell.InteractiveTB.structured_traceback(kind, error, trace, tb_offset)
         )
-        shown = [*render(), *more]
+        shown = [*render(), *below]
         error._render_traceback_ = lambda: shown  # type: ignore[attr-defined] # IPython's protocol
-    shell.showtraceback((kind, error, trace))
+    shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
 
 
-def _explained(shell: InteractiveShell, error: NameError, trace: TracebackType) -> list[str]:
-    """Return the second and the third part of the error, if code of the page raised it."""
-    while trace.tb_next is not None:
+def _explained(
+    shell: InteractiveShell, error: Exception, trace: TracebackType | None
+) -> tuple[str, str] | None:
+    """Return what an exception means and what to try; None if it says so itself."""
+    if isinstance(error, RosbeatError):
+        return None
+    if isinstance(error, SyntaxError):
+        return _INDENTATION if isinstance(error, IndentationError) else _SYNTAX
+    frames = []
+    while trace is not None:
+        frames.append((trace.tb_frame, trace.tb_lineno))
         trace = trace.tb_next
+    mine = [one for one in frames if one[0].f_globals is shell.user_ns]
+    if not mine:
+        return None
+    if type(error) is NameError:
+        return _about_name(shell, error) if mine[-1] == frames[-1] else None
+    frame, line = mine[-1]
+    code = linecache.getline(frame.f_code.co_filename, line).strip()
+    return _known(error, line, code) or _UNKNOWN
+
+
+def _about_name(shell: InteractiveShell, error: NameError) -> tuple[str, str] | None:
+    """Return the same for a name that code of the page does not find."""
     name = error.name
-    # A local variable without a value is another mistake, and so is a blank, `____`.
-    if type(error) is not NameError or not name or not name.strip("_"):
-        return []
-    if trace.tb_frame.f_globals is not shell.user_ns:
-        return []
+    # A blank, `____`, is no mistake yet.
+    if not name or not name.strip("_"):
+        return None
     known = [one for one in shell.user_ns if not one.startswith("_")]
     near = get_close_matches(name, known, 1)
-    run = "Run, Run All Above Selected Cell in the menu."
-    to_try = f"Choose {run} If that doesn't help, check the spelling."
+    to_try = f"Choose {_RUN} If that doesn't help, check the spelling."
     if near:
-        to_try = f"Did you mean `{near[0]}`? If not, choose {run}"
-    return [
-        f"  What it means: No cell that has run since the kernel started defines `{name}`.",
-        f"  What to try:   {to_try}",
-    ]
+        to_try = f"Did you mean `{near[0]}`? If not, choose {_RUN}"
+    return f"No cell that has run since the kernel started defines `{name}`.", to_try
+
+
+def _known(error: Exception, line: int, code: str) -> tuple[str, str] | None:
+    """Return the meaning of an exception that a mistake of the catalogue raises."""
+    # The rules are many, and most cells raise nothing.
+    from rosbeat.diagnosis.exceptions import meaning_of
+    from rosbeat.records import Fault
+
+    found = meaning_of(Fault(0, "", "", type(error).__name__, str(error), line, code))
+    return None if found is None else (found.means, found.to_try)

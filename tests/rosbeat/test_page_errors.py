@@ -48,17 +48,37 @@ def test_a_misspelled_name_is_compared_with_the_names_of_the_page():
     assert f"What to try:   Did you mean `Session`? If not, c{ABOVE}" in shown(IMPORTS, "Sesion()")
 
 
+@pytest.mark.parametrize(("cell", "said"), [
+    ("print('hello'", "Python can't read this cell"),
+    ("def f():\nreturn 1", "the spaces at the beginning of a line"),
+    ("class A\n    pass", "a colon may be missing"),
+    ("def f():\n    a = b\n    b = 1\nf()", "b has no value yet at this line."),
+    ("from std_msgs.msg import Float32\nFloat32().dat", "A Float32 has no field called dat."),
+    ("from std_msgs.msg import Flot32", "Float32"),
+    ("1 / 0", "This line divides by zero"),
+    ("'a' + 1", "combines a string and a number"),
+    ("int('x')", "The cell stopped at the line that is marked"),
+    ("import json\njson.loads('{')", "Compare that line with the page."),
+])  # fmt: skip
+def test_other_errors_say_what_they_mean_and_what_to_try(cell, said):
+    told = shown(IMPORTS, cell)
+    last = told.rstrip().splitlines()[-2:]
+    assert [one[:17] for one in last] == ["  What it means: ", "  What to try:   "]
+    assert said in "".join(last)
+    assert told.count("What to try") == 1
+
+
 @pytest.mark.parametrize("cell", [
     "____ + 1",
-    "def f():\n    a = b\n    b = 1\nf()",
-    "1 / 0",
-    "import json\njson.nothing",
     "import string\nexec('nothing', vars(string))",
+    "get_ipython().run_line_magic('nothing', '')",
 ])  # fmt: skip
-def test_other_errors_are_as_they_were(cell):
-    told = shown(IMPORTS, cell)
-    assert "Error" in told
-    assert "What to try" not in told
+def test_a_blank_and_what_other_code_does_are_as_they_were(cell):
+    assert "What to try" not in shown(IMPORTS, cell)
+
+
+def test_an_error_of_the_course_has_its_own_two_lines():
+    assert shown(IMPORTS, "check('99z')").count("What to try") == 1
 
 
 def test_a_handler_that_was_there_stays():

@@ -6,6 +6,7 @@ import json
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -223,8 +224,10 @@ def _is_a_solution() -> bool:
 
     Jupyter's server names the page. Without one, as in an editor, it is in the kernel's folder.
     """
-    named = os.environ.get("JPY_SESSION_NAME", "")
-    return is_a_solution(Path(named) if named else Path.cwd() / "page.ipynb")
+    page = Path(os.environ.get("JPY_SESSION_NAME", "") or "page.ipynb")
+    with suppress(FileNotFoundError):  # the kernel's folder may be gone
+        return is_a_solution(page)
+    return False
 
 
 @cache

@@ -55,6 +55,7 @@ _STEADY = {
     "LC_ALL": "C.UTF-8",
     "GIT_CONFIG_NOSYSTEM": "1",
     "RCUTILS_CONSOLE_OUTPUT_FORMAT": "[{severity}] [{name}]: {message}",
+    "ROS2_COMMAND_NO_NOTES": "1",  # whether `ros2` says that it waits depends on the machine
 }
 _DIFFERENCES = [
     (r"\[(?:\d+min )?\d+(?:\.\d+)?s\]", "[0.00s]"),  # colcon
