@@ -430,7 +430,7 @@ def test_a_release_works(tmp_path):
     place, checked, last, made = json.loads(done.stdout.decode().splitlines()[-1])
     assert place == str(target / "src/rosbeat/__init__.py")
     assert "still open" in checked
-    assert "This was the last one" in last
+    assert "This was the last hint" in last
     assert "temperature_publisher.py (page 03)" in " ".join(made.split())
 
 
