@@ -54,7 +54,7 @@ def test_an_interrupt_in_a_quick_callback_ends_no_node(ros, capsys):
     with pytest.raises(KeyboardInterrupt) as caught:
         ros.run(5)
     assert caught.value._render_traceback_() == [
-        "KeyboardInterrupt: stopped at 2 s; the session goes on."
+        "KeyboardInterrupt: stopped at 2 s; the session is still open."
     ]
     node.tick = lambda: None
     ros.run(1)

@@ -25,6 +25,7 @@ class Ros2:
         self._forks = forks
         paths = [str(SOURCE), os.environ.get("PYTHONPATH", "")]
         self.environment = os.environ | {
+            "ROS2_COMMAND_NO_NOTES": "1",  # whether a wait takes long depends on the machine
             "PYTHONPATH": os.pathsep.join(filter(None, paths)),
             "COLUMNS": "80",
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",

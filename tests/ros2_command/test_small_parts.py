@@ -169,6 +169,7 @@ def test_a_missing_process_is_waited_for_while_there_is_news(monkeypatch):
 
 
 def test_a_long_wait_says_for_what(monkeypatch, capsys):
+    monkeypatch.delenv("ROS2_COMMAND_NO_NOTES", raising=False)
     monkeypatch.setattr("ros2_command.graph.SILENT_FOR", 0.1)
     monkeypatch.setattr("ros2_command.graph.NO_NEWS", 0.5)
     monkeypatch.setattr("ros2_command.graph.count_participants", lambda domain: 3)
@@ -180,6 +181,9 @@ def test_a_long_wait_says_for_what(monkeypatch, capsys):
         "Waiting for a complete answer: 2 of 3 ROS processes on this machine have not answered "
         "yet.\n"
     )
+    monkeypatch.setenv("ROS2_COMMAND_NO_NOTES", "1")
+    ToldGraph([0], False).settle()
+    assert capsys.readouterr().err == ""
 
 
 def test_gaps_in_the_numbers_of_endpoints():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from answers import HUMIDITY, edited  # the folder is put on the path by conftest.py
 
@@ -191,8 +193,10 @@ def test_buttons_below_a_card_help_and_judge_anew(page):
     page((EXERCISE, SHALLOW), (CHECK, CARD), ("", PRESS))
     assert "Hint 1 of" in page(("", "press('hint')")).text
     assert "Hint 2 of" in page(("", "press('hint')")).text
-    assert "class HumiditySensor" not in page(("", "for _ in range(5): press('hint')")).text
-    assert "class HumiditySensor" in page(("", "press('answer')")).text
+    assert "The answer to" not in page(("", "for _ in range(5): press('hint')")).text
+    answer = page(("", "press('answer')")).text
+    assert "The answer to exercise 03a" in answer
+    assert "class HumiditySensor" in re.sub("<[^>]*>", "", answer)  # its code is in colour
     page((EXERCISE, BROKEN))
     said = page(("", "press('again')")).text
     assert "False" in said

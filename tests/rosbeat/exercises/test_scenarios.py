@@ -61,7 +61,7 @@ def test_a_blank_is_not_attempted():
         (leaves, "SystemExit", "raised", "SystemExit"),
         (lambda: 1 / 0, "ZeroDivisionError", "raised", "division by zero"),
         (lambda: hot, "NameError", "name-error", "hot"),  # noqa: F821
-        (lambda: None, "", "returns-nothing", "nothing back"),
+        (lambda: None, "", "returns-nothing", "returned nothing"),
         (lambda: object(), "NotPlain", "not-plain", "not JSON serializable"),
         (lambda: "x" * 30_000, "NotPlain", "not-plain", "characters long"),
         ({"a": 1}, "", "no-function", "no function"),
