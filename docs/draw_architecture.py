@@ -44,6 +44,7 @@ PART_OF = {
     "explain_command": "cli",
     "__main__": "cli",
     "domains": "environment",
+    "page_errors": "page_session",
 }
 #: The package's own `__init__` hands out names of other rooms, and `scenarios` keeps an old one.
 LEFT_OUT = {"rosbeat", "scenarios"}

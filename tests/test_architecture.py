@@ -36,7 +36,7 @@ MAY_IMPORT = {
         *("diagnosis.calls", "diagnosis.exceptions", "diagnosis.situation"),
     },
     "panel": {"records", "errors", "viz", "ros"},
-    "page_errors": set(),
+    "page_errors": {"errors", "records", "diagnosis"},
     "page_views": {"records"},
     "page_session": {"errors", "ros", "diagnosis", "panel"},
     "explain_command": {"errors", "ros", "diagnosis"},

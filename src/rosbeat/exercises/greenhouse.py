@@ -367,7 +367,8 @@ def broken_day(n: Mapping[str, float], seed: int = PAGE) -> Day:
         day.hold(1, cold, value)
         day.hold(2, cold, WET)
     day.hold(still + next(more), cold, WET, "still closed")
-    day.hold(still + 1, cold, some.dry, "dry")
+    # The end of the range is possible: the air cannot be drier than that.
+    day.hold(still + 1, cold, 0.0, "dry")
     day.hold(n["pump_seconds"] + 3 + next(more), cold, WET, "wet")
     # Time for a second alarm that nobody wants, and for a report without a single reading.
     long = max(2 * n["silent_seconds"] + react + 2, 2 * n["report_seconds"] + 1)

@@ -215,6 +215,7 @@ def draw_parameters(draw: Draw) -> _Requests:
                         ),
                         ({"high": 5.5 + down}, (5.25 + down, 5.75 + down, 4.0 + down)),
                         ({"high": nan}, (5.25 + down, 5.75 + down)),
+                        ({"high": 0.0}, (5.5 + down, 7.0 + down)),
                     )
                 ),
             ),
