@@ -89,8 +89,15 @@ def picture_of_a_page(tab, lab):
     notebook.wait_until_drawn()
     tab.set_viewport_size(WINDOW)
     last = tab.locator(".jp-CodeCell", has_text=LAST_CELL).first
-    last.evaluate("one => one.scrollIntoView({ block: 'end' })")
-    tab.wait_for_timeout(500)  # until JupyterLab has come to rest
+    # JupyterLab draws cells as they come into sight, which moves those below them.
+    for _ in range(40):
+        last.evaluate("one => one.scrollIntoView({ block: 'end' })")
+        tab.wait_for_timeout(250)
+        box = last.bounding_box()
+        if box and box["height"] > 100 and box["y"] + box["height"] <= WINDOW["height"]:
+            break
+    else:
+        raise SystemExit("The graph of the first page does not come into sight.")
     with Image.open(BytesIO(tab.screenshot())) as seen:
         few = seen.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
     few.save(IMAGES / "page.png", optimize=True)
