@@ -235,9 +235,9 @@ newsroom.run(seconds=2)
 # %% [markdown]
 # ## Try it: read the weather
 #
-# Replace the blank `____` so that this reader gets the weather and nothing else. Run the cell, and then
-# the check below it. If you're stuck, add a cell with the `+` button above the page and run `hint("00a")`
-# in it. Each time, it tells you a little more.
+# Replace the blank `____` so that this reader gets the weather and nothing else. Run the cell, and then the check
+# below it. If you're stuck, use the *Hint* button below the check, or run `hint("00a")` in a cell of your own. Each
+# time, it tells you a little more.
 
 # %% exercise="00a"
 class WeatherReader(Node):
@@ -289,9 +289,9 @@ newsroom.add(Reader("dan", "sport"))
 newsroom.run(seconds=1)
 
 # %% [markdown]
-# Nothing, and there's no error message either. That's the price of decoupling: a topic that nobody publishes on
-# looks exactly like a topic on which nobody has said anything *yet*. Whenever a node stays silent, ask the
-# session to explain, and look at the graph:
+# Nothing, and there's no error message either. That's the price of decoupling: to a subscriber, a topic that nobody
+# publishes on looks exactly like one on which nothing has been published *yet*. Whenever a node stays silent, ask
+# the session to explain, and look at the graph:
 
 # %%
 why = newsroom.explain("sport")
@@ -299,11 +299,11 @@ print(why)
 viz.graph(why)
 
 # %% [markdown]
-# Dan subscribes to `/sport`, but the reporter publishes on `/sports`. A dashed arrow means that its topic has
-# only one side. The dashed line between the two boxes points out that their names are almost the same. The text
-# in brackets after the message type is the QoS profile; page 08 explains it.
+# Dan subscribes to `/sport`, but the reporter publishes on `/sports`. A dashed arrow means that its topic has only
+# one side. The dashed line between the two boxes points out that their names are almost the same. In the printed
+# text, what is in brackets after the message type is the QoS profile; page 08 explains it.
 #
-# To fix it, correct one letter.
+# To fix it, add the missing letter.
 
 # %%
 newsroom.add(Reader("dan", "sports"))
@@ -331,10 +331,12 @@ quiz("00", "b", "a", "c")
 # - The two sides agree on the topic's name and the message type. They don't need to know about each other.
 # - When nothing arrives, ask `explain`, and look at the graph.
 #
-# Only the clock and the data are made up. The classes are ordinary ROS 2 code, and their messages travel through
-# the same [**middleware**](../docs/glossary.md#middleware) that robots use: the software that delivers messages.
+# Only the clock, the processes and the data are simulated. The classes are ordinary ROS 2 code, and their messages
+# travel through the same [**middleware**](../docs/glossary.md#middleware) that robots use: the software that
+# delivers messages.
 #
-# **Next:** [create a workspace](01_create_a_workspace.ipynb). The last cell of each page shows how far you've come.
+# **Next:** [create a workspace](01_create_a_workspace.ipynb). The cell with `progress()` at the end of each page
+# shows how far you've come.
 
 # %%
 progress()

@@ -37,9 +37,9 @@ from rosbeat import check, hint, progress, quiz, workspace
 # pwd
 
 # %% [markdown]
-# The line with the `$` shows the command. The text before the `$` is the current folder, in short form: `~` is how
-# a terminal writes your home folder. The line below is the answer. Your own output may look a little different,
-# because your terminals start in the folder of your pages, wherever you put the course.
+# The line with the `$` shows the command. The text before the `$` is the current folder, in short form. The line
+# below is the answer. It's the folder of your pages, because your terminals start there. On the solution page, it's
+# the home folder instead, which a terminal writes as `~`.
 #
 # JupyterLab has terminals of its own: choose *File, New, Terminal*. Everything you type on these pages
 # works there, too.
@@ -74,8 +74,8 @@ from rosbeat import check, hint, progress, quiz, workspace
 # pwd
 
 # %% [markdown]
-# Terminal `two` is in a folder of its own. Later, one terminal will run the sensor and another will run
-# the monitor.
+# Terminal `two` has a current folder of its own. Later, one terminal will run the sensor and another will run the
+# monitor.
 #
 # ## Add the folders inside
 #
@@ -204,7 +204,7 @@ check("01b", workspace.terminal("two"))
 # echo "I am $ROBOT"
 
 # %% [markdown]
-# An empty line: a name that hasn't been set counts as empty, and that's not an error. Each terminal has its own
+# Only "I am": a name that hasn't been set counts as empty, and that's not an error. Each terminal has its own
 # environment. You'll see this again when you learn about `source`.
 #
 # ## Build an empty workspace

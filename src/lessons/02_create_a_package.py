@@ -213,8 +213,8 @@ check("02a", workspace.folder())
 
 # %% [markdown]
 # This is the message that your sensor will send. It has one field, `data`, which is a 32-bit number. The lines
-# above it are a comment from its authors: they recommend this type for examples, and more meaningful messages for a
-# real robot.
+# above it are a comment from its authors. They call the type deprecated, which means that they advise against it,
+# and recommend more meaningful messages. To learn with, it's good enough.
 #
 # ## Try it: a second package
 #

@@ -13,7 +13,7 @@
 # - publish readings at a steady rate with a timer (03a, 03.1);
 # - simulate a sensor with a clamped random walk (03b);
 # - write a whole publisher, and turn it into a program (03c, 03.3);
-# - explain why a subscriber sees other digits than the publisher (03.2).
+# - explain why a subscriber sees slightly different digits from the publisher (03.2).
 #
 # **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb). To save the node into a
 # package, you also need [create a package](02_create_a_package.ipynb).
@@ -165,8 +165,8 @@ ros.run(seconds=895, quiet=True)
 viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)}, unit="°C")
 
 # %% [markdown]
-# The band shows the range that the clamp allows, and the circles mark some of the readings. The walk reaches the
-# upper limit several times, and follows it until a step leads back down. It never comes close to the lower limit.
+# The band shows the range that the clamp allows, and the line connects the readings. The walk reaches the upper
+# limit several times, and follows it until a step leads back down. It never comes close to the lower limit.
 #
 # The picture was drawn from real messages. Compare the last message with the node's own variable:
 
@@ -231,9 +231,9 @@ with Session(seed=8) as robot:
     program.send_signal(signal.SIGINT)
 
 # --- answer
-predict("1", program.returncode, because="Its last line failed.")
+predict("1", program.returncode)
 # --- blank
-# predict("____", program.returncode, because="Its last line failed.")
+# predict("____", program.returncode)
 # --- end
 
 # %% [markdown]
@@ -342,11 +342,10 @@ check("03a", HumiditySensor)
 # %% [markdown]
 # ## Try it: a living room
 #
-# 10.2 degrees is cold for a room. It's probably a slip in the tutorial, which must have meant 18.0. And in a
-# room with thick walls, the temperature changes slowly. Write the method yourself: take a random step
-# of at most 0.3 degrees up or down, keep the temperature between 18.0 and 28.0, and publish it. Write
-# the numbers with decimal points: a `Float32` needs a float, and 18 is an int. You may replace the last blank with
-# several lines.
+# 10.2 degrees is cold for a room. The tutorial itself notes that it probably meant 18.0. And in a room with thick
+# walls, the temperature changes slowly. Write the method yourself: take a random step of at most 0.3 degrees up or
+# down, keep the temperature between 18.0 and 28.0, and publish it. Write the numbers with decimal points: a
+# `Float32` needs a float, and 18 is an int. You may replace the last blank with several lines.
 
 # %% exercise="03b"
 class RoomSensor(Node):
@@ -378,10 +377,11 @@ check("03b", RoomSensor)
 #
 # - walks like the sensor on this page: it starts at 22.0 degrees Celsius, each step is at most 0.5 up or down,
 #   and it stays between 10.2 and 28.0;
-# - publishes the temperature in Fahrenheit, as a `Float32`: `c` degrees Celsius are `c * 9 / 5 + 32` Fahrenheit;
+# - publishes the temperature in degrees Fahrenheit, as a `Float32`: `c` degrees Celsius are `c * 9 / 5 + 32`
+#   degrees Fahrenheit;
 # - publishes on the topic `greenhouse/temperature`, four times a second.
 #
-# Choose all other names yourself, and add methods if you like. If you're stuck, run `hint("03c")` in a new cell.
+# Choose all other names yourself, and add methods if you like. If you're stuck, use the *Hint* button.
 
 # %% exercise="03c"
 class GreenhouseSensor(Node):
@@ -440,7 +440,7 @@ quiz("03", "b", "c", "a")
 # - `create_timer(period, method)` calls the method once per period, for the first time after one full period.
 # - `rclpy.init`, `rclpy.spin` and `try_shutdown` belong to the program around the node.
 #
-# The file `temperature_publisher.py` in your package contains this class, unchanged.
+# The file `temperature_publisher.py` in your package contains the class `TemperatureSensor` from this page.
 #
 # **Next:** [write a subscriber](04_write_a_subscriber.ipynb) that listens to this sensor.
 

@@ -12,7 +12,7 @@
 #
 # - subscribe to a topic and act on each message (04a, 04.3);
 # - write a node that subscribes and publishes (04b);
-# - keep a status calm with two limits (04c);
+# - keep a status from flickering by using two limits (04c);
 # - predict what a queue keeps, and what a late subscriber receives (04.1, 04.2).
 #
 # **Time:** 40 minutes. **You need:** [write a publisher](03_write_a_publisher.ipynb).
@@ -181,10 +181,11 @@ viz.timeline(ros.observation(), until=3)
 #
 # ## Let messages wait
 #
-# What if the monitor is busy for a while? Its messages wait in a [**queue**](../docs/glossary.md#queue), and the 10 in
-# `create_subscription` is the length of that queue. The publisher's 10 belongs to another queue, at the publisher;
-# messages for a busy callback wait in the subscriber's queue. `ros.pause` simulates the busy node: it takes no
-# messages until `ros.resume`. The last lines of the cell only count readings.
+# What if the monitor is busy for a while? Its messages wait in a [**queue**](../docs/glossary.md#queue), and the 10
+# in `create_subscription` is the length of that queue. The publisher's 10 belongs to another queue, at the
+# publisher; messages for a busy callback wait in the subscriber's queue. `ros.pause` simulates the busy node: it
+# takes no messages until `ros.resume`. The line with `waited` counts the readings, and `seen` stores the run for
+# the picture below.
 #
 # **Predict:** the monitor is paused for 15 seconds while the sensor publishes once a second. How
 # many readings does the monitor get when it resumes?
@@ -217,9 +218,9 @@ takes = [call.time_ns for call in seen.callbacks if call.kind == "subscription"]
 viz.queue(queue_steps(arrivals, takes, depth=10), depth=10)
 
 # %% [markdown]
-# When the queue is full, each new reading pushes out the oldest one. The depth has nothing to do with ten messages
-# per second, and the sensor never waits for anyone. It doesn't even notice that five readings were lost. For a
-# temperature, that's fine: the newest readings matter most.
+# When the queue is full, each new reading pushes out the oldest one. The depth is a number of messages, not a rate.
+# The sensor never waits for anyone. It doesn't even notice that five readings were lost. For a temperature, that's
+# fine: the newest readings matter most.
 #
 # ## Turn the class into a program
 #
@@ -314,7 +315,7 @@ predict("0", program.returncode)
 # | its method | is called by the timer, and calls `publish()` | is called by ROS with a message |
 # | the data | is generated here | is processed here |
 #
-# A node can do both, as in the last two exercises.
+# A node can do both, as in the last two exercises on this page.
 #
 # ## Try it: watch a fridge
 #
@@ -348,9 +349,9 @@ check("04a", FridgeMonitor)
 # %% [markdown]
 # ## Try it: raise the alarm
 #
-# This node is in the middle: it subscribes to `temperature` and publishes a `String` on the topic
-# `alert`, but only if a reading is above 26 or below 20. The text is up to you. Other nodes can
-# subscribe to `alert` without knowing any limits.
+# This node is in the middle: it subscribes to `temperature`, and for each reading above 26 or below 20 it publishes
+# one `String` on the topic `alert`. The text is up to you. Other nodes can subscribe to `alert` without knowing any
+# limits.
 
 # %% exercise="04b"
 class Alarm(Node):
@@ -386,8 +387,8 @@ check("04b", Alarm)
 #   it's the mean of all of them;
 # - on `status`, as a `String`, the status, but only when it changes. The status begins as `Normal`.
 #
-# A reading above 26 is `High` and a reading below 20 is `Low`, whatever the status was before. From `High`, the
-# status returns to `Normal` only below 25; from `Low`, only above 21.
+# The status follows the reading itself, not the mean: above 26 it is `High`, and below 20 it is `Low`, whatever it
+# was before. From `High`, the status returns to `Normal` only below 25; from `Low`, only above 21.
 
 # %% exercise="04c"
 class CalmMonitor(Node):
@@ -425,7 +426,7 @@ class CalmMonitor(Node):
 check("04c", CalmMonitor)
 
 # %% [markdown]
-# ## What went wrong: the callback is called too early
+# ## What went wrong: one pair of parentheses
 #
 # The line that subscribes has one pair of parentheses too many. **Predict:** when does this fail: at the
 # first message, or before?
@@ -466,8 +467,8 @@ quiz("04", "b", "c", "a")
 # - A queue keeps the newest messages for a slow subscriber, up to its depth.
 # - A publisher acts, a subscriber reacts, and a node can do both.
 #
-# The file `temperature_subscriber.py` in your package contains this class, unchanged. You now have both
-# halves of a system, and neither knows about the other.
+# The file `temperature_subscriber.py` in your package contains the class `TemperatureMonitor` from this page. You
+# now have both halves of a system, and neither knows about the other.
 #
 # **Next:** [set the entry points](05_set_the_entry_points.ipynb), so that `ros2 run` finds the two programs.
 

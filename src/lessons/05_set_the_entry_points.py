@@ -146,9 +146,9 @@ workspace.terminal("sensor").exit_code
 # %% [markdown]
 # ## Try it: two programs
 #
-# Write the two entries. The executables are called `temperature_publisher` and `temperature_subscriber`,
-# like their files in the Python package `sensor_simulator`, and each entry calls `main`. Don't forget the
-# comma after each line. You can also fill in your own description and licence, to match your `package.xml`.
+# Write the two entries. The executables are called `temperature_publisher` and `temperature_subscriber`, like their
+# files in the Python package `sensor_simulator`, and each entry calls `main`. Keep the comma at the end of each
+# line. You can also fill in your own description and licence, to match your `package.xml`.
 
 # %% save="src/sensor_simulator/setup.py" exercise="05a"
 from setuptools import find_packages, setup

@@ -12,7 +12,7 @@
 #
 # - build, source and run two programs that talk to each other (06a, 06.3);
 # - give a node another name when you start it (06a);
-# - explain why a change has no effect yet, and cure that (06b, 06.1);
+# - explain why a change has no effect yet, and fix that (06b, 06.1);
 # - predict what happens when one of two programs stops (06.2).
 #
 # **Time:** 35 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
@@ -32,10 +32,10 @@ workspace.catch_up("06")
 # %% [markdown]
 # ## Build
 #
-# Build in the workspace, not in `src`. `--packages-select` builds only the package that you name, which
-# saves time in a workspace with many packages. There are three steps, always in this order: **build** puts your code
-# into `install`, **source** adds it to a terminal's environment, and **run** starts it. After a change, build
-# again; a terminal that has sourced the workspace doesn't need to do so again.
+# Build in the workspace, not in `src`. `--packages-select` builds only the package that you name, which saves time
+# in a workspace with many packages. There are three steps, always in this order: **build** puts your code into
+# `install`, **source** adds it to a terminal's environment, and **run** starts it. After a change, build again; a
+# terminal that has sourced the workspace once doesn't need to source it again.
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE"
@@ -93,13 +93,13 @@ sent = sensor.logs()
 viz.crossing(sent, heard)
 
 # %% [markdown]
-# The arrows are almost vertical, because a message takes only a few thousandths of a second. The first readings have
-# no arrow: there was no subscriber yet.
+# The arrows are almost vertical, because a message takes only a few thousandths of a second. The first readings
+# have no arrow: there was no subscriber yet. The last ones have none because `heard` holds only ten lines.
 #
-# Now compare the numbers themselves. `numbers` extracts them from the log lines. The last two lines of the cell look
-# for the monitor's ten readings, in a row, among the readings that were sent. They allow a difference of one
-# hundredth, because a `Float32` may round the last digit the other way. **Predict:** once the monitor receives
-# readings, does it miss any?
+# Now compare the numbers themselves. `numbers` extracts them from the log lines. The lines that begin with `places`
+# and `fits` look for the monitor's ten readings, in a row, among the readings that were sent. They allow a
+# difference of one hundredth, because a `Float32` may round the last digit the other way. **Predict:** once the
+# monitor receives readings, does it miss any?
 
 # %% predict=true
 def numbers(lines):
@@ -136,7 +136,7 @@ predict("no", not fits)
 #
 # ## Look from this page
 #
-# This page is a process as well. A session on it sees none of these nodes, because it's in a
+# This page is a process as well. A session on this page sees none of these nodes, because each session has a
 # [**domain**](../docs/glossary.md#domain) of its own. A domain is identified by a number: nodes in the same domain
 # find each other, and nodes in different domains never do. Your terminals have a domain number in their
 # environment, and a session can join that domain:
@@ -148,8 +148,8 @@ ros.wait_for_nodes("temperature_sensor", "temperature_monitor")
 viz.graph(ros.graph())
 
 # %% [markdown]
-# You know this graph from the first pages. There, a session simulated both processes; here, two real programs run
-# them, and the picture is the same. Nodes don't depend on where the other nodes run: on a robot, they may even run on
+# You know this graph from page 04. There, a session simulated both processes; here, the nodes run in two real ones,
+# and the picture is the same. Nodes don't depend on where the other nodes run: on a robot, they may even run on
 # different computers. There's also no central program that keeps a list of nodes: each process tells the others
 # what it offers and what it needs. This is called [**discovery**](../docs/glossary.md#discovery).
 #
@@ -165,8 +165,9 @@ viz.graph(ros.graph())
 sensor.exit_code, monitor.busy
 
 # %% [markdown]
-# The sensor ended normally, with exit code 0. The monitor got no error; it just prints no more lines. It's still
-# running, and waiting. To a subscriber, silence isn't unusual. Start the sensor again:
+# The sensor ended normally, with exit code 0. The monitor got no error; the lines above are from before the stop,
+# and no more follow. It's still running, and waiting. To a subscriber, silence isn't unusual. Start the sensor
+# again:
 
 # %% terminal="sensor --until Publishing --lines 2" tags=["nbval-ignore-output"]
 # ros2 run sensor_simulator temperature_publisher
@@ -180,9 +181,10 @@ sensor.exit_code, monitor.busy
 #
 # ## Try it: one more monitor
 #
-# Start a second monitor in a third terminal. The sensor doesn't have to change for that. Two nodes shouldn't have
-# the same name, because you couldn't tell them apart. Everything after `--ros-args` is meant for ROS: `-r` is short
-# for *remap*, and with `__node` (two underscores) it gives the node another name. Fill in what to run.
+# Start a second monitor in a terminal of its own, called `third`. The sensor doesn't have to change for that. Two
+# nodes shouldn't have the same name, because you couldn't tell them apart. Everything after `--ros-args` is meant
+# for ROS: `-r` is short for *remap*, and with `__node` (two underscores) it gives the node another name. Fill in
+# what to run.
 
 # %% terminal="third --until Status" exercise="06a" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE"
@@ -251,8 +253,8 @@ check("06b", workspace.folder())
 # ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
-# **Symptom:** *Package not found*. **Where to look:** has *this* terminal sourced the
-# workspace? **Cause:** it hasn't. **Fix:** `source install/setup.bash`, in the workspace.
+# **Symptom:** *Package 'sensor_simulator' not found*. **Where to look:** has *this* terminal sourced the workspace?
+# **Cause:** it hasn't. **Fix:** `source install/setup.bash`, in the workspace.
 #
 # ## Clean up
 #
@@ -300,9 +302,9 @@ predict("3", len(judged))
 #
 # Now do it all without this page. JupyterLab has an editor and terminals of its own.
 #
-# 1. In the file browser, open the folder of your workspace, then `src`, `sensor_simulator` and `sensor_simulator`.
-#    Double-click `temperature_publisher.py`, change the period of the timer from 1.0 to 0.5, and save the file with
-#    `Ctrl` + `S`.
+# 1. In the file browser, open your workspace `ROS2_and_RL_Tutorials`, then `src`, `sensor_simulator` and, inside
+#    it, the second `sensor_simulator`. Double-click `temperature_publisher.py`, change the period of the timer from
+#    1.0 to 0.5, and save the file with `Ctrl` + `S`.
 # 2. Open a terminal with *File, New, Terminal*. Build, source and run the sensor:
 #
 #    ```bash

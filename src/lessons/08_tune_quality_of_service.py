@@ -167,9 +167,10 @@ for offers in (again, once):
         print(names, f"{len(busy(offers, asks)[0]):2} arrive")
 
 # %% [markdown]
-# Nothing gets lost within one process, so three of the rows are alike. In the third row, the two endpoints aren't
-# connected, because their QoS is [**incompatible**](../docs/glossary.md#incompatible). The rule is: **the publisher
-# must offer at least what the subscription asks for.** If it doesn't, no messages arrive, and there's no error.
+# Within one process, nothing gets lost on the way, so three of the rows are alike: the collector's queue of 10
+# drops the rest. In the third row, the two endpoints aren't connected, because their QoS is
+# [**incompatible**](../docs/glossary.md#incompatible). The rule is: **the publisher must offer at least what the
+# subscription asks for.** If it doesn't, no messages arrive, and there's no error.
 #
 # ## Durability: what a late subscriber gets
 #
@@ -441,8 +442,8 @@ for name in ("sensor", "listener"):
 print(warning.level, warning.text)
 
 # %% [markdown]
-# Among many other lines, this one is easy to miss. Without the option, `ros2 topic echo` first looks at what the
-# publisher offers, and asks for that.
+# Among many other lines, this one is easy to miss. Without `--qos-reliability`, `ros2 topic echo` first looks at
+# what the publisher offers, and asks for that.
 #
 # ## Choose your policies
 #

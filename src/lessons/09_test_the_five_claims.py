@@ -472,8 +472,9 @@ predict("yes, no", ", ".join(silent))
 # --- end
 
 # %% [markdown]
-# Yes, they do. So threads can *wait* at the same time. Can they also *calculate* at the same time, on two cores?
-# The next cell computes the same sum twice, in three different ways. Of three tries, the fastest counts.
+# Yes, they do. And the reentrant group has shown that threads can *wait* at the same time. Can they also
+# *calculate* at the same time, on two cores? The next cell computes the same sum twice, in three different ways. Of
+# three tries, the fastest counts.
 
 # %% tags=["nbval-ignore-output"]
 task = "sum(n * n for n in range(3_000_000))"

@@ -176,10 +176,9 @@ viz.graph(patient.ros.graph())
 # Go through the order line by line, and look for each name in the picture. Is every node there? Is
 # each one connected to the topic that was ordered?
 #
-# Be careful with `ros.explain`: it covers a single topic. Ask first about the topic, counted from the sensor, on
-# which the silence begins. About a later topic, it may say that the guard has published
-# nothing. That's true, but the guard may be healthy and simply have nothing to report. What looks like a
-# fault there is only a symptom.
+# Be careful with `ros.explain`: it covers a single topic. Follow the data from the sensor, and ask first about the
+# first topic that is silent. About a later topic, it may say that the guard has published nothing. That's true, but
+# the guard may be healthy and simply have nothing to report. What looks like a fault there is only a symptom.
 
 # %% [markdown]
 # A diagnosis is a name and a place. The place is the full name of the node or of the topic that has the
@@ -269,10 +268,10 @@ def diagnoses():
 check("10b", diagnoses)
 
 # %% [markdown]
-# ## What went wrong: fixed, but still dark
+# ## What went wrong: a letter is missing
 #
-# Here is the first patient again, with its repaired lamp and a different guard. Its owner has found a fault in a
-# topic's name, and is sure: fix it, and the lamp will shine. **Predict:** will it?
+# Here is the system with the sensor, the guard and the lamp again, with the repaired lamp and a different guard.
+# Its owner has found a fault in a topic's name, and is sure: fix it, and the lamp will shine. **Predict:** will it?
 
 # %%
 class Guard(Node):

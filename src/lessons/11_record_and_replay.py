@@ -224,7 +224,7 @@ len(changed), changed[0]
 #
 # - `stuck`: the sensor hangs and repeats its last reading;
 # - `dropouts`: messages get lost on the way, either some at random or all within a time span;
-# - `drift`: the error of each reading grows by a fixed number of degrees per second;
+# - `drift`: the readings move away from the true value, by a fixed number of degrees per second;
 # - `with_nan`: the reading is [**NaN**](../docs/glossary.md#nan), "not a number". NaN is the floating-point value
 #   for an undefined result, and many drivers send it when a measurement fails.
 
@@ -266,7 +266,7 @@ predict("Normal", lines(play(TemperatureMonitor, bags.with_nan(at=0)))[0].split(
 # message doesn't call any callback. And a dead sensor, which sends NaN for five minutes, is *Normal* 300 times:
 # `nan > 26.0` is false, `nan < 20.0` is false, and `else` gets everything that remains.
 #
-# ## What went wrong: NaN is not equal to NaN
+# ## What went wrong: looking for NaN
 #
 # Somebody writes a monitor that only looks for NaN. **Predict:** how many of the 300 NaN readings does it notice?
 
@@ -356,7 +356,7 @@ class Watchdog(Node):
 check("11b", Watchdog)
 
 # %% [markdown]
-# ## Try it: compare two sensors, alone
+# ## Try it: compare two sensors on your own
 #
 # With a single sensor, nobody can recognize a drift. With a second one, you can. Write a node that listens to
 # `temperature` and to `reference`. Each reading of `temperature` forms a pair with the newest reading of `reference`,

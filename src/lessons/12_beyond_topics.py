@@ -108,15 +108,15 @@ predict("30", window.percent)
 # --- end
 
 # %% [markdown]
-# Both requests were refused with a reason, and neither changed anything. Every comparison with NaN is false. The code
-# asks whether a value is *valid*, so it refuses NaN. A test for invalid values, `value < 0 or value > 100`, would
-# accept it.
+# Both requests were refused with a reason, and neither changed anything. With NaN, `<`, `>` and `==` are always
+# false. The code asks whether a value is *valid*, so it refuses NaN. A test for invalid values, `value < 0 or value
+# > 100`, would let it pass.
 #
 # ## Try it: a threshold behind a service
 #
-# Offer a service `set_high` of the type `BasicTypes`. If the requested threshold is from 10 to 40, keep it, and set
-# `bool_value` to True. Refuse anything else: `bool_value` is False, `string_value` gives the reason, and nothing
-# changes.
+# Offer a service `set_high` of the type `BasicTypes`. If the requested threshold is from 10 to 40, both included,
+# keep it, and set `bool_value` to True. Refuse anything else: `bool_value` is False, `string_value` gives the
+# reason, and nothing changes.
 
 # %% exercise="12a"
 class AdjustableMonitor(Node):
@@ -293,9 +293,9 @@ ros.run(seconds=2.5)
 guest.goal.cancel_goal_async()
 ros.run(seconds=5)
 # --- answer
-predict("3", len(guest.result), because="The work looks whether it was canceled when it next wakes up.")
+predict("3", len(guest.result), because="The work checks whether it was canceled the next time it wakes up.")
 # --- blank
-# predict("____", len(guest.result), because="The work looks whether it was canceled when it next wakes up.")
+# predict("____", len(guest.result), because="The work checks whether it was canceled the next time it wakes up.")
 # --- end
 
 # %% [markdown]
@@ -309,7 +309,7 @@ predict("3", len(guest.result), because="The work looks whether it was canceled 
 
 # %% [markdown]
 # Three services and two topics. Their names are hidden, because a part of each name begins with `_`. An action
-# really **is** built on topics, and an ordinary subscription can receive the feedback:
+# really **is** built on topics, at least in part, and an ordinary subscription can receive the feedback:
 
 # %%
 feedback = []
@@ -347,10 +347,10 @@ viz.graph(ros.graph())
 # %% [markdown]
 # ## Try it: heat to a target
 #
-# After `True` on `heater`, the room gets one degree warmer every second, until the heater receives `False`. The goal's
-# `order` is the target temperature; accept goals from 10 to 26. Every second, publish feedback with all temperatures
-# read so far. The result contains them, too. Whether the target is reached or the goal is canceled, turn the heater
-# off within a second.
+# After `True` on `heater`, the room gets one degree warmer every second, until the heater receives `False`. The
+# goal's `order` is the target temperature; accept goals from 10 to 26, both included. Every second, publish
+# feedback with all temperatures read since the goal was accepted. The result contains them, too. Whether the target
+# is reached or the goal is canceled, turn the heater off within a second.
 #
 # `await self.reading` returns the next temperature, an integer.
 
@@ -398,7 +398,7 @@ class Thermostat(Node):
 check("12c", Thermostat)
 
 # %% [markdown]
-# ## What went wrong: everything waits
+# ## What went wrong: a call in a callback
 #
 # This node asks in a callback, and waits there for the answer. **Predict:** what does it log in three seconds?
 

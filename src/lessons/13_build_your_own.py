@@ -11,7 +11,7 @@
 # **After this page, you can:**
 #
 # - turn requirements into a design of small nodes (13b, 13.1);
-# - write a controller with parameters and a latched output (13a);
+# - write a controller with parameters, and with an output for late-joining subscriptions (13a);
 # - measure a silence with the node's clock (13b, 13.2);
 # - test a single requirement with an input made for it (13b, 13.3).
 #
@@ -20,9 +20,9 @@
 # [tune quality of service](08_tune_quality_of_service.ipynb) and
 # [test the five claims](09_test_the_five_claims.ipynb).
 #
-# You'll design a greenhouse with at least four nodes, build it, and have it tested on good days and bad ones. This
-# page has no lines to complete. Instead, it has requirements: sentences that have to be true when you're
-# done. How you get there is up to you.
+# You'll design a greenhouse with at least four nodes, build it, and have it tested on good days and bad ones. After
+# a first node to complete, this page gives you no more code. Instead, it gives you requirements: sentences that
+# have to be true when you're done. How you get there is up to you.
 
 # %%
 from rclpy.node import Node
@@ -78,8 +78,8 @@ requirements()
 # Six more rules apply:
 #
 # - your nodes have two seconds to do whatever is required;
-# - `True` on `vent` opens the vent, and `True` on `pump` starts the pump. Until the first command, both are off, and a
-#   node may begin by saying so;
+# - `True` on `vent` opens the vent, and `True` on `pump` starts the pump. Until the first command, the vent is
+#   closed and the pump is off. A node may publish that when it starts;
 # - a limit itself doesn't count as crossed: at exactly 28, the vent doesn't open;
 # - if there was no temperature in the last 10 s, there is no mean. The report may then say nothing, but its node
 #   keeps running;
@@ -146,8 +146,8 @@ predict("10-30", longest)
 #
 # Begin with a single node. It has to meet R1 and R7, and two details prepare it for more:
 #
-# - its limits are **parameters**, as on page 07: values that can be changed when the node is started.
-#   `declare_parameter` sets the name and the default, and `get_parameter(...).value` returns the value;
+# - its limits are **parameters**, as on page 07: values that can be set from outside, when the node starts or
+#   later. `declare_parameter` sets the name and the default, and `get_parameter(...).value` returns the value;
 # - `LATCHED` is a QoS profile that keeps the last message for late-joining subscribers that ask for it (page 08).
 #
 # Write the rest of the callback.

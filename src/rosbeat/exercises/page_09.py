@@ -667,7 +667,9 @@ def _wrong_names(observation: Observation, place: Place) -> Diagnosis | None:
             f"use is {' and '.join(names) or 'none'}."
         )
         if all(name.startswith(f"{space}/") for name in names):
-            hint = "Which name stands in the code? It has to be the one that is asked for, whole."
+            hint = (
+                "Which name is in the code? It has to be exactly the name that the exercise gives."
+            )
             return Diagnosis("wrong-topic", evidence, hint)
         hint = "A namespace moves a name only if it does not begin with a slash."
         return Diagnosis("absolute-name", evidence, hint)
@@ -853,8 +855,10 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         (
             ("You need two callbacks: one for readings, and one that notices their absence."),
             ("They share two facts: when the last reading came, and whether the sensor is lost."),
-            "self.get_clock().now() is a time, and the difference of two has nanoseconds. Or let a "
-            "timer begin anew with each reading.",
+            (
+                "self.get_clock().now() is a time, and subtracting two times gives a "
+                "duration, with nanoseconds. Or reset a timer at each reading."
+            ),
             (
                 "Before the first reading, no sensor can be lost. Publish only when "
                 "the status you remember changes."

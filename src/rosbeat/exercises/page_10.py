@@ -200,11 +200,15 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             ("The owner says what is fine. Whatever those nodes need is fine, too: rule it out."),
             "`ros.graph()` first: is every name as it was ordered, letter by letter? Then "
             "`ros.explain(...)` of the topic on which the silence begins, seen from the sensor.",
-            "In ward 7: of patient 1 compare the picture of the graph with the order. Of patient "
-            "2, when did each node start, and when was the message? `ros.logs()` and "
-            "`ros.messages(...)`.",
-            "In ward 7: of patients 3 and 4 ask `ros.explain` about the topic of the readings, "
-            "and read its first line only.",
+            (
+                "In ward 7: for patient 1, compare the graph with the order. For "
+                "patient 2, find out when each node started and when the message was "
+                "published, with `ros.logs()` and `ros.messages(...)`."
+            ),
+            (
+                "In ward 7: for patients 3 and 4, ask `ros.explain` about the topic "
+                "of the readings, and read only its first line."
+            ),
         ),
         tells_hints=True,
     ),
@@ -219,10 +223,16 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "they are, and who sent them.",
             "`viz.values` beside the order: limits, steps, rate. `ros.graph()` beside the order: "
             "who is on which topic?",
-            "In ward 7: of patient 5 read one message of the sensor. On which scale would that be "
-            "a mild day? Of patient 6 ask who hears what.",
-            "In ward 7: of patient 7 count the nodes. Of patient 8 draw the readings with the "
-            "limits that were ordered as a band; by how much are they beyond?",
+            (
+                "In ward 7: for patient 5, read one message of the sensor. On which "
+                "scale would that be a mild day? For patient 6, check which topic "
+                "each node subscribes to."
+            ),
+            (
+                "In ward 7: for patient 7, count the nodes. For patient 8, draw the "
+                "readings with the ordered limits as a band. How far outside the band"
+                " do they get?"
+            ),
         ),
         tells_hints=True,
     ),
@@ -234,11 +244,17 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         4,
         (
             ("Find one fault, imagine that it's fixed, and begin again at the sensor."),
-            "The two are at two places. Go through the nodes one by one: is it published, is it "
-            "matched, is it taken, is the value right?",
-            "In ward 7: of patient 9 count what each listener has heard, and look at the numbers. "
-            "Of patient 10 look at both topics, and of patient 11 at the rate, and at who is "
-            "still running.",
+            (
+                "The two faults are at different places. Go through the nodes one by "
+                "one: is it published, is it matched, is it taken, is the value "
+                "right?"
+            ),
+            (
+                "In ward 7: for patient 9, count the messages that each subscriber "
+                "has received, and look at the values. For patient 10, look at both "
+                "topics. For patient 11, look at the rate, and at which nodes are "
+                "still running."
+            ),
         ),
         tells_hints=True,
     ),

@@ -674,7 +674,7 @@ _NAN_KEPT = (
 )
 _FIRST = "What is the very first reading compared with? There's no reading before it."
 _BOTH = "A jump may go up or down. What is the sign of your difference?"
-_JUMP = "More than 5 degrees is a jump; 5 degrees are none, and 6 are one."
+_JUMP = "A difference of more than 5 degrees is a jump: 6 degrees is one, but exactly 5 isn't."
 _MEMORY = "What does your node remember of the reading before, and when does it change that?"
 _COUNT = "Count on paper: which is the fifth equal reading in a row, if the first one is the first?"
 _AGAIN = "Report it once. Report it again only after the reading has changed."
@@ -896,7 +896,7 @@ _SUM = "A sum with NaN in it is NaN, which is never above or below a limit. Keep
 _START = "What is in your memory of the reference before its first reading has come?"
 _ONCE = "Say it once, when it is found. The next time is after the mean has come back."
 _BACK = "What has to happen to your memory when the mean has come back?"
-_LIMIT = "A mean of more than 1 degree is a drift; one of 1.5 is, and one of 0.8 is none."
+_LIMIT = "A mean of more than 1 degree is a drift: 1.5 is, but 0.8 isn't."
 _NEWEST = (
     "While the newest reference is NaN, a reading of temperature makes no pair with an old one."
 )
@@ -950,8 +950,10 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         (
             "Each message has a time in seconds and a value. Make lists of them first.",
             "zip(readings, readings[1:]) gives each message together with the next one.",
-            "Ask for NaN with the function that page 11 shows, and keep only the numbers in a list "
-            "for the mean.",
+            (
+                "Test for NaN with the function that page 11 shows, and keep only the"
+                " numbers in a list for the mean."
+            ),
         ),
         draw=draw_readings,
     ),
@@ -968,8 +970,10 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             ),
             "A jump is a difference, and its sign does not matter: abs takes it away. Before the "
             "first reading there is nothing to compare with.",
-            "Count how many equal readings there were in a row. When does the count begin anew? "
-            "And which number of the count, and no other, is worth a message?",
+            (
+                "Count how many equal readings there were in a row. When does the "
+                "count start again? And at exactly which count do you publish?"
+            ),
         ),
         draw=draw_sick,
     ),

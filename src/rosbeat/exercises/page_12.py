@@ -362,8 +362,10 @@ MONITORS = (
     ),
     _suspect(
         "nan-accepted",
-        "Every comparison with NaN is False, so a test for what is bad lets it pass. How does a "
-        "test for what is good read?",
+        (
+            "With NaN, <, > and == are always False, so a test for bad values "
+            "lets it pass. What would a test for good values look like?"
+        ),
         _is_nan,
         lambda one: _reaction(one, True),
     ),
@@ -978,7 +980,10 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         (
             "The callback is handed a list of parameters, each with a name and a value. Not every "
             "one has to be in the list: the others stay as they are.",
-            "Begin with the two limits as they are, put the new ones over them, and compare then.",
+            (
+                "Start with the current limits, replace those that are in the list, "
+                "and compare afterwards."
+            ),
             "The result has two fields: successful and reason.",
         ),
         draw=draw_parameters,
@@ -995,9 +1000,11 @@ EXERCISES: tuple[Exercise[Any], ...] = (
             "thermostat reads in degrees.",
             "`await self.reading` gives the next temperature. Read, report, check whether the "
             "client has canceled, and go on while it is too cold.",
-            "Whatever ends the work, the heater has to be off afterwards: one line behind the "
-            "loop does it for both ways.",
-            "A goal ends with one of two calls, and then the result is given back in any case.",
+            (
+                "Whatever ends the work, the heater has to be off afterwards: one "
+                "line after the loop covers both cases."
+            ),
+            ("End the goal with one of two calls. In both cases, return the result afterwards."),
         ),
         draw=draw_heating,
     ),

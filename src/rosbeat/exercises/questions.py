@@ -67,7 +67,8 @@ _QUESTIONS = (
         ),
         _yes(
             "The topic's name and the message type",
-            "With both of them equal, messages flow, whatever the two nodes are called.",
+            "If both match, messages flow, whatever the two nodes are called. Page 08 adds one "
+            "more condition.",
         ),
         _no(
             "The time at which they start",
@@ -174,7 +175,8 @@ _QUESTIONS = (
         ),
         _yes(
             "It contains a `package.xml`",
-            "The manifest names and describes the package. By this file, colcon finds it.",
+            "The manifest names and describes the package, and colcon finds the package by this"
+            " file.",
         ),
     ),
     _ask(
@@ -208,7 +210,7 @@ _QUESTIONS = (
         ),
         _no(
             "It adds `import rclpy` to your code",
-            "The command writes no code. You'll write the imports yourself.",
+            "The command writes no nodes. You'll write their imports yourself.",
         ),
     ),
     _ask(
@@ -263,8 +265,8 @@ _QUESTIONS = (
     ),
     _ask(
         "04.1",
-        "A subscriber starts five seconds after a publisher with the same settings as on this "
-        "page. What does it receive?",
+        "With the settings of this page, a subscriber starts five seconds after its publisher. "
+        "What does it receive?",
         _no(
             "The five messages that it missed, then the new ones",
             "With these settings, a publisher doesn't keep old messages for those who join late. "
@@ -366,8 +368,8 @@ _QUESTIONS = (
     ),
     _ask(
         "06.1",
-        "You change a number in the sensor's file and run it again. The old number is still used. "
-        "Why?",
+        "You have built with plain `colcon build`. You change a number in the sensor's file and"
+        " run it again. The old number is still used. Why?",
         _no(
             "The sensor's terminal has to source the workspace again",
             "Sourcing tells a terminal where things are installed. They are still in the same "
@@ -434,14 +436,14 @@ _QUESTIONS = (
     ),
     _ask(
         "07.2",
-        "Two sensors publish on `/temperature`, one twice a second and one once a second. What "
-        "does `ros2 topic hz` measure?",
+        "Two sensors publish on `/temperature`, one four times a second and one once a second. "
+        "What does `ros2 topic hz` measure?",
         _yes(
-            "About 3 messages a second",
+            "About 5 messages a second",
             "It subscribes to the topic, and receives the messages of both.",
         ),
         _no(
-            "About 2, the rate of the faster one",
+            "About 4, the rate of the faster one",
             "A subscriber hears all publishers of a topic; it can't choose one.",
         ),
         _no(
@@ -473,7 +475,7 @@ _QUESTIONS = (
         "A publisher offers `BEST_EFFORT`, and a subscription asks for `RELIABLE`. What happens?",
         _no(
             "The subscription gets most of the messages",
-            "Less than the subscription asks for isn't delivered at all.",
+            "The two aren't connected, so the subscription gets no messages at all.",
         ),
         _no(
             "The publisher switches to `RELIABLE`",
@@ -647,7 +649,7 @@ _QUESTIONS = (
             "The input is the same, so every difference comes from your change.",
         ),
         _no(
-            "No input: compare the two programs' texts",
+            "No input: compare the code of the two monitors",
             "That shows what you wrote, and not what it does.",
         ),
     ),
@@ -664,7 +666,7 @@ _QUESTIONS = (
         ),
         _no(
             "`reading > 26.0 or reading <= 26.0`",
-            "Every comparison with NaN is False, so both sides are False.",
+            "With NaN on one side, `>` and `<=` are both False.",
         ),
     ),
     _ask(
@@ -766,7 +768,7 @@ _QUESTIONS = (
         ),
         _no(
             "Start all over, with a new design",
-            "The design may be fine. First find out which node does something else than you think.",
+            "The design may be fine. First find out which node doesn't do what you expect.",
         ),
     ),
 )
