@@ -7,12 +7,13 @@ import os
 import traceback
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches
+from pathlib import Path
 
 from course_tool import commands, folder, testing
 from course_tool.doctor import doctor
 from course_tool.lab import lab
 from course_tool.layout import Layout, of_this_checkout
-from course_tool.problems import Problem, complain, disk_full, not_writable, say
+from course_tool.problems import Problem, complain, disk_full, not_writable, of_another_user, say
 
 HELP = """\
 Usage:  ./environment/course COMMAND [OPTIONS]
@@ -72,6 +73,8 @@ def _from_system(layout: Layout, error: OSError) -> Problem:
     place = str(error.filename or layout.root)
     if error.errno in (errno.ENOSPC, errno.EDQUOT):
         return disk_full(place)
+    if isinstance(error, PermissionError) and Path(place).is_relative_to(layout.learner):
+        return of_another_user(place, layout.learner, os.strerror(error.errno))
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
         return not_writable(layout.root, f"{place}: {os.strerror(error.errno)}")
     return _unforeseen(str(error))

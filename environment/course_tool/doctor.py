@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from course_tool import prepare, running, surroundings
-from course_tool.folder import SETTING
+from course_tool.folder import SETTING, shipped_pages
 from course_tool.layout import WORKSPACE, Layout
 from course_tool.problems import Problem, say
 from course_tool.surroundings import Surroundings
@@ -86,6 +86,8 @@ def course_files(layout: Layout, environ: Mapping[str, str]) -> Finding:
     """Look whether files of the course are missing or changed: by git, or by what was installed."""
     subject = "course files"
     gone, changed, back = _by_git(layout, environ) or _by_record(layout)
+    theirs = ("notebooks/", "solutions/") if layout.is_release else ()
+    gone, changed = ([one for one in some if not one.startswith(theirs)] for some in (gone, changed))
     if gone:
         # Exactly these: others may be changed on purpose.
         many = "git ls-files -z --deleted | xargs -0 git checkout HEAD --"
@@ -132,7 +134,7 @@ def _some(names: Sequence[str]) -> str:
 
 def pages(layout: Layout) -> Finding:
     """Look whether the learner has a folder with pages."""
-    number = len(list(layout.learner.glob("[0-9][0-9]_*.ipynb")))
+    number = sum((layout.learner / page.name).exists() for page in shipped_pages(layout))
     if not layout.notes.is_dir():
         return Finding("note", "your pages", f"{_LAB}  makes {layout.learner}")
     return Finding("ok", "your pages", f"{number} in {layout.learner}")
@@ -280,7 +282,7 @@ def workspace(layout: Layout, environ: Mapping[str, str]) -> Finding:
     parent = Path(chosen).expanduser().absolute() if chosen else home
     if not parent.is_dir():
         text = f"{SETTING} names {parent}: no folder"
-        return Finding("problem", "workspace", text, f"mkdir -p {parent}")
+        return Finding("problem", "workspace", text, f"mkdir -p {shlex.quote(str(parent))}")
     if not os.access(parent, os.W_OK):
         text = f"{parent} cannot be written to"
         return Finding("problem", "workspace", text, f"set {SETTING} elsewhere")

@@ -10,13 +10,15 @@ In a release (`rosbeat release`), the folder of the pages is the learner's own a
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import platform
+import shlex
 import shutil
+import stat
 import subprocess
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -37,6 +39,7 @@ DOCS = "docs"
 _READ_ONLY = 0o444
 #: Files by which colcon marks what it has made, and makes again.
 _MADE_BY_COLCON = ("build/.built_by", "install/.colcon_install_layout")
+_RELOAD = "If the page is open in JupyterLab: File, Reload Notebook from Disk."
 _LOCKED = {"editable": False, "deletable": False}
 _BANNER = """\
 <div class="alert alert-block alert-warning rosbeat-solution"><b>This is a solution</b>, to compare
@@ -66,6 +69,13 @@ _Cell = dict[str, Any]
 def make(layout: Layout) -> None:
     """Make the learner's folder, or add what is new; whatever is there stays as it is."""
     check_writable(layout.root)
+    if os.path.lexists(layout.learner) and not layout.learner.is_dir():
+        raise Problem(
+            f"{layout.learner.name} is not a folder: it is a file, or a link that leads nowhere.",
+            "The course keeps your pages in a folder of this name. Nothing was changed.",
+            "If it is a link, connect the disk that it leads to.\n"
+            f"Otherwise move it away:  {_mv(layout.learner, _free_name(layout.learner, 'before'))}",
+        )
     is_new = not layout.notes.is_dir()
     layout.notes.mkdir(parents=True, exist_ok=True)
     with exclusive(layout.learner):
@@ -90,12 +100,19 @@ def shipped_pages(layout: Layout) -> list[Path]:
 
 
 def _copy_home(layout: Layout) -> None:
-    """Copy the home page, in which nobody works, whenever the course has another one."""
-    source, target = layout.shipped / HOME, layout.learner / HOME
-    if source.exists():
-        content = source.read_bytes()
-        if not target.exists() or _sources(target.read_bytes()) != _sources(content):
-            _write(target, as_opened(content))
+    """Copy the home page whenever the course has another one; what a learner wrote is kept."""
+    source, target, base = layout.shipped / HOME, layout.learner / HOME, _base_of(layout, HOME)
+    if not source.exists():
+        return
+    content, then = source.read_bytes(), base.read_bytes() if base.exists() else b""
+    if target.exists():
+        if _sources(then) == _sources(content):
+            return
+        if _sources(target.read_bytes()) not in (_sources(then), _sources(content)):
+            say(f"There is a new {HOME}; yours is kept as {_shown(layout, _keep(target))}")
+    if not target.exists() or _sources(target.read_bytes()) != _sources(content):
+        _write(target, as_opened(content))
+    _write(base, content)
 
 
 def _copy_once(layout: Layout, page: Path) -> None:
@@ -121,15 +138,29 @@ def _adopt(layout: Layout) -> None:
     before = layout.root / ".rosbeat"
     moves += [(one, layout.notes / one.name) for one in sorted(before.glob("progress*.json"))]
     for source, target in moves:
-        if not source.exists() or target.exists():
+        if not source.exists() or source.is_symlink() or os.path.lexists(target):
             continue
-        source.rename(target)
-        say(f"Moved {source.relative_to(layout.root)} to {_shown(layout, target)}.")
-        built = [target / one for one in _MADE_BY_COLCON if (target / one).exists()]
-        for mark in built:
-            shutil.rmtree(mark.parent)
+        built = [source / one for one in _MADE_BY_COLCON if (source / one).exists()]
+        for mark in built:  # before the move, so that an interruption leaves nothing half done
+            if not mark.parent.is_symlink():
+                shutil.rmtree(mark.parent)
         if built:
-            say("  What was built there named its old place: colcon build makes it anew.")
+            say("What was built in your workspace names its old place: colcon build makes it anew.")
+        try:
+            source.rename(target)
+        except OSError as error:
+            if error.errno != errno.EXDEV:
+                raise
+            raise Problem(
+                f"{source.relative_to(layout.root)} is on another disk than {layout.learner.name}.",
+                "The course works with it in your own folder, and has not moved it.",
+                f"Move it, and run the same command again:\n{_mv(source, target)}",
+            ) from None
+        say(f"Moved {source.relative_to(layout.root)} to {_shown(layout, target)}.")
+
+
+def _mv(source: Path, target: Path) -> str:
+    return f"mv {shlex.quote(str(source))} {shlex.quote(str(target))}"
 
 
 # The solutions, to look at.
@@ -137,26 +168,38 @@ def _adopt(layout: Layout) -> None:
 
 def show_solutions(layout: Layout) -> None:
     """Copy the solutions to where the learner can open them, with a banner, and read-only."""
-    for path in sorted((layout.root / SOLUTIONS).rglob("*")):
-        if not path.is_file() or "__pycache__" in path.parts or path.name == HOME:
-            continue
-        _show(layout, path, partial(as_solution, path.name) if path.match(PAGES) else bytes)
+    files = {}
+    for path in (layout.root / SOLUTIONS).rglob("*"):
+        if path.is_file() and "__pycache__" not in path.parts and path.name != HOME:
+            content = path.read_bytes()
+            files[path] = as_solution(path.name, content) if path.match(PAGES) else content
+    _show(layout, SOLUTIONS, files)
 
 
 def show_docs(layout: Layout) -> None:
     """Copy the docs to where links of pages lead; their own links lead to the learner's pages."""
     docs = layout.root / DOCS
-    for path in sorted([*docs.glob("*.md"), *docs.glob("images/*")]):
-        _show(layout, path, lambda found: found.replace(b"](../notebooks/", b"](../"))
+    found = [*docs.glob("*.md"), *docs.glob("images/*")]
+    linked = {path: path.read_bytes().replace(b"](../notebooks/", b"](../") for path in found}
+    _show(layout, DOCS, linked)
 
 
-def _show(layout: Layout, path: Path, shown: Callable[[bytes], bytes]) -> None:
-    """Copy a file of the course into the learner's folder, read-only, unless it is there."""
-    target, time = layout.learner / path.relative_to(layout.root), path.stat().st_mtime_ns
-    if _time_of(target) != time:
-        _write(target, shown(path.read_bytes()))
-        target.chmod(_READ_ONLY)
-        os.utime(target, ns=(time, time))
+def _show(layout: Layout, name: str, files: Mapping[Path, bytes]) -> None:
+    """Make a folder of the learner's show these files, read-only, and no older ones.
+
+    A file that can be written to is a person's own, and stays, perhaps under another name.
+    """
+    targets = {layout.learner / path.relative_to(layout.root): files[path] for path in files}
+    for target, content in targets.items():
+        if target.exists():
+            if target.read_bytes() == content:
+                continue
+            if target.stat().st_mode & 0o222:
+                say(f"Your {_shown(layout, target)} is kept as {_shown(layout, _keep(target))}")
+        _write(target, content, _READ_ONLY)
+    for path in list((layout.learner / name).rglob("*")):
+        if path not in targets and path.lstat().st_mode == stat.S_IFREG | _READ_ONLY:
+            path.unlink()
 
 
 def as_solution(name: str, content: bytes) -> bytes:
@@ -172,10 +215,6 @@ def as_solution(name: str, content: bytes) -> bytes:
     return _bytes(page)
 
 
-def _time_of(path: Path) -> int | None:
-    return path.stat().st_mtime_ns if path.exists() else None
-
-
 # `course reset` and `course update`.
 
 
@@ -189,8 +228,17 @@ def reset(layout: Layout, arguments: Sequence[str]) -> int:
             "Pages are brought back one by one, so that nothing goes by mistake.",
             "Name it:  ./environment/course reset 03",
         )
-    for page in _named(layout, arguments):
-        target, content = layout.learner / page.name, _shipped_bytes(layout, page)
+    pages = {page: _shipped_bytes(layout, page) for page in _named(layout, arguments)}
+    for page in pages:
+        if not pages[page]:
+            raise Problem(
+                f"Nobody knows what {page.name[:2]} was when it was shipped.",
+                "Somebody has worked in the course's own copy, and git does not have it. "
+                "Nothing was changed.",
+                "Get the course once more, and copy the page from there into notebooks.",
+            )
+    for page, content in pages.items():
+        target = layout.learner / page.name
         if target.exists() and _sources(target.read_bytes()) == _sources(content):
             kept = None
         else:
@@ -199,7 +247,7 @@ def reset(layout: Layout, arguments: Sequence[str]) -> int:
         _write(_base_of(layout, page.name), content)
         before = f"; yours is kept as {_shown(layout, kept)}" if kept else ""
         say(f"{_shown(layout, target)} is as shipped{before}.")
-    say("If the page is open in JupyterLab: File, Reload Notebook from Disk.")
+    say(_RELOAD)
     return 0
 
 
@@ -215,6 +263,8 @@ def update(layout: Layout, arguments: Sequence[str]) -> int:
     ]
     for line in changes or ["Your pages are those of the course."]:
         say(line)
+    if any(line.startswith("updated") for line in changes):
+        say(_RELOAD)
     return 0
 
 
@@ -223,8 +273,9 @@ def is_newer(layout: Layout, page: Path) -> bool:
     target, base = layout.learner / page.name, _base_of(layout, page.name)
     if not base.exists() or not target.exists() or base.read_bytes() == page.read_bytes():
         return False  # without a target, the learner has removed the page
-    content = _sources(_shipped_bytes(layout, page))
-    return content not in (_sources(base.read_bytes()), _sources(target.read_bytes()))
+    content = _shipped_bytes(layout, page)
+    known = (_sources(base.read_bytes()), _sources(target.read_bytes()))
+    return bool(content) and _sources(content) not in known
 
 
 def _update_one(layout: Layout, page: Path, carries: bool) -> str:
@@ -266,7 +317,8 @@ def carried(mine: bytes, then: bytes, now: bytes) -> tuple[bytes, list[str], lis
     blanks, new = _exercises(_read(then or now)), _exercises(page)
     fit: list[str] = []
     others: list[str] = []
-    for mine_cell in _exercises(_read(mine)):
+    answers = _exercises(_read(mine))
+    for mine_cell in answers:
         name, text = _exercise(mine_cell), _text(mine_cell)
         known = [one for one in blanks if _exercise(one) == name]
         same_id = [one for one in known if one.get("id") == mine_cell.get("id")]
@@ -274,6 +326,9 @@ def carried(mine: bytes, then: bytes, now: bytes) -> tuple[bytes, list[str], lis
         places = [one for one in new if _exercise(one) == name and _text(one) == blank]
         if text == blank:
             continue
+        # Split into more cells than there were, an answer would arrive in part.
+        if sum(_exercise(one) == name for one in answers) > len(known):
+            places = []
         if places:
             places[0]["source"] = text
         (fit if places else others).append(name)
@@ -306,7 +361,7 @@ def _named(layout: Layout, names: Sequence[str]) -> list[Path]:
         wanted = Path(name).name.removesuffix(".ipynb")
         number = wanted.zfill(2)
         fitting = [one for one in pages if wanted == one.stem or number == one.name[:2]]
-        if not fitting:
+        if not wanted or not fitting:
             raise Problem(
                 f"There is no page '{name}'.",
                 "Nothing was changed.",
@@ -320,19 +375,23 @@ def _named(layout: Layout, names: Sequence[str]) -> list[Path]:
 
 
 def _shipped_bytes(layout: Layout, page: Path) -> bytes:
-    """Return a page as shipped, also if somebody has worked in the course's own copy."""
+    """Return a page as shipped, also if somebody has worked in the course's own copy.
+
+    Empty if nobody knows what was shipped.
+    """
     content = page.read_bytes()
-    return (_of_git(layout, page) or content) if _was_run(content) else content
+    return (_of_git(layout, page) or b"") if _was_run(content) else content
 
 
 def _of_git(layout: Layout, page: Path) -> bytes | None:
-    """Return the committed version of a page; None where git does not know it."""
+    """Return the committed version of a page; None where git does not have it as shipped."""
     command = ["git", "-C", str(layout.root), "show", f"HEAD:./{page.relative_to(layout.root)}"]
     try:
         done = subprocess.run(command, capture_output=True, check=False, stdin=subprocess.DEVNULL)
     except OSError:
         return None
-    return done.stdout if done.returncode == 0 else None
+    # Somebody may have committed what they did in the page.
+    return done.stdout if done.returncode == 0 and not _was_run(done.stdout) else None
 
 
 def _base_of(layout: Layout, name: str) -> Path:
@@ -341,11 +400,11 @@ def _base_of(layout: Layout, name: str) -> Path:
 
 
 def _keep(path: Path) -> Path | None:
-    """Put a file aside under a free name, and return that; None if there is no file."""
+    """Copy a file to a free name beside it, and return that; None if there is no file."""
     if not path.exists():
         return None
     aside = _free_name(path, "kept")
-    path.rename(aside)
+    _write(aside, path.read_bytes())
     return aside
 
 
@@ -361,12 +420,14 @@ def _write_once(path: Path, content: bytes) -> None:
         _write(path, content)
 
 
-def _write(path: Path, content: bytes) -> None:
+def _write(path: Path, content: bytes, mode: int | None = None) -> None:
     """Put a file in place in one step, so that an interruption leaves no half of it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".saving-{uuid4().hex[:12]}")
     try:
         beside.write_bytes(content)
+        if mode is not None:
+            beside.chmod(mode)
         beside.replace(path)
     finally:
         beside.unlink(missing_ok=True)

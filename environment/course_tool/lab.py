@@ -93,7 +93,8 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
         root_user: Whether to allow what Jupyter refuses to the root user, as in a container.
     """
     command = [str(layout.python), "-m", "jupyterlab"]
-    if not any(option.startswith(_FOLDERS) for option in options):  # Jupyter refuses to hear two
+    elsewhere = _is_elsewhere(options)
+    if not elsewhere:  # Jupyter refuses to hear two
         command.append(f"--ServerApp.root_dir={layout.learner}")
     if root_user and "--allow-root" not in options:
         command.append("--allow-root")
@@ -104,7 +105,7 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
     command += [f"--LabApp.workspaces_dir={layout.notes / 'workspaces'}"]
     command += ["--LabApp.custom_css=True"]
     command += [f"--ServerApp.tornado_settings={ {'static_custom_path': [str(_STYLE)]}!r}"]
-    if not any(option.endswith(".ipynb") for option in options):
+    if not elsewhere and not any(option.endswith(".ipynb") for option in options):
         page = first_page(layout)
         if page:
             # As an address, not as a file, so that the browser shows it beside the folder.
@@ -112,6 +113,11 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
         else:
             say("There is no page in the folder; JupyterLab opens on the folder.")
     return [*command, *options]
+
+
+def _is_elsewhere(options: Sequence[str]) -> bool:
+    """Tell whether a person opens another folder than the learner's, where none of our pages is."""
+    return any(option.startswith(_FOLDERS) for option in options)
 
 
 def first_page(layout: Layout) -> str:
@@ -130,7 +136,8 @@ def address(layout: Layout, info: Mapping[str, Any], options: Sequence[str]) -> 
         info: What the server says of itself.
         options: What the person added to the command.
     """
-    asked = next((option for option in options if option.endswith(".ipynb")), first_page(layout))
+    page = "" if _is_elsewhere(options) else first_page(layout)
+    asked = next((option for option in options if option.endswith(".ipynb")), page)
     place = f"{info['url']}lab" + (f"/tree/{asked}" if asked else "")
     return f"{place}?token={info['token']}" if info.get("token") else place
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 import sys
 from pathlib import Path
 from textwrap import indent
@@ -54,6 +55,16 @@ def not_writable(folder: Path, reason: str) -> Problem:
         f"Nothing can be written in {folder} ({reason}).",
         "The course makes its environment there, in .venv, and you save your notebooks there.",
         "Clone the course into a folder of your own, below your home for example.",
+    )
+
+
+def of_another_user(place: str, folder: Path, reason: str) -> Problem:
+    """Return the problem of a learner's folder in which files belong to somebody else."""
+    return Problem(
+        f"{place} cannot be read or written ({reason}).",
+        "The course keeps your pages there. Another user made the folder, with sudo perhaps.",
+        f'Make it yours, and run the same command again:\n'
+        f'sudo chown -R "$USER" {shlex.quote(str(folder))}',
     )
 
 

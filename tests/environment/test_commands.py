@@ -69,6 +69,16 @@ def test_what_the_system_refuses(monkeypatch, capsys, number, words):
     assert "What to try:" in err
 
 
+def test_a_learners_folder_that_another_user_made(layout, monkeypatch, capsys):
+    monkeypatch.setattr(cli, "of_this_checkout", lambda: layout)
+    place = str(layout.learner / "03_write.ipynb")
+    assert run(monkeypatch, PermissionError(errno.EACCES, "no", place)) == 1
+    err = capsys.readouterr().err
+    assert f"{place} cannot be read or written (Permission denied)" in err
+    assert f"sudo chown -R \"$USER\" '{layout.learner}'" in err
+    assert "Clone" not in err
+
+
 def test_never_a_bare_traceback(monkeypatch, capsys):
     assert run(monkeypatch, RuntimeError("oh")) == 1
     err = capsys.readouterr().err

@@ -279,6 +279,17 @@ def test_a_changed_file_harms_nothing(whole):
     assert found.cure.endswith(" notebooks/00_hear.ipynb")
 
 
+def test_in_a_release_the_pages_are_the_learners_to_change_and_to_remove(whole):
+    (whole.root / ".rosbeat-release.json").touch()
+    page = whole.root / "notebooks" / "00_hear.ipynb"
+    page.write_text("mine")
+    assert doctor.course_files(whole, os.environ).state == "ok"
+    page.unlink()
+    assert doctor.course_files(whole, os.environ).state == "ok"
+    (whole.root / "src" / "rosbeat.py").unlink()
+    assert doctor.course_files(whole, os.environ).text == "missing: src/rosbeat.py"
+
+
 def test_a_course_that_nobody_has_installed_and_no_git_knows(made):
     assert doctor.course_files(made, os.environ).state == "note"
 
@@ -286,7 +297,10 @@ def test_a_course_that_nobody_has_installed_and_no_git_knows(made):
 def test_the_learners_pages(layout):
     assert doctor.pages(layout).state == "note"
     layout.notes.mkdir(parents=True)
-    (layout.learner / "03_write.ipynb").touch()
+    layout.shipped.mkdir()
+    for place in (layout.shipped, layout.learner):
+        (place / "03_write.ipynb").touch()
+    (layout.learner / "03_write-kept-1.ipynb").touch()
     assert doctor.pages(layout).text == f"1 in {layout.learner}"
 
 
@@ -301,6 +315,11 @@ def test_where_the_workspace_lies(layout, tmp_path):
 def test_a_workspace_that_cannot_be(layout, tmp_path):
     found = doctor.workspace(layout, {"ROSBEAT_WORKSPACE_IN": str(tmp_path / "gone")})
     assert (found.state, found.cure) == ("problem", f"mkdir -p {tmp_path / 'gone'}")
+
+
+def test_a_command_to_type_is_quoted(layout, tmp_path):
+    found = doctor.workspace(layout, {"ROSBEAT_WORKSPACE_IN": str(tmp_path / "not there")})
+    assert found.cure == f"mkdir -p '{tmp_path / 'not there'}'"
 
 
 def test_the_name_of_the_workspace_is_the_packages():

@@ -1,12 +1,16 @@
 """The learner's own folder: copies, work of earlier versions, `reset` and `update`."""
 
+import errno
 import json
 import os
+import shlex
 import subprocess
+from pathlib import Path
 
 import pytest
 
 from course_tool import cli, folder, installing
+from course_tool.problems import Problem
 
 BLANK, ANSWER = "class Sensor: ____", "class Sensor: pass"
 
@@ -58,10 +62,19 @@ def course(layout, monkeypatch):
 @pytest.fixture
 def committed(course):
     """The same as a clone."""
-    git = ["git", "-c", "user.name=ada", "-c", "user.email=ada@example.org", "-C", course.root]
-    for command in (["init", "-q"], ["add", "notebooks"], ["commit", "-qm", "All pages"]):
-        subprocess.run([*git, *command], check=True, capture_output=True)
+    git(course, "init", "-q")
+    commit(course)
     return course
+
+
+def git(course, *arguments):
+    own = ["-c", "user.name=ada", "-c", "user.email=ada@example.org", "-C", course.root]
+    subprocess.run(["git", *own, *arguments], check=True, capture_output=True)
+
+
+def commit(course):
+    git(course, "add", "notebooks")
+    git(course, "commit", "-qm", "All pages")
 
 
 def listed(place):
@@ -113,6 +126,43 @@ def test_the_home_page_keeps_its_output_until_the_course_has_another_one(course)
     assert sources(home) == ["progress()  # newer"]
 
 
+def test_notes_on_the_home_page_stay_and_are_kept_beside_a_newer_one(course, capsys):
+    folder.make(course)
+    home, notes = course.learner / "home.ipynb", page(cell("progress()"), cell("my notes"))
+    home.write_bytes(notes)
+    folder.make(course)
+    assert home.read_bytes() == notes
+    (course.shipped / "home.ipynb").write_bytes(page(cell("progress()  # newer")))
+    capsys.readouterr()
+    folder.make(course)
+    assert sources(home) == ["progress()  # newer"]
+    assert (course.learner / "home-kept-1.ipynb").read_bytes() == notes
+    assert "yours is kept as my_course/home-kept-1.ipynb" in capsys.readouterr().out
+    folder.make(course)
+    assert not (course.learner / "home-kept-2.ipynb").exists()
+
+
+def test_notes_on_a_home_page_of_an_earlier_version_of_the_course_are_kept(course):
+    course.learner.mkdir()
+    notes = page(cell("progress()"), cell("my notes"))
+    (course.learner / "home.ipynb").write_bytes(notes)
+    folder.make(course)
+    assert (course.learner / "home-kept-1.ipynb").read_bytes() == notes
+
+
+@pytest.mark.parametrize("is_link", [True, False])
+def test_something_else_has_the_name_of_the_folder(course, is_link, capsys):
+    if is_link:
+        course.learner.symlink_to(course.root / "gone")
+    else:
+        course.learner.write_text("mine")
+    assert cli.main(["update"]) == 1
+    err = capsys.readouterr().err
+    assert "What happened:       my_course is not a folder" in err
+    assert f"mv '{course.learner}' '{course.learner}-before-1'" in err
+    assert os.path.lexists(course.learner)
+
+
 def test_a_page_that_is_added_to_the_course_comes_too(course):
     folder.make(course)
     (course.shipped / "04_listen.ipynb").write_bytes(SHIPPED)
@@ -141,6 +191,59 @@ def test_the_workspace_and_the_progress_move_in(course, capsys):
     assert "colcon build makes it anew" in capsys.readouterr().out
 
 
+def left_behind(course):
+    """A workspace with something built in it, where an earlier version of the course had it."""
+    workspace = course.root / "ROS2_and_RL_Tutorials"
+    (workspace / "src").mkdir(parents=True)
+    (workspace / "build").mkdir()
+    (workspace / "build" / ".built_by").touch()
+    return workspace
+
+
+def test_a_workspace_on_another_disk_is_for_the_learner_to_move(course, monkeypatch, capsys):
+    source, rename = left_behind(course), Path.rename
+
+    def refuses(path, target):
+        if path == source:
+            raise OSError(errno.EXDEV, "Invalid cross-device link", str(path))
+        return rename(path, target)
+
+    monkeypatch.setattr(Path, "rename", refuses)
+    assert cli.main(["update"]) == 1
+    err = capsys.readouterr().err
+    assert "ROS2_and_RL_Tutorials is on another disk than my_course" in err
+    monkeypatch.undo()
+    line = err.splitlines()[-2].strip()
+    subprocess.run(shlex.split(line), check=True)
+    folder.make(course)
+    assert listed(course.learner / "ROS2_and_RL_Tutorials") == ["src"]
+
+
+def test_an_interrupted_move_leaves_nothing_that_was_built(course, monkeypatch):
+    source = left_behind(course)
+
+    def interrupted(path, target):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "rename", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        folder.make(course)
+    assert listed(source) == ["src"]
+    monkeypatch.undo()
+    monkeypatch.delenv("ROSBEAT_WORKSPACE_IN", raising=False)
+    folder.make(course)
+    assert listed(course.learner / "ROS2_and_RL_Tutorials") == ["src"]
+
+
+def test_a_link_to_a_workspace_stays(course, tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    link = course.root / "ROS2_and_RL_Tutorials"
+    link.symlink_to(tmp_path / "elsewhere")
+    folder.make(course)
+    assert link.is_symlink()
+    assert not (course.learner / link.name).exists()
+
+
 def test_nothing_that_is_there_is_replaced_by_what_moves_in(course):
     folder.make(course)
     for place, text in ((course.root, "old"), (course.learner, "new")):
@@ -165,6 +268,33 @@ def test_answers_in_the_courses_own_pages_move_and_these_are_as_shipped(committe
     assert (committed.shipped / NAME).read_bytes() == SHIPPED
     assert f"is in my_course/{NAME} now" in capsys.readouterr().out
     assert not folder.is_newer(committed, committed.shipped / NAME)
+
+
+def test_a_committed_page_that_somebody_worked_in_is_not_the_shipped_one(committed, capsys):
+    (committed.shipped / NAME).write_bytes(WORKED)
+    commit(committed)
+    folder.make(committed)
+    assert (committed.learner / NAME).read_bytes() == WORKED
+    assert not folder.is_newer(committed, committed.shipped / NAME)
+    for name in ([], ["03"]):
+        assert cli.main(["update", *name]) == 0
+    before = sorted(committed.learner.iterdir())
+    capsys.readouterr()
+    assert cli.main(["reset", "00", "03"]) == 1
+    err = capsys.readouterr().err
+    assert "Nobody knows what 03 was when it was shipped." in err
+    assert "Nothing was changed." in err
+    assert "copy the page from there into notebooks" in err
+    assert sorted(committed.learner.iterdir()) == before
+    (committed.shipped / NAME).write_bytes(SHIPPED)
+    assert cli.main(["reset", "03"]) == 0
+    assert sources(committed.learner / NAME)[1] == BLANK
+
+
+def test_work_in_the_courses_own_page_is_no_new_version_if_nobody_knows_the_page(course):
+    folder.make(course)
+    (course.shipped / NAME).write_bytes(WORKED)
+    assert not folder.is_newer(course, course.shipped / NAME)
 
 
 def test_answers_that_were_never_run_come_along(committed):
@@ -224,6 +354,42 @@ def test_solutions_follow_the_course(course):
     os.utime(source, (1, 1))
     folder.make(course)
     assert sources(copy)[1] == "better"
+
+
+@pytest.mark.parametrize("name", [f"solutions/{NAME}", "docs/glossary.md"])
+def test_a_file_of_ones_own_is_kept_beside_what_is_shown(course, name, capsys):
+    own = course.learner / name
+    own.parent.mkdir(parents=True)
+    own.write_text("mine")
+    folder.make(course)
+    assert own.read_text() != "mine"
+    kept = own.with_name(f"{own.stem}-kept-1{own.suffix}")
+    assert kept.read_text() == "mine"
+    assert f"is kept as {kept.relative_to(course.root)}" in capsys.readouterr().out
+    folder.make(course)
+    assert kept.read_text() == "mine"  # it can be written to, so it is not the course's
+
+
+def test_what_is_shown_follows_the_bytes_of_the_course(course):
+    folder.make(course)
+    source, copy = course.root / "docs" / "glossary.md", course.learner / "docs" / "glossary.md"
+    time = source.stat().st_mtime_ns
+    source.write_text("A topic.")
+    os.utime(source, ns=(time, time))
+    folder.make(course)
+    assert copy.read_text() == "A topic."
+    assert copy.stat().st_mode & 0o777 == 0o444
+
+
+def test_what_the_course_no_longer_has_is_no_longer_shown(course):
+    folder.make(course)
+    for name in ("solutions/sensor_simulator/setup.py", "docs/glossary.md"):
+        (course.root / name).unlink()
+        (course.learner / name).with_name("mine.md").write_text("mine")
+    folder.make(course)
+    assert listed(course.learner / "solutions" / "sensor_simulator") == ["mine.md"]
+    assert listed(course.learner / "docs") == ["mine.md"]
+    assert (course.learner / "solutions" / NAME).exists()
 
 
 # A release: an instructor's class works in `notebooks`.
@@ -297,6 +463,31 @@ def test_a_page_that_cannot_be_read_is_kept_too(course):
     assert (course.learner / "03_write-kept-1.ipynb").read_text() == "not a page"
 
 
+def test_a_page_stays_under_its_name_if_the_new_one_cannot_be_written(course, monkeypatch):
+    folder.make(course)
+    (course.learner / NAME).write_bytes(WORKED)
+    write = folder._write
+
+    def full(path, content, *mode):
+        if path == course.learner / NAME:
+            raise OSError(errno.ENOSPC, "No space left on device", str(path))
+        write(path, content, *mode)
+
+    monkeypatch.setattr(folder, "_write", full)
+    with pytest.raises(OSError, match="No space"):
+        folder.reset(course, ["03"])
+    assert (course.learner / NAME).read_bytes() == WORKED
+
+
+@pytest.mark.parametrize("name", ["", ".", "/"])
+def test_an_empty_name_is_not_page_00(course, name):
+    folder.make(course)
+    (course.learner / "00_hear.ipynb").write_bytes(WORKED)
+    with pytest.raises(Problem, match=f"There is no page '{name}'"):
+        folder.reset(course, [name])
+    assert (course.learner / "00_hear.ipynb").read_bytes() == WORKED
+
+
 @pytest.mark.parametrize(("names", "said"), [([], "not named"), (["99"], "no page '99'")])
 def test_reset_has_to_know_which_page(course, names, said, capsys):
     assert cli.main(["reset", *names]) == 1
@@ -321,7 +512,9 @@ def test_update_replaces_what_nobody_has_worked_in(course, capsys):
     assert folder.is_newer(course, course.shipped / NAME)
     assert cli.main(["update"]) == 0
     assert sources(course.learner / NAME)[0] == "import rosbeat  # newer"
-    assert f"updated  {NAME}" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert f"updated  {NAME}" in out
+    assert "File, Reload Notebook from Disk" in out
     assert [one.read_bytes() for one in (course.notes / "before").iterdir()] == [run]
     assert not folder.is_newer(course, course.shipped / NAME)
 
@@ -332,7 +525,9 @@ def test_update_leaves_work_alone_and_offers_to_carry_it_over(course, capsys):
     (course.shipped / NAME).write_bytes(NEW)
     assert cli.main(["update"]) == 0
     assert (course.learner / NAME).read_bytes() == WORKED
-    assert "./environment/course update 03" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert "./environment/course update 03" in out
+    assert "Reload" not in out
 
 
 def test_update_by_name_carries_over_the_answers_that_fit(course, capsys):
@@ -365,3 +560,14 @@ def test_parts_of_an_exercise_are_told_apart_by_their_ids():
 def test_an_exercise_that_is_gone_stays_in_the_old_page():
     _, fit, others = folder.carried(WORKED, SHIPPED, page(cell("nothing to fill in")))
     assert (fit, others) == ([], ["03a", "03b"])
+
+
+def test_an_answer_that_was_split_into_two_cells_is_not_carried_in_half():
+    mine = page(
+        cell("class Sensor:", "03a", id="a"), cell("    pass", "03a", id="b"),
+        cell("mine", "03b", id="c"),
+    )  # fmt: skip
+    shipped = page(cell(BLANK, "03a", id="a"), cell("____", "03b", id="c"))
+    after, fit, others = folder.carried(mine, shipped, shipped)
+    found = [one["source"] for one in json.loads(after)["cells"]]
+    assert (found, fit, others) == ([BLANK, "mine"], ["03b"], ["03a"])

@@ -63,6 +63,19 @@ def test_it_opens_another_folder_when_asked(layout):
     assert [one for one in options_of(layout, [option]) if "root_dir" in one] == [option]
 
 
+@pytest.mark.parametrize(
+    "options", [["--ServerApp.root_dir=/elsewhere"], ["--notebook-dir", "/elsewhere"]]
+)
+def test_another_folder_has_none_of_our_pages(layout, options, capsys):
+    page(layout, "my_course/home.ipynb")
+    assert not any("default_url" in option for option in options_of(layout, options))
+    assert capsys.readouterr().out == ""
+    info = {"url": "http://localhost:8888/", "token": "abc"}
+    assert lab.address(layout, info, options) == "http://localhost:8888/lab?token=abc"
+    asked = lab.address(layout, info, [*options, "mine.ipynb"])
+    assert asked == "http://localhost:8888/lab/tree/mine.ipynb?token=abc"
+
+
 def test_it_opens_the_folder_when_there_is_no_page(layout, capsys):
     assert not any("default_url" in option for option in options_of(layout, []))
     assert "There is no page" in capsys.readouterr().out
@@ -161,8 +174,10 @@ def test_two_lines_and_then_it_ends_as_one_asks(start, made, number):
 
 def test_nothing_is_left_when_its_terminal_is_closed(start, made):
     process = start(OPENS)
-    while "Ctrl+C" not in process.stdout.readline():
-        pass
+    lines = []
+    while not lines or "Ctrl+C" not in lines[-1]:
+        lines.append(process.stdout.readline())
+        assert lines[-1], "".join(lines) + process.stderr.read()
     (info,) = (made.notes / "run").glob("jpserver-*.json")
     process.stdout.close()
     process.stderr.close()
@@ -195,4 +210,6 @@ def test_a_server_that_dies_later_is_told_too(start):
 def test_a_folder_nobody_may_write_in_is_told(start, made, tmp_path):
     (made.root / "my_course").write_text("in the way")
     process = start(OPENS)
-    assert "What to try:" in process.communicate(timeout=100)[1]
+    said = process.communicate(timeout=100)[1]
+    assert "What happened:       my_course is not a folder: it is a file, or a link" in said
+    assert "What to try:" in said
