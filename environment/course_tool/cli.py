@@ -73,10 +73,11 @@ def _from_system(layout: Layout, error: OSError) -> Problem:
     place = str(error.filename or layout.root)
     if error.errno in (errno.ENOSPC, errno.EDQUOT):
         return disk_full(place)
-    if isinstance(error, PermissionError) and Path(place).is_relative_to(layout.learner):
-        return of_another_user(place, layout.learner, os.strerror(error.errno))
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        return not_writable(layout.root, f"{place}: {os.strerror(error.errno)}")
+        reason = os.strerror(error.errno)
+        if error.errno != errno.EROFS and Path(place).is_relative_to(layout.learner):
+            return of_another_user(place, layout.learner, reason)
+        return not_writable(layout.root, f"{place}: {reason}")
     return _unforeseen(str(error))
 
 

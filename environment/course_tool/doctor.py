@@ -87,14 +87,15 @@ def course_files(layout: Layout, environ: Mapping[str, str]) -> Finding:
     subject = "course files"
     gone, changed, back = _by_git(layout, environ) or _by_record(layout)
     theirs = ("notebooks/", "solutions/") if layout.is_release else ()
-    gone, changed = ([one for one in some if not one.startswith(theirs)] for some in (gone, changed))
+    gone = [one for one in gone if not one.startswith(theirs)]
+    changed = [one for one in changed if not one.startswith(theirs)]
     if gone:
         # Exactly these: others may be changed on purpose.
         many = "git ls-files -z --deleted | xargs -0 git checkout HEAD --"
         cure = many if back.startswith("git") and len(gone) > 3 else back + shlex.join(gone[:3])
         return Finding("problem", subject, f"missing: {_some(gone)}", f"in {layout.root}: {cure}")
     if changed:
-        cure = f"as they were: {back}{shlex.join(changed[:3])}"
+        cure = f"copy what is yours; then, as they were: {back}{shlex.join(changed[:3])}"
         return Finding("note", subject, f"changed: {_some(changed)}", cure)
     if not back:
         return Finding("note", subject, "nobody knows what they were: there is no git here")

@@ -16,7 +16,6 @@ import os
 import platform
 import shlex
 import shutil
-import stat
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -106,11 +105,12 @@ def _copy_home(layout: Layout) -> None:
         return
     content, then = source.read_bytes(), base.read_bytes() if base.exists() else b""
     if target.exists():
-        if _sources(then) == _sources(content):
+        if _is_same(then, content):
             return
-        if _sources(target.read_bytes()) not in (_sources(then), _sources(content)):
-            say(f"There is a new {HOME}; yours is kept as {_shown(layout, _keep(target))}")
-    if not target.exists() or _sources(target.read_bytes()) != _sources(content):
+        mine = target.read_bytes()
+        if not _is_same(mine, then) and not _is_same(mine, content):
+            say(f"There is a new {HOME}; yours is kept as {_shown(layout, _keep(target))}.")
+    if not target.exists() or not _is_same(target.read_bytes(), content):
         _write(target, as_opened(content))
     _write(base, content)
 
@@ -149,12 +149,13 @@ def _adopt(layout: Layout) -> None:
         try:
             source.rename(target)
         except OSError as error:
-            if error.errno != errno.EXDEV:
+            if error.errno not in (errno.EXDEV, errno.EBUSY):  # EBUSY: a disk is mounted there
                 raise
             raise Problem(
                 f"{source.relative_to(layout.root)} is on another disk than {layout.learner.name}.",
                 "The course works with it in your own folder, and has not moved it.",
-                f"Move it, and run the same command again:\n{_mv(source, target)}",
+                f"Move it, and run the same command again:\n{_mv(source, target)}\n"
+                f"Or leave it there:  export {SETTING}={shlex.quote(str(layout.root))}",
             ) from None
         say(f"Moved {source.relative_to(layout.root)} to {_shown(layout, target)}.")
 
@@ -194,12 +195,22 @@ def _show(layout: Layout, name: str, files: Mapping[Path, bytes]) -> None:
         if target.exists():
             if target.read_bytes() == content:
                 continue
-            if target.stat().st_mode & 0o222:
-                say(f"Your {_shown(layout, target)} is kept as {_shown(layout, _keep(target))}")
+            if _is_own(target):
+                say(f"Your {_shown(layout, target)} is kept as {_shown(layout, _keep(target))}.")
         _write(target, content, _READ_ONLY)
-    for path in list((layout.learner / name).rglob("*")):
-        if path not in targets and path.lstat().st_mode == stat.S_IFREG | _READ_ONLY:
+    # Only what was put there goes again: a person's own file may be read-only too.
+    record = layout.notes / f"{name}.json"
+    before = json.loads(record.read_bytes()) if record.exists() else []
+    now = [path.relative_to(layout.learner).as_posix() for path in sorted(targets)]
+    for path in (layout.learner / inside for inside in before if inside not in now):
+        if path.exists() and not _is_own(path):
             path.unlink()
+    if now != before:
+        _write(record, json.dumps(now).encode())
+
+
+def _is_own(path: Path) -> bool:
+    return bool(path.stat().st_mode & 0o222)
 
 
 def as_solution(name: str, content: bytes) -> bytes:
@@ -239,13 +250,10 @@ def reset(layout: Layout, arguments: Sequence[str]) -> int:
             )
     for page, content in pages.items():
         target = layout.learner / page.name
-        if target.exists() and _sources(target.read_bytes()) == _sources(content):
-            kept = None
-        else:
-            kept = _keep(target)
+        is_own = target.exists() and not _is_same(target.read_bytes(), content)
+        before = f"; yours is kept as {_shown(layout, _keep(target))}" if is_own else ""
         _write(target, as_opened(content))
         _write(_base_of(layout, page.name), content)
-        before = f"; yours is kept as {_shown(layout, kept)}" if kept else ""
         say(f"{_shown(layout, target)} is as shipped{before}.")
     say(_RELOAD)
     return 0
@@ -274,14 +282,14 @@ def is_newer(layout: Layout, page: Path) -> bool:
     if not base.exists() or not target.exists() or base.read_bytes() == page.read_bytes():
         return False  # without a target, the learner has removed the page
     content = _shipped_bytes(layout, page)
-    known = (_sources(base.read_bytes()), _sources(target.read_bytes()))
-    return bool(content) and _sources(content) not in known
+    known = base.read_bytes(), target.read_bytes()
+    return bool(content) and not any(_is_same(content, one) for one in known)
 
 
 def _update_one(layout: Layout, page: Path, carries: bool) -> str:
     target, base = layout.learner / page.name, _base_of(layout, page.name)
     mine, then, now = target.read_bytes(), base.read_bytes(), _shipped_bytes(layout, page)
-    if then and _sources(mine) == _sources(then):
+    if _is_same(mine, then):
         # It was run perhaps; what it said is kept, but out of the way.
         _write(_free_name(layout.notes / "before" / page.name, "before"), mine)
         _write(target, as_opened(now))
@@ -377,10 +385,12 @@ def _named(layout: Layout, names: Sequence[str]) -> list[Path]:
 def _shipped_bytes(layout: Layout, page: Path) -> bytes:
     """Return a page as shipped, also if somebody has worked in the course's own copy.
 
-    Empty if nobody knows what was shipped.
+    Without git, that is what the learner got; empty if nobody knows.
     """
-    content = page.read_bytes()
-    return (_of_git(layout, page) or b"") if _was_run(content) else content
+    content, base = page.read_bytes(), _base_of(layout, page.name)
+    if _read(content) and not _was_run(content):
+        return content
+    return _of_git(layout, page) or (base.read_bytes() if base.exists() else b"")
 
 
 def _of_git(layout: Layout, page: Path) -> bytes | None:
@@ -399,10 +409,8 @@ def _base_of(layout: Layout, name: str) -> Path:
     return (layout.notes / "shipped" / name).with_suffix(".json")
 
 
-def _keep(path: Path) -> Path | None:
-    """Copy a file to a free name beside it, and return that; None if there is no file."""
-    if not path.exists():
-        return None
+def _keep(path: Path) -> Path:
+    """Copy a file to a free name beside it, and return that."""
     aside = _free_name(path, "kept")
     _write(aside, path.read_bytes())
     return aside
@@ -410,7 +418,7 @@ def _keep(path: Path) -> Path | None:
 
 def _free_name(path: Path, word: str) -> Path:
     number = 1
-    while (free := path.with_name(f"{path.stem}-{word}-{number}{path.suffix}")).exists():
+    while os.path.lexists(free := path.with_name(f"{path.stem}-{word}-{number}{path.suffix}")):
         number += 1
     return free
 
@@ -433,8 +441,8 @@ def _write(path: Path, content: bytes, mode: int | None = None) -> None:
         beside.unlink(missing_ok=True)
 
 
-def _shown(layout: Layout, path: Path | None) -> str:
-    return str(path.relative_to(layout.root)) if path else ""
+def _shown(layout: Layout, path: Path) -> str:
+    return str(path.relative_to(layout.root))
 
 
 # What is in a page.
@@ -470,6 +478,11 @@ def _text(cell: _Cell) -> str:
 def _sources(content: bytes) -> list[tuple[str, str]]:
     """Return what a person can write in a page: the sort and the text of each cell."""
     return [(cell.get("cell_type", ""), _text(cell)) for cell in _read(content).get("cells", [])]
+
+
+def _is_same(one: bytes, other: bytes) -> bool:
+    """Tell whether two pages, which both can be read, differ in their outputs at most."""
+    return bool(_read(one)) and _sources(one) == _sources(other)
 
 
 def _was_run(content: bytes) -> bool:

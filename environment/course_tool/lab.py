@@ -18,7 +18,7 @@ from course_tool.layout import Layout
 from course_tool.problems import Problem, say
 
 _TERMINALS = "--ServerApp.terminado_settings"
-_FOLDERS = ("--ServerApp.root_dir", "--notebook-dir")
+_FOLDERS = ("--ServerApp.root_dir", "--ServerApp.notebook_dir", "--notebook-dir")
 #: Where `custom.css` is: narrower launcher, wider file browser, solutions in another colour.
 _STYLE = Path(__file__).parents[1] / "lab_style"
 #: Seconds that JupyterLab gets to end its kernels and terminals.
@@ -93,7 +93,7 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
         root_user: Whether to allow what Jupyter refuses to the root user, as in a container.
     """
     command = [str(layout.python), "-m", "jupyterlab"]
-    elsewhere = _is_elsewhere(options)
+    elsewhere = _is_elsewhere(layout, options)
     if not elsewhere:  # Jupyter refuses to hear two
         command.append(f"--ServerApp.root_dir={layout.learner}")
     if root_user and "--allow-root" not in options:
@@ -115,9 +115,9 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
     return [*command, *options]
 
 
-def _is_elsewhere(options: Sequence[str]) -> bool:
+def _is_elsewhere(layout: Layout, options: Sequence[str]) -> bool:
     """Tell whether a person opens another folder than the learner's, where none of our pages is."""
-    return any(option.startswith(_FOLDERS) for option in options)
+    return any(one.startswith(_FOLDERS) or (layout.learner / one).is_dir() for one in options)
 
 
 def first_page(layout: Layout) -> str:
@@ -136,7 +136,7 @@ def address(layout: Layout, info: Mapping[str, Any], options: Sequence[str]) -> 
         info: What the server says of itself.
         options: What the person added to the command.
     """
-    page = "" if _is_elsewhere(options) else first_page(layout)
+    page = "" if _is_elsewhere(layout, options) else first_page(layout)
     asked = next((option for option in options if option.endswith(".ipynb")), page)
     place = f"{info['url']}lab" + (f"/tree/{asked}" if asked else "")
     return f"{place}?token={info['token']}" if info.get("token") else place

@@ -63,7 +63,7 @@ def of_another_user(place: str, folder: Path, reason: str) -> Problem:
     return Problem(
         f"{place} cannot be read or written ({reason}).",
         "The course keeps your pages there. Another user made the folder, with sudo perhaps.",
-        f'Make it yours, and run the same command again:\n'
+        f"Make it yours, and run the same command again:\n"
         f'sudo chown -R "$USER" {shlex.quote(str(folder))}',
     )
 

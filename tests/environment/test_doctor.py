@@ -298,8 +298,8 @@ def test_the_learners_pages(layout):
     assert doctor.pages(layout).state == "note"
     layout.notes.mkdir(parents=True)
     layout.shipped.mkdir()
-    for place in (layout.shipped, layout.learner):
-        (place / "03_write.ipynb").touch()
+    (layout.shipped / "03_write.ipynb").touch()
+    (layout.learner / "03_write.ipynb").touch()
     (layout.learner / "03_write-kept-1.ipynb").touch()
     assert doctor.pages(layout).text == f"1 in {layout.learner}"
 

@@ -150,6 +150,13 @@ def test_notes_on_a_home_page_of_an_earlier_version_of_the_course_are_kept(cours
     assert (course.learner / "home-kept-1.ipynb").read_bytes() == notes
 
 
+def test_a_home_page_that_cannot_be_read_is_kept(course):
+    course.learner.mkdir()
+    (course.learner / "home.ipynb").write_text("not a page")
+    folder.make(course)
+    assert (course.learner / "home-kept-1.ipynb").read_text() == "not a page"
+
+
 @pytest.mark.parametrize("is_link", [True, False])
 def test_something_else_has_the_name_of_the_folder(course, is_link, capsys):
     if is_link:
@@ -213,7 +220,7 @@ def test_a_workspace_on_another_disk_is_for_the_learner_to_move(course, monkeypa
     err = capsys.readouterr().err
     assert "ROS2_and_RL_Tutorials is on another disk than my_course" in err
     monkeypatch.undo()
-    line = err.splitlines()[-2].strip()
+    (line,) = [one for one in err.splitlines() if one.split()[:1] == ["mv"]]
     subprocess.run(shlex.split(line), check=True)
     folder.make(course)
     assert listed(course.learner / "ROS2_and_RL_Tutorials") == ["src"]
@@ -295,6 +302,34 @@ def test_work_in_the_courses_own_page_is_no_new_version_if_nobody_knows_the_page
     folder.make(course)
     (course.shipped / NAME).write_bytes(WORKED)
     assert not folder.is_newer(course, course.shipped / NAME)
+
+
+def test_without_git_reset_brings_back_what_the_learner_got(course):
+    folder.make(course)
+    (course.shipped / NAME).write_bytes(WORKED)
+    (course.learner / NAME).write_bytes(WORKED)
+    assert cli.main(["reset", "03"]) == 0
+    assert sources(course.learner / NAME)[1] == BLANK
+    assert (course.learner / "03_write-kept-1.ipynb").read_bytes() == WORKED
+
+
+def test_a_page_of_the_course_that_was_only_run_is_no_new_version(course):
+    folder.make(course)
+    run = json.loads(SHIPPED)
+    run["cells"][0]["outputs"] = [{"output_type": "stream", "name": "stdout", "text": "heard"}]
+    (course.shipped / NAME).write_text(json.dumps(run))
+    assert not folder.is_newer(course, course.shipped / NAME)
+    folder.reset(course, ["03"])
+    assert "heard" not in (course.learner / NAME).read_text()
+
+
+def test_a_page_of_the_course_that_cannot_be_read_is_no_new_version(course, capsys):
+    folder.make(course)
+    before = (course.learner / NAME).read_bytes()
+    (course.shipped / NAME).write_text("<<<<<<< HEAD")
+    for command in (["update"], ["update", "03"], ["reset", "03"]):
+        assert cli.main(command) == 0
+        assert (course.learner / NAME).read_bytes() == before
 
 
 def test_answers_that_were_never_run_come_along(committed):
@@ -390,6 +425,16 @@ def test_what_the_course_no_longer_has_is_no_longer_shown(course):
     assert listed(course.learner / "solutions" / "sensor_simulator") == ["mine.md"]
     assert listed(course.learner / "docs") == ["mine.md"]
     assert (course.learner / "solutions" / NAME).exists()
+
+
+def test_a_read_only_file_that_is_not_the_courses_stays(course):
+    folder.make(course)
+    objects = course.learner / "docs" / ".git" / "objects"  # git makes these read-only
+    objects.mkdir(parents=True)
+    (objects / "abc").write_text("mine")
+    (objects / "abc").chmod(0o444)
+    folder.make(course)
+    assert (objects / "abc").read_text() == "mine"
 
 
 # A release: an instructor's class works in `notebooks`.

@@ -64,7 +64,7 @@ def test_it_opens_another_folder_when_asked(layout):
 
 
 @pytest.mark.parametrize(
-    "options", [["--ServerApp.root_dir=/elsewhere"], ["--notebook-dir", "/elsewhere"]]
+    "options", [["--ServerApp.root_dir=/elsewhere"], ["--notebook-dir", "/elsewhere"], ["/tmp"]]
 )
 def test_another_folder_has_none_of_our_pages(layout, options, capsys):
     page(layout, "my_course/home.ipynb")
