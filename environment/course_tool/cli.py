@@ -19,7 +19,7 @@ HELP = """\
 Usage:  ./environment/course COMMAND [OPTIONS]
 
   lab      open the course in JupyterLab; options go to it: --no-browser --port 8889 --ip ...
-  reset    bring a page back as it was shipped (reset 03); yours is kept beside it
+  reset    bring a page back as it was shipped (reset 03); what you saved is kept beside it
   update   take new versions of the pages that you have not worked in; for one that you have
            (update 03), take the new version with your answers in it
   shell    a bash in which ROS and the course's Python are active; -c "command" runs one command

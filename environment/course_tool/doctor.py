@@ -286,7 +286,8 @@ def workspace(layout: Layout, environ: Mapping[str, str]) -> Finding:
         return Finding("problem", "workspace", text, f"mkdir -p {shlex.quote(str(parent))}")
     if not os.access(parent, os.W_OK):
         text = f"{parent} cannot be written to"
-        return Finding("problem", "workspace", text, f"set {SETTING} elsewhere")
+        ours = f'sudo chown -R "$USER" {shlex.quote(str(parent))}'
+        return Finding("problem", "workspace", text, f"set {SETTING} elsewhere" if chosen else ours)
     there = "" if (parent / WORKSPACE).is_dir() else " (page 01 makes it)"
     because = f", by {SETTING}" if chosen else ""
     return Finding("ok", "workspace", f"{parent / WORKSPACE}{there}{because}")

@@ -38,7 +38,8 @@ DOCS = "docs"
 _READ_ONLY = 0o444
 #: Files by which colcon marks what it has made, and makes again.
 _MADE_BY_COLCON = ("build/.built_by", "install/.colcon_install_layout")
-_RELOAD = "If the page is open in JupyterLab: File, Reload Notebook from Disk."
+_RELOAD = """\
+If the page is open in JupyterLab: File, Reload Notebook from Disk, which drops unsaved changes."""
 _LOCKED = {"editable": False, "deletable": False}
 _BANNER = """\
 <div class="alert alert-block alert-warning rosbeat-solution"><b>This is a solution</b>, to compare
@@ -306,7 +307,8 @@ def _update_one(layout: Layout, page: Path, carries: bool) -> str:
     _write(base, now)
     went = f"your answers to {', '.join(fit)} are in it" if fit else "no answer fits it"
     left = f"; {', '.join(others)} changed, so your answer is only in the old one" if others else ""
-    return f"updated  {page.name}: {went}{left}.\n         The old one is {_shown(layout, kept)}"
+    old = f"The old page, with everything else that you wrote, is {_shown(layout, kept)}"
+    return f"updated  {page.name}: {went}{left}.\n         {old}"
 
 
 def carried(mine: bytes, then: bytes, now: bytes) -> tuple[bytes, list[str], list[str]]:

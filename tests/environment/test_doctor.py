@@ -276,6 +276,7 @@ def test_a_changed_file_harms_nothing(whole):
     (whole.root / "notebooks" / "00_hear.ipynb").write_text("mine")
     found = doctor.course_files(whole, os.environ)
     assert (found.state, found.text) == ("note", "changed: notebooks/00_hear.ipynb")
+    assert found.cure.startswith("copy what is yours")
     assert found.cure.endswith(" notebooks/00_hear.ipynb")
 
 
