@@ -90,8 +90,8 @@ def defaults(prefix: str | None = None) -> dict[str, str]:
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         # Message classes read this when they are imported: `String(data=3)` then says why not.
         "ROS_PYTHON_CHECK_FIELDS": "1",
-        # Each message package imports NumPy, whose second thread spins for a tenth of a second, and
-        # no node of the course multiplies matrices: a third of what it takes to start a node.
+        # Each message package imports NumPy, whose further threads only make nodes start later: no
+        # node of the course multiplies matrices.
         "OPENBLAS_NUM_THREADS": "1",
         "ROS_DISTRO": "jazzy",
         "ROS_VERSION": "2",
