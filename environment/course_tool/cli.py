@@ -44,6 +44,9 @@ def main(arguments: Sequence[str]) -> int:
     except KeyboardInterrupt:
         say("\nStopped, as you asked. The same command goes on from here.")
         return 130
+    except BrokenPipeError:  # `doctor | head`: nobody reads on
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # Python flushes its output once more
+        return 1
     except OSError as error:
         complain(_from_system(layout, error))
     except Exception:  # the last net: never a bare traceback

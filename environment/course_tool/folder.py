@@ -105,13 +105,12 @@ def _copy_home(layout: Layout) -> None:
     if not source.exists():
         return
     content, then = source.read_bytes(), base.read_bytes() if base.exists() else b""
-    if target.exists():
-        if _is_same(then, content):
-            return
-        mine = target.read_bytes()
-        if not _is_same(mine, then) and not _is_same(mine, content):
-            say(f"There is a new {HOME}; yours is kept as {_shown(layout, _keep(target))}.")
-    if not target.exists() or not _is_same(target.read_bytes(), content):
+    mine = target.read_bytes() if target.exists() else b""
+    if mine and _is_same(then, content):
+        return
+    if mine and not any(_is_same(mine, one) for one in (then, content)):
+        say(f"There is a new {HOME}; yours is kept as {_shown(layout, _keep(target))}.")
+    if not _is_same(mine, content):
         _write(target, as_opened(content))
     _write(base, content)
 

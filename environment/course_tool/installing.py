@@ -157,15 +157,8 @@ def pip_settings(listing: str, environ: Mapping[str, str]) -> dict[str, str]:
 
 
 def _for_installers(environ: Mapping[str, str]) -> dict[str, str]:
-    ours = {
-        "UV_PYTHON_DOWNLOADS": "never",
-        "PIP_DISABLE_PIP_VERSION_CHECK": "1",
-        "PIP_USER": "0",
-    }
-    others = ("UV_PYTHON", "VIRTUAL_ENV", "CONDA_PREFIX")
     # pip's own default is five tries; without a network that only delays the message.
-    env = {"PIP_RETRIES": "2", **environ, **ours}
-    return {name: value for name, value in env.items() if name not in others}
+    return {"PIP_RETRIES": "2", **environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1", "PIP_USER": "0"}
 
 
 def _fetch_uv(layout: Layout, env: Mapping[str, str]) -> None:

@@ -1,13 +1,18 @@
 """The commands, and how whatever goes wrong in them is said."""
 
 import errno
+import os
 import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
 from course_tool import cli, commands, prepare, running, testing
 from course_tool.problems import Problem, complain
 from course_tool.testing import Counts, Verdict
+
+ENVIRONMENT = Path(__file__).parents[2] / "environment"
 
 
 def run(monkeypatch, error):
@@ -77,6 +82,17 @@ def test_a_learners_folder_that_another_user_made(layout, monkeypatch, capsys):
     assert f"{place} cannot be read or written (Permission denied)" in err
     assert f"sudo chown -R \"$USER\" '{layout.learner}'" in err
     assert "Clone" not in err
+
+
+def test_a_reader_that_has_read_enough_is_no_fault_of_the_course():
+    reads, writes = os.pipe()
+    os.close(reads)
+    command = [sys.executable, "-I", ENVIRONMENT / "course_tool", "help"]
+    try:
+        done = subprocess.run(command, stdout=writes, stderr=subprocess.PIPE, timeout=100)
+    finally:
+        os.close(writes)
+    assert (done.returncode, done.stderr) == (1, b"")
 
 
 def test_never_a_bare_traceback(monkeypatch, capsys):

@@ -71,22 +71,21 @@ def test_a_disk_that_fills_while_installing(made, monkeypatch):
         installing.fill(made, "course", {})
 
 
-def test_installers_never_bring_a_python_and_ignore_other_environments(made, monkeypatch):
-    seen = {}
+def test_uv_is_told_which_python_whatever_other_environments_are_active(made, monkeypatch):
+    seen, commands = {}, []
 
     def stream(command, env, shown):
         seen.update(env)
+        commands.append(command)
         return running.Result(0, "")
 
     monkeypatch.setattr(running, "quiet", lambda command, env, **_: running.Result(0, ""))
     monkeypatch.setattr(running, "stream", stream)
-    installing.fill(
-        made, "course", {"UV_PYTHON": "3.9", "VIRTUAL_ENV": "/other", "UV_INDEX": "mine"}
-    )
-    assert seen["UV_PYTHON_DOWNLOADS"] == "never"
+    installing.fill(made, "course", {"UV_INDEX": "mine"})
     assert seen["UV_INDEX"] == "mine"
-    assert "UV_PYTHON" not in seen
-    assert "VIRTUAL_ENV" not in seen
+    assert len(commands) == 2
+    for command in commands:  # the option counts more than UV_PYTHON and VIRTUAL_ENV
+        assert command[command.index("--python") + 1] == made.python
 
 
 def test_progress_shows_what_is_fetched_and_not_every_name():
