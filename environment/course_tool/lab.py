@@ -117,7 +117,7 @@ def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list
 
 def _is_elsewhere(layout: Layout, options: Sequence[str]) -> bool:
     """Tell whether a person opens another folder than the learner's, where none of our pages is."""
-    return any(one.startswith(_FOLDERS) or (layout.learner / one).is_dir() for one in options)
+    return any(one.startswith(_FOLDERS) or os.path.isdir(layout.learner / one) for one in options)
 
 
 def first_page(layout: Layout) -> str:

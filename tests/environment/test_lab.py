@@ -76,6 +76,12 @@ def test_another_folder_has_none_of_our_pages(layout, options, capsys):
     assert asked == "http://localhost:8888/lab/tree/mine.ipynb?token=abc"
 
 
+def test_an_option_may_be_longer_than_a_file_name(layout):
+    page(layout, "my_course/home.ipynb")
+    options = options_of(layout, [f"--ServerApp.jpserver_extensions={'x' * 5000}"])
+    assert "--LabApp.default_url=/lab/tree/home.ipynb" in options
+
+
 def test_it_opens_the_folder_when_there_is_no_page(layout, capsys):
     assert not any("default_url" in option for option in options_of(layout, []))
     assert "There is no page" in capsys.readouterr().out
