@@ -67,3 +67,19 @@ def test_everything_is_shown_if_the_cell_raises(kernel):
     reply = run(kernel, CELL.replace("44", "1 / 0"))
     assert (reply.error, reply.text) == ("ZeroDivisionError", "first 41\n")
     assert run(kernel, "print('as ever')").text == "as ever\n"
+
+
+LOGS = "import logging\nlogging.basicConfig(force=True)\n" + CELL
+REDIRECTS = """
+from contextlib import redirect_stdout
+from io import StringIO
+with redirect_stdout(StringIO()):
+    predict("____", 44)
+"""
+
+
+def test_what_holds_a_stream_for_longer_writes_to_it_after_the_cell(kernel):
+    assert run(kernel, LOGS).text == ""
+    assert kernel.run("logging.warning('as ever')").text == "WARNING:root:as ever\n"
+    run(kernel, REDIRECTS)
+    assert run(kernel, "print('as ever')").text == "as ever\n"
