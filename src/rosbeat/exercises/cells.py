@@ -25,6 +25,8 @@ Shell: TypeAlias = Any
 Info: TypeAlias = Any
 Answer: TypeAlias = Any
 
+#: Stands for an answer that is not there; None is one that is.
+NOTHING: Answer = object()
 #: Characters of what a cell raised that are shown.
 _LONGEST = 200
 _HELD_AS = "_rosbeat_cells"
@@ -136,8 +138,10 @@ class Cells:
         Args:
             exercise: The exercise's id.
 
+        Returns:
+            The answer; `NOTHING` if no cell has handed one to `check`, or defined one.
+
         Raises:
-            LookupError: If no cell has handed one to `check`, or defined one.
             Exception: What the expression raises that a cell has handed over.
         """
         expression = self._handed.get(exercise)
@@ -147,8 +151,8 @@ class Cells:
             )
         runs = [one for one in self._last.values() if one.exercise == exercise and one.bound]
         if not runs:
-            raise LookupError(exercise)
-        return self._shell.user_ns[max(runs, key=lambda one: one.number).bound[-1]]
+            return NOTHING
+        return self._shell.user_ns.get(max(runs, key=lambda one: one.number).bound[-1], NOTHING)
 
     def refuse_stale(self, exercise: str) -> bool:
         """Refuse to judge what the last run of an exercise's cell did not define.
@@ -201,9 +205,8 @@ class Cells:
             return _stamp(run.file) == run.stamp  # later, somebody may have changed it by hand
         if not run.failure or not run.names:
             return False
-        wanted = (name,) if name in run.names else run.names
-        makers = [self._binder.get(one) for one in wanted]
-        return not all(maker is not None and maker.number >= run.number for maker in makers)
+        since = {one for one, maker in self._binder.items() if maker.number >= run.number}
+        return name not in since and (name in run.names or not since.issuperset(run.names))
 
     def _refuse_other_name(self, name: str, runs: list[Run]) -> None:
         binder = self._binder.get(name)
@@ -276,7 +279,7 @@ def _answer_in(source: str, exercise: str) -> ast.expr | None:
     except (SyntaxError, ValueError, RecursionError):
         return None
     found = [args[1] for args in map(_arguments, calls) if len(args) == 2
-             and isinstance(args[0], ast.Constant)
+             and isinstance(args[0], ast.Constant) and not isinstance(args[1], ast.Starred)
              and str(args[0].value).strip().lower() == exercise]  # fmt: skip
     return found[0] if len(found) == 1 else None
 

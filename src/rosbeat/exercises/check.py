@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import replace
 from textwrap import wrap
 from typing import Any
@@ -11,7 +10,7 @@ from IPython.display import display
 
 from rosbeat.errors import ExerciseError, called_as
 from rosbeat.exercises.cards import Shown
-from rosbeat.exercises.cells import Cells, cells_of, worked_on
+from rosbeat.exercises.cells import NOTHING, Cells, cells_of, worked_on
 from rosbeat.exercises.exercise import Exercise, not_attempted
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
@@ -24,12 +23,8 @@ from rosbeat.workspace.waiting import counting
 # `check`: what a learner calls.
 
 
-#: Stands for an answer that was not handed over; None is one that was.
-_NOTHING = object()
-
-
 @called_as('check("03a", HumiditySensor)')
-def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
+def check(exercise: str = "", answer: Answer = NOTHING) -> Shown:
     """Run the answer to an exercise and say what is right or what is missing.
 
     A node runs in a session of its own, in virtual time; nothing on the page changes. How far you
@@ -47,7 +42,7 @@ def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
         ExerciseError: If there is no such exercise, no answer was handed over, or the cell above
             did not run; where nbgrader runs the page, also if the answer does not get all points.
     """
-    if exercise == "" and answer is _NOTHING:
+    if exercise == "" and answer is NOTHING:
         exercise = worked_on()
         if not exercise:
             raise which_exercise("check", "check({}, ...)")
@@ -55,7 +50,7 @@ def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
     cells = cells_of()
     if cells is not None:
         cells.ask(found.id)
-    if answer is _NOTHING:
+    if answer is NOTHING:
         answer = _current(found, cells)
     outcome = _judge(found, answer, cells)
     execution = graded_runs.execution()
@@ -75,14 +70,14 @@ def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
     Raises:
         ExerciseError: If there is none.
     """
-    with suppress(LookupError):
-        if cells is not None:
-            return cells.answer(found.id)
-    raise ExerciseError(
-        f"`check` was given no answer to exercise {found.id}.",
-        "It needs what the cell above defines, such as a class.",
-        f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
-    )
+    answer = NOTHING if cells is None else cells.answer(found.id)
+    if answer is NOTHING:
+        raise ExerciseError(
+            f"`check` was given no answer to exercise {found.id}.",
+            "It needs what the cell above defines, such as a class.",
+            f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
+        )
+    return answer
 
 
 def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Outcome:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -28,6 +27,7 @@ from rosbeat.exercises import (
     page_13,
     system,
 )
+from rosbeat.exercises.cells import worked_on
 from rosbeat.exercises.exercise import Exercise
 
 #: With this page the package is finished; those after it come in any order that `needs` allows.
@@ -153,11 +153,10 @@ def find(exercise: object, example: str) -> Exercise[Any]:
 def which_exercise(call: str, example: str) -> ExerciseError:
     """Return the error for a call that names no exercise."""
     page = this_page()
-    near = worked_on() or _offered(page)[0].id
     return ExerciseError(
         f"`{call}` was not told which exercise is meant.",
         offer(page),
-        f"Write for example {shown(example, near)}.",
+        f"Write for example {shown(example, _offered(page)[0].id)}.",
     )
 
 
@@ -180,7 +179,6 @@ def _offered(page: Page | None) -> Sequence[Exercise[Any]]:
 
 #: How a page of the course is called: its number, and words.
 _FILE = re.compile(r"(\d\d)_[^/]*$")
-_ASKED = re.compile(r"""\b(?:check|hint)\(\s*["'](\w+)["']""")
 
 
 def this_page() -> Page | None:
@@ -192,12 +190,3 @@ def this_page() -> Page | None:
     file = _FILE.search(os.environ.get("JPY_SESSION_NAME", ""))
     number = file[1] if file else worked_on()[:2]
     return next((page for page in PAGES if page.number and page.number == number), None)
-
-
-def worked_on() -> str:
-    """Return the id of the exercise that a cell of this kernel asked for last, or an empty text."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython else None
-    cells = shell.user_ns.get("In", []) if shell else []
-    asked = [one.lower() for cell in cells for one in _ASKED.findall(str(cell))]
-    return next((one for one in reversed(asked) if one in EXERCISES), "")

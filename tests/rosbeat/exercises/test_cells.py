@@ -111,6 +111,8 @@ FINE = {
     "twice": [(EXERCISE, RIGHT), (EXERCISE, RIGHT)],
     "defined, and something raised below it": [(EXERCISE, RAISES)],
     "defined elsewhere after the cell failed": [(EXERCISE, BROKEN), (SCRATCH, RIGHT)],
+    "moved to another cell, with a helper class that fails": [
+        (EXERCISE, "class Helper(Node)\n    pass"), (SCRATCH, RIGHT)],
     "a helper class elsewhere": [(EXERCISE, RIGHT), (SCRATCH, SUBCLASS)],
     "a helper class elsewhere that fails": [(EXERCISE, RIGHT), (SCRATCH, "class A(Node)\n  pass")],
     "moved to another cell": [(EXERCISE, RIGHT), (SCRATCH, RIGHT), (EXERCISE, SUBCLASS)],
@@ -219,6 +221,11 @@ def test_a_new_card_takes_the_buttons_of_the_one_before(page):
     assert page(("", "print(old.comm, cells_of().cards['03a'] is old)")).text == "None False\n"
 
 
+def test_an_answer_that_comes_out_of_a_list_can_be_judged_again(page):
+    page((EXERCISE, SHALLOW), (CHECK, 'check("03a", *[HumiditySensor])'), ("", PRESS))
+    assert "False" in page(("", "press('again')")).text
+
+
 # Nothing said means what was worked on last.
 
 
@@ -235,3 +242,10 @@ def test_nothing_said_means_what_was_checked_last_as_it_is_now(page):
     assert page(("", "told()")).text.startswith("failed")
     assert page(("", RIGHT), ("", "told()")).text.startswith("passed")
     assert page(("", 'told("03a")')).text.startswith("passed")
+
+
+def test_an_unknown_exercise_is_answered_with_those_of_the_page_that_was_worked_on(page):
+    page((EXERCISE, RIGHT))
+    reply = page((SCRATCH, 'hint("03z")'))
+    assert refused(reply)
+    assert "The exercises on this page are: 03a (" in reply.trace
