@@ -85,16 +85,16 @@ predict("60", sent)
 #
 # `ros.messages` returns these records. Here is the first one from your first session: when the message was sent (in
 # seconds), on which topic, by which node, and its value.
-#
-# On a robot, a node usually runs in a [**process**](../docs/glossary.md#process) of its own, which is the operating
-# system's word for a running program. A session gives each node a simulated process, and the messages travel
-# through real ROS software. If you'd like to know more, read [what is simulated, and
-# how](../docs/architecture.md#what-is-simulated-and-how).
 
 # %%
 ros.messages("temperature")[0]
 
 # %% [markdown]
+# On a robot, a node usually runs in a [**process**](../docs/glossary.md#process) of its own, which is the operating
+# system's word for a running program. A session gives each node a simulated process, and the messages travel
+# through real ROS software. If you'd like to know more, read [what is simulated, and
+# how](../docs/architecture.md#what-is-simulated-and-how).
+#
 # ## Visit the newsroom
 #
 # Picture a newsroom. Reporters write articles about sports, politics or the weather. Readers follow the

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import linecache
 from difflib import get_close_matches
-from types import TracebackType
+from types import FrameType, TracebackType
 from typing import TYPE_CHECKING
 
 from rosbeat.errors import RosbeatError
@@ -50,40 +50,49 @@ def _show(
     tb_offset: int | None = None,
 ) -> None:
     """Show an exception as IPython does, with two lines below it."""
-    means = _explained(shell, error, trace)
-    below = [f"  What it means: {means[0]}", f"  What to try:   {means[1]}"] if means else []
-    if isinstance(error, SyntaxError):
-        # `showtraceback` passes the lines of such an error over.
-        above = shell.SyntaxTB.structured_traceback(kind, error, [])
-        shell._showtraceback(kind, error, [*above, *below])
+    mine = _lines_of_the_page(shell, trace)
+    means = _explained(shell, error, mine)
+    if means is None:
+        shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
         return
-    if below:
-        render = getattr(error, "_render_traceback_", None) or (
-            lambda: shell.InteractiveTB.structured_traceback(kind, error, trace, tb_offset)
-        )
-        shown = [*render(), *below]
-        error._render_traceback_ = lambda: shown  # type: ignore[attr-defined] # IPython's protocol
-    shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
+    if isinstance(error, SyntaxError) and not mine:
+        shown = shell.SyntaxTB.structured_traceback(kind, error, [])
+    elif hasattr(error, "_render_traceback_"):  # IPython's protocol
+        shown = list(error._render_traceback_())
+    else:
+        shown = shell.InteractiveTB.structured_traceback(kind, error, trace, tb_offset)
+    below = [f"  What it means: {means[0]}", f"  What to try:   {means[1]}"]
+    # Not by `showtraceback`: an error that is raised again would keep these lines.
+    shell._showtraceback(kind, error, [*shown, *below])
+
+
+def _lines_of_the_page(
+    shell: InteractiveShell, trace: TracebackType | None
+) -> list[tuple[FrameType, int, bool]]:
+    """Return the frames of cells, with the line, and whether nothing was called from there."""
+    found = []
+    while trace is not None:
+        if trace.tb_frame.f_globals is shell.user_ns:
+            found.append((trace.tb_frame, trace.tb_lineno, trace.tb_next is None))
+        trace = trace.tb_next
+    return found
 
 
 def _explained(
-    shell: InteractiveShell, error: Exception, trace: TracebackType | None
+    shell: InteractiveShell, error: Exception, mine: list[tuple[FrameType, int, bool]]
 ) -> tuple[str, str] | None:
     """Return what an exception means and what to try; None if it says so itself."""
-    if isinstance(error, RosbeatError):
+    from IPython.core.error import UsageError
+
+    if isinstance(error, (RosbeatError, UsageError)):
         return None
-    if isinstance(error, SyntaxError):
+    if not mine:  # before the cell ran, or in code that no cell has called
+        if not isinstance(error, SyntaxError):
+            return None
         return _INDENTATION if isinstance(error, IndentationError) else _SYNTAX
-    frames = []
-    while trace is not None:
-        frames.append((trace.tb_frame, trace.tb_lineno))
-        trace = trace.tb_next
-    mine = [one for one in frames if one[0].f_globals is shell.user_ns]
-    if not mine:
-        return None
+    frame, line, is_last = mine[-1]
     if type(error) is NameError:
-        return _about_name(shell, error) if mine[-1] == frames[-1] else None
-    frame, line = mine[-1]
+        return _about_name(shell, error) if is_last else None
     code = linecache.getline(frame.f_code.co_filename, line).strip()
     return _known(error, line, code) or _UNKNOWN
 

@@ -77,6 +77,21 @@ def test_a_blank_and_what_other_code_does_are_as_they_were(cell):
     assert "What to try" not in shown(IMPORTS, cell)
 
 
+def test_a_broken_module_is_not_taken_for_the_cell(tmp_path):
+    (tmp_path / "broken.py").write_text("def f(:\n")
+    told = shown(IMPORTS, f"import sys\nsys.path.insert(0, {str(tmp_path)!r})", "import broken")
+    assert "none of its lines ran" not in told
+    assert "import broken" in told
+    assert "The cell stopped at the line that is marked" in told
+
+
+def test_an_error_that_is_raised_again_is_explained_once_each_time():
+    told = shown(IMPORTS, "kept = ValueError('kept')", "raise kept  # one", "raise kept  # two")
+    first, second = told.split("# one", 1)[1].split("# two", 1)
+    assert first.count("What to try") == 1
+    assert second.count("What to try") == 1
+
+
 def test_an_error_of_the_course_has_its_own_two_lines():
     assert shown(IMPORTS, "check('99z')").count("What to try") == 1
 

@@ -192,10 +192,13 @@ class _ReadOnlyFile(ProgressFile):
         super().__init__(folder)
         self._here: dict[str, Standing] = {}
 
+    def standings(self) -> Standings:
+        """Return every standing by exercise, as this kernel knows it."""
+        return {**super().standings(), **self._here}
+
     def change(self, exercise: str, edit: Callable[[Standing], Standing]) -> Standing:
         """Change the standing of one exercise for as long as the kernel lives."""
-        before = self._here.get(exercise) or self.standings().get(exercise, Standing())
-        self._here[exercise] = edit(before)
+        self._here[exercise] = edit(self.standings().get(exercise, Standing()))
         return self._here[exercise]
 
 
