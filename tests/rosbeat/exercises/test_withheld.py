@@ -30,19 +30,19 @@ def test_an_open_prediction_keeps_back_what_the_cell_prints(kernel):
 
 
 ANSWER = """
-from ipywidgets.widgets.widget import _instances
-field = [one for one in _instances.values() if getattr(one, "kind", "") == "predict"][-1]
-for sent in ({"do": "guess", "guess": "some words"}, {"do": "guess", "guess": "44"}):
+from rosbeat.exercises.cells import cells_of
+(field,) = cells_of().widgets["one"]
+for sent in ({"do": "guess", "guess": "<b>"}, {"do": "guess", "guess": "44"}):
     field._hear(sent)
-    print(field.passed, field.said)
+    print(field.passed, field.begun, field.done, field.said)
 """
 
 
 def test_a_guess_that_cannot_be_compared_may_be_made_again(kernel):
     assert run(kernel, CELL).text == ""
     assert kernel.run(ANSWER).text == (
-        "False That cannot be compared with what happened: write a number.\n"
-        "True What happened is below.\n"
+        "False 1 1 That cannot be compared with what happened: write a number.\n"
+        "True 2 2 You predicted 44, and it was 44.\n"
     )
 
 
