@@ -19,8 +19,8 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
-from rosbeat.exercises.progress_list import ProgressList, Row, page_folder
-from rosbeat.exercises.registry import PAGES, Page, this_page
+from rosbeat.exercises.progress_list import ProgressList, Row
+from rosbeat.exercises.registry import PAGES, Page, page_file, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.place import is_a_solution, steady_home, workspace_parent
@@ -223,13 +223,9 @@ def _is_a_page() -> bool:
 
 
 def _is_a_solution() -> bool:
-    """Return whether the page in this kernel is a solution.
-
-    Jupyter's server names the page. Without one, as in an editor, it is in the kernel's folder.
-    """
-    page = Path(os.environ.get("JPY_SESSION_NAME", "") or "page.ipynb")
+    """Return whether the page in this kernel is a solution."""
     with suppress(FileNotFoundError):  # the kernel's folder may be gone
-        return is_a_solution(page)
+        return is_a_solution(page_file())
     return False
 
 
@@ -256,7 +252,7 @@ def progress() -> ProgressList:
     Returns:
         The list, which Jupyter shows. It changes when a later check passes.
     """
-    return ProgressList(rows, this_page(), page_folder())
+    return ProgressList(rows, this_page(), page_file().parent)
 
 
 def rows() -> list[Row]:

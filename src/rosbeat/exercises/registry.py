@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any
 
 from rosbeat.errors import ExerciseError
@@ -178,15 +180,26 @@ def _offered(page: Page | None) -> Sequence[Exercise[Any]]:
 
 
 #: How a page of the course is called: its number, and words.
-_FILE = re.compile(r"(\d\d)_[^/]*$")
+_FILE = re.compile(r"(\d\d)_")
+
+
+def page_file() -> Path:
+    """Return the file of the page that is open in this kernel; it need not exist.
+
+    Jupyter's server names it in the environment of its kernel. Without one, as in an editor, it is
+    a file in the kernel's folder.
+    """
+    file = Path(os.environ.get("JPY_SESSION_NAME") or "page.ipynb")
+    with suppress(FileNotFoundError):  # the kernel's folder may be gone
+        return file.absolute()
+    return file
 
 
 def this_page() -> Page | None:
     """Return the page that is open in this kernel; None if that cannot be told.
 
-    Jupyter's server names the notebook in the environment of its kernel. Elsewhere the exercises
-    that the cells so far have asked for tell the page.
+    Where its file does not tell, the exercise that was worked on last does.
     """
-    file = _FILE.search(os.environ.get("JPY_SESSION_NAME", ""))
+    file = _FILE.search(page_file().name)
     number = file[1] if file else worked_on()[:2]
     return next((page for page in PAGES if page.number and page.number == number), None)
