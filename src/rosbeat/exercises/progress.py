@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
@@ -19,7 +18,7 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
-from rosbeat.exercises.progress_list import ProgressList, Row
+from rosbeat.exercises.progress_list import ProgressList, Row, is_a_page
 from rosbeat.exercises.registry import PAGES, Page, page_file, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
@@ -212,14 +211,7 @@ def progress_file() -> ProgressFile:
         return _at(workspace_parent() / FOLDER, True)
     chosen = os.environ.get(SETTING, "")
     parent = Path(chosen).expanduser().resolve() if chosen else workspace_parent()
-    return _at(parent / FOLDER, (bool(chosen) or _is_a_page()) and not _is_a_solution())
-
-
-def _is_a_page() -> bool:
-    """Return whether this is the kernel of a page, and no program, test or IPython prompt."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython else None
-    return hasattr(shell, "kernel")
+    return _at(parent / FOLDER, (bool(chosen) or is_a_page()) and not _is_a_solution())
 
 
 def _is_a_solution() -> bool:

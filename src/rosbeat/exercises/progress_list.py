@@ -8,6 +8,7 @@ does those of a markdown cell. In pages that are not trusted its sanitizer leave
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -96,17 +97,17 @@ class ProgressList:
     def _ipython_display_(self) -> None:
         from IPython.display import display
 
-        if is_kept_up_to_date():
+        if is_a_page():
             _updater().show(self)
         else:
             display(self.bundle(), raw=True)
 
 
-def is_kept_up_to_date() -> bool:
-    """Return whether a list in this process can change after its cell has run."""
-    from IPython import get_ipython
-
-    return getattr(get_ipython(), "kernel", None) is not None and steady_home() is None
+def is_a_page() -> bool:
+    """Return whether this is the kernel of a page that somebody works on: no program, no build."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return hasattr(shell, "kernel") and steady_home() is None
 
 
 class _Updater:
