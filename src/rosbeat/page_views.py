@@ -82,13 +82,13 @@ def _short(names: Iterable[str]) -> View:
     """Return a view of some attributes."""
 
     def show(value: Any) -> str:  # noqa: ANN401 - of many types
-        shown = ", ".join(f"{name}={_told(getattr(value, name))}" for name in names)
+        shown = ", ".join(f"{name}={_value_text(getattr(value, name))}" for name in names)
         return f"{type(value).__name__}({shown})"
 
     return show
 
 
-def _told(value: object) -> str:
+def _value_text(value: object) -> str:
     if type(value).__name__ == "QoS":
         return _short(_RECORDS["QoS"])(value)
     text = _decimal(value) if isinstance(value, float) else repr(value)

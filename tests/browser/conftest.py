@@ -22,9 +22,15 @@ def pytest_ignore_collect(collection_path, config):
 
 
 @pytest.fixture(scope="session")
-def lab(tmp_path_factory):
-    if browser_path() is None:
-        pytest.skip("no Chromium on this machine; ROSBEAT_BROWSER may name one")
+def browser():
+    """The path of the browser."""
+    return browser_path() or pytest.skip(
+        "no Chromium on this machine; ROSBEAT_BROWSER may name one"
+    )
+
+
+@pytest.fixture(scope="session")
+def lab(browser, tmp_path_factory):
     folder = tmp_path_factory.mktemp("lab")
     root = folder / "pages"
     root.mkdir()
@@ -33,15 +39,13 @@ def lab(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def chromium():
+def chromium(browser):
     """Start the browser of all tests: playwright runs once in a process."""
-    if browser_path() is None:
-        pytest.skip("no Chromium on this machine; ROSBEAT_BROWSER may name one")
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as tools:
         options = ["--no-sandbox", "--disable-dev-shm-usage"]
-        made = tools.chromium.launch(executable_path=browser_path(), args=options)
+        made = tools.chromium.launch(executable_path=browser, args=options)
         yield made
         made.close()
 

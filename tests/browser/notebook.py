@@ -28,7 +28,10 @@ RAISED = """() => window.jupyterapp.shell.currentWidget.context.model.toJSON().c
     .filter(cell => cell.cell_type === 'code')
     .flatMap((cell, number) => cell.outputs.filter(one => one.output_type === 'error')
         .map(one => [number, `${one.ename}: ${one.evalue}`]))"""
-
+#: The outputs of a cell, as they would be saved.
+OUTPUTS = "n => window.jupyterapp.shell.currentWidget.context.model.toJSON().cells[n].outputs"
+#: The notebook in front.
+SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"
 #: Whether every cell is on the page; JupyterLab adds those of a long notebook bit by bit.
 DRAWN = """() => {
     const { content } = window.jupyterapp.shell.currentWidget;
@@ -65,7 +68,7 @@ class Notebook:
     def __init__(self, page, lab, name):
         self.page, self.name = page, name
         page.goto(f"{lab.url}lab/workspaces/{Path(name).stem}/tree/{name}?reset")
-        page.wait_for_selector(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Cell", timeout=PATIENCE)
+        page.wait_for_selector(f"{SHOWN} .jp-Cell", timeout=PATIENCE)
         self._wait_for_idle()
 
     def run_all(self):
@@ -96,6 +99,10 @@ class Notebook:
     def output(self, number):
         """The text of a cell's output."""
         return self.cell(number).locator(".jp-OutputArea-output").first.text_content()
+
+    def stored(self, number):
+        """The outputs of a cell, as they would be saved."""
+        return self.page.evaluate(OUTPUTS, number)
 
     def says(self, number, text):
         """Wait until a text is in a cell's output."""

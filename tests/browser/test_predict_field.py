@@ -1,7 +1,5 @@
 """The field for a prediction in a real browser: the outcome comes after the answer."""
 
-import json
-
 import pytest
 from playwright.sync_api import expect
 
@@ -17,7 +15,6 @@ found = 40 + 4
 predict("____", found, because="Four more.")
 """
 AFTER = "print('found is there:', found)"
-OUTPUTS = "() => JSON.stringify(window.jupyterapp.shell.currentWidget.context.model.toJSON())"
 
 
 @pytest.fixture
@@ -34,11 +31,6 @@ def shown(notebook):
     return notebook.cell(1).locator(".jp-Cell-outputWrapper").inner_text()
 
 
-def kinds(page):
-    outputs = json.loads(page.evaluate(OUTPUTS))["cells"][1]["outputs"]
-    return [one.get("name", one["output_type"]) for one in outputs]
-
-
 def test_nothing_is_told_before_the_answer_and_all_of_it_after(notebook, page):
     page.locator(FIELD).wait_for()
     assert "found is there: 44" in notebook.output(2)
@@ -52,7 +44,8 @@ def test_nothing_is_told_before_the_answer_and_all_of_it_after(notebook, page):
     page.locator(FIELD).get_by_role("button", name="Compare").click()
     notebook.says(1, "You predicted 44, and it was 44.")
     expect(page.locator("#drawn")).to_be_visible()
-    assert kinds(page) == ["display_data", "stdout", "display_data", "stderr", "display_data"]
+    kinds = [one.get("name", one["output_type"]) for one in notebook.stored(1)]
+    assert kinds == ["display_data", "stdout", "display_data", "stderr", "display_data"]
     expect(page.get_by_label("Your prediction")).to_be_hidden()
 
 
@@ -61,6 +54,19 @@ def test_who_wants_to_see_it_at_once_does(notebook, page):
     notebook.says(1, "No prediction yet. It was 44.")
     notebook.says(1, "third 43")
     assert not notebook.errors()
+
+
+def test_a_page_that_was_loaded_anew_has_the_field_and_its_result(notebook, page, lab):
+    page.locator(FIELD).wait_for()
+    notebook.save()
+    again = Notebook(page, lab, notebook.name)
+    page.get_by_label("Your prediction").fill("44")
+    page.locator(FIELD).get_by_role("button", name="Compare").click()
+    page.locator(FIELD, has_text="You predicted 44, and it was 44.").wait_for()
+    again.save()
+    Notebook(page, lab, notebook.name)
+    page.locator(FIELD, has_text="You predicted 44, and it was 44.").wait_for()
+    expect(page.get_by_label("Your prediction")).to_be_hidden()
 
 
 @pytest.mark.parametrize("notebook", [CELL.replace("____", "45")], indirect=True)

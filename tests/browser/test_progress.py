@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from browser.accessibility import cut_off, issues
-from browser.notebook import Notebook, write_notebook
+from browser.notebook import SHOWN, Notebook, write_notebook
 from rosbeat.exercises.exercise import failed, passed
 from rosbeat.exercises.progress import ProgressFile
 
@@ -89,16 +89,11 @@ def test_a_link_opens_its_page_here(opened, page, lab, progress, is_run):
         home.run_all()
     mark(page, "✓ 00a").wait_for()
     page.locator(LIST).get_by_role("link", name="03 Write a publisher").click()
-    page.locator(
-        ".jp-NotebookPanel:not(.lm-mod-hidden) h1", has_text="Write a publisher"
-    ).wait_for()
+    page.locator(f"{SHOWN} h1", has_text="Write a publisher").wait_for()
     assert len(page.context.pages) == 1
     # From there the last cell leads on, and back.
-    last = page.locator(".jp-NotebookPanel:not(.lm-mod-hidden)").get_by_role(
-        "link", name="The whole course"
-    )
-    last.click()
-    page.locator(".jp-NotebookPanel:not(.lm-mod-hidden) h1", has_text="Find your way").wait_for()
+    page.locator(SHOWN).get_by_role("link", name="The whole course").click()
+    page.locator(f"{SHOWN} h1", has_text="Find your way").wait_for()
 
 
 def refresh(lab):
@@ -130,7 +125,7 @@ def test_lists_and_cards_can_be_read_by_everybody(opened, page, lab, progress, t
         notebook = opened(name)
         notebook.theme(theme)
         notebook.run_all()
-        shown = page.locator(".jp-NotebookPanel:not(.lm-mod-hidden) .jp-OutputArea-output")
+        shown = page.locator(f"{SHOWN} .jp-OutputArea-output")
         shown.first.wait_for()
         for output in shown.all():
             assert issues(output) == []

@@ -12,15 +12,12 @@ from pathlib import Path
 
 import pytest
 
-from browser.conftest import browser_path
 from browser.lab import Lab
-from browser.notebook import PATIENCE, Notebook
+from browser.notebook import PATIENCE, SHOWN, Notebook
 from rosbeat.domains import lease_domain
 
 ROOT = Path(__file__).parents[2]
 NAME = "03_write_a_publisher.ipynb"
-#: The notebook in front.
-SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"
 #: `course lab` without the installing: this checkout's `.venv` serves a copy of the course.
 TOOL = """\
 import os, sys
@@ -90,9 +87,7 @@ class Course:
 
 
 @pytest.fixture(scope="session")
-def course(tmp_path_factory):
-    if browser_path() is None:
-        pytest.skip("no Chromium on this machine; ROSBEAT_BROWSER may name one")
+def course(browser, tmp_path_factory):
     folder = tmp_path_factory.mktemp("start")
     root = folder / "course"
     for name in ("environment", "src", "notebooks", "solutions"):

@@ -25,6 +25,8 @@ Shell: TypeAlias = Any
 Info: TypeAlias = Any
 Answer: TypeAlias = Any
 
+#: Stands for an answer that is not there; None is one that is.
+NOTHING: Answer = object()
 #: Characters of what a cell raised that are shown.
 _LONGEST = 200
 _HELD_AS = "_rosbeat_cells"
@@ -84,15 +86,17 @@ class Cells:
         self.worked_on = ""
         #: What the cell that runs keeps back until its prediction is made, if it does.
         self.withheld: Withheld | None = None
-        #: The widget below the card of each exercise that was checked.
-        self.cards: dict[str, Any] = {}
+        #: The widgets that each cell shows, by its id.
+        self.widgets: dict[str, list[Any]] = {}
 
     def begin(self, info: Info) -> None:
         """Note what there is before a cell runs (IPython's event `pre_run_cell`)."""
         raw, space = str(info.raw_cell), self._shell.user_ns
         self._begun.append((raw, {name: _mark(space.get(name)) for name in _names(raw)}))
-        if len(self._begun) == 1 and self.for_a_browser and _ASKS.search(raw):
-            self.withheld = Withheld(self._shell)
+        if len(self._begun) == 1 and self.for_a_browser:
+            self._close(str(self._sent()["cellId"]))
+            if _ASKS.search(raw):
+                self.withheld = Withheld(self._shell)
 
     def end(self, result: Info) -> None:
         """Note how a cell ended (IPython's event `post_run_cell`)."""
@@ -105,6 +109,7 @@ class Cells:
         meta = self._metadata(result.info)
         for gone in meta.get("deletedCells") or ():
             self._last.pop(str(gone), None)
+            self._close(str(gone))
         self._count += 1
         marks = meta.get("rosbeat") or {}
         cell, exercise = str(meta.get("cellId") or ""), str(marks.get("exercise") or "")
@@ -130,14 +135,24 @@ class Cells:
         if expression is not None:
             self._handed[exercise] = expression
 
+    def hold(self, widget: Any) -> None:  # noqa: ANN401 - ipywidgets takes a while to load
+        """Hold a widget that the cell shows until it runs again, which takes it from the page.
+
+        Args:
+            widget: The widget.
+        """
+        self.widgets.setdefault(str(self._sent().get("cellId", "")), []).append(widget)
+
     def answer(self, exercise: str) -> Answer:
         """Return the answer to an exercise as it is now.
 
         Args:
             exercise: The exercise's id.
 
+        Returns:
+            The answer; `NOTHING` if no cell has handed one to `check`, or defined one.
+
         Raises:
-            LookupError: If no cell has handed one to `check`, or defined one.
             Exception: What the expression raises that a cell has handed over.
         """
         expression = self._handed.get(exercise)
@@ -147,8 +162,8 @@ class Cells:
             )
         runs = [one for one in self._last.values() if one.exercise == exercise and one.bound]
         if not runs:
-            raise LookupError(exercise)
-        return self._shell.user_ns[max(runs, key=lambda one: one.number).bound[-1]]
+            return NOTHING
+        return self._shell.user_ns.get(max(runs, key=lambda one: one.number).bound[-1], NOTHING)
 
     def refuse_stale(self, exercise: str) -> bool:
         """Refuse to judge what the last run of an exercise's cell did not define.
@@ -173,6 +188,10 @@ class Cells:
             self._refuse_other_name(name, runs)
         return broken is not None
 
+    def _close(self, cell: str) -> None:
+        for widget in self.widgets.pop(cell, ()):
+            widget.close()
+
     def _ended(self, result: Info, run: Run, before: Mapping[str, object]) -> Run:
         raw, space = str(result.info.raw_cell), self._shell.user_ns
         error = result.error_before_exec or result.error_in_exec
@@ -187,8 +206,8 @@ class Cells:
         blank = _is_blank(error) or (file is not None and bool(_BLANK.search(raw)))
         if error is None and not blank:
             return run
-        told = _told(error, space) if error is not None else ""
-        run = replace(run, failure=told, blank=blank)
+        failure = _failure(error, space) if error is not None else ""
+        run = replace(run, failure=failure, blank=blank)
         if file is None:
             return run
         # A file that was saved can be judged, whatever its text did when it ran on the page.
@@ -201,9 +220,8 @@ class Cells:
             return _stamp(run.file) == run.stamp  # later, somebody may have changed it by hand
         if not run.failure or not run.names:
             return False
-        wanted = (name,) if name in run.names else run.names
-        makers = [self._binder.get(one) for one in wanted]
-        return not all(maker is not None and maker.number >= run.number for maker in makers)
+        since = {one for one, maker in self._binder.items() if maker.number >= run.number}
+        return name not in since and (name in run.names or not since.issuperset(run.names))
 
     def _refuse_other_name(self, name: str, runs: list[Run]) -> None:
         binder = self._binder.get(name)
@@ -276,7 +294,7 @@ def _answer_in(source: str, exercise: str) -> ast.expr | None:
     except (SyntaxError, ValueError, RecursionError):
         return None
     found = [args[1] for args in map(_arguments, calls) if len(args) == 2
-             and isinstance(args[0], ast.Constant)
+             and isinstance(args[0], ast.Constant) and not isinstance(args[1], ast.Starred)
              and str(args[0].value).strip().lower() == exercise]  # fmt: skip
     return found[0] if len(found) == 1 else None
 
@@ -317,7 +335,7 @@ def _is_blank(error: BaseException | None) -> bool:
     return isinstance(error, NameError) and getattr(error, "name", "") == "____"
 
 
-def _told(error: BaseException, space: Mapping[str, Any]) -> str:
+def _failure(error: BaseException, space: Mapping[str, Any]) -> str:
     """Return what a cell raised, and in which of its lines."""
     if isinstance(error, RosbeatError):  # what it says is a sentence of its own
         return error.what.rstrip(".")

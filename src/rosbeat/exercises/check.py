@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from textwrap import wrap
 from typing import Any
+from uuid import uuid4
 
-from IPython.display import display
+from IPython.display import display, update_display
 
 from rosbeat.errors import ExerciseError, called_as
-from rosbeat.exercises.cards import Shown
-from rosbeat.exercises.cells import Cells, cells_of, worked_on
-from rosbeat.exercises.exercise import Exercise, not_attempted
+from rosbeat.exercises.cards import LOOKS, Shown, words
+from rosbeat.exercises.cells import NOTHING, Cells, cells_of, worked_on
+from rosbeat.exercises.exercise import PASSED, Exercise, not_attempted
+from rosbeat.exercises.hint import are_here, next_hint, reveal
 from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
 from rosbeat.exercises.registry import find, which_exercise
@@ -24,12 +26,8 @@ from rosbeat.workspace.waiting import counting
 # `check`: what a learner calls.
 
 
-#: Stands for an answer that was not handed over; None is one that was.
-_NOTHING = object()
-
-
 @called_as('check("03a", HumiditySensor)')
-def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
+def check(exercise: str = "", answer: Answer = NOTHING) -> Shown:
     """Run the answer to an exercise and say what is right or what is missing.
 
     A node runs in a session of its own, in virtual time; nothing on the page changes. How far you
@@ -47,7 +45,7 @@ def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
         ExerciseError: If there is no such exercise, no answer was handed over, or the cell above
             did not run; where nbgrader runs the page, also if the answer does not get all points.
     """
-    if exercise == "" and answer is _NOTHING:
+    if exercise == "" and answer is NOTHING:
         exercise = worked_on()
         if not exercise:
             raise which_exercise("check", "check({}, ...)")
@@ -55,7 +53,7 @@ def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
     cells = cells_of()
     if cells is not None:
         cells.ask(found.id)
-    if answer is _NOTHING:
+    if answer is NOTHING:
         answer = _current(found, cells)
     outcome = _judge(found, answer, cells)
     execution = graded_runs.execution()
@@ -63,10 +61,7 @@ def check(exercise: str = "", answer: Answer = _NOTHING) -> Shown:
         return for_nbgrader(outcome, execution)
     if cells is None or not cells.for_a_browser:
         return Shown(outcome)
-    # The widgets take a while to load, and only a notebook in a browser shows them.
-    from rosbeat.exercises.check_card import Card
-
-    return Card(outcome, lambda: _judge(found, _current(found, cells), cells), cells.cards)
+    return CheckCard(outcome, lambda: _judge(found, _current(found, cells), cells))
 
 
 def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
@@ -75,14 +70,14 @@ def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
     Raises:
         ExerciseError: If there is none.
     """
-    with suppress(LookupError):
-        if cells is not None:
-            return cells.answer(found.id)
-    raise ExerciseError(
-        f"`check` was given no answer to exercise {found.id}.",
-        "It needs what the cell above defines, such as a class.",
-        f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
-    )
+    answer = NOTHING if cells is None else cells.answer(found.id)
+    if answer is NOTHING:
+        raise ExerciseError(
+            f"`check` was given no answer to exercise {found.id}.",
+            "It needs what the cell above defines, such as a class.",
+            f'Hand it over as well: check("{found.id}", ...), with its name for the three dots.',
+        )
+    return answer
 
 
 def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Outcome:
@@ -105,6 +100,46 @@ def _with_hints(outcome: Outcome, hints: int) -> Outcome:
     """Return the outcome with the number of hints that were used."""
     said = f" (With {hints} hint{'' if hints == 1 else 's'}.)" if hints else ""
     return replace(outcome, evidence=f"{outcome.evidence}{said}")
+
+
+@dataclass(frozen=True, repr=False)
+class CheckCard(Shown):
+    """Show an outcome with buttons below it, in a notebook that is open in a browser.
+
+    The card and the buttons are two outputs. So the stored card is the one that every other place
+    shows, and the buttons keep the focus while it changes.
+
+    Attributes:
+        judge: Judges the answer as it is now, and remembers the outcome.
+    """
+
+    judge: Callable[[], Outcome]
+
+    def _ipython_display_(self) -> None:
+        # The widgets take a while to load, and only a notebook in a browser shows them.
+        from rosbeat.exercises.live import ExerciseWidget
+
+        exercise, display_id = self.outcome.exercise, f"rosbeat-check-{uuid4().hex}"
+
+        def again(_: object) -> str:
+            outcome = self.judge()
+            update_display(Shown(outcome)._repr_mimebundle_(), raw=True, display_id=display_id)
+            buttons.passed = outcome.status == PASSED
+            _, word = LOOKS[outcome.status]
+            # A page that was loaded anew since then does not find the card.
+            return words(f"Checked the cell above as it last ran: {word}. {outcome.evidence}")
+
+        actions = {
+            "hint": lambda _: next_hint(exercise).html(),
+            "answer": lambda _: reveal(exercise).html(),
+            "again": again,
+        }
+        display(self._repr_mimebundle_(), raw=True, display_id=display_id)
+        is_passed = self.outcome.status == PASSED
+        buttons = ExerciseWidget(
+            actions, "check", exercise=exercise, passed=is_passed, has_answer=are_here()
+        )
+        buttons.show()
 
 
 # Outcomes as nbgrader counts them.

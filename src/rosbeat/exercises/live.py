@@ -12,21 +12,21 @@ from contextlib import redirect_stderr, redirect_stdout
 from functools import partial
 from io import StringIO
 from pathlib import Path
-from signal import SIGINT, default_int_handler, signal
+from signal import SIGINT, getsignal, signal
 from threading import current_thread, main_thread
 from typing import Any
 
 from anywidget import AnyWidget
 from IPython import get_ipython
 from IPython.display import display
-from traitlets import Bool, Int, Unicode
+from traitlets import Bool, Int, List, Unicode
 
 from rosbeat.errors import RosbeatError
 from rosbeat.exercises.cards import OPEN, framed, words
+from rosbeat.exercises.cells import cells_of
 
 _HERE = Path(__file__).parent
-#: What a click leads to: it gets what the browser sent, and returns words to show beside the widget
-#: or an empty text.
+#: What a click leads to: it gets what the browser sent, and returns HTML to show below the buttons.
 Action = Callable[[Mapping[str, Any]], str]
 
 
@@ -35,7 +35,7 @@ class ExerciseWidget(AnyWidget):
 
     Args:
         actions: What can be clicked; the browser names it as `do`.
-        kind: Which widget it is, `check` or `predict`.
+        kind: Which widget it is: `check`, `predict` or `quiz`.
         traits: The other values that the browser gets.
     """
 
@@ -48,9 +48,13 @@ class ExerciseWidget(AnyWidget):
     has_answer = Bool().tag(sync=True)
     #: How a prediction is written.
     form = Unicode().tag(sync=True)
-    #: What was said last: HTML for a check, and a text for a prediction.
+    #: Of each question of a quiz its `id`, the `choices`, and the index of the one that was
+    #: `chosen`, or None.
+    questions: List[dict[str, Any]] = List().tag(sync=True)
+    #: What was said last, as HTML: also for a page that is loaded anew while the kernel lives.
     said = Unicode().tag(sync=True)
-    #: Counts what was carried out, so that the browser knows when a click is done.
+    #: Count what was begun and what was carried out, so that the browser knows what it waits for.
+    begun = Int().tag(sync=True)
     done = Int().tag(sync=True)
 
     def __init__(self, actions: Mapping[str, Action], kind: str, **traits: object) -> None:
@@ -66,61 +70,67 @@ class ExerciseWidget(AnyWidget):
             layout.close()
 
     def show(self) -> None:
-        """Display the widget; in files there is nothing in its place."""
+        """Display the widget until its cell runs again; in files there is nothing in its place."""
+        if (cells := cells_of()) is not None:
+            cells.hold(self)
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
         mime = "application/vnd.jupyter.widget-view+json"
         display({mime: view, "text/plain": ""}, raw=True)
 
     def _hear(self, content: Mapping[str, Any]) -> None:
         action = self._actions.get(str(content.get("do")))
-        if action is not None:
-            run_between_cells(lambda: self._carry_out(action, content))
+        if action is None:
+            return
+        carry_out = partial(self._carry_out, partial(action, content))
+        if current_thread() is main_thread():
+            carry_out()
+        else:
+            get_ipython().kernel.io_loop.add_callback(carry_out)
 
-    def _carry_out(self, action: Action, content: Mapping[str, Any]) -> None:
-        said = told(lambda: action(content))
+    def _carry_out(self, action: Callable[[], str]) -> None:
+        self.begun += 1
+        said = _until_interrupt(partial(_said_by, action))
         with self.hold_sync():
             self.said = said
             self.done += 1
 
 
-def run_between_cells(action: Callable[[], None]) -> None:
-    """Run an action in the main thread, once no cell runs; at once in the main thread.
+def _until_interrupt(action: Callable[[], str]) -> str:
+    """Return what an action says; Interrupt ends it as it ends a cell.
 
-    Args:
-        action: What to run; it must not raise.
+    Between cells, a kernel passes Interrupt over. Here the first one counts; another one while it
+    is handled would leave the browser without an answer.
     """
-    if current_thread() is main_thread():
-        action()
-    else:
-        get_ipython().kernel.io_loop.add_callback(partial(_with_interrupt, action))
+    can_stop = [True]
 
+    def stop(*_: object) -> None:
+        if can_stop:
+            can_stop.clear()
+            raise KeyboardInterrupt
 
-def _with_interrupt(action: Callable[[], None]) -> None:
-    """Let Interrupt end an action as it ends a cell; between cells, a kernel passes it over."""
-    before = signal(SIGINT, default_int_handler)
+    before = getsignal(SIGINT)
     try:
-        action()
+        signal(SIGINT, stop)
+        try:
+            return action()
+        finally:
+            can_stop.clear()
+    except KeyboardInterrupt:
+        return framed(OPEN, words("You stopped it.", "strong"))
     finally:
         signal(SIGINT, before)
 
 
-def told(action: Callable[[], str]) -> str:
-    """Run an action and return what it says, or its error, as HTML.
-
-    Args:
-        action: What a click leads to. What it prints has no cell, and is dropped.
-    """
+def _said_by(action: Callable[[], str]) -> str:
+    """Return what an action says, or its error, as HTML; what it prints has no cell."""
     try:
         with redirect_stdout(StringIO()), redirect_stderr(StringIO()):
             return action()
     except RosbeatError as error:
         return framed(OPEN, words(error.what, "strong"), words(error.means), words(error.to_try))
-    except KeyboardInterrupt:
-        return framed(OPEN, words("You stopped it.", "strong"))
     except Exception as error:  # such as a NameError, for an answer that is gone
-        said = f"{type(error).__name__}: {error}"
         return framed(
             OPEN,
-            words(said, "strong"),
+            words(f"{type(error).__name__}: {error}", "strong"),
             words("Run the cell above again, and then the one with the check."),
         )

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from math import isclose, isnan
 from numbers import Real
+from typing import Any
 
 from rosbeat.errors import called_as
 from rosbeat.exercises.cards import OPEN, RIGHT, WRONG, framed, words
@@ -103,9 +104,9 @@ def _value(said: str) -> float:
     """Return a number in digits or in words."""
     if any(sign.isdigit() for sign in said):
         return float(said.replace(",", ""))
-    words = re.split(r"[\s-]+", said)
+    parts = re.split(r"[\s-]+", said)
     # `a hundred` and `one hundred` are the same.
-    return 100.0 if words[-1] == "hundred" else float(sum(_VALUES[word] for word in words))
+    return 100.0 if parts[-1] == "hundred" else float(sum(_VALUES[word] for word in parts))
 
 
 # Whether a guess and what happened are the same for a person, whatever their types are.
@@ -155,7 +156,7 @@ def form_of(happened: object) -> str:
     return "a number" if isinstance(happened, Real) else "a list, such as 1, 2, 3"
 
 
-def told(value: object, exact: bool = False) -> str:
+def in_words(value: object, exact: bool = False) -> str:
     """Say a value in one line, as people write it.
 
     Args:
@@ -163,7 +164,7 @@ def told(value: object, exact: bool = False) -> str:
         exact: Whether numbers keep all their digits.
     """
     try:
-        text = _ADDRESS.sub("", " ".join(_told(_plain(value), exact).split()))
+        text = _ADDRESS.sub("", " ".join(_in_words(_plain(value), exact).split()))
     except Exception:  # a broken __repr__ is no reason to end the page
         text = f"a {type(value).__name__}"
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 4]} ..."
@@ -259,7 +260,7 @@ def _plain(value: object) -> object:
     return to_list() if callable(to_list) else value
 
 
-def _told(value: object, exact: bool) -> str:
+def _in_words(value: object, exact: bool) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
@@ -268,9 +269,9 @@ def _told(value: object, exact: bool) -> str:
         return repr(value) if exact or not value.strip() else value.strip()
     if isinstance(value, (list, tuple)):
         # More elements than letters are never shown; a page may have collected a million.
-        return f"[{', '.join(_told(_plain(one), exact) for one in value[:_LONGEST])}]"
+        return f"[{', '.join(_in_words(_plain(one), exact) for one in value[:_LONGEST])}]"
     if isinstance(value, Mapping):
-        inside = (f"{_told(key, exact)}: {_told(one, exact)}" for key, one in value.items())
+        inside = (f"{_in_words(key, exact)}: {_in_words(one, exact)}" for key, one in value.items())
         return f"{{{', '.join(inside)}}}"
     return "nothing" if value is None else str(value)
 
@@ -312,39 +313,41 @@ class Prediction:
         return {"text/plain": str(self), "text/html": self.html()}
 
 
-class Question(Prediction):
-    """Ask for a prediction where a browser can, and show what happened only after it.
+@dataclass(frozen=True, repr=False, kw_only=True)
+class OpenPrediction(Prediction):
+    """Ask for a prediction with a field in a browser, and show what happened only after it.
 
-    Args:
-        unmade: What is said without a prediction.
+    Attributes:
         answer: Compares a guess with what happened.
         form: How a guess is written.
         withheld: What the cell has shown so far.
     """
 
-    _ask: Callable[[], None]
-
-    def __init__(
-        self,
-        unmade: Prediction,
-        answer: Callable[[object], Prediction],
-        form: str,
-        withheld: Withheld,
-    ) -> None:
-        super().__init__(unmade.sign, unmade.sentence)
-        object.__setattr__(self, "_ask", lambda: _ask(unmade, answer, form, withheld))
+    answer: Callable[[object], Prediction]
+    form: str
+    withheld: Withheld
 
     def _ipython_display_(self) -> None:
-        self._ask()
+        # The widgets take a while to load, and only a notebook in a browser shows them.
+        from rosbeat.exercises.live import ExerciseWidget
 
+        def guess(content: Mapping[str, Any]) -> str:
+            made = self.answer(str(content.get("guess", "")))
+            if made.sign == OPEN:
+                return words(f"That cannot be compared with what happened: write {self.form}.")
+            return end(made)
 
-def _ask(
-    unmade: Prediction, answer: Callable[[object], Prediction], form: str, withheld: Withheld
-) -> None:
-    # The widgets take a while to load, and only a notebook in a browser shows them.
-    from rosbeat.exercises.predict_card import ask
+        def end(made: Prediction) -> str:
+            self.withheld.release(made)
+            field.passed = True
+            # A page that was loaded anew since then does not find the output of the cell.
+            return words(made.sentence)
 
-    ask(unmade, answer, form, withheld)
+        unmade = Prediction(self.sign, self.sentence)
+        actions = {"guess": guess, "show": lambda _: end(unmade)}
+        field = ExerciseWidget(actions, "predict", form=self.form)
+        field.show()
+        self.withheld.shown()
 
 
 @called_as('predict("20-30", reading)')
@@ -364,28 +367,32 @@ def predict(
         Both, side by side, which Jupyter shows. It costs no points to be wrong.
     """
     if is_blank(guess):
-        unmade = Prediction(OPEN, f"No prediction yet. It was {told(happened)}.")
+        unmade = f"No prediction yet. It was {in_words(happened)}."
         cells = cells_of()
         if cells is None or cells.withheld is None or not cells.withheld.ask():
-            return unmade
+            return Prediction(OPEN, unmade)
         answer = partial(predict, happened=happened, tolerance=tolerance, because=because)
         form = "a few words" if isinstance(happened, str) else form_of(happened)
-        return Question(unmade, answer, form, cells.withheld)
+        return OpenPrediction(OPEN, unmade, answer=answer, form=form, withheld=cells.withheld)
     agrees = compared(guess, happened, tolerance)
     if agrees is None:
         asked = f"write {form_of(happened)}"
-        return Prediction(OPEN, f"That cannot be compared with {told(happened)}: {asked}.")
+        return Prediction(OPEN, f"That cannot be compared with {in_words(happened)}: {asked}.")
     if not agrees:
         said, was = _apart(guess, happened)
         return Prediction(
             WRONG, f"You predicted {said}, and it was {was}. Look at why.", str(because)
         )
     near = "" if agree(guess, happened) else " That is close enough."
-    sentence = f"You predicted {told(guess)}, and it was {told(happened)}.{near}"
+    sentence = f"You predicted {in_words(guess)}, and it was {in_words(happened)}.{near}"
     return Prediction(RIGHT, sentence, str(because))
 
 
 def _apart(guess: object, happened: object) -> tuple[str, str]:
     """Return both in words, with all their digits if they look alike without."""
-    said, was = told(guess), told(happened)
-    return (said, was) if said != was else (told(guess, exact=True), told(happened, exact=True))
+    said, was = in_words(guess), in_words(happened)
+    return (
+        (said, was)
+        if said != was
+        else (in_words(guess, exact=True), in_words(happened, exact=True))
+    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
@@ -19,8 +18,8 @@ from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
-from rosbeat.exercises.progress_list import ProgressList, Row, page_folder
-from rosbeat.exercises.registry import PAGES, Page, this_page
+from rosbeat.exercises.progress_list import ProgressList, Row, is_a_page
+from rosbeat.exercises.registry import PAGES, Page, page_file, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.place import is_a_solution, steady_home, workspace_parent
@@ -212,24 +211,13 @@ def progress_file() -> ProgressFile:
         return _at(workspace_parent() / FOLDER, True)
     chosen = os.environ.get(SETTING, "")
     parent = Path(chosen).expanduser().resolve() if chosen else workspace_parent()
-    return _at(parent / FOLDER, (bool(chosen) or _is_a_page()) and not _is_a_solution())
-
-
-def _is_a_page() -> bool:
-    """Return whether this is the kernel of a page, and no program, test or IPython prompt."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython else None
-    return hasattr(shell, "kernel")
+    return _at(parent / FOLDER, (bool(chosen) or is_a_page()) and not _is_a_solution())
 
 
 def _is_a_solution() -> bool:
-    """Return whether the page in this kernel is a solution.
-
-    Jupyter's server names the page. Without one, as in an editor, it is in the kernel's folder.
-    """
-    page = Path(os.environ.get("JPY_SESSION_NAME", "") or "page.ipynb")
+    """Return whether the page in this kernel is a solution."""
     with suppress(FileNotFoundError):  # the kernel's folder may be gone
-        return is_a_solution(page)
+        return is_a_solution(page_file())
     return False
 
 
@@ -256,7 +244,7 @@ def progress() -> ProgressList:
     Returns:
         The list, which Jupyter shows. It changes when a later check passes.
     """
-    return ProgressList(rows, this_page(), page_folder())
+    return ProgressList(rows, this_page(), page_file().parent)
 
 
 def rows() -> list[Row]:

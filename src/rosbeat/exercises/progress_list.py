@@ -8,16 +8,16 @@ does those of a markdown cell. In pages that are not trusted its sanitizer leave
 
 from __future__ import annotations
 
-import os
-import time
+import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from html import escape
 from pathlib import Path
-from threading import Lock, Thread
+from threading import Event, Lock, Thread
 
-from rosbeat.exercises.cards import LOOKS, OPEN, RIGHT, WRONG
+from rosbeat.exercises.cards import LOOKS, RIGHT
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import EXERCISES, Page
 from rosbeat.records import Outcome
@@ -37,7 +37,7 @@ _CHIPS = {
     NOT_ATTEMPTED: "border: 2px solid #6b7b8b",
 }
 _CHIP = "display: inline-block; border-radius: 4px; padding: 0px 5px; margin: 1px 3px 1px 0px"
-_LEGEND = f"{RIGHT} passed, {WRONG} not there yet, {OPEN} not attempted yet"
+_LEGEND = ", ".join(f"{sign} {word}" for sign, word in LOOKS.values())
 
 
 @dataclass(frozen=True)
@@ -97,20 +97,20 @@ class ProgressList:
     def _ipython_display_(self) -> None:
         from IPython.display import display
 
-        if is_kept_up_to_date():
-            _live().show(self)
+        if is_a_page():
+            _updater().show(self)
         else:
             display(self.bundle(), raw=True)
 
 
-def is_kept_up_to_date() -> bool:
-    """Return whether a list in this process can change after its cell has run."""
-    from IPython import get_ipython
+def is_a_page() -> bool:
+    """Return whether this is the kernel of a page that somebody works on: no program, no build."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return hasattr(shell, "kernel") and steady_home() is None
 
-    return getattr(get_ipython(), "kernel", None) is not None and steady_home() is None
 
-
-class _Live:
+class _Updater:
     """Keep every list of this kernel up to date: one thread, and one display id for all of them.
 
     Checks of other pages run in other kernels, so what is watched is the file.
@@ -118,9 +118,8 @@ class _Live:
 
     def __init__(self) -> None:
         self._lock = Lock()
-        self._shown: ProgressList | None = None
-        self._bundle: dict[str, str] = {}
-        self._thread = Thread(target=self._run, name="rosbeat progress", daemon=True)
+        self._never = Event()
+        self._thread: Thread | None = None
 
     def show(self, shown: ProgressList) -> None:
         """Display a list, which takes the place of those displayed before."""
@@ -129,27 +128,28 @@ class _Live:
         with self._lock:
             self._shown, self._bundle = shown, shown.bundle()
             display(self._bundle, raw=True, display_id=_DISPLAY_ID)
-            if not self._thread.is_alive():
+            if self._thread is None or not self._thread.is_alive():
+                self._thread = Thread(target=self._run, name="rosbeat progress", daemon=True)
                 self._thread.start()
 
     def _run(self) -> None:
-        while True:
-            time.sleep(PERIOD)
-            self._look()
+        while not self._never.wait(PERIOD):  # not `time.sleep`, which a session replaces
+            with suppress(OSError):  # the folder may be gone for a while
+                self._look()
 
     def _look(self) -> None:
         from IPython.display import update_display
 
         with self._lock:
-            bundle = self._shown.bundle() if self._shown else {}
+            bundle = self._shown.bundle()
             if bundle != self._bundle:
                 self._bundle = bundle
                 update_display(bundle, raw=True, display_id=_DISPLAY_ID)
 
 
 @cache
-def _live() -> _Live:
-    return _Live()
+def _updater() -> _Updater:
+    return _Updater()
 
 
 # In words.
@@ -166,8 +166,8 @@ def describe(rows: Sequence[Row]) -> str:
     for status, (_, word) in LOOKS.items():
         names = [one.exercise for one in every if one.status == status]
         if names:
-            told = "all" if len(names) == len(every) else listing(names)
-            parts.append(f"{sentence_case(word)}: {told}.")
+            which = "all" if len(names) == len(every) else listing(names)
+            parts.append(f"{sentence_case(word)}: {which}.")
     return " ".join(parts)
 
 
@@ -272,9 +272,3 @@ def _chip(outcome: Outcome) -> str:
     title = f"{EXERCISES[outcome.exercise].title}: {word}"
     style = f"{_CHIP}; {_CHIPS[outcome.status]}"
     return f'<span style="{style}" title="{escape(title)}">{sign} {outcome.exercise}</span>'
-
-
-def page_folder() -> Path:
-    """Return the folder of the page that is open in this kernel."""
-    # Jupyter's server names the notebook in the environment of its kernel.
-    return Path(os.environ.get("JPY_SESSION_NAME", "page")).absolute().parent

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from string import ascii_lowercase
 from typing import Any
+from uuid import uuid4
+
+from IPython.display import display, update_display
 
 from rosbeat.errors import ExerciseError, called_as
 from rosbeat.exercises.cards import OPEN, RIGHT, WRONG, framed, words
@@ -42,11 +44,11 @@ class Asked:
 
     @property
     def said(self) -> str:
-        """Return what is said to the choice that was made, in one line; an empty text for none."""
+        """Return what is said to the choice that was made; an empty text for none."""
         if self.choice is None:
             return ""
         word = "right" if self.choice.right else "not right"
-        return f"Question {self.question.id}: {word}. {self.choice.reason.replace('`', '')}"
+        return f"Question {self.question.id}: {word}. {self.choice.reason}"
 
 
 @dataclass(frozen=True)
@@ -67,30 +69,13 @@ class Quiz:
     def __repr__(self) -> str:
         return str(self)
 
-    def html(self, *, told: bool = True) -> str:
-        """Return the questions as HTML.
+    def html(self) -> str:
+        """Return the questions as HTML, and how to answer."""
+        return self.cards() + "".join(f"<div>{words(line)}</div>" for line in self._way() if line)
 
-        Args:
-            told: Whether to say how to answer, for a page without buttons.
-        """
-        way = [f"<div>{words(line)}</div>" for line in self._way() if line and told]
-        return "".join([*(framed(one.sign, *_rows(one)) for one in self.asked), *way])
-
-    def view(self) -> tuple[dict[str, Any], str]:
-        """Return what a page with buttons shows: the card, and the questions as JSON."""
-        questions = [
-            {
-                "id": one.question.id,
-                "choices": [
-                    f"{letter}) {choice.text.replace('`', '')}"
-                    for letter, choice in zip(ascii_lowercase, one.question.choices, strict=False)
-                ],
-                "chosen": one.chosen,
-            }
-            for one in self.asked
-        ]
-        card = {"text/plain": str(self), "text/html": self.html(told=False)}
-        return card, json.dumps(questions)
+    def cards(self) -> str:
+        """Return the questions alone as HTML, for a page with buttons."""
+        return "".join(framed(one.sign, *_rows(one)) for one in self.asked)
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return {"text/plain": str(self), "text/html": self.html()}
@@ -108,20 +93,30 @@ class Quiz:
         yield f"To answer, write a letter for each question, such as `{call}`."
 
 
-class Card(Quiz):
+class QuizCard(Quiz):
     """Show questions with buttons below them, in a notebook that is open in a browser."""
 
     def _ipython_display_(self) -> None:
         # The widgets take a while to load, and only a notebook in a browser shows them.
-        from rosbeat.exercises.quiz_card import show
+        from rosbeat.exercises.live import ExerciseWidget
 
-        asked = list(self.asked)
+        asked, display_id = list(self.asked), f"rosbeat-quiz-{uuid4().hex}"
 
-        def choose(question: int, choice: int) -> tuple[tuple[dict[str, Any], str], str]:
-            asked[question] = Asked(asked[question].question, choice)
-            return Quiz(self.page, tuple(asked)).view(), asked[question].said
+        def bundle() -> dict[str, str]:
+            made = Quiz(self.page, tuple(asked))
+            return {"text/plain": str(made), "text/html": made.cards()}
 
-        show(self.view(), choose)
+        def choose(content: Mapping[str, Any]) -> str:
+            number = int(content["question"])
+            asked[number] = replace(asked[number], chosen=int(content["choice"]))
+            update_display(bundle(), raw=True, display_id=display_id)
+            buttons.questions = [_view(one) for one in asked]
+            return words(asked[number].said)
+
+        display(bundle(), raw=True, display_id=display_id)
+        questions = [_view(one) for one in asked]
+        buttons = ExerciseWidget({"choose": choose}, "quiz", questions=questions)
+        buttons.show()
 
 
 @called_as('quiz("03", "b", "a", "c")')
@@ -161,7 +156,7 @@ def quiz(page: str = "", *answers: str) -> Quiz:
     cells = cells_of()
     if cells is None or not cells.for_a_browser:
         return made
-    return Card(made.page, made.asked)
+    return QuizCard(made.page, made.asked)
 
 
 def _index(question: Question, answer: object) -> int | None:
@@ -177,6 +172,13 @@ def _index(question: Question, answer: object) -> int | None:
             f'Write the letter of your choice in quotes, such as "{letters[0]}".',
         )
     return letters.index(letter)
+
+
+def _view(asked: Asked) -> dict[str, Any]:
+    """Return what the buttons of a question have to know."""
+    pairs = zip(ascii_lowercase, asked.question.choices, strict=False)
+    choices = [f"{letter}) {choice.text.replace('`', '')}" for letter, choice in pairs]
+    return {"id": asked.question.id, "choices": choices, "chosen": asked.chosen}
 
 
 def _lines(asked: Asked) -> Iterator[str]:

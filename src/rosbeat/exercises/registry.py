@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any
 
 from rosbeat.errors import ExerciseError
@@ -28,6 +29,7 @@ from rosbeat.exercises import (
     page_13,
     system,
 )
+from rosbeat.exercises.cells import worked_on
 from rosbeat.exercises.exercise import Exercise
 
 #: With this page the package is finished; those after it come in any order that `needs` allows.
@@ -153,11 +155,10 @@ def find(exercise: object, example: str) -> Exercise[Any]:
 def which_exercise(call: str, example: str) -> ExerciseError:
     """Return the error for a call that names no exercise."""
     page = this_page()
-    near = worked_on() or _offered(page)[0].id
     return ExerciseError(
         f"`{call}` was not told which exercise is meant.",
         offer(page),
-        f"Write for example {shown(example, near)}.",
+        f"Write for example {shown(example, _offered(page)[0].id)}.",
     )
 
 
@@ -179,25 +180,26 @@ def _offered(page: Page | None) -> Sequence[Exercise[Any]]:
 
 
 #: How a page of the course is called: its number, and words.
-_FILE = re.compile(r"(\d\d)_[^/]*$")
-_ASKED = re.compile(r"""\b(?:check|hint)\(\s*["'](\w+)["']""")
+_FILE = re.compile(r"(\d\d)_")
+
+
+def page_file() -> Path:
+    """Return the file of the page that is open in this kernel; it need not exist.
+
+    Jupyter's server names it in the environment of its kernel. Without one, as in an editor, it is
+    a file in the kernel's folder.
+    """
+    file = Path(os.environ.get("JPY_SESSION_NAME") or "page.ipynb")
+    with suppress(FileNotFoundError):  # the kernel's folder may be gone
+        return file.absolute()
+    return file
 
 
 def this_page() -> Page | None:
     """Return the page that is open in this kernel; None if that cannot be told.
 
-    Jupyter's server names the notebook in the environment of its kernel. Elsewhere the exercises
-    that the cells so far have asked for tell the page.
+    Where its file does not tell, the exercise that was worked on last does.
     """
-    file = _FILE.search(os.environ.get("JPY_SESSION_NAME", ""))
+    file = _FILE.search(page_file().name)
     number = file[1] if file else worked_on()[:2]
     return next((page for page in PAGES if page.number and page.number == number), None)
-
-
-def worked_on() -> str:
-    """Return the id of the exercise that a cell of this kernel asked for last, or an empty text."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython else None
-    cells = shell.user_ns.get("In", []) if shell else []
-    asked = [one.lower() for cell in cells for one in _ASKED.findall(str(cell))]
-    return next((one for one in reversed(asked) if one in EXERCISES), "")

@@ -8,7 +8,8 @@ cell that raises, or that does not end with its prediction, shows everything at 
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from typing import Any, TextIO
 
 from IPython.display import display
@@ -32,8 +33,10 @@ class Withheld:
         self._is_keeping = True
         self._is_shown = False
         self._publisher.register_hook(self._keep)
-        sys.stdout = _Keeper("stdout", sys.stdout, self._kept)
-        sys.stderr = _Keeper("stderr", sys.stderr, self._kept)
+        sys.stdout, sys.stderr = (
+            _Keeper(stream, partial(self._keep_text, name))
+            for name, stream in self._streams.items()
+        )
 
     def ask(self) -> bool:
         """End the keeping where the prediction is; return whether it is the first of the cell."""
@@ -85,6 +88,13 @@ class Withheld:
             sys.stdout, sys.stderr = self._streams["stdout"], self._streams["stderr"]
             self._publisher.unregister_hook(self._keep)
 
+    def _keep_text(self, name: str, text: str) -> int:
+        """Take a text for a stream; give it to the stream once nothing is kept any more."""
+        if not self._is_keeping:
+            return self._streams[name].write(text)
+        self._kept.append((name, text))
+        return len(text)
+
     def _keep(self, message: Mapping[str, Any]) -> Mapping[str, Any] | None:
         """Take a message that would be displayed (a hook of ipykernel's display publisher)."""
         kind, content = message["header"]["msg_type"], message["content"]
@@ -96,21 +106,17 @@ class Withheld:
 
 
 class _Keeper:
-    """Keep what is written to a stream; for all else it is the stream."""
+    """Keep what is written to a stream; for all else it is the stream.
 
-    def __init__(self, name: str, stream: TextIO, kept: list[tuple[str, Any]]) -> None:
-        self._name, self._stream, self._kept = name, stream, kept
+    A logger or a `redirect_stdout` may hold it for longer than the cell runs.
+    """
 
-    def write(self, text: str) -> int:
-        self._kept.append((self._name, text))
-        return len(text)
+    def __init__(self, stream: TextIO, write: Callable[[str], int]) -> None:
+        self._stream, self.write = stream, write
 
-    def writelines(self, lines: list[str]) -> None:
+    def writelines(self, lines: Iterable[str]) -> None:
         for line in lines:
             self.write(line)
-
-    def flush(self) -> None:
-        pass
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever the stream has
         return getattr(self._stream, name)

@@ -39,8 +39,8 @@ _EVERY = 0.001
 _FIRST = 0.1
 #: Seconds after the second exception and each later one, in turn.
 _SWEEP = [k * 1e-6 for k in (1, 2, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256)]
-#: Seconds between two looks at code that may get more time, and seconds that it has in all.
-_LOOK, _AT_MOST = 0.5, 15.0
+#: Seconds that code which gets on has in all.
+_AT_MOST = 15.0
 #: Seconds that rosbeat's own code and rclpy's have to tidy up, between two exceptions.
 _PATIENCE = 0.6
 #: Seconds that code may go on after Interrupt, if it catches even that.
@@ -73,7 +73,7 @@ class Deadline:
         seconds: Time limit for the block, in seconds of wall time; `passed` tells whether the block
             took longer.
         noting: Called once, at the moment when the time is up.
-        gets_on: Tells whether the code has got on since it was asked last, such as to another
+        gets_on: Tells, when the time is up, whether the code has got on lately, such as to another
             callback. Then the time begins anew, up to three times as much in all: on a busy machine
             slow code is not taken for endless code.
     """
@@ -136,10 +136,7 @@ class Deadline:
         vars(signal).update(_RESERVED)
         self._alarm_before = _signal(signal.SIGALRM, self._ring)
         first = max(1e-6, self._until - _now())
-        if self._gets_on is not None:
-            first = min(first, _LOOK)
-        again = _FIRST if self._gets_on is None else min(_FIRST, first)
-        self._timer_before = _setitimer(signal.ITIMER_REAL, first, again)
+        self._timer_before = _setitimer(signal.ITIMER_REAL, first, _FIRST)
         self._interrupt_before = signal.getsignal(signal.SIGINT)
         if callable(self._interrupt_before):
             _signal(signal.SIGINT, self._interrupt)
@@ -156,12 +153,12 @@ class Deadline:
 
     def _ring(self, number: int, frame: FrameType | None) -> None:
         """Raise in the code that is running, if its time is up: the handler of `SIGALRM`."""
-        if not self._open or self._raising:
+        if not self._open or self._raising or _now() < self._until:
             return
         if self._gets_on is not None and not (self.passed or self.interrupted):
             self._give_time(self._gets_on)
-        if _now() < self._until:
-            return
+            if _now() < self._until:
+                return
         self._raising = True  # the next alarm may come while this one is being answered
         try:
             inside = list(self._inside(frame))

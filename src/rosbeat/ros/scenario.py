@@ -362,7 +362,6 @@ class _Run:
         self._world = self._session._world
         self._steps = Steps(self._session, steps)
         self._deadline = Deadline(deadline, self._note_expiry, self._gets_on)
-        self._calls = 0  # of callbacks, when the deadline looked last
         self._took = 0.0  # seconds until the time was up
         self._is_slow = False
         self._faults: list[Fault] = []
@@ -477,18 +476,18 @@ class _Run:
             return "", "__init__"
         return ("", "run") if calling is None else (calling.node, calling.name)
 
+    def _is_new(self) -> bool:
+        """Return whether a callback has begun lately, so that none is endless."""
+        # An endless call has had all of the time for itself, unless the run had none left.
+        return time.monotonic() - self._world.recorder.began < self._deadline.seconds / 2
+
     def _gets_on(self) -> bool:
-        """Return whether a callback has begun since the last look, and not made things anew."""
-        before, self._calls = self._calls, self._world.recorder.calls()
-        if self._calls == before:
-            return False
-        return not self._made_anew(*self._callback())
+        """Return whether callbacks come to an end, and do not make things anew."""
+        return self._is_new() and not self._made_anew(*self._callback())
 
     def _note_expiry(self) -> None:
-        now = time.monotonic()
-        # An endless call has had all of the time for itself, unless the run had none left.
-        self._is_slow = now - self._world.recorder.began < self._deadline.seconds / 2
-        self._took = now - self._began
+        self._is_slow = self._is_new()
+        self._took = time.monotonic() - self._began
         # Not `len`: the code that is running may have replaced it.
         self._expired = self._callback(), self._world.recorder.faults.__len__()
 
@@ -511,7 +510,7 @@ class _Run:
             callback, known = self._expired
             text = f"still running after {deadline.seconds:g} s"
             with Deadline(_TO_TIDY), suppress(Exception):  # a node may have properties of its own
-                slow = f"{self._calls} calls of callbacks took {self._took:.0f} s"
+                slow = f"{recorder.calls()} calls of callbacks took {self._took:.0f} s"
                 text = self._made_anew(*callback) or (slow if self._is_slow else text)
             now = self._world.now()
             # What was raised after the deadline was raised because of it.

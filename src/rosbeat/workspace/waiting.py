@@ -11,7 +11,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from contextvars import ContextVar
+from contextvars import ContextVar, copy_context
 from html import escape
 from threading import Event, Thread
 from typing import Any
@@ -69,9 +69,9 @@ def step(text: str) -> None:
     Args:
         text: A few words, such as `building the package`.
     """
-    told = _step.get()
-    if told is not None:
-        told(text)
+    add = _step.get()
+    if add is not None:
+        add(text)
 
 
 @contextmanager
@@ -96,13 +96,14 @@ def counting(what: str) -> Iterator[None]:
             rows = [f"\N{CHECK MARK} {one}" for one in done]
             note.say("\n".join([*rows, f"\N{HORIZONTAL ELLIPSIS} {now}, {seconds:.0f} s"]))
 
-    thread = Thread(target=count, name="rosbeat waiting", daemon=True)
-    thread.start()
     reset = _step.set(steps.append)
+    # What is displayed in a thread belongs to the cell of its context.
+    thread = Thread(target=copy_context().run, args=(count,), name="rosbeat waiting", daemon=True)
     try:
+        thread.start()
         yield
     finally:
-        _step.reset(reset)
         ended.set()
+        _step.reset(reset)
         thread.join()
         note.clear()

@@ -111,6 +111,8 @@ FINE = {
     "twice": [(EXERCISE, RIGHT), (EXERCISE, RIGHT)],
     "defined, and something raised below it": [(EXERCISE, RAISES)],
     "defined elsewhere after the cell failed": [(EXERCISE, BROKEN), (SCRATCH, RIGHT)],
+    "moved to another cell, with a helper class that fails": [
+        (EXERCISE, "class Helper(Node)\n    pass"), (SCRATCH, RIGHT)],
     "a helper class elsewhere": [(EXERCISE, RIGHT), (SCRATCH, SUBCLASS)],
     "a helper class elsewhere that fails": [(EXERCISE, RIGHT), (SCRATCH, "class A(Node)\n  pass")],
     "moved to another cell": [(EXERCISE, RIGHT), (SCRATCH, RIGHT), (EXERCISE, SUBCLASS)],
@@ -181,7 +183,7 @@ def test_a_file_that_was_changed_by_hand_later_is_judged(page, tmp_path):
 PRESS = """
 from rosbeat.exercises.cells import cells_of
 def press(what):
-    buttons = cells_of().cards["03a"]
+    (buttons,) = cells_of().widgets["check"]
     buttons._hear({"do": what})
     print(buttons.done, buttons.passed, buttons.said)
 """
@@ -202,7 +204,8 @@ def test_buttons_below_a_card_help_and_judge_anew(page):
     assert "False" in said
     assert "The cell above did not run (line 7: SyntaxError" in said
     page((EXERCISE, RIGHT))
-    assert page(("", "press('again')")).text == "10 True \n"
+    said = page(("", "press('again')")).text
+    assert said.startswith("10 True Checked the cell above as it last ran: passed. ")
 
 
 def test_a_button_says_what_went_wrong(page):
@@ -213,10 +216,54 @@ def test_a_button_says_what_went_wrong(page):
     assert page(("", "press('something else')")).error == ""
 
 
-def test_a_new_card_takes_the_buttons_of_the_one_before(page):
-    page((EXERCISE, SHALLOW), (CHECK, CARD), ("", PRESS), ("", "old = cells_of().cards['03a']"))
+def test_a_cell_that_runs_again_or_is_deleted_closes_its_buttons(page):
+    page((EXERCISE, SHALLOW), (CHECK, CARD), ("", PRESS), ("", "old = cells_of().widgets['check']"))
     page((CHECK, CARD))
-    assert page(("", "print(old.comm, cells_of().cards['03a'] is old)")).text == "None False\n"
+    new = "new = cells_of().widgets['check']; print(old[0].comm, new[0].comm is None)"
+    assert page(("", new)).text == "None False\n"
+    page((SCRATCH, "1"), deletedCells=[CHECK])
+    assert page(("", "print(new[0].comm)")).text == "None\n"
+
+
+CHOOSE = """
+(buttons,) = cells_of().widgets["quiz"]
+buttons._hear({"do": "choose", "question": 0, "choice": 1})
+print([one["chosen"] for one in buttons.questions], buttons.said)
+"""
+
+
+def test_a_choice_of_a_quiz_is_answered_as_html(page):
+    page(("quiz", "from rosbeat import quiz\nquiz('04')"), ("", PRESS))
+    said = page(("", CHOOSE)).text
+    assert said.startswith("[1, None, None] Question 04.1: ")
+    assert "`" not in said
+
+
+INTERRUPTS = """
+import signal
+before = signal.getsignal(signal.SIGINT)
+def again():
+    try:
+        signal.raise_signal(signal.SIGINT)
+    finally:
+        signal.raise_signal(signal.SIGINT)
+(buttons,) = cells_of().widgets["check"]
+buttons._actions["again"] = lambda sent: again()
+press("again")
+print(signal.getsignal(signal.SIGINT) is before)
+"""
+
+
+def test_a_second_interrupt_while_the_first_is_handled_changes_nothing(page):
+    page((EXERCISE, SHALLOW), (CHECK, CARD), ("", PRESS))
+    said = page(("", INTERRUPTS)).text
+    assert "You stopped it." in said
+    assert said.endswith("\nTrue\n")
+
+
+def test_an_answer_that_comes_out_of_a_list_can_be_judged_again(page):
+    page((EXERCISE, SHALLOW), (CHECK, 'check("03a", *[HumiditySensor])'), ("", PRESS))
+    assert "False" in page(("", "press('again')")).text
 
 
 # Nothing said means what was worked on last.
@@ -235,3 +282,10 @@ def test_nothing_said_means_what_was_checked_last_as_it_is_now(page):
     assert page(("", "told()")).text.startswith("failed")
     assert page(("", RIGHT), ("", "told()")).text.startswith("passed")
     assert page(("", 'told("03a")')).text.startswith("passed")
+
+
+def test_an_unknown_exercise_is_answered_with_those_of_the_page_that_was_worked_on(page):
+    page((EXERCISE, RIGHT))
+    reply = page((SCRATCH, 'hint("03z")'))
+    assert refused(reply)
+    assert "The exercises on this page are: 03a (" in reply.trace

@@ -1,7 +1,5 @@
 """Hints: one more at each call, about the last mistake, and the answer at last."""
 
-from types import SimpleNamespace
-
 import pytest
 
 from parsed_html import Parsed
@@ -174,19 +172,6 @@ def test_a_call_without_an_exercise_offers_those_of_the_page(call, monkeypatch, 
     with pytest.raises(ExerciseError, match="was not told which exercise") as caught:
         call()
     says(caught.value, "on this page", "04a (", "04c (", f'{call.__name__}("04a"')
-
-
-def test_elsewhere_the_cells_tell_the_page(monkeypatch, says):
-    monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
-    cells = ["import rosbeat", "check( '08b', Display)", "check('99z', Display)"]
-    shell = SimpleNamespace(user_ns={"In": cells})
-    monkeypatch.setattr("IPython.get_ipython", lambda: shell)
-    with pytest.raises(ExerciseError) as caught:
-        hint()
-    says(caught.value, "08a (", "08c (", 'hint("08b")')
-    with pytest.raises(ExerciseError) as caught:
-        hint("8d")
-    says(caught.value, "There is no exercise '8d'", "08a (", 'hint("08')
 
 
 def test_a_check_without_an_answer_says_what_to_hand_over(says):

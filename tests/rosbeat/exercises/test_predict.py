@@ -6,7 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rosbeat import predict
-from rosbeat.exercises.predict import agree, compared, form_of, is_blank, range_in, told, truth_in
+from rosbeat.exercises.predict import (
+    agree,
+    compared,
+    form_of,
+    in_words,
+    is_blank,
+    range_in,
+    truth_in,
+)
 
 BECAUSE = "The first one comes after a full period."
 
@@ -138,7 +146,7 @@ def test_no_text_raises(text):
     assert truth_in(text) in (True, False, None)
 
 
-# What agrees, and how values are told.
+# What agrees, and how values are put in words.
 
 
 nan = float("nan")
@@ -226,14 +234,14 @@ def test_nothing_raises_and_everything_is_one_short_line(guess, happened, tolera
     assert agree(guess, happened, tolerance) in (True, False)
     assert is_blank(guess) in (True, False)
     for exact in (True, False):
-        assert len(told(guess, exact)) <= 200
-        assert "\n" not in told(guess, exact)
+        assert len(in_words(guess, exact)) <= 200
+        assert "\n" not in in_words(guess, exact)
 
 
 @given(st.integers() | st.floats() | st.booleans() | st.lists(st.integers()))
 def test_a_value_agrees_with_itself_and_with_how_it_is_told_exactly(value):
     assert agree(value, value)
-    assert agree(told(value, exact=True), value) or len(told(value, exact=True)) > 190
+    assert agree(in_words(value, exact=True), value) or len(in_words(value, exact=True)) > 190
 
 
 @pytest.mark.parametrize(
@@ -246,12 +254,12 @@ def test_a_value_agrees_with_itself_and_with_how_it_is_told_exactly(value):
     ],
 )  # fmt: skip
 def test_a_value_is_told_as_people_write_it(value, words):
-    assert told(value) == words
+    assert in_words(value) == words
 
 
 def test_no_address_of_the_memory_is_told():
-    assert " at 0x" not in told(object())
-    assert " at 0x" not in told([object()])
+    assert " at 0x" not in in_words(object())
+    assert " at 0x" not in in_words([object()])
 
 
 @pytest.mark.parametrize(
@@ -292,6 +300,6 @@ def test_what_cannot_be_compared_is_not_wrong(guess, happened, form):
 def test_what_holds_itself_and_what_is_very_long_are_told_all_the_same():
     endless: list = []
     endless.append(endless)
-    assert told(endless) == "a list"
+    assert in_words(endless) == "a list"
     assert not agree(endless, [[1]])
-    assert told(list(range(1_000_000))).endswith(" ...")
+    assert in_words(list(range(1_000_000))).endswith(" ...")

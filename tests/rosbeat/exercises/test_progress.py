@@ -310,6 +310,7 @@ def test_elsewhere_the_whole_course_is_shown_core_and_electives_apart(open_page)
     assert numbers == [[f"0{n}" for n in range(7)] + ["The"], [f"{n:02}" for n in range(7, 14)]]
     rows = dict(found.tables[core])
     assert rows["03 Write a publisher40 minutes, needs 00, 02"] == "○ 03a ○ 03b ○ 03c"
+    assert "✓ passed, ✗ not there yet, ○ still open" in found.paragraphs
     assert rows["00 Hear the heartbeat20 minutes"] == "✓ 00a ✓ 00b"
     assert found.links["02"] == "02_create_a_package.ipynb"
 
@@ -343,6 +344,13 @@ def test_there_is_no_link_to_a_page_that_is_not_there(home):
     found = shown()
     assert found.links == {}
     assert "Continue here: 00 Hear the heartbeat." in found.paragraphs[0]
+
+
+def test_the_list_is_shown_also_where_the_folder_of_the_kernel_is_gone(home, tmp_path, monkeypatch):
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    assert len(shown().tables) == 2
 
 
 def test_exercises_of_no_page_have_a_heading_too():

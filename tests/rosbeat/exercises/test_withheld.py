@@ -30,19 +30,19 @@ def test_an_open_prediction_keeps_back_what_the_cell_prints(kernel):
 
 
 ANSWER = """
-from ipywidgets.widgets.widget import _instances
-field = [one for one in _instances.values() if getattr(one, "kind", "") == "predict"][-1]
-for sent in ({"do": "guess", "guess": "some words"}, {"do": "guess", "guess": "44"}):
+from rosbeat.exercises.cells import cells_of
+(field,) = cells_of().widgets["one"]
+for sent in ({"do": "guess", "guess": "<b>"}, {"do": "guess", "guess": "44"}):
     field._hear(sent)
-    print(field.passed, field.said)
+    print(field.passed, field.begun, field.done, field.said)
 """
 
 
 def test_a_guess_that_cannot_be_compared_may_be_made_again(kernel):
     assert run(kernel, CELL).text == ""
     assert kernel.run(ANSWER).text == (
-        "False That cannot be compared with what happened: write a number.\n"
-        "True What happened is below.\n"
+        "False 1 1 That cannot be compared with what happened: write a number.\n"
+        "True 2 2 You predicted 44, and it was 44.\n"
     )
 
 
@@ -66,4 +66,20 @@ def test_everything_is_shown_where_nothing_is_asked(kernel, source):
 def test_everything_is_shown_if_the_cell_raises(kernel):
     reply = run(kernel, CELL.replace("44", "1 / 0"))
     assert (reply.error, reply.text) == ("ZeroDivisionError", "first 41\n")
+    assert run(kernel, "print('as ever')").text == "as ever\n"
+
+
+LOGS = "import logging\nlogging.basicConfig(force=True)\n" + CELL
+REDIRECTS = """
+from contextlib import redirect_stdout
+from io import StringIO
+with redirect_stdout(StringIO()):
+    predict("____", 44)
+"""
+
+
+def test_what_holds_a_stream_for_longer_writes_to_it_after_the_cell(kernel):
+    assert run(kernel, LOGS).text == ""
+    assert kernel.run("logging.warning('as ever')").text == "WARNING:root:as ever\n"
+    run(kernel, REDIRECTS)
     assert run(kernel, "print('as ever')").text == "as ever\n"
