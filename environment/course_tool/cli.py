@@ -27,9 +27,10 @@ Usage:  ./environment/course COMMAND [OPTIONS]
   test     check everything: lint, types, pages, tests; --thorough adds tests that take minutes;
            with other arguments, pytest alone runs with them
   bench    measure the course on this machine
+  site     build the course as a site (dist/site); --open shows it in the browser
   lock     for maintainers: remake the locked versions (lock --upgrade takes newer ones)
 
-lab, test, shell and bench first make .venv, or refresh it when the course has changed.
+lab, test, shell, bench and site first make .venv, or refresh it when the course has changed.
 ROSBEAT_PYTHON=/path/to/python3.12 chooses the Python. ROS_DOMAIN_ID=42 chooses the ROS domain.
 """
 
@@ -103,6 +104,7 @@ _COMMANDS: dict[str, Callable[[Layout, Sequence[str]], int]] = {
     "doctor": doctor,
     "test": testing.test,
     "bench": commands.bench,
+    "site": commands.site,
     "lock": commands.lock,
     "variables": commands.variables,
 }

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from course_tool import prepare, running, surroundings
+from course_tool import installing, prepare, running, surroundings
 from course_tool.layout import Layout
 from course_tool.problems import Problem, installer_stopped, say
 
@@ -67,10 +67,24 @@ def bench(layout: Layout, arguments: Sequence[str]) -> int:
     return subprocess.call([layout.python, script, *arguments], env=environ, cwd=layout.root)
 
 
+def site(layout: Layout, arguments: Sequence[str]) -> int:
+    """Build the site of the course; `docs/site/build.py` says what the arguments mean.
+
+    Sphinx and its theme come from a lock of their own, into an environment of uv's: neither a
+    learner's `.venv` nor the tests grow by them.
+    """
+    environ = installing.for_installers(layout, prepare.ready(layout, "course"))
+    command = [
+        *(layout.uv, "run", "--quiet", "--isolated", "--no-project", "--python", layout.python),
+        *("--with-requirements", layout.lock("site"), layout.root / "docs" / "site" / "build.py"),
+    ]
+    return subprocess.call([*command, *arguments], env=environ)
+
+
 def lock(layout: Layout, options: Sequence[str]) -> int:
     """Remake every lock; versions stay unless `--upgrade` is among the options."""
     environ = prepare.ready(layout, "course")
-    for name in ("bootstrap", "build", "course", "test"):
+    for name in ("bootstrap", "build", "course", "test", "site"):
         say(f"  {name}.in -> {name}.lock")
         command = compile_command(layout, name, options)
         result = running.stream(

@@ -88,14 +88,13 @@ def fill(layout: Layout, level: str, environ: Mapping[str, str]) -> None:
     Raises:
         Problem: If an installer stops.
     """
-    env = _for_installers(environ)
+    env = _for_pip(environ)
     lock = layout.lock("bootstrap").read_text(encoding="utf-8")
     (version,) = re.findall(r"^uv==(\S+)", lock, re.MULTILINE)
     if not layout.uv.exists() or not (layout.uv_home / f"uv-{version}.dist-info").is_dir():
         say("  2/4  fetching uv, the installer")
         _fetch_uv(layout, env)
-    listing = running.quiet([layout.python, "-I", "-m", "pip", "config", "list"], env)
-    env |= pip_settings(listing.text, env) if listing.ok else {}
+    env = for_installers(layout, environ)
     lock = layout.lock(level).read_text(encoding="utf-8")
     count = len(re.findall(r"^[\w.-]+==", lock, re.MULTILINE))
     say(f"  3/4  installing what {level}.lock lists ({count} packages at most)")
@@ -156,7 +155,14 @@ def pip_settings(listing: str, environ: Mapping[str, str]) -> dict[str, str]:
     }
 
 
-def _for_installers(environ: Mapping[str, str]) -> dict[str, str]:
+def for_installers(layout: Layout, environ: Mapping[str, str]) -> dict[str, str]:
+    """Return the environment in which uv installs: with what a person told pip."""
+    env = _for_pip(environ)
+    listing = running.quiet([layout.python, "-I", "-m", "pip", "config", "list"], env)
+    return env | (pip_settings(listing.text, env) if listing.ok else {})
+
+
+def _for_pip(environ: Mapping[str, str]) -> dict[str, str]:
     # pip's own default is five tries; without a network that only delays the message.
     return {"PIP_RETRIES": "2", **environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1", "PIP_USER": "0"}
 

@@ -1,66 +1,17 @@
-"""What a screen reader, a keyboard and weak eyes need of an output: rules after WCAG 2, by hand.
+"""What a screen reader, a keyboard and weak eyes need: axe-core's rules, and two of our own."""
 
-The rules are those of axe-core that outputs, cards and the panel could break seriously.
-"""
+from functools import cache
+from pathlib import Path
 
-#: The rules, applied to one element and all that is in it; returns what breaks them, in words.
-AUDIT = """root => {
-    const found = [];
-    const all = (what) => [...root.querySelectorAll(what)].filter(one => one.checkVisibility());
-    const show = (one) => one.outerHTML.slice(0, 120);
-    const complain = (rule, one) => found.push(`${rule}: ${show(one)}`);
+import axe_playwright_python
 
-    const parse = (colour) => {
-        const canvas = new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true });
-        canvas.fillStyle = colour;
-        canvas.fillRect(0, 0, 1, 1);
-        const [r, g, b, a] = canvas.getImageData(0, 0, 1, 1).data;
-        return [r, g, b, a / 255];
-    };
-    const over = ([r, g, b, a], under) => [r, g, b].map((c, k) => a * c + (1 - a) * under[k]);
-    const ground = (one) => {
-        if (!one) return [255, 255, 255];
-        const colour = parse(getComputedStyle(one).backgroundColor);
-        return colour[3] === 1 ? colour : over(colour, ground(one.parentElement));
-    };
-    const light = (colour) => {
-        const [r, g, b] = colour.map(c => c / 255)
-            .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
-        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    };
-    const contrast = (one) => {
-        const behind = ground(one);
-        const [a, b] = [light(over(parse(getComputedStyle(one).color), behind)), light(behind)];
-        return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
-    };
-    const texts = document.createTreeWalker(root, NodeFilter.SHOW_TEXT);
-    while (texts.nextNode()) {
-        const one = texts.currentNode.parentElement;
-        if (!texts.currentNode.data.trim() || !one.checkVisibility()) continue;
-        if (one.closest(':disabled, style, svg')) continue;
-        const ratio = contrast(one);
-        if (ratio < 4.5) complain(`contrast ${ratio.toFixed(2)} of ${texts.currentNode.data}`, one);
-    }
-
-    const name = (one) => one.getAttribute('aria-label') || one.innerText?.trim()
-        || [...(one.labels || [])].map(label => label.innerText.trim()).join('');
-    for (const one of all('a, button, input, select, canvas, svg:not([aria-hidden]), [role=img]')) {
-        if (!name(one)) complain('without a name', one);
-    }
-    for (const one of all('img:not([alt])')) complain('without words', one);
-    for (const one of all('table')) {
-        if (!one.querySelector('th[scope]')) complain('a table without headers', one);
-    }
-    for (const one of all('th')) if (!one.innerText.trim()) complain('an empty header', one);
-    for (const one of all('ul > :not(li)')) complain('no item of a list', one);
-    for (const one of all('*')) {
-        const { overflowX, overflowY } = getComputedStyle(one);
-        const scrolls = (way, most, shown) => ['auto', 'scroll'].includes(way) && most > shown + 1;
-        const is_moved = scrolls(overflowX, one.scrollWidth, one.clientWidth)
-            || scrolls(overflowY, one.scrollHeight, one.clientHeight);
-        if (is_moved && one.tabIndex < 0) complain('scrolls, and the keyboard cannot', one);
-    }
-    return found;
+#: What axe-core finds in an element, of what it calls serious or critical.
+AUDIT = """async root => {
+    // It would fetch style sheets on its own otherwise.
+    const options = { preload: false, resultTypes: ['violations'] };
+    const { violations } = await axe.run(root, options);
+    return violations.filter(one => ['serious', 'critical'].includes(one.impact)).flatMap(one =>
+        one.nodes.map(node => `${one.id}: ${node.html.slice(0, 120)} ${node.failureSummary}`));
 }"""
 #: The controls that do not show that they have the focus.
 UNSEEN_FOCUS = """root => [...root.querySelectorAll('a, button, input, select, [tabindex]')]
@@ -90,13 +41,27 @@ CUT_OFF = """root => {
 }"""
 
 
-def issues(element):
-    """What breaks a rule in an element, in words.
+@cache
+def rules():
+    """The script of axe-core, as its package brings it."""
+    folder = Path(axe_playwright_python.__file__).parent
+    return (folder / "axe.min.js").read_text(encoding="utf-8")
+
+
+def serious(element):
+    """What axe-core calls serious in an element, in words.
 
     Args:
         element: Playwright's locator of it.
     """
-    return element.evaluate(AUDIT) + element.evaluate(UNSEEN_FOCUS)
+    if not element.page.evaluate("() => 'axe' in window"):
+        element.page.evaluate(rules())
+    return element.evaluate(AUDIT)
+
+
+def issues(element):
+    """What breaks a rule in an element, in words, and which of its controls hide their focus."""
+    return serious(element) + element.evaluate(UNSEEN_FOCUS)
 
 
 def cut_off(element):

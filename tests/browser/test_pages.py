@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from browser.accessibility import serious
 from browser.notebook import Notebook
 
 pytestmark = [pytest.mark.ros, pytest.mark.timeout(400)]
@@ -84,6 +85,12 @@ def test_a_page_runs_and_an_exercise_is_checked(open_page, name):
     assert notebook.errors().keys() == raising, notebook.errors()
 
 
+def found(page):
+    """What axe-core calls serious in the outputs of a page."""
+    outputs = page.locator(".jp-OutputArea-output").all()
+    return [line for output in outputs for line in serious(output)]
+
+
 @pytest.mark.parametrize("name", PAGES)
 def test_a_solved_page_can_be_looked_at(open_page, page, name, tmp_path):
     """Saves what a person sees who opens a solution and runs nothing."""
@@ -95,5 +102,6 @@ def test_a_solved_page_can_be_looked_at(open_page, page, name, tmp_path):
         notebook.wait_until_drawn()
         path = notebook.picture(f"{Path(name).stem}-{theme}", shown, tmp_path)
         assert path.stat().st_size > 50_000
+        assert found(page) == []
     broken = "all => all.filter(one => one.complete && !one.naturalWidth).length"
     assert page.eval_on_selector_all(".jp-Notebook img", broken) == 0

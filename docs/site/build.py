@@ -1,0 +1,165 @@
+"""Builds the site of the course from its executed pages and its documents, and shows it.
+
+Nothing is copied by hand: the pages are those of `solutions/`, the documents those of `docs/`, the
+landing page is the README. `./environment/course site` calls this file in an environment that has
+Sphinx (`environment/site.in`).
+"""
+
+from __future__ import annotations
+
+import argparse
+import functools
+import http.server
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import webbrowser
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+#: The documents beside the pages, in the order of the sidebar.
+DOCUMENTS = {
+    "Help": ("docs/glossary.md", "docs/troubleshooting.md", "environment/README.md"),
+    "Your own nodes": ("docs/testing.md",),
+    "For instructors": (
+        "docs/instructors.md", "docs/nbgrader.md", "docs/sandbox.md", "docs/mistakes.md",
+    ),
+    "For contributors": (
+        "docs/CONTRIBUTING.md", "docs/CODE_OF_CONDUCT.md", "docs/SECURITY.md",
+        "docs/architecture.md", "docs/simulation.md", "docs/authoring.md", "docs/exercises.md",
+        "docs/mutants.md", "docs/claims.md", "src/ros2_command/README.md", "docs/releasing.md",
+        "docs/changelog.md",
+    ),
+}  # fmt: skip
+#: Files that documents link to, offered as they are.
+FILES = (
+    "LICENSE",
+    "docs/results.schema.json",
+    "tests/golden/src/lessons/00_hear_a_pulse.py",
+)
+_COURSE = 7  # pages 00 to 06 are the course, the others are electives
+_RECORD = "application/vnd.rosbeat.outcome+json"
+_HOME = re.compile(r"\]\((?:\.\./)?(?:notebooks/)?home\.ipynb\)")
+
+
+def stage(target: Path) -> None:
+    """Lay out the source of the site in an empty folder, under the names of the repository.
+
+    Args:
+        target: The folder. A link from one document to another holds there as it does in the
+            repository; a page of `notebooks/` is the executed one of `solutions/`.
+    """
+    pages = sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb"))
+    (target / "notebooks").mkdir(parents=True)
+    for page in pages:
+        notebook = for_readers(json.loads(page.read_text(encoding="utf-8")))
+        text = json.dumps(notebook, ensure_ascii=False)
+        (target / "notebooks" / page.name).write_text(text, encoding="utf-8")
+    for name in (*(name for part in DOCUMENTS.values() for name in part), *FILES):
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(ROOT / name, target / name)
+    shutil.copytree(ROOT / "docs" / "images", target / "docs" / "images")
+    (target / "index.md").write_text(_landing([page.stem for page in pages]), encoding="utf-8")
+    shutil.copyfile(HERE / "conf.py", target / "conf.py")
+    (target / "_static").mkdir()
+    for name in ("site.css", "favicon.svg"):
+        shutil.copyfile(HERE / name, target / "_static" / name)
+
+
+def for_readers(notebook: dict[str, Any]) -> dict[str, Any]:
+    """Return a page with its answers folded, and without the progress of whoever built it.
+
+    Args:
+        notebook: An executed page, as nbformat 4 describes it.
+    """
+    cells = []
+    for cell in notebook["cells"]:
+        source = "".join(cell["source"])
+        if cell["cell_type"] == "markdown":
+            cells.append({**cell, "source": _HOME.sub("](../index.md#the-pages)", source)})
+            continue
+        if source.rstrip().endswith("progress()"):
+            continue
+        mine = cell["metadata"].get("rosbeat", {})
+        tags = []
+        if "exercise" in mine:
+            tags = ["hide-input"]
+        elif "check" in mine or re.search(r"^(predict|quiz)\(", source, re.MULTILINE):
+            tags = ["hide-cell"]
+        # The record of a check is for graders; its card says the same.
+        outputs = [
+            {**one, "data": {kind: text for kind, text in one["data"].items() if kind != _RECORD}}
+            if "data" in one
+            else one
+            for one in cell["outputs"]
+        ]
+        metadata = {**cell["metadata"], "tags": tags}
+        cells.append({**cell, "metadata": metadata, "outputs": outputs})
+    # With IPython's lexer, a cell of %%terminal or %%save is not read as Python.
+    language = {"name": "python", "pygments_lexer": "ipython3"}
+    return {
+        **notebook,
+        "cells": cells,
+        "metadata": {**notebook["metadata"], "language_info": language},
+    }
+
+
+def _landing(pages: list[str]) -> str:
+    """Return the README as a landing page, with the tables of contents that Sphinx asks for."""
+    readme = _HOME.sub("](#the-pages)", (ROOT / "README.md").read_text(encoding="utf-8"))
+    parts = {
+        "The course": [f"notebooks/{name}" for name in pages[:_COURSE]],
+        "Electives": [f"notebooks/{name}" for name in pages[_COURSE:]],
+        **DOCUMENTS,
+    }
+    for title, names in parts.items():
+        listed = "\n".join(name.removesuffix(".md") for name in names)
+        readme += f"\n```{{toctree}}\n:hidden:\n:caption: {title}\n\n{listed}\n```\n"
+    return readme
+
+
+def build(out: Path) -> int:
+    """Build the site into a folder; return Sphinx's exit code. Every warning is an error."""
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder) / "source"
+        source.mkdir()
+        stage(source)
+        command = [sys.executable, "-m", "sphinx", "-b", "html", "-W", "--keep-going", "-q"]
+        return subprocess.call([*command, "-d", f"{folder}/doctrees", str(source), str(out)])
+
+
+def show(out: Path) -> None:
+    """Serve a folder on localhost, open it in a browser, and wait for Ctrl+C."""
+    handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=str(out))
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        address = f"http://127.0.0.1:{server.server_port}/"
+        print(f"The site is at {address}\nCtrl+C stops it.", flush=True)
+        webbrowser.open(address)
+        try:
+            server.serve_forever()
+        except KeyboardInterrupt:
+            print()
+
+
+def main() -> int:
+    """Read the command line, build the site, and show it if asked to."""
+    parser = argparse.ArgumentParser(prog="./environment/course site", description=__doc__)
+    parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "dist" / "site",
+                        help="where to (dist/site unless told)")  # fmt: skip
+    parser.add_argument("--open", action="store_true", help="serve it on localhost and open it")
+    options = parser.parse_args()
+    code = build(options.folder)
+    if code == 0:
+        print(f"The site is in {options.folder}")
+        if options.open:
+            show(options.folder)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,71 @@
+"""Configures Sphinx for the site: `build.py` puts a copy of this file beside the staged pages."""
+
+import re
+from pathlib import Path
+
+from docutils import nodes
+from sphinx.application import Sphinx
+
+project = "rosbeat"
+author = "the rosbeat authors"
+html_title = "rosbeat: learn how robots talk"
+language = "en"
+extensions = ["myst_nb"]
+# The pages were executed when they were built, and compared with what they show.
+nb_execution_mode = "off"
+# A site without requests to elsewhere: no widget manager, no require.js.
+nb_ipywidgets_js: dict[str, dict[str, str]] = {}
+nb_merge_streams = True
+nb_code_prompt_show = "Show the answer"
+nb_code_prompt_hide = "Hide the answer"
+myst_heading_anchors = 4
+myst_enable_extensions = ["colon_fence"]
+exclude_patterns = ["_build"]
+# Learners' terminals and ROS's messages have no grammar that Pygments knows.
+highlight_language = "none"
+
+# The book theme: made for pages that are read in order, and legible at 375 pixels. It and the theme
+# below it bring their fonts and scripts along.
+html_theme = "sphinx_book_theme"
+html_theme_options = {
+    "show_navbar_depth": 1,
+    "home_page_in_toc": True,
+    "navbar_persistent": [],
+    "use_download_button": False,
+    "use_fullscreen_button": False,
+    "use_repository_button": False,
+    "pygments_light_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+}
+html_context = {"default_mode": "auto"}
+html_favicon = "_static/favicon.svg"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_copy_source = False
+html_show_sourcelink = False
+
+
+def explain_terms(app: Sphinx, tree: nodes.document, name: str) -> None:
+    """Put the meaning of a term on each link to the glossary, for who points at it."""
+    for link in tree.findall(nodes.reference):
+        _, found, anchor = link.get("refuri", "").partition("docs/glossary.html#")
+        if not found and name == "docs/glossary":
+            continue
+        if found and anchor in (meanings := _meanings(Path(app.srcdir) / "docs" / "glossary.md")):
+            link["reftitle"] = meanings[anchor]
+
+
+def _meanings(glossary: Path) -> dict[str, str]:
+    """Return the text of each term by its anchor, without links and without its page."""
+    found = {}
+    for part in glossary.read_text(encoding="utf-8").split("\n## ")[1:]:
+        term, _, text = part.partition("\n")
+        plain = re.sub(r"\[([^\]]+)\]\([^)]*\)", r"\1", " ".join(text.split())).replace("`", "")
+        anchor = re.sub(r"[^\w -]", "", term.lower()).replace(" ", "-")
+        found[anchor] = re.sub(r"(See also [^.]+\. )?Page \d\d:.*$", "", plain).replace("*", "")
+    return found
+
+
+def setup(app: Sphinx) -> None:
+    """Register what this site adds to Sphinx."""
+    app.connect("doctree-resolved", explain_terms)
