@@ -45,6 +45,8 @@ PART_OF = {
     "__main__": "cli",
     "domains": "environment",
     "page_errors": "page_session",
+    "testing": "page_session",
+    "pytest_plugin": "page_session",
 }
 #: The package's own `__init__` hands out names of other rooms, and `scenarios` keeps an old one.
 LEFT_OUT = {"rosbeat", "scenarios"}

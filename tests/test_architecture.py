@@ -39,6 +39,8 @@ MAY_IMPORT = {
     "page_errors": {"errors", "records", "diagnosis"},
     "page_views": {"records"},
     "page_session": {"errors", "ros", "diagnosis", "panel"},
+    "testing": {"errors", "records", "ros", "page_session"},
+    "pytest_plugin": {"testing"},
     "explain_command": {"errors", "ros", "diagnosis"},
     "check_command": {"errors", "records_json", "authoring", "exercises"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},

@@ -42,6 +42,29 @@ def profile(qos: QoS | int) -> QoSProfile:
     )
 
 
+class Tester(Node):
+    """Publish messages for a test, now or later."""
+
+    def __init__(self) -> None:
+        super().__init__("tester", **BARE)
+        self._by_topic: dict[tuple[str, type], Any] = {}
+
+    def publish(self, topic: str, value: Any, qos: QoSProfile, wait: float | None) -> None:  # noqa: ANN401 - a message
+        """Publish a message after so many seconds, or at once if that is None."""
+        key = topic, type(value)
+        if key not in self._by_topic:
+            self._by_topic[key] = self.create_publisher(type(value), topic, qos)
+        if wait is None:
+            self._by_topic[key].publish(value)
+            return
+
+        def once() -> None:
+            timer.cancel()
+            self._by_topic[key].publish(value)
+
+        timer = self.create_timer(wait, once)
+
+
 # Nodes of one callback or two.
 
 
