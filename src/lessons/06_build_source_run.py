@@ -29,6 +29,9 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspac
 
 workspace.catch_up("06")
 
+# %%
+viz.diagram("06")
+
 # %% [markdown]
 # ## Build
 #

@@ -32,6 +32,9 @@ from std_msgs.msg import Bool, Float32, String
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.exercises.greenhouse import requirements, weather
 
+# %%
+viz.diagram("13")
+
 # %% [markdown]
 # ## Agree on the interface
 #
