@@ -32,6 +32,8 @@ from std_msgs.msg import Bool, Float32, String
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.exercises.greenhouse import requirements, weather
 
+workspace.catch_up("02")
+
 # %%
 viz.diagram("13")
 
@@ -437,9 +439,6 @@ print([end.node for end in graph.on("/vent", "publisher")])
 # Nothing in your nodes depends on this page, so they can become programs, as on pages 02 to 06. Begin with a
 # package of their own:
 
-# %%
-workspace.catch_up("02")
-
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE/src"
 # ros2 pkg create greenhouse --build-type ament_python --dependencies rclpy std_msgs
@@ -617,8 +616,8 @@ def generate_launch_description():
 # %% [markdown]
 # The programs and the launch file are installed. On a robot, `ros2 launch greenhouse greenhouse.launch.py` would now start the whole system.
 # `ros2 launch` comes with a full ROS 2 installation; it isn't available on PyPI, so this course doesn't have it.
-# Without it, you start each program in a terminal of its own, as on page 06. The launch file's options become options
-# of the command, after `--ros-args`: `-p` sets a parameter, and `-r` remaps a topic.
+# Without it, you start each program in a terminal of its own. The launch file's options become options of the
+# command, after `--ros-args`: `-p` sets a parameter, and `-r` remaps a topic.
 
 # %% terminal="vent --until ready" only="notebook"
 # cd "$ROS2_WORKSPACE"

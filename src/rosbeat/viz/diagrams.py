@@ -463,14 +463,17 @@ _FOLDERS = Diagram(
     is_tree=True,
 )  # fmt: skip
 
-_WITH, _WITHOUT = "terminal build,\nafter source\ninstall/setup.bash", "terminal other,\nnot yet"
+_WITH, _WITHOUT = (
+    "terminal build,\nafter source\ninstall/setup.bash",
+    "terminal other,\nnot sourced",
+)
 _UNDERLAY = "rclpy\nstd_msgs\n..."
 _OVERLAY = Diagram(
     "Two terminals, and the packages that each of them finds",
     "The overlay, your workspace, with the package sensor_simulator, lies on top of the underlay, "
     "ROS 2, with rclpy, std_msgs and more. Terminal build, after source install/setup.bash, finds "
-    "the packages of both. Terminal other, which has not sourced it yet, finds only those of the "
-    "underlay.",
+    "the packages of both. Terminal other, where the workspace is not sourced, finds only those of "
+    "the underlay.",
     (
         Box(_WITH, "program", 0, 0),
         Box("sensor_simulator", "file", 1, 0),

@@ -63,7 +63,7 @@ _FAULT = theme.Style(theme.ALERT, "X", "")
 _MESSAGES = (
     theme.Style(theme.BLUE, "", "-"),
     theme.Style(theme.PURPLE, "", ":"),
-    theme.Style(theme.INK, "", (0, (1, 4))),
+    theme.Style(theme.INK, "", (0, (1, 2.6))),
 )
 _LOST = theme.Style(theme.ALERT, "", "--")
 
