@@ -23,6 +23,17 @@
 # A page is made of **cells**. Click the first one and press `Shift` + `Enter` to run it. Then work through the
 # page from top to bottom. While a cell is running, it shows `[*]`. If you get lost, choose
 # *Kernel, Restart Kernel* from the menu and start again at the top.
+#
+# The second cell draws what you'll build in this course. The part in colour is what this page is about.
+
+# %%
+from rclpy.node import Node
+from std_msgs.msg import Float32, String
+
+from rosbeat import Session, check, hint, predict, progress, quiz, viz
+
+# %%
+viz.diagram("00")
 
 # %% [markdown]
 # ## Send your first message
@@ -31,13 +42,7 @@
 # [**node**](../docs/glossary.md#node). The data that one node sends to others is a
 # [**message**](../docs/glossary.md#message).
 #
-# Here is a complete node: a thermometer. Run the next three cells.
-
-# %%
-from rclpy.node import Node
-from std_msgs.msg import Float32, String
-
-from rosbeat import Session, check, hint, predict, progress, quiz, viz
+# Here is a complete node: a thermometer. Run the next two cells.
 
 # %%
 class Thermometer(Node):

@@ -26,7 +26,10 @@
 # terminals to your page:
 
 # %%
-from rosbeat import check, hint, progress, quiz, workspace
+from rosbeat import check, hint, progress, quiz, viz, workspace
+
+# %%
+viz.diagram("01")
 
 # %% [markdown]
 # A cell that begins with `%%terminal` and a name types its lines into the terminal with that name. It's
@@ -221,7 +224,11 @@ check("01b", workspace.terminal("two"))
 # There's no package yet, so there was nothing to build. But you now have three new folders: `install` holds the
 # result, `build` holds intermediate files, and `log` holds a record of each build. You never edit these folders. You
 # can delete all three at any time, because the next build creates them again.
-#
+
+# %%
+viz.diagram("workspace")
+
+# %% [markdown]
 # ## What went wrong: one character
 #
 # The tutorial begins with this line. **Predict:** why does it fail?

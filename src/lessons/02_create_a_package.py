@@ -23,9 +23,12 @@
 # The next cell creates the workspace from the last page if it's missing. If you already have one, it stays as it is.
 
 # %%
-from rosbeat import check, hint, progress, quiz, workspace
+from rosbeat import check, hint, progress, quiz, viz, workspace
 
 workspace.catch_up("02")
+
+# %%
+viz.diagram("02")
 
 # %% [markdown]
 # ## Create it
@@ -183,6 +186,9 @@ check("02a", workspace.folder())
 
 # %% terminal="other"
 # ros2 pkg prefix sensor_simulator
+
+# %%
+viz.diagram("overlay")
 
 # %% [markdown]
 # The second terminal has to source the workspace itself. This is the most common surprise in the first weeks with

@@ -44,6 +44,9 @@ from std_msgs.msg import Float32
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
+# %%
+viz.diagram("03")
+
 # %% [markdown]
 # ## Name the node
 #

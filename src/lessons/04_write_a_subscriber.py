@@ -28,6 +28,9 @@ from std_msgs.msg import Float32, String
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.records import queue_steps
 
+# %%
+viz.diagram("04")
+
 # %% [markdown]
 # The first imports are the same as the publisher's. A subscriber has to use the publisher's message type;
 # otherwise, no messages arrive. In a file of its own, the monitor doesn't need `random`; on this page, the sensor

@@ -22,9 +22,12 @@
 # commands below, a star stands for any text.
 
 # %%
-from rosbeat import check, hint, predict, progress, quiz, workspace
+from rosbeat import check, hint, predict, progress, quiz, viz, workspace
 
 workspace.catch_up("05")
+
+# %%
+viz.diagram("05")
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
@@ -202,6 +205,9 @@ check("05a", workspace.folder())
 
 # %% terminal="build"
 # ls install/sensor_simulator/lib/sensor_simulator
+
+# %%
+viz.diagram("entry point")
 
 # %% [markdown]
 # ## Try it: write entry points

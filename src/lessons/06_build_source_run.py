@@ -29,6 +29,9 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspac
 
 workspace.catch_up("06")
 
+# %%
+viz.diagram("06")
+
 # %% [markdown]
 # ## Build
 #
@@ -94,7 +97,7 @@ viz.crossing(sent, heard)
 
 # %% [markdown]
 # The arrows are almost vertical, because a message takes only a few thousandths of a second. The first readings
-# have no arrow: there was no subscriber yet. The last ones have none because `heard` holds only ten lines.
+# have no arrow: nobody was listening yet. The last ones have none because `heard` holds only ten lines.
 #
 # Now compare the numbers themselves. `numbers` extracts them from the log lines. The lines that begin with `places`
 # and `fits` look for the monitor's ten readings, in a row, among the readings that were sent. They allow a
@@ -327,7 +330,7 @@ predict("3", len(judged))
 #
 # You've now done everything that the tutorial does, on your own. The last check looks at the whole system: it
 # builds your package in another place, runs both programs, and checks what they publish, what they log, and how they
-# end. It takes up to half a minute.
+# end. It takes up to half a minute, and also draws which readings crossed from one program to the other.
 
 # %% tags=["nbval-ignore-output"]
 check("system", workspace.folder())

@@ -32,6 +32,9 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspac
 from rosbeat.scenarios.stranger import greenhouse
 
 # %%
+viz.diagram("07")
+
+# %%
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
 greenhouse(ros)
 ros.start()

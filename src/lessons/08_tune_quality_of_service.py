@@ -41,6 +41,9 @@ from std_msgs.msg import Float32, Int32, String
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.records import queue_steps
 
+# %%
+viz.diagram("08")
+
 # %% [markdown]
 # Each publisher and each subscription is an [**endpoint**](../docs/glossary.md#endpoint) of its topic. Every
 # endpoint has a [**QoS profile**](../docs/glossary.md#qos-profile), which holds one value for each policy. You've

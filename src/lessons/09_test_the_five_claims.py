@@ -46,6 +46,9 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspac
 workspace.catch_up("05")
 
 # %%
+viz.diagram("09")
+
+# %%
 class TemperatureSensor(Node):
     def __init__(self):
         super().__init__("temperature_sensor")

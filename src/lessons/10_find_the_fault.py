@@ -28,6 +28,9 @@ from std_msgs.msg import Float32, String
 
 from rosbeat import Session, check, clinic, hint, predict, progress, quiz, viz
 
+# %%
+viz.diagram("10")
+
 # %% [markdown]
 # ## Meet a patient
 #

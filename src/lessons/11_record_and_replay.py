@@ -39,6 +39,9 @@ from std_msgs.msg import Float32, String
 
 from rosbeat import Session, bags, check, hint, predict, progress, quiz, viz, workspace
 
+# %%
+viz.diagram("11")
+
 # %% [markdown]
 # ## Bring both nodes
 #

@@ -32,6 +32,9 @@ from test_msgs.srv import BasicTypes
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
+# %%
+viz.diagram("12")
+
 # %% [markdown]
 # A topic is a stream: the publisher never learns who received a message. That's right for readings, but it isn't
 # enough for a request ("set the limit to 24") or for work that takes time ("heat to 22 degrees"). ROS has three more

@@ -1,6 +1,6 @@
 # ---
 # title: Build your own
-# minutes: 90
+# minutes: 100
 # needs: ["04", "07", "08", "09"]
 # summary: A greenhouse of at least four nodes, designed by you and judged by what it does.
 # ---
@@ -15,7 +15,7 @@
 # - measure a silence with the node's clock (13b, 13.2);
 # - test a single requirement with an input made for it (13b, 13.3).
 #
-# **Time:** 90 minutes, in as many sittings as you like. **You need:**
+# **Time:** 100 minutes, in as many sittings as you like. **You need:**
 # [write a subscriber](04_write_a_subscriber.ipynb), [look inside the graph](07_look_inside_the_graph.ipynb),
 # [tune quality of service](08_tune_quality_of_service.ipynb) and
 # [test the five claims](09_test_the_five_claims.ipynb).
@@ -29,8 +29,13 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Bool, Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz
+from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 from rosbeat.exercises.greenhouse import requirements, weather
+
+workspace.catch_up("02")
+
+# %%
+viz.diagram("13")
 
 # %% [markdown]
 # ## Agree on the interface
@@ -132,8 +137,7 @@ predict("10-30", longest)
 # - Which node has to know what another node decided? On which topic does it find out?
 # - Which node checks that a reading is plausible? One for all, or each for itself?
 # - If this node ends, which others stop working? That's R9.
-
-# %% [markdown]
+#
 # A table says the same as a drawing. This one describes pages 03 and 04; make one for your greenhouse.
 #
 # | node | subscribes to | publishes | task |
@@ -430,33 +434,228 @@ print([end.node for end in graph.on("/vent", "publisher")])
 # what they want, on topics of their own.
 
 # %% [markdown]
-# ## Make it real
+# ## Make it a package
 #
-# Nothing in your nodes depends on this page. You can turn them into a package, as on pages 02 to 06:
-#
-# ```
+# Nothing in your nodes depends on this page, so they can become programs, as on pages 02 to 06. Begin with a
+# package of their own:
+
+# %% terminal="build"
 # cd "$ROS2_WORKSPACE/src"
 # ros2 pkg create greenhouse --build-type ament_python --dependencies rclpy std_msgs
-# ```
-#
-# Each node gets a file with a `main`, and a line in `entry_points`. A [**launch
-# file**](../docs/glossary.md#launch-file) starts all of them, and says what your list says:
-#
-# ```python
-# from launch import LaunchDescription
-# from launch_ros.actions import Node
-#
-# def generate_launch_description():
-#     return LaunchDescription([
-#         Node(package="greenhouse", executable="vent_control",
-#              parameters=[{"open_above": 27.0}],
-#              remappings=[("temperature", "checked/temperature")]),
-#     ])
-# ```
-#
-# With a full ROS 2 installation, `ros2 launch greenhouse greenhouse.launch.py` runs it. `ros2 launch` isn't available on
-# PyPI, so this course doesn't have it. Now only the sensors are simulated: if a driver publishes a `Float32` on
+
+# %% [markdown] only="notebook"
+# `--with` copies what you name from the cells above, and puts it below the imports. A file may contain several nodes;
+# each of them needs a function that starts it. If your greenhouse has more nodes than `VentControl`, add their names
+# to the first line, and a function for each at the end.
+
+# %% [markdown] only="solution"
+# `--with` copies what you name from the cells above, and puts it below the imports. A file may contain several nodes;
+# each of them needs a function that starts it.
+
+# %% save="src/greenhouse/greenhouse/nodes.py --with LATCHED VentControl" only="notebook"
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import Bool, Float32, String
+
+
+def run(node_class):
+    rclpy.init()
+    node = node_class()
+    node.get_logger().info("ready")
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+
+def vent_control():
+    run(VentControl)
+
+# %% save="src/greenhouse/greenhouse/nodes.py --with LATCHED VentControl Guard Reporter PumpControl Watch" only="solution"
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import Bool, Float32, String
+
+
+def run(node_class):
+    rclpy.init()
+    node = node_class()
+    node.get_logger().info("ready")
+    try:
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+
+def vent_control():
+    run(VentControl)
+
+
+def guard():
+    run(Guard)
+
+
+def reporter():
+    run(Reporter)
+
+
+def pump_control():
+    run(PumpControl)
+
+
+def watch():
+    run(Watch)
+
+# %% [markdown]
+# Each of these functions becomes a program through an entry point. The last line of `data_files` installs a launch
+# file, which you'll write next. Do you have more functions? Then add a line for each, here and in the launch file.
+
+# %% save="src/greenhouse/setup.py" only="notebook"
+from setuptools import find_packages, setup
+
+setup(
+    name='greenhouse',
+    version='0.0.0',
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/greenhouse']),
+        ('share/greenhouse', ['package.xml']),
+        ('share/greenhouse/launch', ['launch/greenhouse.launch.py']),
+    ],
+    install_requires=['setuptools'],
+    zip_safe=True,
+    maintainer='you',
+    maintainer_email='you@example.com',
+    description='Keeps a greenhouse neither too hot nor too dry.',
+    license='Apache-2.0',
+    entry_points={
+        'console_scripts': [
+            'vent_control = greenhouse.nodes:vent_control',
+        ],
+    },
+)
+
+# %% save="src/greenhouse/setup.py" only="solution"
+from setuptools import find_packages, setup
+
+setup(
+    name='greenhouse',
+    version='0.0.0',
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/greenhouse']),
+        ('share/greenhouse', ['package.xml']),
+        ('share/greenhouse/launch', ['launch/greenhouse.launch.py']),
+    ],
+    install_requires=['setuptools'],
+    zip_safe=True,
+    maintainer='you',
+    maintainer_email='you@example.com',
+    description='Keeps a greenhouse neither too hot nor too dry.',
+    license='Apache-2.0',
+    entry_points={
+        'console_scripts': [
+            'vent_control = greenhouse.nodes:vent_control',
+            'guard = greenhouse.nodes:guard',
+            'reporter = greenhouse.nodes:reporter',
+            'pump_control = greenhouse.nodes:pump_control',
+            'watch = greenhouse.nodes:watch',
+        ],
+    },
+)
+
+# %% [markdown]
+# A [**launch file**](../docs/glossary.md#launch-file) is a Python file that says which programs to start, and how.
+# The function `generate_launch_description` returns what your function `greenhouse` returns: a list. Each item
+# names a package and an executable, and can have the same options as before: `name`, `namespace`, `parameters`,
+# `remappings`. `Node` is another class here: it stands for a program to start.
+
+# %% save="src/greenhouse/launch/greenhouse.launch.py" only="notebook"
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package="greenhouse", executable="vent_control",
+             parameters=[{"open_above": 27.0}]),
+    ])
+
+# %% save="src/greenhouse/launch/greenhouse.launch.py" only="solution"
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+CHECKED = [(topic, f"checked/{topic}") for topic in ("temperature", "humidity")]
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package="greenhouse", executable="guard"),
+        Node(package="greenhouse", executable="vent_control",
+             parameters=[{"open_above": 27.0}], remappings=CHECKED),
+        Node(package="greenhouse", executable="pump_control", remappings=CHECKED),
+        Node(package="greenhouse", executable="reporter", remappings=CHECKED),
+        Node(package="greenhouse", executable="watch"),
+    ])
+
+# %% terminal="build"
+# cd "$ROS2_WORKSPACE"
+# colcon build --packages-select greenhouse
+# source install/setup.bash
+# ros2 pkg executables greenhouse
+# ls install/greenhouse/share/greenhouse/launch
+
+# %% [markdown]
+# The programs and the launch file are installed. On a robot, `ros2 launch greenhouse greenhouse.launch.py` would now start the whole system.
+# `ros2 launch` comes with a full ROS 2 installation; it isn't available on PyPI, so this course doesn't have it.
+# Without it, you start each program in a terminal of its own. The launch file's options become options of the
+# command, after `--ros-args`: `-p` sets a parameter, and `-r` remaps a topic.
+
+# %% terminal="vent --until ready" only="notebook"
+# cd "$ROS2_WORKSPACE"
+# source install/setup.bash
+# ros2 run greenhouse vent_control --ros-args -p open_above:=27.0
+
+# %% terminal="guard --until ready" only="solution"
+# cd "$ROS2_WORKSPACE"
+# source install/setup.bash
+# ros2 run greenhouse guard
+
+# %% terminal="vent --until ready" only="solution"
+# cd "$ROS2_WORKSPACE"
+# source install/setup.bash
+# ros2 run greenhouse vent_control --ros-args -p open_above:=27.0 -r temperature:=checked/temperature
+
+# %% [markdown]
+# Now for a sensor. `ros2 topic pub` publishes 27.5 degrees once a second. **Predict:** does the vent open?
+
+# %% terminal="sensor --until publishing" tags=["nbval-ignore-output"]
+# ros2 topic pub --rate 1 /temperature std_msgs/msg/Float32 "{data: 27.5}"
+
+# %% terminal="look"
+# ros2 topic echo --once --qos-durability transient_local /vent
+
+# %% [markdown]
+# It does, because the parameter moved the limit to 27. `echo` asked for the last message that was kept, so it
+# doesn't matter who started first. Only the sensor is simulated now: if a driver publishes a `Float32` on
 # `temperature` instead, no other node notices the difference.
+
+# %% tags=["nbval-ignore-output"]
+for name in ("sensor", "vent"):
+    workspace.terminal(name).ctrl_c()
+
+# %% terminal="guard --ctrl-c" only="solution" tags=["nbval-ignore-output"]
+
+# %%
+workspace.terminal("vent").exit_code
 
 # %% [markdown]
 # ## Three questions

@@ -61,6 +61,7 @@ CALLS = [
     ("viz.values()", "was called without `source`", "viz.values(ros, "),
     ("viz.queue(ros)", "was called without `depth`", "viz.queue(steps, depth=5)"),
     ("viz.crossing(1)", "was called without `received`", "viz.crossing(sent, received)"),
+    ("viz.diagram()", "was called without `name`", 'viz.diagram("03")'),
     ("viz.differences()", "was called without `comparison`", "viz.differences(comparison)"),
     ("bags.Bag()", "was called without `folder`", 'bags.Bag("first_run")'),
     ("bags.record(ros)", "was called without `folder`", "bags.record(ros, "),

@@ -82,3 +82,23 @@ def test_our_own_interrupt_leaves_nothing_behind():
 def test_a_program_that_does_not_exist():
     with pytest.raises(OSError, match="nothing-like-this"):
         run(["nothing-like-this"])
+
+
+def test_its_log_lines_carry_the_time_at_which_they_were_read():
+    text = "echo '[INFO] [a.b]: one 1'; echo no log line; until [ -e go ]; do sleep 0.01; done; "
+    text += "echo '[WARN] [a]: two'; printf '[INFO] [a]: not yet a line'; sleep 60"
+    with TemporaryDirectory() as folder, private_domain() as domain:
+        before, home = time.time_ns(), Path(folder)
+        with Program(bash(text), program_environment(home, domain), home) as program:
+            assert program.wait(lambda out: "no log line" in out, 60)
+            between = time.time_ns()
+            (home / "go").touch()
+            assert program.wait(lambda out: "not yet a line" in out, 60)
+            logs = program.logs()
+            later = program.logs(program.output.index("[WARN]"))
+    assert [(log.level, log.name, log.text) for log in logs] == [
+        ("INFO", "a.b", "one 1"),
+        ("WARN", "a", "two"),
+    ]
+    assert before <= logs[0].time_ns <= between <= logs[1].time_ns <= time.time_ns()
+    assert later == logs[1:]

@@ -109,7 +109,7 @@ class SourceCell:
     @property
     def saved_as(self) -> str:
         """Return the file of the workspace that this cell becomes, or an empty text."""
-        return self.magic.removeprefix(SAVE) if self.magic.startswith(SAVE) else ""
+        return self.magic.removeprefix(SAVE).split()[0] if self.magic.startswith(SAVE) else ""
 
     @property
     def is_python(self) -> bool:
@@ -356,7 +356,7 @@ def _magic(source: str, metadata: dict[str, Any], where: str) -> tuple[str, str]
         text = _uncommented(source, where)
         return text, f"{'%%' if text else '%'}terminal {terminal}"
     if save:
-        is_python = Path(save).suffix == ".py"
+        is_python = Path(save.split()[0]).suffix == ".py"
         return source if is_python else _uncommented(source, where), f"{SAVE}{save}"
     return source, ""
 

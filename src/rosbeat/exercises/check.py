@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from textwrap import wrap
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
 from IPython.display import display, update_display
@@ -22,6 +22,9 @@ from rosbeat.exercises.scenarios import Answer
 from rosbeat.records import Outcome
 from rosbeat.workspace import graded_runs
 from rosbeat.workspace.waiting import counting
+
+if TYPE_CHECKING:
+    from rosbeat.viz import Picture
 
 # `check`: what a learner calls.
 
@@ -55,13 +58,15 @@ def check(exercise: str = "", answer: Answer = NOTHING) -> Shown:
         cells.ask(found.id)
     if answer is NOTHING:
         answer = _current(found, cells)
-    outcome = _judge(found, answer, cells)
+    outcome, picture = _judge(found, answer, cells)
     execution = graded_runs.execution()
     if execution:
         return for_nbgrader(outcome, execution)
+    if picture is not None:
+        display(picture)
     if cells is None or not cells.for_a_browser:
         return Shown(outcome)
-    return CheckCard(outcome, lambda: _judge(found, _current(found, cells), cells))
+    return CheckCard(outcome, lambda: _judge(found, _current(found, cells), cells)[0])
 
 
 def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
@@ -80,20 +85,24 @@ def _current(found: Exercise[Any], cells: Cells | None) -> Answer:
     return answer
 
 
-def _judge(found: Exercise[Any], answer: Answer, cells: Cells | None) -> Outcome:
-    """Judge an answer, and remember the outcome.
+def _judge(
+    found: Exercise[Any], answer: Answer, cells: Cells | None
+) -> tuple[Outcome, Picture | None]:
+    """Judge an answer, remember the outcome, and return it with what there is to see.
 
     Raises:
         ExerciseError: If the cell above did not run, so that the answer is an earlier one.
     """
     is_blank = cells is not None and cells.refuse_stale(found.id)
+    picture = None
     if is_blank:
         verdict = found.outcome(not_attempted())
     else:
         with counting(f"checking exercise {found.id}"):
-            verdict = found.judged(found.observed(answer))
+            seen = found.observed(answer)
+            verdict, picture = found.judged(seen), found.picture(seen)
     standing = progress_file().change(found.id, lambda before: before.after(verdict))
-    return _with_hints(verdict, standing.hints) if found.tells_hints else verdict
+    return (_with_hints(verdict, standing.hints) if found.tells_hints else verdict), picture
 
 
 def _with_hints(outcome: Outcome, hints: int) -> Outcome:

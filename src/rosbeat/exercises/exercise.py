@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Generic, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from rosbeat.diagnosis.exceptions import first_sentence, line_of
 from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
 from rosbeat.diagnosis.wires import why_raised
 from rosbeat.exercises.draw import PAGE, Draw
 from rosbeat.records import Fault, Observation, Outcome
+
+if TYPE_CHECKING:
+    from rosbeat.viz import Picture
 
 # What an exercise is.
 
@@ -41,6 +44,8 @@ class Exercise(Generic[Seen]):
         tells_hints: Whether a check says how many hints were used. They cost nothing.
         explains: Names the mistake behind an exception that means something else here than
             elsewhere; None leaves it to `diagnosis.faults`.
+        picture: Draws what was seen, for a page, which shows it above the outcome; None for
+            nothing to show.
     """
 
     id: str
@@ -53,6 +58,7 @@ class Exercise(Generic[Seen]):
     given: Callable[[], dict[str, Any]] = dict
     tells_hints: bool = False
     explains: Callable[[Fault], Diagnosis | None] = lambda _: None
+    picture: Callable[[Seen], Picture | None] = lambda _: None
 
     def inputs(self, seed: int = PAGE) -> tuple[Any, ...]:
         """Return what scenario and judge get for a seed, beside answer and evidence."""

@@ -106,7 +106,12 @@ PAGES = (
     Page("11", "Record and replay", page_11.EXERCISES, "11_record_and_replay", 45, ("04", "07")),
     Page("12", "Go beyond topics", page_12.EXERCISES, "12_beyond_topics", 50, ("04", "07")),
     Page(
-        "13", "Build your own", page_13.EXERCISES, "13_build_your_own", 90, ("04", "07", "08", "09")
+        "13",
+        "Build your own",
+        page_13.EXERCISES,
+        "13_build_your_own",
+        100,
+        ("04", "07", "08", "09"),
     ),
     Page("", "The whole system", system.EXERCISES, "06_build_source_run", 0, ("06",)),
 )

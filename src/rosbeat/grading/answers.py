@@ -146,12 +146,15 @@ def _imports(cell: Cell) -> bool:
 def _replay(page: CoursePage, wanted: Wanted, answer: str) -> tuple[str, ...]:
     """Return the course's cells up to the check, with this answer; other answers stay blank.
 
-    The imports are left out: what they bring is in `Job.imports`.
+    The imports are left out: what they bring is in `Job.imports`. So are diagrams, which change
+    nothing and load a library for drawing.
     """
     end = next((one.place for one in page.cells if one.check == wanted.exercise), len(page.cells))
     cells = [one for one in page.cells if one.sort == "code" and one.place < end and not one.check]
     return tuple(
-        answer if one.id == wanted.id else one.source for one in cells if not _imports(one)
+        answer if one.id == wanted.id else one.source
+        for one in cells
+        if not (_imports(one) or one.source.startswith("viz.diagram("))
     )
 
 

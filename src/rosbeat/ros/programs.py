@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import os
+import re
 import signal
 import subprocess
 import sys
 import threading
 import time
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -17,7 +20,7 @@ from std_msgs.msg import Float32
 
 from rosbeat import environment
 from rosbeat.domains import lease_domain
-from rosbeat.records import Endpoint, ProgramRun
+from rosbeat.records import Endpoint, LogRecord, ProgramRun
 from rosbeat.ros.graph import poll
 from rosbeat.ros.session import Session
 
@@ -25,6 +28,8 @@ from rosbeat.ros.session import Session
 MOST_OUTPUT = 200_000
 #: Seconds that a program may take to end after Ctrl+C.
 GRACE = 5.0
+#: A line as the environment below has ROS print it.
+_LOG = re.compile(r"^\[(?P<level>[A-Z]+)\] \[(?P<name>[\w./]+)\]: (?P<text>.*)\n", re.MULTILINE)
 # What a kernel and its tests set for themselves, and what would change what programs print.
 _DROPPED = (
     *("PYTEST_CURRENT_TEST", "JPY_PARENT_PID", "JPY_SESSION_NAME", "MPLBACKEND", "COLCON_HOME"),
@@ -78,6 +83,7 @@ class Program:
     ) -> None:
         self._name = name or Path(command[-1]).name
         self._kept: list[str] = []
+        self._times_ns: list[int] = []
         self._length = 0
         # In a session of its own, so that Ctrl+C in our terminal does not reach it, and its whole
         # process group can be killed.
@@ -98,6 +104,21 @@ class Program:
     def output(self) -> str:
         """Return what it has printed so far, both streams in one."""
         return "".join(self._kept)
+
+    def logs(self, begin: int = 0) -> tuple[LogRecord, ...]:
+        """Return the lines that its nodes have logged, each with the time at which it was read.
+
+        Args:
+            begin: Where in the output to begin, in characters.
+        """
+        kept = list(self._kept)  # the reader may add to it meanwhile
+        ends = list(itertools.accumulate(map(len, kept)))
+        found = _LOG.finditer("".join(kept), begin)
+        read = ((one, self._times_ns[bisect_right(ends, one.end() - 1)]) for one in found)
+        return tuple(
+            LogRecord(time_ns, one["level"], one["name"], one["text"], "", 0)
+            for one, time_ns in read
+        )
 
     @property
     def running(self) -> bool:
@@ -138,6 +159,8 @@ class Program:
         with stream:
             while data := os.read(stream.fileno(), 65536):
                 if self._length < MOST_OUTPUT:
+                    # Before the text, which another thread may look at as soon as it is there.
+                    self._times_ns.append(time.time_ns())
                     self._kept.append(data.decode("utf-8", "replace"))
                     self._length += len(data)
 

@@ -1,14 +1,16 @@
 """Draw pictures of what was observed: records in, a `Picture` out.
 
-Every function here draws from records alone and needs no ROS. Importing this package does not
-import matplotlib; that happens when a picture is asked for the first time (PEP 562).
+Every function here but `diagram` draws from records alone, and none needs ROS. Importing this
+package does not import matplotlib; that happens when a picture is asked for the first time (PEP
+562).
 
 - `graph` shows the nodes, the topics and who talks to whom;
 - `timeline` shows when callbacks ran and which message caused which;
 - `values` shows a topic's numbers over virtual time;
 - `queue` shows a subscription's queue filling, emptying and dropping;
 - `crossing` shows which messages went from one process to another, and which were lost;
-- `differences` shows two runs over each other, and what only one of them has.
+- `differences` shows two runs over each other, and what only one of them has;
+- `diagram` shows where a page is going, and how folders, packages and programs belong together.
 
 There is one file for each kind of picture, with its words at the end. `theme` is the only place
 that names colours, `canvas` has what all pictures are made of, and `layout` places the boxes of
@@ -41,6 +43,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rosbeat.viz.crossings import crossing as crossing
+    from rosbeat.viz.diagrams import diagram as diagram
     from rosbeat.viz.graphs import graph as graph
     from rosbeat.viz.picture import Picture as Picture
     from rosbeat.viz.plots import differences as differences
@@ -48,11 +51,12 @@ if TYPE_CHECKING:
     from rosbeat.viz.queues import queue as queue
     from rosbeat.viz.timelines import timeline as timeline
 
-__all__ = ["Picture", "crossing", "differences", "graph", "queue", "timeline", "values"]
+__all__ = ["Picture", "crossing", "diagram", "differences", "graph", "queue", "timeline", "values"]
 
 _HOMES = {
     "Picture": "picture",
     "crossing": "crossings",
+    "diagram": "diagrams",
     "differences": "plots",
     "graph": "graphs",
     "queue": "queues",

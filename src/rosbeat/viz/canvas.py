@@ -202,7 +202,8 @@ _BAR_ZORDER = 1.4
 _LEAST_BAR = 3.0
 
 _FRAME_LABEL = "one process"
-_FRAME_INDENT = 14.0
+#: From the side of a frame to its label.
+FRAME_INDENT = 14.0
 
 _NO_STYLE = theme.Style("", "", "")
 
@@ -274,13 +275,25 @@ class Canvas:
         for rank, row in enumerate(rows):
             self.text(scale.left - 18, y + (first - rank) * line_height(), row, align="right")
 
-    def frame(self, left: float, bottom: float, right: float, top: float) -> None:
+    def frame(
+        self,
+        left: float,
+        bottom: float,
+        right: float,
+        top: float,
+        words: str = _FRAME_LABEL,
+        strong: bool = False,
+        is_centred: bool = False,
+    ) -> None:
         """Draw a rounded frame with its label on the upper edge, below everything else."""
         look: dict[str, Any] = {"fc": theme.FRAME_FILL, "ec": theme.FRAME, "lw": 1.1, "zorder": 0.3}
+        look |= {"ec": theme.INK, "lw": 2.2} if strong else {}
         box = "round,pad=0,rounding_size=10"
         size = (right - left, top - bottom)
         self.axes.add_patch(FancyBboxPatch((left, bottom), *size, boxstyle=box, **look))
-        label = self.text(left + _FRAME_INDENT, top, _FRAME_LABEL, theme.MUTED)
+        x, align = ((left + right) / 2, "center") if is_centred else (left + FRAME_INDENT, "left")
+        colour, weight = (theme.INK, "bold") if strong else (theme.MUTED, "normal")
+        label = self.text(x, top, words, colour, align, weight)
         # The label interrupts the edge, and an arrow passes behind it.
         label.set_bbox({"fc": theme.CARD, "ec": "none", "pad": 1.5})
 
@@ -339,7 +352,7 @@ class Canvas:
 
 def least_frame_width() -> float:
     """Return the least width of a frame in CSS pixels, so that its label fits on the edge."""
-    return text_width(_FRAME_LABEL) + 2 * _FRAME_INDENT
+    return text_width(_FRAME_LABEL) + 2 * FRAME_INDENT
 
 
 @contextmanager

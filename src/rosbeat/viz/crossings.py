@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -31,6 +32,7 @@ _SENT = theme.Style(theme.BLUE, "s", "")
 _RECEIVED = theme.Style(theme.TAKEN, "o", "")
 _MESSAGE = theme.Style(theme.BLUE, "", "-")
 _LOST = theme.Style(theme.ALERT, "s", "")
+_EARLY = theme.Style(theme.MUTED, "D", "")
 _LATE = theme.Style(theme.MUTED, "s", "")
 _STRANGE = theme.Style(theme.PURPLE, "o", "")
 _OTHER = theme.Style(theme.MUTED, "|", "")
@@ -88,15 +90,19 @@ class Pairs:
 
     @property
     def lost(self) -> tuple[Line, ...]:
-        """Return what was sent while the receiver was there or not yet there, and not received."""
-        late = self.late
-        return tuple(one for one in self.sent if one.partner is None and one not in late)
+        """Return what was sent between messages that arrived, and not received."""
+        others = {*self.early, *self.late}
+        return tuple(one for one in self.sent if one.partner is None and one not in others)
 
     @property
     def early(self) -> tuple[Line, ...]:
-        """Return what was lost before anything arrived."""
-        ranks = [rank for rank, line in enumerate(self.sent) if line.partner is not None]
-        return self.sent[: ranks[0]] if ranks else self.lost
+        """Return what was sent before anything arrived: nobody was listening yet.
+
+        When a subscription is matched with its publisher, no log tells.
+        """
+        late = self.late
+        before = itertools.takewhile(lambda line: line.partner is None, self.sent)
+        return tuple(one for one in before if one not in late)
 
     @property
     def strange(self) -> tuple[Line, ...]:
@@ -173,8 +179,9 @@ def crossing(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pictur
     Each log line is a mark at its time, counted from the first line. A line that tells of a message
     has a number in it: the first in its text, such as 22.13 in `Publishing: 22.13C`. A line sent
     and a line received with equal numbers are one message and joined by an arrow, in order, as many
-    as possible. A mark without its partner is hollow: the message was lost, as those are that came
-    before anybody listened. Only what was sent after the receiver's last line is not called lost.
+    as possible. A mark without its partner is hollow: the message was lost. What was sent before
+    the first message that arrived is not called lost, since nobody was listening yet; nor is what
+    was sent after the receiver's last line.
 
     Args:
         sent: Log lines of the process that publishes, such as `Terminal.logs()` has them.
@@ -229,6 +236,7 @@ def _key(shown: Pairs, others: tuple[tuple[int, ...], ...]) -> list[Entry]:
         (Entry("line of the sender", _SENT), shown.arrived),
         (Entry("line of the receiver", _RECEIVED), shown.arrived),
         (Entry("message", _MESSAGE), shown.arrived),
+        (Entry("sent before anybody was listening", _EARLY, hollow), shown.early),
         (Entry("lost message", _LOST, hollow), shown.lost),
         (Entry("sent after the receiver's last line", _LATE, hollow), shown.late),
         (Entry("not among what was sent", _STRANGE, hollow), shown.strange),
@@ -266,9 +274,10 @@ class _Drawing:
         for line in shown.arrived:
             way = [(self._x(line.time_ns), self._sender), (self._end(line), self._receiver + 6)]
             self._canvas.arrow(Path(way), stroke)
+        looks = dict.fromkeys(shown.late, _LATE) | dict.fromkeys(shown.early, _EARLY)
         for line in shown.sent:
-            look = _LOST if line in shown.lost else _LATE
-            self._mark(line, self._sender, _SENT if line.partner is not None else look)
+            look = _SENT if line.partner is not None else looks.get(line, _LOST)
+            self._mark(line, self._sender, look)
         for line in shown.received:
             self._mark(line, self._receiver, _STRANGE if line.partner is None else _RECEIVED)
         self._write_values()
@@ -326,13 +335,14 @@ def describe(shown: Pairs, sender: str, receiver: str) -> str:
     """Tell what became of the messages, without times."""
     arrived, lost, late = len(shown.arrived), len(shown.lost), len(shown.late)
     every = "all" if arrived == len(shown.sent) > 1 else str(arrived or "none")
-    sums = [f"{every} arrived at {receiver}", f"{lost or 'none'} {_was(lost or 1)} lost"]
+    sums = [f"{every} arrived at {receiver}"]
+    sums += [f"{lost or 'none'} {_was(lost or 1)} lost"] if arrived else []
     sums += [f"{late} {_was(late)} sent after its last line"] if late else []
     said = [f"{sender} sent {count(len(shown.sent), 'message')}: {listing(sums)}."]
-    if shown.early and shown.arrived:
+    if shown.early:
         early = len(shown.early)
         which = "The first one" if early == 1 else f"The first {early}"
-        said.append(f"{which} {_was(early)} sent before anything arrived.")
+        said.append(f"{which} {_was(early)} sent before anybody was listening.")
     if shown.strange:
         verb = "has" if len(shown.strange) == 1 else "have"
         lines = count(len(shown.strange), "line")

@@ -59,8 +59,12 @@ _OTHER = ("other callback", theme.Style(theme.PURPLE, "D", ""))
 _LOG = theme.Style(theme.MUTED, "|", "")
 _WARNING = theme.Style(theme.ALERT, "^", "")
 _FAULT = theme.Style(theme.ALERT, "X", "")
-#: Styles of messages; none is the one that says that a message got lost.
-_MESSAGES = tuple(look for look in theme.STYLES if look.colour not in (theme.ALERT, theme.TAKEN))
+#: Styles of messages: lines or dots, since dashes say in every picture that nobody takes it.
+_MESSAGES = (
+    theme.Style(theme.BLUE, "", "-"),
+    theme.Style(theme.PURPLE, "", ":"),
+    theme.Style(theme.INK, "", (0, (1, 2.6))),
+)
 _LOST = theme.Style(theme.ALERT, "", "--")
 
 
@@ -526,8 +530,7 @@ def _key(shown: Happenings) -> list[Entry]:
     taken = {one.topic for one in shown.messages if one.targets}
     for topic in shown.topics:
         if topic in taken:
-            look = replace(_topic_style(shown, topic), marker="")
-            entries.append(Entry(f"message on {topic}", look))
+            entries.append(Entry(f"message on {topic}", _topic_style(shown, topic)))
     rare = (
         ("message nobody took", _LOST, any(not one.targets for one in shown.messages)),
         ("log line", _LOG, any(map(_is_plain, shown.logs))),

@@ -15,7 +15,8 @@ Importing it inside IPython registers `%%terminal`, `%terminal` and `%%save`.
   (what a page does with one), `output` (from characters to lines, and what is shown of them),
   `refusals` (commands that are not typed), `environment`, `registry` and `reaper` (what ends all
   processes).
-- `saving`: a text becomes a file, and the version before is kept.
+- `saving`: a text becomes a file, and the version before is kept. `page_definitions`: what other
+  cells define becomes a part of it.
 - `catching_up`: makes what earlier pages leave, where it is missing.
 - `packages`, `setup_script`: what the files of a package say.
 - `meanings`: collects the evidence that `diagnosis.terminal` explains a failed command with.

@@ -1,4 +1,7 @@
-"""`%%save PATH`: save a cell as a file of the workspace, and run it on the page if a module."""
+"""`%%save PATH`: save a cell as a file of the workspace, and run it on the page if a module.
+
+`%%save PATH --with NAME ...` puts definitions from other cells of the page into the file, too.
+"""
 
 from __future__ import annotations
 
@@ -15,12 +18,14 @@ from IPython.core.magic import no_var_expand
 from rosbeat.diagnosis.packages import nearest, parse
 from rosbeat.errors import WorkspaceError
 from rosbeat.workspace.catching_up import PACKAGE, catch_up
+from rosbeat.workspace.page_definitions import with_definitions
 from rosbeat.workspace.place import workspace
 from rosbeat.workspace.saving import locate, save
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
+_WITH = re.compile(r"(?:^|\s)--with(?:\s|$)")
 # The first page on which the package is expected to exist.
 _PAGE_AFTER_PACKAGE = "03"
 # Files of Python that lie beside the folder with the modules.
@@ -63,25 +68,29 @@ def save_cell(shell: InteractiveShell, line: str, cell: str) -> None:
 
     Args:
         shell: The IPython shell of the page.
-        line: What stands behind `%%save`: the file, relative to the workspace.
-        cell: The body.
+        line: What stands behind `%%save`: the file, relative to the workspace; perhaps `--with`
+            and the names of what is to be copied from other cells.
+        cell: The body. Only this part of the file runs on the page.
 
     Raises:
         WorkspaceError: If it cannot be saved; then nothing runs.
         BaseException: What the module's text raises; it is saved by then.
     """
     root = workspace()
-    relative, target = locate(line, root)
+    path, *wanted = _WITH.split(line, maxsplit=1)
+    relative, target = locate(path, root)
     refuse_other_place(relative, root)
     _refuse_nothing(relative, cell)
     if relative.suffix == ".py":
         refuse_magics(cell, shell.transform_cell)
     _make_room(relative, root)
-    blank = blank_line(cell)
+    names = " ".join(wanted).replace(",", " ").split()
+    text = with_definitions(cell, names, shell.user_ns.get("In", ())) if wanted else cell
+    blank = blank_line(text)
     if blank:
         print(f"not saved: there is still a blank in line {blank} of {relative.name}")
     else:
-        print(save(str(relative), cell, root))
+        print(save(str(relative), text, root))
     name = module_name(relative, root)
     if name:
         run_as_module(shell, cell, name, target, f"%%save {line}")

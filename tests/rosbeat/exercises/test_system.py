@@ -65,6 +65,13 @@ def test_the_evidence_survives_as_text(seen):
     assert SYSTEM.judged(again) == SYSTEM.judged(seen)
 
 
+def test_a_picture_shows_what_crossed_between_the_two_programs(seen):
+    words = SYSTEM.picture(seen).description
+    assert words.startswith("temperature_sensor sent ")
+    assert "arrived at temperature_monitor" in words
+    assert SYSTEM.picture(replace(seen, sent=())) is None
+
+
 def told(seen, value, text):
     return tuple((one, text if one == value else said) for one, said in seen.answers)
 

@@ -126,6 +126,7 @@ def test_only_lost_messages_look_like_lost_ones():
     topics = [f"/topic_{k}" for k in range(6)]
     calls = [heard(1, topic=topic) for topic in topics]
     picture = timeline(made(*(sample(1, 1.0, topic) for topic in topics), calls=calls))
+    assert not {"--", "-."} & {str(one.get_linestyle()) for one in axes_of(picture).patches}
     colours = {patch.get_edgecolor() for patch in axes_of(picture).patches}
     lost = tuple(int(theme.ALERT[k : k + 2], 16) / 255 for k in (1, 3, 5))
     assert not any(colour[:3] == pytest.approx(lost) for colour in colours)

@@ -287,6 +287,61 @@ def test_a_blank_is_not_saved_and_the_page_goes_on(run, root, shell):
     assert "f" in shell.user_ns
 
 
+# What other cells define.
+
+
+def test_definitions_of_other_cells_go_below_the_imports(run, root, shell):
+    run("import math\nlimit, other = 1, 2\nclass Old:\n    pass\n")
+    run("def decorate(one):\n    return one\n\n@decorate\nclass Node:\n    x = 1\n")
+    run("class Old:\n    y = 2")
+    run("this is no Python")
+    named = "Node, limit Old other"
+    result, shown = run(
+        f'%%save {PUBLISHER} --with {named}\n"""Say."""\nimport math\n\nx = Old.y\n'
+    )
+    assert result.success
+    assert shown == f"saved {PUBLISHER} (the previous version is in kept/{PUBLISHER}-1)\n"
+    assert (root / PUBLISHER).read_text() == (
+        '"""Say."""\nimport math\n\n\n@decorate\nclass Node:\n    x = 1\n\n\nlimit, other = 1, 2'
+        "\n\n\nclass Old:\n    y = 2\n\n\nx = Old.y\n"
+    )
+    assert shell.user_ns["x"] == 2
+
+
+def test_only_the_cell_itself_runs_on_the_page(run, shell):
+    run("class One:\n    pass\n")
+    before = shell.user_ns["One"]
+    assert run(f"%%save {PUBLISHER} --with One\nmade = One()\n")[0].success
+    assert shell.user_ns["One"] is before
+
+
+def test_a_blank_in_a_definition_is_not_saved(run, root):
+    before = (root / PUBLISHER).read_text()
+    run("def wait():\n    ____\n")
+    result, shown = run(f"%%save {PUBLISHER} --with wait\nimport math\n")
+    assert result.success
+    assert shown == "not saved: there is still a blank in line 5 of temperature_publisher.py\n"
+    assert (root / PUBLISHER).read_text() == before
+
+
+@pytest.mark.parametrize(
+    ("cell", "parts"),
+    [
+        ("--with Sensr\nx = 1\n", ["no cell that has run", "Did you mean `Sensor`?"]),
+        ("--with Unheard\nx = 1\n", ["`Unheard`", "Run the cell that defines it"]),
+        ("--with\nx = 1\n", ["was given no name", "--with VentControl"]),
+        ("--with Sensor\nx =\n", ["is not Python", "Correct the line"]),
+    ],
+)
+def test_what_cannot_be_copied_is_explained_and_nothing_is_saved(run, root, cell, parts):
+    run("class Sensor:\n    pass\n")
+    before = (root / PUBLISHER).read_text()
+    result, shown = run(f"%%save {PUBLISHER} {cell}")
+    assert not result.success
+    assert [part for part in (*parts, "What it means", "What to try") if part not in shown] == []
+    assert (root / PUBLISHER).read_text() == before
+
+
 @pytest.mark.parametrize("name", ["setup.py", "setup.cfg", "test/test_more.py", "package.xml"])
 def test_other_files_are_only_saved(run, root, name):
     result, shown = run(f"%%save src/{PACKAGE}/{name}\nthis is = no code: at all\n")
