@@ -20,7 +20,7 @@ from rosbeat.errors import RecordError, called_as
 from rosbeat.exercises.cards import LOOKS
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
 from rosbeat.exercises.progress_list import ProgressList, Row, page_folder
-from rosbeat.exercises.registry import PAGES, Page, this_page
+from rosbeat.exercises.registry import EXERCISES, PAGES, Page, this_page
 from rosbeat.records import Outcome
 from rosbeat.records_json import from_json, to_json
 from rosbeat.workspace.place import is_a_solution, steady_home, workspace_parent
@@ -84,6 +84,8 @@ class Standing:
 # The file that remembers how far somebody is, beside the workspace.
 
 FOLDER, NAME = ".rosbeat", "progress.json"
+_FILE_VERSION: Final = 2
+#: Of the form of `as_data`.
 VERSION: Final = 1
 SETTING = "ROSBEAT_PROGRESS_IN"
 #: Neither git nor colcon looks into the folder.
@@ -92,11 +94,31 @@ _IGNORED = {".gitignore": b"*\n", "COLCON_IGNORE": b""}
 Standings = Mapping[str, Standing]
 
 
+#: The exercises of version 1 that are several steps now. The last step asks for what the exercise
+#: asked for, under another id, so a pass is a pass of each step.
+_STEPS = {"04c": ("04c", "04d", "04e")}
+
+
+def _renewed(before: Standings) -> dict[str, Standing]:
+    """Return the standings of a file of version 1, by the ids of today."""
+    after = {name: one for name, one in before.items() if name not in _STEPS}
+    for name, one in before.items():
+        steps = _STEPS.get(name, ())
+        after |= {step: _step_of(one, step) for step in (steps if one.passed else steps[-1:])}
+    return after
+
+
+def _step_of(before: Standing, step: str) -> Standing:
+    """Return the standing of a step by that of the exercise before it was split."""
+    points = EXERCISES[step].points if before.passed else 0
+    return replace(before, points=points)
+
+
 @dataclass(frozen=True)
 class _Content:
     """Hold what is in the file. What a later version adds to a standing is passed over."""
 
-    version: Literal[1]
+    version: Literal[1, 2]
     exercises: dict[str, Standing]
 
 
@@ -149,12 +171,13 @@ class ProgressFile:
         before = {**self._sound_content(), **(self._unsaved or {})}
         after = edit(before.get(exercise, Standing()))
         standings = dict(sorted({**before, exercise: after}.items()))
-        write(self.path, f"{to_json(_Content(VERSION, standings), indent=1)}\n".encode())
+        write(self.path, f"{to_json(_Content(_FILE_VERSION, standings), indent=1)}\n".encode())
         self._unsaved = None
         return after
 
     def _read(self) -> Standings:
-        return from_json(_Content, self.path.read_bytes(), "progress").exercises
+        content = from_json(_Content, self.path.read_bytes(), "progress")
+        return content.exercises if content.version == _FILE_VERSION else _renewed(content.exercises)
 
     def _sound_content(self) -> Standings:
         """Return what the file holds; if that is damaged, it is put aside."""

@@ -13,7 +13,7 @@ BASES = {
     "00a": answers.READER,
     "00b": answers.REPORTER,
     "03a": answers.HUMIDITY,
-    **{name: solution(name) for name in ("03b", "04a", "04b", "04c")},
+    **{name: solution(name) for name in ("03b", "04a", "04b", "04c", "04d", "04e")},
     **{name: solution(name) for name in ("08a", "08b", "08c", "09a", "09b", "09c")},
 }
 _SEND = 'self.alerts.publish(String(data=f"{msg.data:.1f} degrees"))'
@@ -65,9 +65,12 @@ TOLD = [
     ("04b", ('"alert"', '"alerts"'), "The node publishes on /alerts"),
     ("04c", ("[-5:]", "[-4:]"), "of the last five it is 24.001. The last readings were 22, 25.5"),
     ("04c", ("[-5:]", "[-4:]"), "It is the mean of the last 4 readings."),
-    ("04c", ('return "High"', 'return "Normal" if self.status == "Low" else "High"'),
+    ("04d", ("value >= 25.0", "value >= 24.0"), "far enough back"),
+    ("04d", ("String(data=self.status))", "String(data=self.status)) if msg.data else None"),
+     "Publish one status for each reading."),
+    ("04e", ('return "High"', 'return "Normal" if self.status == "Low" else "High"'),
      "Normal was published, and High was due"),
-    ("04c", ("value >= 25.0", "value >= 24.0"), "far enough back"),
+    ("04e", ("value >= 25.0", "value >= 24.0"), "far enough back"),
     ("04a", ("{status}", "None"), "A function that ends without return gives None."),
     ("04a", ("{status}", "{[status]}"), "A list with a word in it is not the word."),
     ("04b", (_SEND, f"{_SEND}\n            return\n        self.alerts."
