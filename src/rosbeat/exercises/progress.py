@@ -177,7 +177,9 @@ class ProgressFile:
 
     def _read(self) -> Standings:
         content = from_json(_Content, self.path.read_bytes(), "progress")
-        return content.exercises if content.version == _FILE_VERSION else _renewed(content.exercises)
+        return (
+            content.exercises if content.version == _FILE_VERSION else _renewed(content.exercises)
+        )
 
     def _sound_content(self) -> Standings:
         """Return what the file holds; if that is damaged, it is put aside."""

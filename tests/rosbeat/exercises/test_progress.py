@@ -126,8 +126,9 @@ def test_the_file_names_no_time(remembered):
 #: The exercises that version 1 of the file had in one, and their steps.
 SPLIT = [("04c", ("04c", "04d", "04e"))]
 DAMAGED = [
-    b"", b"{", b"[]", b"null", b"\xff\xfe", b"{}", b'{"version": 1}', b'{"version": 2}', b'{"version": 3}',
-    b'{"version": 1, "exercises": []}', b'{"version": 1, "exercises": {"03a": 3}}',
+    b"", b"{", b"[]", b"null", b"\xff\xfe", b"{}", b'{"version": 1}', b'{"version": 2}',
+    b'{"version": 3, "exercises": {}}', b'{"version": 1, "exercises": []}',
+    b'{"version": 1, "exercises": {"03a": 3}}',
     b"[" * 100_000,
     *(
         f'{{"version": 1, "exercises": {{"03a": {standing}}}}}'.encode()
