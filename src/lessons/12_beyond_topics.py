@@ -12,7 +12,7 @@
 #
 # - offer a service, and call one (12a, 12.1);
 # - check new parameter values before they take effect (12b);
-# - offer an action that accepts, reports, finishes and can be canceled (12c);
+# - offer an action that accepts, reports, finishes and can be canceled (12c, 12d, 12e);
 # - choose between a topic, a service, a parameter and an action (12.2);
 # - explain why a callback must not wait (12.3).
 #
@@ -345,16 +345,80 @@ names = [name for name, _ in guest.get_topic_names_and_types(no_demangle=True)]
 viz.graph(ros.graph())
 
 # %% [markdown]
-# ## Try it: heat to a target
+# ## Try it: a thermostat, in three steps
 #
-# After `True` on `heater`, the room gets one degree warmer every second, until the heater receives `False`. The
-# goal's `order` is the target temperature; accept goals from 10 to 26, both included. Every second, publish
-# feedback with all temperatures read since the goal was accepted. The result contains them, too. Whether the target
-# is reached or the goal is canceled, turn the heater off within a second.
-#
-# `await self.reading` returns the next temperature, an integer.
+# The goal's `order` is the temperature to heat to. In the first step, the thermostat only decides: it accepts goals
+# from 10 to 26, both included, and rejects all others. Its work, `heat`, ends at once.
 
 # %% exercise="12c"
+class DecidingThermostat(Node):
+    def __init__(self):
+        super().__init__("thermostat")
+        self.server = ActionServer(self, Fibonacci, "heat", self.heat, goal_callback=self.decide)
+
+    def decide(self, goal):
+        # --- answer
+        return GoalResponse.ACCEPT if 10 <= goal.order <= 26 else GoalResponse.REJECT
+        # --- blank
+        # return ____
+        # --- end
+
+    async def heat(self, goal_handle):
+        goal_handle.succeed()
+        return Fibonacci.Result()
+
+# %% check="12c"
+check("12c", DecidingThermostat)
+
+# %% [markdown]
+# In the second step, the thermostat heats. After `True` on `heater`, the room gets one degree warmer every second,
+# until the heater receives `False`. `await self.reading` returns the next temperature, an integer. After each
+# reading, publish feedback with all temperatures read since the goal was accepted. When the target is reached, turn
+# the heater off. The last two lines report success, and return the same temperatures as the result.
+
+# %% exercise="12d"
+class HeatingThermostat(Node):
+    def __init__(self):
+        super().__init__("thermostat")
+        self.heater = self.create_publisher(Bool, "heater", 10)
+        self.create_subscription(Float32, "temperature", self.listen, 10)
+        self.reading = Future()
+        self.server = ActionServer(self, Fibonacci, "heat", self.heat, goal_callback=self.decide)
+
+    def listen(self, msg):
+        self.reading.set_result(int(msg.data))
+        self.reading = Future()
+
+    def decide(self, goal):
+        # --- answer
+        return GoalResponse.ACCEPT if 10 <= goal.order <= 26 else GoalResponse.REJECT
+        # --- blank
+        # # Copy your line from DecidingThermostat.
+        # return ____
+        # --- end
+
+    async def heat(self, goal_handle):
+        degrees = []
+        # --- answer
+        self.heater.publish(Bool(data=True))
+        while not degrees or degrees[-1] < goal_handle.request.order:
+            degrees.append(await self.reading)
+            goal_handle.publish_feedback(Fibonacci.Feedback(sequence=degrees))
+        self.heater.publish(Bool(data=False))
+        # --- blank
+        # ____
+        # --- end
+        goal_handle.succeed()
+        return Fibonacci.Result(sequence=degrees)
+
+# %% check="12d"
+check("12d", HeatingThermostat)
+
+# %% [markdown]
+# The last step adds `agree`, which accepts every request to cancel. Now the work has to notice the request: turn the
+# heater off within a second, report the goal as canceled, and return the temperatures read so far.
+
+# %% exercise="12e"
 class Thermostat(Node):
     def __init__(self):
         super().__init__("thermostat")
@@ -376,6 +440,7 @@ class Thermostat(Node):
         # --- answer
         return GoalResponse.ACCEPT if 10 <= goal.order <= 26 else GoalResponse.REJECT
         # --- blank
+        # # Copy your line from DecidingThermostat.
         # return ____
         # --- end
 
@@ -389,13 +454,14 @@ class Thermostat(Node):
             canceled = goal_handle.is_cancel_requested
         self.heater.publish(Bool(data=False))
         goal_handle.canceled() if canceled else goal_handle.succeed()
-        return Fibonacci.Result(sequence=degrees)
         # --- blank
+        # # Copy your lines from HeatingThermostat, and let them notice a cancel.
         # ____
         # --- end
+        return Fibonacci.Result(sequence=degrees)
 
-# %% check="12c"
-check("12c", Thermostat)
+# %% check="12e"
+check("12e", Thermostat)
 
 # %% [markdown]
 # ## What went wrong: a call in a callback

@@ -124,7 +124,7 @@ def test_the_file_names_no_time(remembered):
 
 
 #: The exercises that version 1 of the file had in one, and their steps.
-SPLIT = [("04c", ("04c", "04d", "04e"))]
+SPLIT = [("04c", ("04c", "04d", "04e")), ("12c", ("12c", "12d", "12e"))]
 DAMAGED = [
     b"", b"{", b"[]", b"null", b"\xff\xfe", b"{}", b'{"version": 1}', b'{"version": 2}',
     b'{"version": 3, "exercises": {}}', b'{"version": 1, "exercises": []}',
