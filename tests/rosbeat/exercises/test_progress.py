@@ -173,7 +173,7 @@ def test_attempts_of_an_exercise_that_was_split_are_attempts_of_its_last_step(
     remembered, old, steps
 ):
     failed = Standing("failed", attempts=2, hints=1, mistake="boundary")
-    stored_before(remembered.path, **{old: failed})
+    stored_before(remembered.path, **{old: replace(failed, lead="Look at the limits.")})
     assert remembered.standings() == {steps[-1]: failed}
 
 
