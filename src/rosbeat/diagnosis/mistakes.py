@@ -239,10 +239,8 @@ _OTHERS = (
     Mistake("word-missing", "a command without a required argument"),
     Mistake("option-missing", "an option's value without the option"),
     Mistake("option-misspelled", "an option that does not exist"),
-    Mistake("not-renamed", "a node that keeps its original name"),
-    Mistake("wrong-node-name", "a different node name than requested"),
-    Mistake("other-executable", "a different executable than requested"),
-    Mistake("nobody-publishes", "a subscriber whose publisher is not running"),
+    Mistake("edited-in-install", "a change in install instead of src"),
+    Mistake("other-file", "a change in a different file than requested"),
     Mistake("other-package", "a different package than requested"),
 )
 
