@@ -44,8 +44,7 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspac
 # | answer | none | one | yes, or no with a reason | feedback, then a result |
 # | can be canceled | | no | no | yes |
 # | how many | any to any | any clients, one server | any clients, one node | any clients, one server |
-
-# %% [markdown]
+#
 # ## Ask: a service
 #
 # A [**service**](../docs/glossary.md#service) is a question with one answer. Like a topic, it has a name and a
@@ -54,8 +53,7 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspac
 #
 # Defining a type of your own takes a C compiler, so this page borrows existing types from the package
 # `test_msgs`. From `BasicTypes`, it uses one number in the request, `float32_value`, and two fields of
-# the response, `bool_value` and `string_value`. In a project of your own, define your own types: names that
-# say what they mean are worth the effort.
+# the response, `bool_value` and `string_value`. In a project of your own, define your own types.
 
 # %%
 class Window(Node):
@@ -301,50 +299,18 @@ predict("3", len(guest.result), because="The work checks whether it was canceled
 # %% [markdown]
 # ## Look underneath
 #
-# The tutorial says that services and actions *build upon* topics. Is that true? Ask the graph what the
-# action `air` is made of.
-
-# %%
-[(end.kind, end.name) for end in ros.graph().endpoints if end.node == "/airing" and "/air/" in end.name]
-
-# %% [markdown]
-# Three services and two topics. Their names are hidden, because a part of each name begins with `_`. An action
-# really **is** built on topics, at least in part, and an ordinary subscription can receive the feedback:
-
-# %%
-feedback = []
-guest.create_subscription(
-    Fibonacci.Impl.FeedbackMessage, "air/_action/feedback", feedback.append, 10
-)
-actions.send_goal_async(Fibonacci.Goal(order=3))
-ros.run(seconds=4)
-[list(message.feedback.sequence) for message in feedback]
-
-# %% [markdown]
-# What about services? No ROS topic carries them: you can't subscribe to `/open_window`. But go one level
-# down, to DDS, the middleware underneath ROS. With `no_demangle`, you see the names that DDS uses:
+# The tutorial says that services and actions *build upon* topics. Is that true? Underneath ROS is a middleware, DDS,
+# with topics of its own. `no_demangle` shows the names that DDS uses:
 
 # %%
 names = [name for name, _ in guest.get_topic_names_and_types(no_demangle=True)]
 [name for name in names if "open_window" in name or "/air/" in name]
 
 # %% [markdown]
-# A ROS topic is one DDS topic (`rt`). A service is two: one for requests (`rq`) and one for responses (`rr`).
+# A ROS topic is one DDS topic (`rt`). A service is two: one for requests (`rq`) and one for responses (`rr`). So the
+# claim is half true: an action consists of two ROS topics and three services, and a service isn't a ROS topic, but
+# both are built on DDS topics.
 #
-# The claim is half true. Actions are built on ROS topics and services. Services aren't ROS topics, but both
-# are built on DDS topics. And parameters? They are services: each node offers six of them for its
-# parameters, and one that describes types:
-
-# %%
-[end.name for end in ros.graph().endpoints if end.node == "/lamp" and end.kind == "server"]
-
-# %% [markdown]
-# Pictures leave these services out, as well as the parts of an action. An arrow leads from the client to the server:
-
-# %%
-viz.graph(ros.graph())
-
-# %% [markdown]
 # ## Try it: a thermostat, in three steps
 #
 # The goal's `order` is the temperature to heat to. In the first step, the thermostat only decides: it accepts goals
@@ -496,23 +462,6 @@ check("12e", Thermostat)
 # exit code 137 means that the program had to be killed. **Cause:** a [**deadlock**](../docs/glossary.md#deadlock).
 # `call` waits until another callback takes the response, but the executor can't run another callback until this one
 # returns. **Fix:** `call_async`, with a done callback or an `await`.
-#
-# A session says so once, and then behaves like a robot: the callback waits forever, and its node stays silent.
-
-# %%
-class Asker(Node):
-    def __init__(self):
-        super().__init__("asker")
-        self.client = self.create_client(BasicTypes, "open_window")
-        self.create_timer(1.0, self.ask)
-
-    def ask(self):
-        self.get_logger().info("I ask")
-        self.client.call(BasicTypes.Request())
-        self.get_logger().info("I know")
-
-ros.add(Asker)
-ros.run(seconds=3)
 
 # %% [markdown]
 # ## Three questions
