@@ -83,9 +83,9 @@ TOLD = [
      "5.5 s to 13.5 s."),
     ("08b", ('(Float32, "reading"', '(String, "reading"'),
      "On /reading, your node uses String and the other side Float32."),
-    ("08c", ("seconds=2", "seconds=3"), "'lost', at 9 s; 'lost' was due, at 8 s. Your subscription "
-     "has a deadline of 3 s."),
-    ("08c", ('"lost"', '"Lost"'), "Capitals and spaces count"),
+    ("08c", ("seconds=2", "seconds=3"), "Message 1 on /missed was 1, at 9 s; 1 was due, at 8 s. "
+     "Your subscription has a deadline of 3 s."),
+    ("08c", ("data=self.count", "data=event.total_count"), "total_count is never reset"),
     ("09a", ("timer(3.0", "timer(5.0"), "Lost was due, and the node said lost at 17 s."),
     ("09a", ("timer(3.0", "timer(2.0"), "Nothing was due, and the node said lost at 9.25 s."),
     ("09a", ('self.statuses.publish(String(data="back"))', "pass"),
