@@ -711,7 +711,7 @@ _written(
 )
 _written(
     "a deque and statistics",
-    "04c",
+    "04e",
     """
     import statistics
     from collections import deque
@@ -742,7 +742,7 @@ _written(
 )
 _written(
     "a class of its own for each task",
-    "04c",
+    "04e",
     """
     from collections import deque
 

@@ -12,7 +12,7 @@
 #
 # - subscribe to a topic and act on each message (04a, 04.3);
 # - write a node that subscribes and publishes (04b);
-# - keep a status from flickering by using two limits (04c);
+# - smooth readings, and keep a status from flickering by using two limits (04c, 04d, 04e);
 # - predict what a queue keeps, and what a late subscriber receives (04.1, 04.2).
 #
 # **Time:** 40 minutes. **You need:** [write a publisher](03_write_a_publisher.ipynb).
@@ -318,7 +318,7 @@ predict("0", program.returncode)
 # | its method | is called by the timer, and calls `publish()` | is called by ROS with a message |
 # | the data | is generated here | is processed here |
 #
-# A node can do both, as in the last two exercises on this page.
+# A node can do both, as in most of the exercises on this page.
 #
 # ## Try it: watch a fridge
 #
@@ -380,20 +380,77 @@ class Alarm(Node):
 check("04b", Alarm)
 
 # %% [markdown]
-# ## Try it: a calm monitor, alone
+# ## Try it: a calm monitor, in three steps
 #
-# Near a limit, the status flickers. That's why real monitors use two limits: one to enter a state, and another to
-# leave it. This is called [**hysteresis**](../docs/glossary.md#hysteresis). Write a node that listens to
-# `temperature` and publishes
-#
-# - on `mean`, for each reading, the mean of the last five readings, as a `Float32`. While there are fewer than five,
-#   it's the mean of all of them;
-# - on `status`, as a `String`, the status, but only when it changes. The status begins as `Normal`.
-#
-# The status follows the reading itself, not the mean: above 26 it is `High`, and below 20 it is `Low`, whatever it
-# was before. From `High`, the status returns to `Normal` only below 25; from `Low`, only above 21.
+# Near a limit, the status flickers. In three steps, you'll write a monitor that stays calm. In the first step, write
+# a node that listens to `temperature`, and publishes on `mean`, for each reading, the mean of the last five
+# readings, as a `Float32`. While there are fewer than five, it's the mean of all of them.
 
 # %% exercise="04c"
+class MeanMonitor(Node):
+    def __init__(self):
+        # --- answer
+        super().__init__("calm_monitor")
+        self.create_subscription(Float32, "temperature", self.listen, 10)
+        self.means = self.create_publisher(Float32, "mean", 10)
+        self.values = []
+
+    def listen(self, msg):
+        self.values = [*self.values, msg.data][-5:]
+        self.means.publish(Float32(data=sum(self.values) / len(self.values)))
+        # --- blank
+        # ____
+        # --- end
+
+# %% check="04c"
+check("04c", MeanMonitor)
+
+# %% [markdown]
+# Real monitors use two limits: one to enter a state, and another to leave it. This is called
+# [**hysteresis**](../docs/glossary.md#hysteresis). Publish the status on `status` as well, for each reading, as a
+# `String`. The status begins as `Normal`, and follows the reading itself, not the mean: above 26 it is `High`, and
+# below 20 it is `Low`, whatever it was before. From `High`, the status returns to `Normal` only below 25; from `Low`,
+# only above 21.
+
+# %% exercise="04d"
+class StatusMonitor(Node):
+    def __init__(self):
+        # --- answer
+        super().__init__("calm_monitor")
+        self.create_subscription(Float32, "temperature", self.listen, 10)
+        self.means = self.create_publisher(Float32, "mean", 10)
+        self.statuses = self.create_publisher(String, "status", 10)
+        self.values = []
+        self.status = "Normal"
+
+    def listen(self, msg):
+        self.values = [*self.values, msg.data][-5:]
+        self.means.publish(Float32(data=sum(self.values) / len(self.values)))
+
+        self.status = self.judge(msg.data)
+        self.statuses.publish(String(data=self.status))
+
+    def judge(self, value):
+        if value > 26.0:
+            return "High"
+        if value < 20.0:
+            return "Low"
+        still_high = self.status == "High" and value >= 25.0
+        still_low = self.status == "Low" and value <= 21.0
+        return self.status if still_high or still_low else "Normal"
+        # --- blank
+        # # Copy your lines from MeanMonitor, and add the status.
+        # ____
+        # --- end
+
+# %% check="04d"
+check("04d", StatusMonitor)
+
+# %% [markdown]
+# The status still comes once a second, although it rarely changes. In the last step, publish it only when it changes.
+# Keep publishing the mean for each reading.
+
+# %% exercise="04e"
 class CalmMonitor(Node):
     def __init__(self):
         # --- answer
@@ -422,11 +479,12 @@ class CalmMonitor(Node):
         still_low = self.status == "Low" and value <= 21.0
         return self.status if still_high or still_low else "Normal"
         # --- blank
+        # # Copy your lines from StatusMonitor, and publish changes only.
         # ____
         # --- end
 
-# %% check="04c"
-check("04c", CalmMonitor)
+# %% check="04e"
+check("04e", CalmMonitor)
 
 # %% [markdown]
 # ## What went wrong: one pair of parentheses

@@ -11,7 +11,7 @@
 # **After this page, you can:**
 #
 # - declare a program in `setup.py` (05a, 05.3);
-# - read and write an entry point (05b, 05.1);
+# - read an entry point, and repair a broken one (05b, 05.1);
 # - tell what `chmod +x` does, and what it does not do (05.2).
 #
 # **Time:** 30 minutes. **You need:** [create a package](02_create_a_package.ipynb),
@@ -210,22 +210,6 @@ check("05a", workspace.folder())
 viz.diagram("entry point")
 
 # %% [markdown]
-# ## Try it: write entry points
-#
-# Complete the function so that it returns the text of an entry point.
-
-# %% exercise="05b"
-def entry_point(executable, package, module, function="main"):
-    # --- answer
-    return f"{executable} = {package}.{module}:{function}"
-    # --- blank
-    # return ____
-    # --- end
-
-# %% check="05b"
-check("05b", entry_point)
-
-# %% [markdown]
 # ## What went wrong: a comma is missing
 #
 # Here are two texts, one after the other, without a comma. **Predict:** how many entries does Python see?
@@ -261,6 +245,64 @@ predict("1", len(entries))
 # the error appears only when you run the program. One way to cause this is to write `.py` after the module's name.
 # If an error names a module, compare it with the file's name. `:main()` with parentheses stops the build instead,
 # with the same message as a missing comma.
+#
+# ## Try it: repair a setup.py
+#
+# A friend sends you a package, `lamp_control`. It has two programs, `lamp` and `switch`, in files of the same names,
+# and each file defines `main`. The next cell stands for what you receive: it creates the package and the two files.
+
+# %% terminal="build"
+# cd "$ROS2_WORKSPACE/src"
+# ros2 pkg create --build-type ament_python lamp_control > /dev/null
+# cd lamp_control/lamp_control
+# echo 'def main(): print("The lamp is on.")' > lamp.py
+# echo 'def main(): print("The switch is on.")' > switch.py
+# cd "$ROS2_WORKSPACE"
+
+# %% [markdown]
+# But your friend's `setup.py` doesn't build. Its two entry points contain four mistakes. Repair them; the check
+# names one mistake at a time.
+
+# %% save="src/lamp_control/setup.py" exercise="05b"
+from setuptools import find_packages, setup
+
+package_name = 'lamp_control'
+
+setup(
+    name=package_name,
+    version='0.0.0',
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages',
+            ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    zip_safe=True,
+    entry_points={
+        'console_scripts': [
+            # --- answer
+            'lamp = lamp_control.lamp:main',
+            'switch = lamp_control.switch:main',
+            # --- blank
+            # # Repair the two lines below, and delete this line: ____
+            # 'lamp = lamp_control/lamp.py:main'
+            # 'switch = lamp_control.switch:main()',
+            # --- end
+        ],
+    },
+)
+
+# %% check="05b"
+check("05b", workspace.folder())
+
+# %% [markdown]
+# A `setup.py` that passes the check also builds:
+
+# %% terminal="build"
+# colcon build --packages-select lamp_control
+# source install/setup.bash
+# ros2 run lamp_control lamp
 
 # %% [markdown]
 # ## Three questions

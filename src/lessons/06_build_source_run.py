@@ -10,9 +10,8 @@
 #
 # **After this page, you can:**
 #
-# - build, source and run two programs that talk to each other (06a, 06.3);
-# - give a node another name when you start it (06a);
-# - explain why a change has no effect yet, and fix that (06b, 06.1);
+# - build, source and run two programs that talk to each other (06.3);
+# - explain why a change has no effect yet, and fix that (06a, 06b, 06.1);
 # - predict what happens when one of two programs stops (06.2).
 #
 # **Time:** 35 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
@@ -182,40 +181,44 @@ sensor.exit_code, monitor.busy
 # each other first. The terminal `sensor` is still in the right folder and has already sourced the workspace, so a
 # single line was enough to start the sensor.
 #
-# ## Try it: one more monitor
+# ## Try it: change the code
 #
-# Start a second monitor in a terminal of its own, called `third`. The sensor doesn't have to change for that. Two
-# nodes shouldn't have the same name, because you couldn't tell them apart. Everything after `--ros-args` is meant
-# for ROS: `-r` is short for *remap*, and with `__node` (two underscores) it gives the node another name. Fill in
-# what to run.
+# When the monitor starts, it logs *Temperature Monitor Node Started*. Let it log *Temperature Monitor Version 2*
+# instead. You could change the file in an editor; `sed -i` replaces a text from a terminal. Fill in the new text.
 
-# %% terminal="third --until Status" exercise="06a" tags=["nbval-ignore-output"]
-# cd "$ROS2_WORKSPACE"
-# source install/setup.bash
+# %% terminal="build" exercise="06a"
+# cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # --- answer
-# ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
+# sed -i 's/Node Started/Version 2/' temperature_subscriber.py
 # --- blank
-# # ros2 run ____ --ros-args -r __node:=second_monitor
+# # sed -i 's/Node Started/____/' temperature_subscriber.py
 # --- end
 
 # %% check="06a"
-check("06a", workspace.terminal("third"))
+check("06a", workspace.folder())
 
 # %% [markdown]
-# ## Know what is installed
-#
-# `ros2 run` uses only what is in `install`, and colcon has **copied** your files there. `diff` compares a file
-# with its copy; the star stands for any text. `&&` runs `echo` only if both files are the same:
+# Now start this monitor beside the first one. Two nodes shouldn't have the same name, because you couldn't tell them
+# apart. Everything after `--ros-args` is meant for ROS: `-r` is short for *remap*, and with `__node` (two underscores)
+# it gives the node another name. **Predict:** which text does it log?
+
+# %% terminal="third --until Monitor" tags=["nbval-ignore-output"]
+# cd "$ROS2_WORKSPACE"
+# source install/setup.bash
+# ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
+
+# %% [markdown]
+# The old one. `ros2 run` uses only what is in `install`, and colcon has **copied** your files there. `diff` shows the
+# lines in which a file and its copy differ; the star stands for any text.
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE"
-# diff src/sensor_simulator/sensor_simulator/temperature_publisher.py install/sensor_simulator/lib/python3*/site-packages/sensor_simulator/ && echo "the same"
+# diff src/sensor_simulator/sensor_simulator/temperature_subscriber.py install/sensor_simulator/lib/python3*/site-packages/sensor_simulator/
 
 # %% [markdown]
-# They're the same, for now. If you change the file in `src` and run the program, you run the *old* code, and ROS
-# doesn't tell you. Sooner or later, this costs everyone an afternoon. Either build after each change, or let colcon
-# create a link instead of a copy: then a change takes effect the next time the program starts. Changes to
-# `setup.py` still need a build.
+# You ran the *old* code, and ROS itself didn't tell you: the lines that begin with `#` come from this course's
+# terminals. Sooner or later, this costs everyone an afternoon. Either build after each change, or let colcon create a link instead of a copy: then a change takes effect the next time the program
+# starts. Changes to `setup.py` still need a build.
 #
 # ## Try it: link instead of copy
 #
@@ -236,7 +239,16 @@ check("06b", workspace.folder())
 
 # %% [markdown]
 # The linked files are in a different folder from the copies. So this once, terminals that are already open have to
-# source the workspace again: `source install/setup.bash`.
+# source the workspace again. Stop the second monitor, and start it anew:
+
+# %% terminal="third --ctrl-c" tags=["nbval-ignore-output"]
+
+# %% terminal="third --until Monitor" tags=["nbval-ignore-output"]
+# source install/setup.bash
+# ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
+
+# %% [markdown]
+# *Version 2*. From now on, a change takes effect without a build.
 #
 # ## Test the package
 #

@@ -171,24 +171,9 @@ predict("3", round(float(rate)))
 #
 # ## What a command can't show you
 #
-# | command | shows | doesn't show |
-# |---|---|---|
-# | `ros2 node list` | names | executables, processes, whether a node still does anything |
-# | `ros2 topic list -t` | names and types | whether anybody publishes |
-# | `ros2 topic info --verbose` | publishers and subscriptions | how long their queues are |
-# | `ros2 topic echo` | values | which node sent them |
-# | `ros2 topic hz` | what arrives here | what was lost |
-# | `ros2 node info` | everything that a node has | whether its callbacks run |
-# | `ros2 param get` | a value | what the code does with it |
-#
-# Take the depth of a queue. Only the process that has the queue knows it, so a terminal can't tell you. In the
-# first cell below, `grep -E "a|b"` keeps the lines that contain either text.
-#
-# The greenhouse's nodes live in the process of the session, so the session knows. In the second cell, each `end` is
-# one subscription. Its `qos` holds the settings that it was created with, including the depth.
-
-# %% terminal="look"
-# ros2 topic info --verbose /temperature | grep -E "name:|Depth"
+# Only the process that has a queue knows its depth, so no command can show it. The greenhouse's nodes live in the
+# process of the session, so the session knows. Each `end` is one subscription. Its `qos` holds the settings that it
+# was created with, including the depth.
 
 # %%
 for end in ros.graph().on("/temperature", "subscription"):
@@ -250,21 +235,6 @@ viz.graph(why)
 # **Cause:** the two names differ in one letter. **Fix:** the author corrects the name of the topic. Until then, you
 # can remap it: start the lamp with another topic name in place of its own, as `ros2 run` does with
 # `-r light:=lights`. The code stays as it is.
-#
-# The new lamp replaces the old one, which has the same name. The cell waits until `explain` finds nothing wrong,
-# and shows what the nodes have logged.
-
-# %% tags=["nbval-ignore-output"]
-(lamp,) = [node for node in ros.nodes if node.get_name() == "lamp"]
-ros.add(type(lamp), remappings={"light": "lights"})
-ros.wait(20, until=lambda: ros.explain("lights", seconds=1).is_well)
-
-# %%
-ros.explain("lights", seconds=1).is_well, [sample.value for sample in ros.messages("lights")[-3:]]
-
-# %% [markdown]
-# The lamp gets its readings now, and `/lights` has a subscriber. Exercise 07a is still about the greenhouse as you
-# found it.
 #
 # ## Try it: limits that you can set
 #

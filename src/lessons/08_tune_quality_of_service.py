@@ -13,7 +13,7 @@
 # - choose the depth of a queue for a busy subscriber (08.3);
 # - predict whether two endpoints fit (08b, 08.1);
 # - keep the last message for late-joining subscriptions (08a, 08.2);
-# - report a silence with a deadline (08c).
+# - count missed deadlines (08c).
 #
 # **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
 # [look inside the graph](07_look_inside_the_graph.ipynb).
@@ -358,20 +358,17 @@ print(late(kept_shortly, QoSProfile(depth=20, durability=KEPT)), "for a late col
 # whether a publisher is still alive. The middleware watches it in real time; see
 # [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
 #
-# ## Try it: report a silence
+# ## Try it: count missed deadlines
 #
 # A sensor on `temperature` offers a deadline of 2 seconds, but it doesn't always keep this promise. Complete the
-# watchdog so that it publishes on `health`
-#
-# - `lost`, once in each silence, when nothing has come for 2 seconds;
-# - `back`, once after each silence, when readings come again.
+# watchdog: each time a deadline of 2 seconds is missed, it publishes on `missed` how many have been missed in a row,
+# as an `Int32`. In a long silence, that's 1, then 2, then 3. The next reading starts the count again; at a reading,
+# the node publishes nothing.
 
 # %% exercise="08c"
 class Watchdog(Node):
     def __init__(self):
         super().__init__("watchdog")
-        self.health = self.create_publisher(String, "health", 10)
-        self.word = "back"
         # --- answer
         qos = QoSProfile(depth=10, deadline=Duration(seconds=2))
         events = SubscriptionEventCallbacks(deadline=self.on_silence)
@@ -382,21 +379,19 @@ class Watchdog(Node):
         self.create_subscription(
             Float32, "temperature", self.on_reading, qos, event_callbacks=events
         )
+        self.missed = self.create_publisher(Int32, "missed", 10)
+        self.count = 0
 
     def on_silence(self, event):
-        self.say("lost")
-
-    def on_reading(self, msg):
-        self.say("back")
-
-    def say(self, word):
         # --- answer
-        if word != self.word:
-            self.word = word
-            self.health.publish(String(data=word))
+        self.count += 1
+        self.missed.publish(Int32(data=self.count))
         # --- blank
         # ____
         # --- end
+
+    def on_reading(self, msg):
+        self.count = 0
 
 # %% check="08c"
 check("08c", Watchdog)

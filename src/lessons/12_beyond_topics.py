@@ -12,7 +12,7 @@
 #
 # - offer a service, and call one (12a, 12.1);
 # - check new parameter values before they take effect (12b);
-# - offer an action that accepts, reports, finishes and can be canceled (12c);
+# - offer an action that accepts, reports, finishes and can be canceled (12c, 12d, 12e);
 # - choose between a topic, a service, a parameter and an action (12.2);
 # - explain why a callback must not wait (12.3).
 #
@@ -47,8 +47,7 @@ viz.diagram("12")
 # | answer | none | one | yes, or no with a reason | feedback, then a result |
 # | can be canceled | | no | no | yes |
 # | how many | any to any | any clients, one server | any clients, one node | any clients, one server |
-
-# %% [markdown]
+#
 # ## Ask: a service
 #
 # A [**service**](../docs/glossary.md#service) is a question with one answer. Like a topic, it has a name and a
@@ -57,8 +56,7 @@ viz.diagram("12")
 #
 # Defining a type of your own takes a C compiler, so this page borrows existing types from the package
 # `test_msgs`. From `BasicTypes`, it uses one number in the request, `float32_value`, and two fields of
-# the response, `bool_value` and `string_value`. In a project of your own, define your own types: names that
-# say what they mean are worth the effort.
+# the response, `bool_value` and `string_value`. In a project of your own, define your own types.
 
 # %%
 class Window(Node):
@@ -304,60 +302,92 @@ predict("3", len(guest.result), because="The work checks whether it was canceled
 # %% [markdown]
 # ## Look underneath
 #
-# The tutorial says that services and actions *build upon* topics. Is that true? Ask the graph what the
-# action `air` is made of.
-
-# %%
-[(end.kind, end.name) for end in ros.graph().endpoints if end.node == "/airing" and "/air/" in end.name]
-
-# %% [markdown]
-# Three services and two topics. Their names are hidden, because a part of each name begins with `_`. An action
-# really **is** built on topics, at least in part, and an ordinary subscription can receive the feedback:
-
-# %%
-feedback = []
-guest.create_subscription(
-    Fibonacci.Impl.FeedbackMessage, "air/_action/feedback", feedback.append, 10
-)
-actions.send_goal_async(Fibonacci.Goal(order=3))
-ros.run(seconds=4)
-[list(message.feedback.sequence) for message in feedback]
-
-# %% [markdown]
-# What about services? No ROS topic carries them: you can't subscribe to `/open_window`. But go one level
-# down, to DDS, the middleware underneath ROS. With `no_demangle`, you see the names that DDS uses:
+# The tutorial says that services and actions *build upon* topics. Is that true? Underneath ROS is a middleware, DDS,
+# with topics of its own. `no_demangle` shows the names that DDS uses:
 
 # %%
 names = [name for name, _ in guest.get_topic_names_and_types(no_demangle=True)]
 [name for name in names if "open_window" in name or "/air/" in name]
 
 # %% [markdown]
-# A ROS topic is one DDS topic (`rt`). A service is two: one for requests (`rq`) and one for responses (`rr`).
+# A ROS topic is one DDS topic (`rt`). A service is two: one for requests (`rq`) and one for responses (`rr`). So the
+# claim is half true: an action consists of two ROS topics and three services, and a service isn't a ROS topic, but
+# both are built on DDS topics.
 #
-# The claim is half true. Actions are built on ROS topics and services. Services aren't ROS topics, but both
-# are built on DDS topics. And parameters? They are services: each node offers six of them for its
-# parameters, and one that describes types:
-
-# %%
-[end.name for end in ros.graph().endpoints if end.node == "/lamp" and end.kind == "server"]
-
-# %% [markdown]
-# Pictures leave these services out, as well as the parts of an action. An arrow leads from the client to the server:
-
-# %%
-viz.graph(ros.graph())
-
-# %% [markdown]
-# ## Try it: heat to a target
+# ## Try it: a thermostat, in three steps
 #
-# After `True` on `heater`, the room gets one degree warmer every second, until the heater receives `False`. The
-# goal's `order` is the target temperature; accept goals from 10 to 26, both included. Every second, publish
-# feedback with all temperatures read since the goal was accepted. The result contains them, too. Whether the target
-# is reached or the goal is canceled, turn the heater off within a second.
-#
-# `await self.reading` returns the next temperature, an integer.
+# The goal's `order` is the temperature to heat to. In the first step, the thermostat only decides: it accepts goals
+# from 10 to 26, both included, and rejects all others. Its work, `heat`, ends at once.
 
 # %% exercise="12c"
+class DecidingThermostat(Node):
+    def __init__(self):
+        super().__init__("thermostat")
+        self.server = ActionServer(self, Fibonacci, "heat", self.heat, goal_callback=self.decide)
+
+    def decide(self, goal):
+        # --- answer
+        return GoalResponse.ACCEPT if 10 <= goal.order <= 26 else GoalResponse.REJECT
+        # --- blank
+        # return ____
+        # --- end
+
+    async def heat(self, goal_handle):
+        goal_handle.succeed()
+        return Fibonacci.Result()
+
+# %% check="12c"
+check("12c", DecidingThermostat)
+
+# %% [markdown]
+# In the second step, the thermostat heats. After `True` on `heater`, the room gets one degree warmer every second,
+# until the heater receives `False`. `await self.reading` returns the next temperature, an integer. After each
+# reading, publish feedback with all temperatures read since the goal was accepted. When the target is reached, turn
+# the heater off. The last two lines report success, and return the same temperatures as the result.
+
+# %% exercise="12d"
+class HeatingThermostat(Node):
+    def __init__(self):
+        super().__init__("thermostat")
+        self.heater = self.create_publisher(Bool, "heater", 10)
+        self.create_subscription(Float32, "temperature", self.listen, 10)
+        self.reading = Future()
+        self.server = ActionServer(self, Fibonacci, "heat", self.heat, goal_callback=self.decide)
+
+    def listen(self, msg):
+        self.reading.set_result(int(msg.data))
+        self.reading = Future()
+
+    def decide(self, goal):
+        # --- answer
+        return GoalResponse.ACCEPT if 10 <= goal.order <= 26 else GoalResponse.REJECT
+        # --- blank
+        # # Copy your line from DecidingThermostat.
+        # return ____
+        # --- end
+
+    async def heat(self, goal_handle):
+        degrees = []
+        # --- answer
+        self.heater.publish(Bool(data=True))
+        while not degrees or degrees[-1] < goal_handle.request.order:
+            degrees.append(await self.reading)
+            goal_handle.publish_feedback(Fibonacci.Feedback(sequence=degrees))
+        self.heater.publish(Bool(data=False))
+        # --- blank
+        # ____
+        # --- end
+        goal_handle.succeed()
+        return Fibonacci.Result(sequence=degrees)
+
+# %% check="12d"
+check("12d", HeatingThermostat)
+
+# %% [markdown]
+# The last step adds `agree`, which accepts every request to cancel. Now the work has to notice the request: turn the
+# heater off within a second, report the goal as canceled, and return the temperatures read so far.
+
+# %% exercise="12e"
 class Thermostat(Node):
     def __init__(self):
         super().__init__("thermostat")
@@ -379,6 +409,7 @@ class Thermostat(Node):
         # --- answer
         return GoalResponse.ACCEPT if 10 <= goal.order <= 26 else GoalResponse.REJECT
         # --- blank
+        # # Copy your line from DecidingThermostat.
         # return ____
         # --- end
 
@@ -392,13 +423,14 @@ class Thermostat(Node):
             canceled = goal_handle.is_cancel_requested
         self.heater.publish(Bool(data=False))
         goal_handle.canceled() if canceled else goal_handle.succeed()
-        return Fibonacci.Result(sequence=degrees)
         # --- blank
+        # # Copy your lines from HeatingThermostat, and let them notice a cancel.
         # ____
         # --- end
+        return Fibonacci.Result(sequence=degrees)
 
-# %% check="12c"
-check("12c", Thermostat)
+# %% check="12e"
+check("12e", Thermostat)
 
 # %% [markdown]
 # ## What went wrong: a call in a callback
@@ -433,23 +465,6 @@ check("12c", Thermostat)
 # exit code 137 means that the program had to be killed. **Cause:** a [**deadlock**](../docs/glossary.md#deadlock).
 # `call` waits until another callback takes the response, but the executor can't run another callback until this one
 # returns. **Fix:** `call_async`, with a done callback or an `await`.
-#
-# A session says so once, and then behaves like a robot: the callback waits forever, and its node stays silent.
-
-# %%
-class Asker(Node):
-    def __init__(self):
-        super().__init__("asker")
-        self.client = self.create_client(BasicTypes, "open_window")
-        self.create_timer(1.0, self.ask)
-
-    def ask(self):
-        self.get_logger().info("I ask")
-        self.client.call(BasicTypes.Request())
-        self.get_logger().info("I know")
-
-ros.add(Asker)
-ros.run(seconds=3)
 
 # %% [markdown]
 # ## Three questions

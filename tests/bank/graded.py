@@ -25,6 +25,7 @@ _ABOVE = {
     "01b": "%%terminal two\n",
     "02a": "%%save src/sensor_simulator/package.xml\n",
     "05a": "%%save src/sensor_simulator/setup.py\n",
+    "05b": "%%save src/lamp_control/setup.py\n",
 }
 
 

@@ -8,7 +8,7 @@ from rosbeat.authoring.source import Lesson, read_lesson, with_answers
 ROOT = Path(__file__).resolve().parents[2]
 
 #: The exercises whose answers are nodes.
-NODE_EXERCISES = ("00a", "00b", "03a", "03b", "03c", "04a", "04b", "04c")
+NODE_EXERCISES = ("00a", "00b", "03a", "03b", "03c", "04a", "04b", "04e")
 #: An exercise whose solution needs another one's.
 _BUILT_ON = {"13b": "13a"}
 

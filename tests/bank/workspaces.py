@@ -25,9 +25,13 @@ BUILT = (
     + "".join(f"cp /bin/true {_INSTALLED}/lib/{PACKAGE}/{node}\n" for node in NODES)
 )
 #: Exercises that are answered with a file, and where it is.
-FILES = {"02a": f"{_SOURCE}/package.xml", "05a": f"{_SOURCE}/setup.py"}
+FILES = {
+    "02a": f"{_SOURCE}/package.xml",
+    "05a": f"{_SOURCE}/setup.py",
+    "05b": "src/lamp_control/setup.py",
+}
 #: All that are answered with a file or in a terminal.
-EXERCISES = ("01a", "01b", "02a", "02b", "05a", "06a", "06b")
+EXERCISES = ("01a", "01b", "02a", "02b", "05a", "05b", "06a", "06b")
 
 _RUN = r"""
 for line in "$@"; do
@@ -109,9 +113,21 @@ class Desk:
             self.write(f"{_SOURCE}/resource/{PACKAGE}", "")
             self.write(f"{_SOURCE}/{PACKAGE}/__init__.py", "")
 
+    def receive(self, package: str, programs: tuple[str, ...]) -> None:
+        """Make a package without entry points whose programs are there already."""
+        folder = f"src/{package}"
+        manifest = finished("package.xml").replace(PACKAGE, package)
+        self.write(f"{folder}/package.xml", manifest)
+        self.write(f"{folder}/setup.cfg", _SETUP_CFG.replace(PACKAGE, package))
+        self.write(f"{folder}/resource/{package}", "")
+        for name in ("__init__", *programs):
+            self.write(f"{folder}/{package}/{name}.py", "def main():\n    pass\n")
+
     def handed(self, answer: Answer) -> Path | Terminal:
         """Do what an answer says, and return what the page hands over to `check`."""
         self.furnish(with_package=answer.exercise > "02")
+        if answer.exercise == "05b":
+            self.receive("lamp_control", ("lamp", "switch"))
         if answer.exercise in FILES:
             self.write(FILES[answer.exercise], answer.text)
         if answer.before:
@@ -120,8 +136,6 @@ class Desk:
             return self.root
         if answer.exercise == "06a":
             typed(BUILT, self.root)
-            # A terminal in which a node runs has no exit code; one whose command has failed has.
-            return Terminal(self.root, answer.text, None if "[INFO]" in answer.text else 1)
         start = "resources/images" if answer.exercise == "01b" else "."
         terminal = typed(answer.text, self.root, start)
         return terminal if answer.exercise in ("01a", "01b", "02b") else self.root

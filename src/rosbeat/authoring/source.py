@@ -391,11 +391,13 @@ def with_answers(text: str) -> str:
 def with_blanks(text: str) -> str:
     """Return the text with blanks in place of its answers.
 
+    A blank with fewer lines than its answer says how many lines are wanted.
+
     Raises:
         LessonError: A marker is wrong.
     """
     find_blocks(text)
-    return _BLOCK.sub(lambda match: "\n".join(_blank(match)), text)
+    return _BLOCK.sub(lambda match: "\n".join(_sized_blank(match)), text)
 
 
 def with_blanks_in_place(text: str) -> str:
@@ -444,6 +446,20 @@ def _blank(match: re.Match[str]) -> list[str]:
     start = len(match["indent"]) + 2
     lines = match["blank"].split("\n")[:-1]
     return [(match["indent"] + line[start:]).rstrip() for line in lines]
+
+
+def _sized_blank(match: re.Match[str]) -> list[str]:
+    lines = _blank(match)
+    wanted = len(_lines_of_code(match["answer"].split("\n")))
+    if wanted > len(_lines_of_code(lines)):
+        at = next(number for number, line in enumerate(lines) if BLANK in line)
+        indent = lines[at][: len(lines[at]) - len(lines[at].lstrip())]
+        lines.insert(at, f"{indent}# about {wanted} lines")
+    return lines
+
+
+def _lines_of_code(lines: list[str]) -> list[str]:
+    return [line for line in lines if line.strip() and not line.lstrip().startswith("#")]
 
 
 def _require_content(block: Block, place: str) -> None:

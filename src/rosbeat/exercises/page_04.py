@@ -1,4 +1,4 @@
-"""Page 04, write a subscriber: watch a fridge, raise the alarm, a monitor with hysteresis."""
+"""Page 04, write a subscriber: watch a fridge, raise the alarm, a calm monitor in three steps."""
 
 from __future__ import annotations
 
@@ -287,7 +287,7 @@ def _says_fine(texts: Track, due: Track) -> bool:
     return bool(good and bad) and not good & bad
 
 
-# 04c: the mean of the last five readings, and a status with hysteresis.
+# 04c, 04d, 04e: the mean of the last five readings, a status with hysteresis, and changes only.
 
 _MEAN, _STATUS = Wire("/mean", "std_msgs/msg/Float32"), Wire("/status", "std_msgs/msg/String")
 _BOTH = (_MEAN.topic, _STATUS.topic)
@@ -295,7 +295,27 @@ _OF_THE_MEAN = "Find the status from the reading itself, and not from the mean."
 _NO_STATUS = f"Does the callback come to the line that publishes? {_OF_THE_MEAN}"
 
 
+def _judge_means(observation: Observation, seconds: Seconds) -> Verdict:
+    return (
+        diagnose_unheard(observation, _TEMPERATURE)
+        or diagnose_unpublished(observation, _MEAN)
+        or _wrong_means(track(observation, _MEAN), seconds)
+        or passed(f"{len(_heard(seconds))} readings, and as many means.")
+    )
+
+
 def _judge_hysteresis(observation: Observation, seconds: Seconds) -> Verdict:
+    """Judge the statuses alone: whatever is on /mean was judged in the step before."""
+    return (
+        diagnose_unheard(observation, _TEMPERATURE)
+        or diagnose_unpublished(observation, _STATUS, _BOTH, _NO_STATUS)
+        or diagnose_words(observation, _STATUS, STATUSES)
+        or _wrong_statuses(track(observation, _STATUS), seconds, each=True)
+        or passed(f"{len(_heard(seconds))} readings, and the right status for each.")
+    )
+
+
+def _judge_changes(observation: Observation, seconds: Seconds) -> Verdict:
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or diagnose_unpublished(observation, _MEAN, _BOTH)
@@ -449,14 +469,14 @@ _AT_A_LIMIT = (
 )
 
 
-def _on_the_wrong_side() -> Iterator[tuple[str, str, Model]]:
+def _on_the_wrong_side(each: bool) -> Iterator[tuple[str, str, Model]]:
     """Generate a suspect for each limit, and for each set of them, single ones first."""
     for slips in chain.from_iterable(combinations(_AT_A_LIMIT, count) for count in (1, 2, 3, 4)):
         at = " and exactly ".join(str(reading) for reading, _ in slips)
         change = "changes" if len(slips) == 1 else "change"
         limits = {name: limit for _, one in slips for name, limit in one.items()}
         hint = f"Exactly {at} {change} nothing: above and below leave the limit out."
-        yield "boundary", hint, _statuses(limits)
+        yield "boundary", hint, _statuses(limits, compares=not each)
 
 
 def _mean_each_second(seconds: Seconds) -> Seconds:
@@ -464,18 +484,41 @@ def _mean_each_second(seconds: Seconds) -> Seconds:
     return [means.get(second, (None,))[0] for second in range(1, len(seconds) + 1)]
 
 
+def _of_the_mean(seconds: Seconds, model: Model) -> Track:
+    return model(_mean_each_second(seconds))
+
+
+def _hysteresis_suspects(each: bool) -> Iterator[tuple[str, str, Model]]:
+    """Generate what can be wrong with the two limits, of a node that publishes each or changes."""
+    says = partial(_statuses, compares=not each)
+    yield from _on_the_wrong_side(each)
+    lost = "hysteresis-lost"
+    yield lost, "From High, nothing leads back to Normal.", says({"back_high": -inf})
+    yield lost, "From Low, nothing leads back to Normal.", says({"back_low": inf})
+    one_limit = (
+        "Each way back has one limit: from High only below 25 counts, and from Low only above 21."
+    )
+    yield lost, one_limit, says(one_band=True)
+    swapped = (
+        "The two limits of the way back have changed places: 25 belongs to High, and 21 to Low."
+    )
+    yield lost, swapped, says({"back_high": 21.0, "back_low": 25.0})
+    yield "wrong-state", _OF_THE_MEAN, partial(_of_the_mean, model=says())
+
+
+#: Of a node that publishes a status for each reading.
+EACH_SUSPECTS = suspects(
+    ("no-hysteresis", _NOTHING_KEEPS, _statuses(keeps=False, compares=False)),
+    *_hysteresis_suspects(each=True),
+    ("wrong-rate", "Only the changes are published. Here, each reading gets a status.",
+     _statuses()),
+)  # fmt: skip
+#: Of a node that publishes a status when it changes.
 STATUS_SUSPECTS = suspects(
     ("status-repeated", _NOTHING_KEEPS, _statuses(keeps=False)),
     ("no-hysteresis", _NOTHING_KEEPS, _statuses(keeps=False, compares=False)),
-    *_on_the_wrong_side(),
-    ("hysteresis-lost", "From High, nothing leads back to Normal.", _statuses({"back_high": -inf})),
-    ("hysteresis-lost", "From Low, nothing leads back to Normal.", _statuses({"back_low": inf})),
-    ("hysteresis-lost", "Each way back has one limit: from High only below 25 counts, and from "
-     "Low only above 21.", _statuses(one_band=True)),
-    ("hysteresis-lost", "The two limits of the way back have changed places: 25 belongs to High, "
-     "and 21 to Low.", _statuses({"back_high": 21.0, "back_low": 25.0})),
-    ("wrong-state", _OF_THE_MEAN, lambda seconds: _statuses()(_mean_each_second(seconds))),
-)  # fmt: skip
+    *_hysteresis_suspects(each=False),
+)
 
 
 def draw_hysteresis(draw: Draw) -> Seconds:
@@ -499,13 +542,14 @@ def draw_hysteresis(draw: Draw) -> Seconds:
         ),
         lambda fed: (
             tells_apart(fed, _means(), MEAN_SUSPECTS)
+            and tells_apart(fed, _statuses(compares=False), EACH_SUSPECTS)
             and tells_apart(fed, _statuses(), STATUS_SUSPECTS)
         ),
     )
 
 
-def _wrong_statuses(done: Track, seconds: Seconds) -> Diagnosis | None:
-    heard, right = _heard(seconds), _statuses()(seconds)
+def _wrong_statuses(done: Track, seconds: Seconds, each: bool = False) -> Diagnosis | None:
+    heard, right = _heard(seconds), _statuses(compares=not each)(seconds)
 
     def describe(mismatch: Mismatch) -> Diagnosis:
         at = mismatch.at
@@ -517,9 +561,15 @@ def _wrong_statuses(done: Track, seconds: Seconds) -> Diagnosis | None:
             f"The status was {before}. At {at:g} s, {after}, {said} was published, and {due} was "
             "due."
         )
-        return _unmodelled(before, mismatch.done, mismatch.right, evidence)
+        if not each:
+            return _unmodelled(before, mismatch.done, mismatch.right, evidence)
+        if len(mismatch.done) != len(mismatch.right):
+            return Diagnosis("wrong-rate", evidence, "Publish one status for each reading.")
+        stayed = () if mismatch.right == (before,) else mismatch.right
+        return _unmodelled("", mismatch.done, stayed, evidence)
 
-    return diagnose(seconds, done, right, STATUS_SUSPECTS, describe)
+    suspected = EACH_SUSPECTS if each else STATUS_SUSPECTS
+    return diagnose(seconds, done, right, suspected, describe)
 
 
 def _unmodelled(before: str, done: Sequence[str], right: Sequence[str], evidence: str) -> Diagnosis:
@@ -572,21 +622,46 @@ EXERCISES = (
     Exercise(
         "04c",
         _feed,
-        _judge_hysteresis,
-        "a calm monitor, alone",
-        4,
+        _judge_means,
+        "the mean of five readings",
+        1,
         (
-            ("Do one thing at a time, and check in between: first the mean, then the status."),
+            "The node needs a memory: a list in self, which begins empty. Each reading goes into "
+            "it.",
             (
                 "Keep the readings in a list. readings[-5:] is its last five items, "
                 "or all of them if there are fewer."
             ),
+        ),
+        draw=draw_hysteresis,
+    ),
+    Exercise(
+        "04d",
+        _feed,
+        _judge_hysteresis,
+        "a status with two limits",
+        2,
+        (
             "The status needs a memory: self.status. Find the new one from the reading and from "
-            "the old one, and publish it only if they differ.",
+            "the old one.",
             (
                 "Test for High and Low first: they don't depend on the old status. "
                 "Then test whether a High or a Low has come back far enough."
             ),
+        ),
+        draw=draw_hysteresis,
+    ),
+    Exercise(
+        "04e",
+        _feed,
+        _judge_changes,
+        "a calm monitor",
+        1,
+        (
+            "Your node already finds the new status. What does it still know of the old one at "
+            "that moment?",
+            "Find the new status and keep it in a variable of its own first. Publish it only if "
+            "it differs from self.status, and then store it there.",
         ),
         draw=draw_hysteresis,
     ),

@@ -1,108 +1,131 @@
-"""Page 06, build, source, run: a second monitor by another name, and links instead of copies."""
+"""Page 06, build, source, run: a change that has no effect yet, and links instead of copies."""
 
 from __future__ import annotations
 
-import re
+import ast
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from rosbeat.diagnosis.mistakes import UNKNOWN, Diagnosis
-from rosbeat.diagnosis.packages import diagnose_flaw
+from rosbeat.diagnosis.mistakes import Diagnosis
+from rosbeat.diagnosis.packages import diagnose_flaw, parse
 from rosbeat.exercises.exercise import Exercise, Verdict, not_attempted, passed
-from rosbeat.exercises.scenarios import (
-    Answer,
-    TypedIn,
-    Workspace,
-    look_at_terminal,
-    look_at_workspace,
-)
-from rosbeat.exercises.workspace_model import alike, diagnose_script, diagnosis_of
+from rosbeat.exercises.model import spelling
+from rosbeat.exercises.scenarios import Answer, Workspace, look_at_workspace
+from rosbeat.exercises.workspace_model import FLAW_HINTS, alike, diagnose_script
 from rosbeat.workspace.packages import Package
-from rosbeat.workspace.place import workspace
 
-# 06a, one more monitor: what a terminal has run, and what its node has said.
+_PACKAGE = "sensor_simulator"
 
-_NAME = "second_monitor"
-#: How the commands begin whose outcome is looked at.
-_RUN = "ros2 run"
-#: As ROS prints a log line, with a stamp or without: [INFO] [1732212345.123] [name]: text.
-_LOG = re.compile(r"^\[[A-Z]+\] (?:\[[\d.]+\] )?\[([\w./]+)\]: (.*)", re.MULTILINE)
-_SENSOR = "Publishing"
+# 06a, change the code: what the monitor's file says, and what its installed copy says.
+
+_MONITOR, _SENSOR = "temperature_subscriber.py", "temperature_publisher.py"
+_OLD, _NEW = "Temperature Monitor Node Started", "Temperature Monitor Version 2"
 
 
-def _look_at_run(answer: Answer) -> TypedIn:
-    return look_at_terminal(answer, workspace(), _RUN)
+@dataclass(frozen=True)
+class CodeChange:
+    """Record the texts that are written in the monitor's file, and in files beside it.
 
-
-def _judge_monitor(seen: TypedIn) -> Verdict:
-    runs = [text for _, text in seen.commands if _RUN in text]
-    if not runs:
-        # Nothing was run: perhaps because what was typed was not a command.
-        typed = seen.commands[-1][1] if seen.commands else ""
-        meaning = diagnosis_of(seen.meaning)
-        if meaning and alike(typed[: len(_RUN)], _RUN):
-            return meaning
-        return not_attempted("Nothing has been run in this terminal yet.")
-    # What the nodes have said since a command was typed for the last time.
-    said = _LOG.findall(seen.text.rpartition(runs[-1])[2])
-    heard = [text for name, text in said if name == _NAME]
-    if any(re.search(r"\d", text) and not text.startswith(_SENSOR) for text in heard):
-        return passed(f"{_NAME} hears what the first monitor hears.")
-    if heard:
-        return _diagnose_silence(heard)
-    if said:
-        names = ", ".join(sorted({name for name, _ in said}))
-        mistake, hint = _diagnose_renaming(runs[-1])
-        evidence = f"The node that runs here is called {names}."
-        return Diagnosis(mistake, evidence, hint)
-    evidence = f"No node has started here. The last line typed: {runs[-1]}"
-    hint = "After ros2 run come two names: the package, and the executable from setup.py."
-    return diagnosis_of(seen.meaning) or Diagnosis(UNKNOWN, evidence, hint)
-
-
-def _diagnose_silence(said: list[str]) -> Diagnosis:
-    if any(text.startswith(_SENSOR) for text in said):
-        return Diagnosis(
-            "other-executable",
-            f"{_NAME} runs and has heard nothing: it publishes.",
-            ("Start a second monitor. Which of the two executables is the monitor?"),
-        )
-    return Diagnosis(
-        "nobody-publishes",
-        f"{_NAME} runs and has heard nothing.",
-        "Is the sensor still running in its own terminal? Look there with %terminal sensor.",
-    )
-
-
-_RENAME = (
-    "After `--ros-args`, write `-r`, then `__node` with two underscores, then `:=` and the name."
-)
-
-
-def _diagnose_renaming(command: str) -> tuple[str, str]:
-    """Return the mistake in how a command renames its node, and a hint.
-
-    The command itself tells it, and its node no more than a name: there is nothing to simulate.
+    Attributes:
+        package: The package, or None.
+        source: The texts in the file, comments and docstrings left out.
+        other: Those in the sensor's file.
+        copies: Those in the copies of the monitor's file that colcon has installed.
     """
-    for_ros = command.partition("--ros-args")[2]
-    given = re.findall(r"__(?:node|name):=[\"']?([^\s\"']*)", for_ros)
-    if not given and (for_ros or "__node:=" not in command):
-        return ("option-misspelled" if "node" in for_ros else "not-renamed"), _RENAME
-    if not re.search(r"(?<!\S)(-r|--remap)\s", for_ros):
-        # Behind `--ros-args` the option alone is missing; without it, both are.
-        return "option-missing", f"An option is missing. {_RENAME}"
-    if given[-1] == _NAME:
-        return "option-misspelled", f"Before `__node`, no other name is needed. {_RENAME}"
-    said = f"is {given[-1]}" if given[-1] else "is missing"
-    return (
-        "wrong-node-name",
-        f"The option is right. The name behind `:=` {said}, and {_NAME} was asked for: compare "
-        "letter by letter.",
+
+    package: Package | None = None
+    source: tuple[str, ...] = ()
+    other: tuple[str, ...] = ()
+    copies: tuple[str, ...] = ()
+
+
+def look_at_change(answer: Answer) -> CodeChange:
+    """Read what the monitor's file says in src, and in install.
+
+    Args:
+        answer: The folder of the workspace; `workspace.folder()` on a page.
+
+    Raises:
+        ExerciseError: If that is no folder.
+    """
+    package = look_at_workspace(answer).packages.get(_PACKAGE)
+    if package is None:
+        return CodeChange()
+    root = Path(answer)
+    modules = root / package.folder / _PACKAGE
+    installed = sorted(root.glob(f"install/**/site-packages/{_PACKAGE}/{_MONITOR}"))
+    copies = tuple(text for path in installed for text in _texts(path))
+    return CodeChange(package, _texts(modules / _MONITOR), _texts(modules / _SENSOR), copies)
+
+
+def _texts(path: Path) -> tuple[str, ...]:
+    """Return the texts that are written in a file of Python; none if it cannot be read."""
+    try:
+        nodes = [*ast.walk(parse(path.read_bytes()))]
+    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return ()
+    docstrings = {id(one.value) for one in nodes if isinstance(one, ast.Expr)}
+    constants = (
+        one for one in nodes if isinstance(one, ast.Constant) and id(one) not in docstrings
     )
+    return tuple(one.value for one in constants if isinstance(one.value, str))
+
+
+def _judge_change(seen: CodeChange) -> Verdict:
+    if seen.package is None:
+        return not_attempted(f"There is no package {_PACKAGE} in src yet.")
+    if seen.package.flaws:
+        flaw = seen.package.flaws[0]
+        found = diagnose_flaw(flaw)
+        return Diagnosis(found.mistake, found.evidence, FLAW_HINTS[flaw.kind])
+    if _NEW in seen.source and _OLD not in seen.source:
+        return passed(f"The file in src says {_NEW!r}{_about_copies(seen)}.")
+    return _diagnose_change(seen)
+
+
+def _about_copies(seen: CodeChange) -> str:
+    installed = seen.package.installed if seen.package else None
+    if installed is None:
+        return ""
+    if installed.linked:
+        return ", and install is a link to it"
+    if _OLD in seen.copies:
+        return f", and its copy in install still says {_OLD!r}"
+    return ", and so does its copy in install"
+
+
+def _diagnose_change(seen: CodeChange) -> Verdict:
+    if _NEW in seen.source:
+        hint = "Replace the old text; don't add a second one."
+        return Diagnosis("wrong-word", f"The file in src says {_OLD!r}, too.", hint)
+    if _NEW in seen.copies:
+        return Diagnosis(
+            "edited-in-install",
+            "The copy in install has the new text, and the file in src has the old one.",
+            "Your code is in src; the next build replaces what is in install.",
+        )
+    if _NEW in seen.other:
+        return Diagnosis(
+            "other-file",
+            f"{_SENSOR} has the new text, and {_MONITOR} has the old one.",
+            "The monitor is the program that subscribes.",
+        )
+    if _OLD in seen.source:
+        return not_attempted(f"The monitor's file in src still says {_OLD!r}.")
+    said = [one for one in seen.source if " " in one and alike(one, _NEW)]
+    if not said:
+        return Diagnosis(
+            "nothing-logged",
+            "The text that the monitor logs at its start is gone.",
+            f"Only the end of {_OLD!r} changes.",
+        )
+    evidence = f"The file in src says {said[0]!r}; {_NEW!r} was asked for."
+    hint = spelling(said[0], [_NEW]) or "Compare the two, letter by letter."
+    return Diagnosis("wrong-word", evidence, hint)
 
 
 # 06b, link instead of copy: how the package is installed.
-
-_PACKAGE = "sensor_simulator"
 
 
 def _judge_links(seen: Workspace) -> Verdict:
@@ -145,13 +168,14 @@ def _diagnose_build(seen: Workspace, package: Package) -> Diagnosis | None:
 EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "06a",
-        _look_at_run,
-        _judge_monitor,
-        title="one more monitor",
+        look_at_change,
+        _judge_change,
+        title="change the code",
         hints=(
-            ("The second monitor is the same program as the first one, started once more."),
-            "`ros2 run` takes two names: the package and the executable.",
-            "Look at the command in the terminal `monitor`.",
+            "`sed -i 's/old/new/' file` replaces the first text by the second one, wherever it is "
+            "in a line.",
+            "The new text ends with a number. Compare it with the text above, with its capital "
+            "letter and its space.",
         ),
     ),
     Exercise(

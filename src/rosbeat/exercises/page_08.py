@@ -1,4 +1,4 @@
-"""Page 08, tune quality of service: the last word waits, listen to everybody, silence is news.
+"""Page 08, tune quality of service: the last word waits, listen to everybody, missed deadlines.
 
 The scenarios know only what they feed. What a right node makes of it, and what a node makes of it
 whose author misunderstood something, is simulated by the judges.
@@ -24,7 +24,6 @@ from rosbeat.exercises.model import (
     Track,
     agree,
     diagnose,
-    diagnose_words,
     grouped,
     samples_on,
     spelling,
@@ -479,11 +478,10 @@ def _diagnose_order(kept: Sequence[float], fed: Sensors) -> Diagnosis | None:
     return None
 
 
-# 08c, silence is news: readings that stop for a while.
+# 08c, missed deadlines: readings that stop for a while.
 
-_TEMPERATURE, _HEALTH = Wire("/temperature", _FLOAT), Wire("/health", _STRING)
-LOST, BACK = "lost", "back"
-#: The deadline that the sensor offers, in seconds: no longer silence is none.
+_TEMPERATURE, _MISSED = Wire("/temperature", _FLOAT), Wire("/missed", "std_msgs/msg/Int32")
+#: The deadline that the sensor offers, in seconds.
 LIMIT = 2.0
 #: How late a node may be that looks at a clock now and then, and any other, in seconds.
 _LATE, _EXACT = 0.45, 1e-6
@@ -527,73 +525,52 @@ def _run_watchdog(answer: Answer, fed: Silences) -> Observation:
     return observe(answer, fed.end, steps=publishing(_TEMPERATURE, readings, qos))
 
 
-#: Whether a word is worth a message, from the last word, the word and the deadlines missed so far.
-_IsWorthIt = Callable[[str, str, int], bool]
+#: What is published at a missed deadline, from how many were missed in a row, and in all.
+_Number = Callable[[int, int], "int | None"]
 
 
 def _watch(
     fed: Silences,
-    is_news: _IsWorthIt = lambda last, word, _: word != last,
+    number: _Number = lambda in_a_row, _: in_a_row,
     limit: float = LIMIT,
-    last: str = BACK,
-    publishes: Sequence[str] = (LOST, BACK),
     restarts: bool = True,
+    at_readings: bool = False,
 ) -> Track:
-    """Return the messages of a watchdog, by number; `last` is the word that it remembers.
+    """Return the messages of a watchdog, by their order.
 
-    Its time limit begins anew with each reading, or never `restarts`.
+    Its time limit begins anew with each reading, or never `restarts`. `at_readings` it publishes 0.
     """
     spans = pairwise([*fed.times, fed.end]) if restarts else [(0.0, fed.end)]
     misses = [
-        (begin + limit * (number + 1), LOST)
+        (begin + limit * (count + 1), True)
         for begin, end in spans
-        for number in range(int((end - begin - _EXACT) / limit))
+        for count in range(int((end - begin - _EXACT) / limit))
     ]
-    signals = sorted([*misses, *((at, BACK) for at in fed.times)], key=lambda one: one[0])
-    said: list[_Word] = []
-    for number, (at, word) in enumerate(signals):
-        missed = sum(earlier == LOST for _, earlier in signals[: number + 1])
-        if is_news(last, word, missed):
-            last = word
-            said += [(at, word)] if word in publishes else []
-    return {number: (one,) for number, one in enumerate(said)}
+    in_a_row, said = 0, []
+    signals = sorted([*misses, *((at, False) for at in fed.times)], key=lambda one: one[0])
+    for at, is_miss in signals:
+        in_a_row = in_a_row + 1 if is_miss else 0
+        in_all = sum(missed for earlier, missed in signals if earlier <= at)
+        found = number(in_a_row, in_all) if is_miss else 0 if at_readings else None
+        said += [] if found is None else [(at, found)]
+    return {order: (one,) for order, one in enumerate(said)}
 
 
-_REMEMBER = "The node has to remember its last message, and publish only a different one."
-_EACH = "It has to notice each silence, and the end of each. What does it remember?"
-_DUE = f"{LOST!r} is due when nothing has come for {LIMIT:g} s."
+_DUE = f"A deadline is missed when nothing has come for {LIMIT:g} s."
 _RESTART = f"{_DUE} Whatever measures the silence must start again at each reading."
-_FIRST = f"Only what was lost can be back. What does the node know before its first {LOST!r}?"
-_EVENTS = "The event repeats after each further period of silence."
-_NO_END = f"{BACK!r} has to be published, too, before {LOST!r} is news again."
-_ONLY_END = f"{BACK!r} is the end of {LOST!r}, and only of that."
-_TOTAL = "total_count is never reset: it keeps counting from one silence to the next."
-_SECOND = f"{_DUE} How long has it been silent when a later event comes?"
-
-
-def _always_lost(last: str, word: str, _: int) -> bool:
-    return LOST in (word, last)
-
-
-def _once_ever(last: str, word: str, missed: int) -> bool:
-    return word != last and missed == 1
-
-
-def _from_the_second(last: str, word: str, missed: int) -> bool:
-    return word != last and missed > 1
-
+_EVENTS = "The event repeats after each further period of silence, and each one counts."
+_TOTAL = "A reading starts the count again. The event's total_count is never reset."
+_IN_A_ROW = "How many have been missed in a row? Each further one is one more."
+_FROM_ONE = "The first missed deadline is number 1: count first, and then publish."
+_NO_NEWS = "Publish nothing at a reading: only a missed deadline is worth a message."
 
 WATCHDOGS = variants(_watch, (
-    ("status-repeated", f"{_EVENTS} {_REMEMBER}", {"is_news": _always_lost}),
-    ("status-repeated", _NO_END, {"publishes": (LOST,)}),
-    ("back-too-often", _ONLY_END, {"is_news": lambda last, word, _: BACK in (word, last)}),
-    ("back-too-often", f"{_ONLY_END} {_REMEMBER}", {"is_news": lambda *_: True}),
-    ("wrong-start", _FIRST, {"last": LOST}),
-    ("change-missing", _EACH, {"is_news": lambda last, word, _: last != LOST == word}),
-    ("change-missing", _TOTAL, {"is_news": _once_ever}),
-    ("wrong-deadline", _SECOND, {"is_news": _from_the_second}),
+    ("wrong-values", _TOTAL, {"number": lambda _, in_all: in_all}),
+    ("wrong-values", _IN_A_ROW, {"number": lambda *_: 1}),
+    ("wrong-values", _FROM_ONE, {"number": lambda in_a_row, _: in_a_row - 1}),
+    ("change-missing", _EVENTS, {"number": lambda in_a_row, _: 1 if in_a_row == 1 else None}),
+    ("alert-too-many", _NO_NEWS, {"at_readings": True}),
     ("wrong-deadline", _RESTART, {"restarts": False}),
-    ("status-repeated", f"{_REMEMBER} {_RESTART}", {"is_news": _always_lost, "restarts": False}),
 ))  # fmt: skip
 
 
@@ -608,65 +585,60 @@ _WITH_A_LATE_DEADLINE = (*WATCHDOGS, *deadline_suspects([QoS(deadline_ns=3 * NAN
 
 
 def _judge_watchdog(observation: Observation, fed: Silences) -> Verdict:
-    silences = sum(one[0][1] == LOST for one in _watch(fed).values())
+    numbers = [one[0][1] for one in _watch(fed).values()]
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or _unmeasured(observation)
-        or diagnose_unpublished(observation, _HEALTH)
-        or diagnose_words(observation, _HEALTH, (LOST, BACK))
+        or diagnose_unpublished(observation, _MISSED)
         or _diagnose_watch(observation, fed)
         or passed(
-            f"{len(fed.times)} readings, {silences} silences: {LOST!r} once in each of them, and "
-            f"{BACK!r} once after each that ended."
+            f"{len(fed.times)} readings, {len(numbers)} missed deadlines, {max(numbers)} of them "
+            "in a row."
         )
     )
 
 
 def _diagnose_watch(observation: Observation, fed: Silences) -> Diagnosis | None:
-    said = [(one.time, str(one.value)) for one in samples_on(observation, _HEALTH)]
+    said = [(one.time, one.value) for one in samples_on(observation, _MISSED)]
     asks = [end.qos for end in _ends(observation, _TEMPERATURE, "subscription")]
     mine = [one for one in observation.callbacks if one.node == observation.subject]
     late = _LATE if any(one.kind == "timer" for one in mine) else _EXACT
 
-    def in_time(found: _Word, due: _Word) -> bool:
+    def in_time(found: tuple[float, Any], due: tuple[float, Any]) -> bool:
         return found[1] == due[1] and due[0] - _EXACT <= found[0] <= due[0] + late
 
     def describe(mismatch: Mismatch) -> Diagnosis:
-        found = _describe_word(mismatch, fed)
+        found = _describe_number(mismatch, late)
         deadline = next((_seconds(qos.deadline_ns) for qos in asks if qos.deadline_ns), "")
         own = f" Your subscription has a deadline of {deadline}." if deadline else ""
         return replace(found, evidence=found.evidence + own)
 
-    done: Track = {number: (one,) for number, one in enumerate(said)}
+    done: Track = {order: (one,) for order, one in enumerate(said)}
     watchdogs = [*WATCHDOGS, *deadline_suspects(asks)]
     return diagnose(fed, done, _watch(fed), watchdogs, describe, in_time)
 
 
-def _describe_word(mismatch: Mismatch, fed: Silences) -> Diagnosis:
+def _describe_number(mismatch: Mismatch, late: float) -> Diagnosis:
     """Describe the first message that is not as it should be."""
-    number = mismatch.at + 1
-    (at, word), (due, wanted) = (
-        (said or ((0.0, ""),))[0] for said in (mismatch.done, mismatch.right)
-    )
-    if not word:
-        evidence = f"{wanted!r} was due at {due:g} s, and the node did not say it."
-        return Diagnosis("change-missing", evidence, _EACH)
-    evidence = f"Message {number} on /health was {word!r}, at {at:g} s; "
-    evidence += f"{wanted!r} was due, at {due:g} s." if wanted else "nothing more was due."
-    if at < fed.times[0]:
-        hint = "Before the first reading nothing has been lost yet, and nothing is back."
-        return Diagnosis("wrong-start", evidence, hint)
-    if word == BACK and not wanted:
-        hint = "When does each of your callbacks run?"
-        return Diagnosis("alert-too-many", evidence, hint)
-    if word != wanted:  # the two words take turns
-        if number == 1:
-            return Diagnosis("wrong-start", evidence, _FIRST)
-        return Diagnosis("status-repeated", evidence, _REMEMBER)
-    if word == BACK:
-        hint = "The first reading ends the silence. Which callback is called then?"
-        return Diagnosis("wrong-rate", evidence, hint)
+    if not mismatch.done:
+        ((due, wanted),) = mismatch.right
+        evidence = f"A deadline was missed at {due:g} s, the {_nth(wanted)} in a row, and nothing "
+        return Diagnosis("change-missing", f"{evidence}was published.", _EVENTS)
+    ((at, number),) = mismatch.done
+    evidence = f"Message {mismatch.at + 1} on /missed was {number}, at {at:g} s; "
+    if not mismatch.right:
+        return Diagnosis("alert-too-many", f"{evidence}nothing more was due.", _NO_NEWS)
+    ((due, wanted),) = mismatch.right
+    evidence += f"{wanted} was due, at {due:g} s."
+    if due - _EXACT <= at <= due + late:
+        return Diagnosis("wrong-values", evidence, _IN_A_ROW)
+    if at > due and number != wanted:
+        return Diagnosis("change-missing", evidence, _EVENTS)
     return Diagnosis("wrong-deadline", evidence, _RESTART if at < due else _DUE)
+
+
+def _nth(number: int) -> str:
+    return {1: "first", 2: "second", 3: "third"}.get(number, f"{number}th")
 
 
 def _unmeasured(observation: Observation) -> Diagnosis | None:
@@ -674,7 +646,7 @@ def _unmeasured(observation: Observation) -> Diagnosis | None:
 
     It said nothing, and all silent models are alike. So this reads what the node has made.
     """
-    if samples_on(observation, _HEALTH):
+    if samples_on(observation, _MISSED):
         return None
     mine = [end for end in observation.graph.endpoints if end.node == observation.subject]
     calls = [one for one in observation.callbacks if one.node == observation.subject]
@@ -751,21 +723,19 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "08c",
         _run_watchdog,
         _judge_watchdog,
-        "silence is news",
+        "missed deadlines",
         3,
         (
             (
                 "You need three things: a deadline in the QoS of the subscription, a "
-                "callback for its event, and a variable that holds the last word."
+                "callback for its event, and a variable that counts."
             ),
             (
                 "QoSProfile takes deadline=Duration(...). Pass the method, without "
                 "parentheses, as SubscriptionEventCallbacks(deadline=...)."
             ),
-            (
-                "Both methods are called again and again. self.word holds the last "
-                "word: publish only a different one, and then store it."
-            ),
+            "The event's total_count goes on from one silence to the next. Your own count begins "
+            "anew with each reading.",
         ),
         draw=draw_silences,
     ),

@@ -1,8 +1,8 @@
 """Page 12, beyond topics: a threshold behind a service, checked parameters, an action.
 
-The monitors of 12a and 12b are judged one request at a time, and the thermostat of 12c one goal at
-a time. A suspect is right up to the point that it is about; what follows from its mistake is left
-open, and stands as `...` in its track.
+The monitors of 12a and 12b are judged one request at a time, and the thermostats of 12c to 12e one
+goal at a time. A suspect is right up to the point that it is about; what follows from its mistake
+is left open, and stands as `...` in its track.
 """
 
 from __future__ import annotations
@@ -567,7 +567,7 @@ def _refused_by_ros(answers: Iterable[_Answer]) -> Diagnosis | None:
     return None
 
 
-# 12c: a thermostat that heats a room to a target, reports, and can be stopped.
+# 12c, 12d, 12e: a thermostat that accepts or rejects, heats and reports, and can be stopped.
 
 
 @dataclass(frozen=True)
@@ -639,6 +639,27 @@ def draw_heating(draw: Draw) -> Heating:
     return Heating(start, goals, goals[-1].at + 10.5 + draw.whole(0, 4, 5))
 
 
+def draw_decisions(draw: Draw) -> Heating:
+    """Draw goals at both limits and on both sides of them, one a second.
+
+    The first one is far from both limits: a node that rejects everything is no matter of limits.
+    """
+    good = (26, 10, draw.whole(15, 11, 17), draw.whole(19, 11, 25), draw.whole(12, 11, 25))
+    bad = (27, 9, draw.whole(99, 28, 120), draw.whole(-3, -20, 0), draw.whole(5, 1, 8))
+    others = draw.shuffled([one for pair in zip(good, bad, strict=True) for one in pair])
+    orders = (draw.whole(22, 18, 25), *others)
+    goals = tuple(Goal(number, 0.5 + number, order) for number, order in enumerate(orders, 1))
+    return Heating(18, goals, goals[-1].at + 1)
+
+
+def draw_goals(draw: Draw) -> Heating:
+    """Draw the goals of a thermostat that cannot be canceled yet."""
+    fed = draw_heating(draw)
+    kept = (one for one in fed.goals if not one.is_canceled)
+    goals = tuple(replace(one, number=number) for number, one in enumerate(kept, 1))
+    return replace(fed, goals=goals)
+
+
 _HEAT, _FIBONACCI = "/heat", "test_msgs/action/Fibonacci"
 
 
@@ -704,27 +725,30 @@ _STOPPED, _RUNS_ON = (lambda goal: goal.is_canceled), (lambda goal: not goal.is_
 _RANGE = "Goals from 10 to 26 make sense. Compare in the callback that decides."
 _TWO_ENDS = "The work can end in two ways. Which call belongs to which?"
 _ALL_READ = "A result holds every temperature that was read since the goal came, in order."
-THERMOSTATS = (
+#: What can be wrong with the decision about a goal, with the work, and with a cancel.
+DECISIONS = (
     _at("nonsense-accepted", _RANGE, Work.DECISION, "accepted", lambda goal: not goal.is_good),
     _at(
         "good-value-refused",
         f"{_RANGE} Does it return one of the two GoalResponses on each way?",
-        Work.DECISION, "rejected", lambda goal: 10 < goal.order < 26,
+        Work.DECISION,
+        "rejected",
+        lambda goal: 10 < goal.order < 26,
     ),
     _at(
         "boundary",
         "Goals from 10 to 26 make sense, 10 and 26 themselves included.",
-        Work.DECISION, "rejected", lambda goal: goal.order in (10, 26),
+        Work.DECISION,
+        "rejected",
+        lambda goal: goal.order in (10, 26),
     ),
+)
+HEATERS = (
+    *DECISIONS,
     _at(
         "never-switched-on",
         "The room only gets warmer after a Bool that is True on /heater.",
         Work.SWITCHED_ON, "no", lambda goal: goal.number == 1,
-    ),
-    _at(
-        "cancel-refused",
-        "An action server refuses to cancel unless a callback of its own accepts.",
-        Work.CANCEL, "refused", _STOPPED,
     ),
     _at(
         "never-ends",
@@ -737,22 +761,11 @@ THERMOSTATS = (
         Work.END, "too late", lambda goal: goal.is_reached,
     ),
     _at(
-        "cancel-ignored",
-        "Accepting a cancel is a promise: the work has to ask its goal handle in each round.",
-        Work.END, "too late", _STOPPED,
-    ),
-    _at(
-        "ends-too-soon", "Is anything left over from the previous goal?",
-        Work.END, "too soon", _STOPPED,
-    ),
-    _at(
         "succeed-forgotten",
         "ROS regards a goal as aborted unless the work says how it ended. Which call says so?",
         Work.STATUS, "ABORTED", _RUNS_ON,
     ),
     _at("wrong-state", _TWO_ENDS, Work.STATUS, "CANCELED", _RUNS_ON),
-    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "ABORTED", _STOPPED),
-    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "SUCCEEDED", _STOPPED),
     _at("result-wrong", "The result has a field for the temperatures, as the feedback has.",
         Work.DEGREES, "none"),
     _at(
@@ -771,6 +784,25 @@ THERMOSTATS = (
         Work.HEATER, "on", lambda goal: goal.is_good),
     _at("left-on", "There is nothing to heat for a goal that is rejected. Where does it switch on?",
         Work.HEATER, "on", lambda goal: not goal.is_good),
+)  # fmt: skip
+THERMOSTATS = (
+    *HEATERS,
+    _at(
+        "cancel-refused",
+        "An action server refuses to cancel unless a callback of its own accepts.",
+        Work.CANCEL, "refused", _STOPPED,
+    ),
+    _at(
+        "cancel-ignored",
+        "Accepting a cancel is a promise: the work has to ask its goal handle in each round.",
+        Work.END, "too late", _STOPPED,
+    ),
+    _at(
+        "ends-too-soon", "Is anything left over from the previous goal?",
+        Work.END, "too soon", _STOPPED,
+    ),
+    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "ABORTED", _STOPPED),
+    _at("cancel-not-reported", _TWO_ENDS, Work.STATUS, "SUCCEEDED", _STOPPED),
 )  # fmt: skip
 
 
@@ -901,18 +933,36 @@ class _Heating:
         return [state for at, state in self._heater if at <= time][-1:] == [True]
 
 
+def _judge_decisions(seen: Observation, fed: Heating) -> Verdict:
+    accepted = sum(one.is_good for one in fed.goals)
+    return (
+        _no_server(seen, "action server", _HEAT, _FIBONACCI)
+        or _wrong_work(seen, fed, [Work.DECISION])
+        or passed(f"Of {len(fed.goals)} goals, {accepted} were accepted and the others rejected.")
+    )
+
+
 def _judge_heating(seen: Observation, fed: Heating) -> Verdict:
+    return _wrong_heating(seen, fed) or passed(
+        f"Heated to {fed.goals[0].order}, with a report each second."
+    )
+
+
+def _judge_thermostat(seen: Observation, fed: Heating) -> Verdict:
     rejected = sum(not one.is_good for one in fed.goals)
+    return _wrong_heating(seen, fed) or passed(
+        f"Heated to {fed.goals[0].order}, with a report each second; stopped when it was "
+        f"canceled; {rejected} goals that make no sense were rejected."
+    )
+
+
+def _wrong_heating(seen: Observation, fed: Heating) -> Diagnosis | None:
     return (
         _no_server(seen, "action server", _HEAT, _FIBONACCI)
         or _blocked(seen, fed)
         or _wrong_work(seen, fed, [Work.DECISION])
         or diagnose_unpublished(seen, _HEATER, hint=_SWITCH)
         or _wrong_work(seen, fed, list(Work))
-        or passed(
-            f"Heated to {fed.goals[0].order}, with a report each second; stopped when it was "
-            f"canceled; {rejected} goals that make no sense were rejected."
-        )
     )
 
 
@@ -991,15 +1041,41 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "12c",
         observe_heating,
+        _judge_decisions,
+        "accept or reject a goal",
+        1,
+        (
+            "`decide` is handed the goal, and returns one of the two values of `GoalResponse`. "
+            "Compare it with the airing.",
+            "Python can compare a number with two limits at once. Are the limits themselves good?",
+        ),
+        draw=draw_decisions,
+    ),
+    Exercise(
+        "12d",
+        observe_heating,
         _judge_heating,
         "heat to a target",
-        4,
+        2,
         (
-            "Two methods are yours. `decide` accepts or rejects a goal with a `GoalResponse`, and "
-            "`heat` does the work. Compare both with the airing: what it counts in seconds, the "
-            "thermostat reads in degrees.",
-            "`await self.reading` gives the next temperature. Read, report, check whether the "
-            "client has canceled, and go on while it is too cold.",
+            "Compare `heat` with the airing: what it counts in seconds, the thermostat reads in "
+            "degrees.",
+            "`await self.reading` gives the next temperature. Read, report, and go on while it is "
+            "too cold.",
+            "Switch the heater on before the loop, and off after it. The loop goes on while there "
+            "is no reading yet, or the newest one is below the target.",
+        ),
+        draw=draw_goals,
+    ),
+    Exercise(
+        "12e",
+        observe_heating,
+        _judge_thermostat,
+        "stop when it is canceled",
+        1,
+        (
+            "`agree` accepts the cancel, but that stops nothing yet: the work has to ask its goal "
+            "handle in each round.",
             (
                 "Whatever ends the work, the heater has to be off afterwards: one "
                 "line after the loop covers both cases."

@@ -142,7 +142,7 @@ TEXT = textwrap.dedent("""\
 def test_each_page_gets_its_part_at_the_same_indentation():
     solution, learner = source.with_answers(TEXT), source.with_blanks(TEXT)
     assert "        x = 1\n        return x\n\n    def g" in solution
-    assert "    def f(self):\n        return ____\n\n    def g" in learner
+    assert "    def f(self):\n        # about 2 lines\n        return ____\n\n    def g" in learner
     assert "---" not in solution + learner
     assert "____" not in solution
     assert "x = 1" not in learner
@@ -153,8 +153,24 @@ def test_blanks_in_place_stand_on_the_lines_of_the_source():
     assert len(masked) == len(lines)
     assert masked.index("        return ____") == lines.index("        # return ____")
     assert [line for line in masked if line] == [
-        line for line in source.with_blanks(TEXT).split("\n") if line
+        line for line in source.with_blanks(TEXT).split("\n") if line and "# about" not in line
     ]
+
+
+@pytest.mark.parametrize(
+    ("answer", "blank", "shown"),
+    [
+        ("x = 1", "x = ____", "x = ____"),
+        ("x = 1\n# Why.\n\n", "x = ____", "x = ____"),
+        ("x = 1\ny = 2", "x = ____\n# y = ____", "x = ____\ny = ____"),
+        ("x = 1\ny = 2\nz = 3", "x = ____", "# about 3 lines\nx = ____"),
+        ("x = 1\n\ny = 2", "# Copy x.\n# ____", "# Copy x.\n# about 2 lines\n____"),
+        ("if x:\n    y = 1\nz = 2", "if x:\n#     ____", "if x:\n    # about 3 lines\n    ____"),
+    ],
+)
+def test_a_blank_with_fewer_lines_than_its_answer_says_how_many_are_wanted(answer, blank, shown):
+    text = f"# --- answer\n{answer}\n# --- blank\n# {blank}\n# --- end"
+    assert source.with_blanks(text) == shown
 
 
 def test_the_source_runs_with_the_answer_in_force():

@@ -13,7 +13,7 @@ BASES = {
     "00a": answers.READER,
     "00b": answers.REPORTER,
     "03a": answers.HUMIDITY,
-    **{name: solution(name) for name in ("03b", "04a", "04b", "04c")},
+    **{name: solution(name) for name in ("03b", "04a", "04b", "04c", "04d", "04e")},
     **{name: solution(name) for name in ("08a", "08b", "08c", "09a", "09b", "09c")},
 }
 _SEND = 'self.alerts.publish(String(data=f"{msg.data:.1f} degrees"))'
@@ -65,9 +65,12 @@ TOLD = [
     ("04b", ('"alert"', '"alerts"'), "The node publishes on /alerts"),
     ("04c", ("[-5:]", "[-4:]"), "of the last five it is 24.001. The last readings were 22, 25.5"),
     ("04c", ("[-5:]", "[-4:]"), "It is the mean of the last 4 readings."),
-    ("04c", ('return "High"', 'return "Normal" if self.status == "Low" else "High"'),
+    ("04d", ("value >= 25.0", "value >= 24.0"), "far enough back"),
+    ("04d", ("String(data=self.status))", "String(data=self.status)) if msg.data else None"),
+     "Publish one status for each reading."),
+    ("04e", ('return "High"', 'return "Normal" if self.status == "Low" else "High"'),
      "Normal was published, and High was due"),
-    ("04c", ("value >= 25.0", "value >= 24.0"), "far enough back"),
+    ("04e", ("value >= 25.0", "value >= 24.0"), "far enough back"),
     ("04a", ("{status}", "None"), "A function that ends without return gives None."),
     ("04a", ("{status}", "{[status]}"), "A list with a word in it is not the word."),
     ("04b", (_SEND, f"{_SEND}\n            return\n        self.alerts."
@@ -80,9 +83,9 @@ TOLD = [
      "5.5 s to 13.5 s."),
     ("08b", ('(Float32, "reading"', '(String, "reading"'),
      "On /reading, your node uses String and the other side Float32."),
-    ("08c", ("seconds=2", "seconds=3"), "'lost', at 9 s; 'lost' was due, at 8 s. Your subscription "
-     "has a deadline of 3 s."),
-    ("08c", ('"lost"', '"Lost"'), "Capitals and spaces count"),
+    ("08c", ("seconds=2", "seconds=3"), "Message 1 on /missed was 1, at 9 s; 1 was due, at 8 s. "
+     "Your subscription has a deadline of 3 s."),
+    ("08c", ("data=self.count", "data=event.total_count"), "total_count is never reset"),
     ("09a", ("timer(3.0", "timer(5.0"), "Lost was due, and the node said lost at 17 s."),
     ("09a", ("timer(3.0", "timer(2.0"), "Nothing was due, and the node said lost at 9.25 s."),
     ("09a", ('self.statuses.publish(String(data="back"))', "pass"),

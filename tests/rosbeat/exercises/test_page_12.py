@@ -8,6 +8,8 @@ import pytest
 from rosbeat.exercises import page_12
 from rosbeat.exercises.model import agree
 from rosbeat.exercises.page_12 import (
+    DECISIONS,
+    HEATERS,
     MONITORS,
     NOT_FILLED,
     NOT_VALIDATED,
@@ -20,8 +22,8 @@ from rosbeat.exercises.registry import EXERCISES
 from rosbeat.records import Observation
 
 #: What the page feeds.
-(BY_SERVICE,), (BY_PARAMETER,), (HEATING,) = (
-    EXERCISES[one].inputs() for one in ("12a", "12b", "12c")
+(BY_SERVICE,), (BY_PARAMETER,), (DECIDED,), (GOALS,), (HEATING,) = (
+    EXERCISES[one].inputs() for one in ("12a", "12b", "12c", "12d", "12e")
 )
 #: What the models of an exercise are fed, the right one, and the suspects.
 MODELS = {
@@ -37,7 +39,9 @@ MODELS = {
         right_monitor,
         [NOT_FILLED, NOT_VALIDATED, *(one for one in MONITORS if one.mistake != "boundary")],
     ),
-    "12c": (HEATING.goals, right_thermostat, THERMOSTATS),
+    "12c": (DECIDED.goals, right_thermostat, DECISIONS),
+    "12d": (GOALS.goals, right_thermostat, HEATERS),
+    "12e": (HEATING.goals, right_thermostat, THERMOSTATS),
 }
 
 #: A good value that is refused may be used or not. A monitor that uses all of them is a special
@@ -82,7 +86,7 @@ def test_a_node_that_does_nothing_fails(exercise):
 @pytest.mark.parametrize("seed", range(100))
 def test_a_goal_is_over_before_the_next_one_and_a_canceled_one_does_not_reach_its_target(seed):
     """The room loses a degree in five seconds, so a right thermostat may take a bit longer."""
-    (fed,) = EXERCISES["12c"].inputs(seed)
+    (fed,) = EXERCISES["12e"].inputs(seed)
     assert (fed.goals != HEATING.goals) == bool(seed)
     first, canceled, *others = fed.goals
     last, warm_until = others[-1], first.at + first.order - fed.start
@@ -93,6 +97,15 @@ def test_a_goal_is_over_before_the_next_one_and_a_canceled_one_does_not_reach_it
     assert all(later.at - one.at >= 2 for one, later in pairwise(others))
     assert sum(one.is_reached for one in others) == 1
     assert fed.seconds - last.at > last.order - coldest + 1
+
+
+@pytest.mark.parametrize("seed", range(100))
+def test_the_step_before_has_the_same_goals_without_the_one_that_is_canceled(seed):
+    (goals,), (all_of_them,) = (EXERCISES[one].inputs(seed) for one in ("12d", "12e"))
+    sent = [(one.at, one.order) for one in all_of_them.goals if one.cancel_after is None]
+    assert [(one.at, one.order) for one in goals.goals] == sent
+    assert [one.number for one in goals.goals] == list(range(1, len(sent) + 1))
+    assert len(all_of_them.goals) == len(sent) + 1
 
 
 def test_a_suspect_leaves_open_what_follows_from_its_mistake():

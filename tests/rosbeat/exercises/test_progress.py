@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from queue import Empty
 from types import SimpleNamespace
@@ -117,15 +117,18 @@ def test_the_file_names_no_time(remembered):
     remembered.change("03a", lambda before: PASSED)
     assert remembered.path.read_bytes() == first
     assert first.decode() == (
-        '{\n "version": 1,\n "exercises": {\n  "03a": {\n   "outcome": "passed",\n'
+        '{\n "version": 2,\n "exercises": {\n  "03a": {\n   "outcome": "passed",\n'
         '   "passed": true,\n   "points": 2,\n   "attempts": 1,\n   "hints": 0,\n'
         '   "answer": false,\n   "mistake": "",\n   "lead": ""\n  }\n }\n}\n'
     )
 
 
+#: The exercises that version 1 of the file had in one, and their steps.
+SPLIT = [("04c", ("04c", "04d", "04e")), ("12c", ("12c", "12d", "12e"))]
 DAMAGED = [
     b"", b"{", b"[]", b"null", b"\xff\xfe", b"{}", b'{"version": 1}', b'{"version": 2}',
-    b'{"version": 1, "exercises": []}', b'{"version": 1, "exercises": {"03a": 3}}',
+    b'{"version": 3, "exercises": {}}', b'{"version": 1, "exercises": []}',
+    b'{"version": 1, "exercises": {"03a": 3}}',
     b"[" * 100_000,
     *(
         f'{{"version": 1, "exercises": {{"03a": {standing}}}}}'.encode()
@@ -141,6 +144,37 @@ def test_what_another_version_has_added_or_left_out_disturbs_nothing(remembered,
     remembered.path.write_text(f'{{"exercises": {{"03a": {standing}, "00a": {{}}}}, "version": 1}}')
     assert remembered.standings() == {"03a": Standing(passed=True, points=2), "00a": Standing()}
     assert told == []
+
+
+def stored_before(path, **standings):
+    """Write a file as version 1 of its form."""
+    path.parent.mkdir(exist_ok=True)
+    text = {name: asdict(one) for name, one in standings.items()}
+    path.write_text(json.dumps({"version": 1, "exercises": text}))
+
+
+@pytest.mark.parametrize(("old", "steps"), SPLIT)
+def test_a_pass_of_an_exercise_that_was_split_is_a_pass_of_each_step(remembered, told, old, steps):
+    passed = Standing("passed", passed=True, points=4, attempts=3, hints=1)
+    stored_before(remembered.path, **{"00a": PASSED, old: passed})
+    remembered.change("03a", one_more)
+    after = dict(remembered.standings())
+    assert (after.pop("00a"), after.pop("03a")) == (PASSED, Standing(attempts=1))
+    assert {name: one.points for name, one in after.items()} == {
+        step: EXERCISES[step].points for step in steps
+    }
+    assert all(replace(one, points=4) == passed for one in after.values())
+    assert sum(one.points for one in after.values()) == 4
+    assert told == []
+
+
+@pytest.mark.parametrize(("old", "steps"), SPLIT)
+def test_attempts_of_an_exercise_that_was_split_are_attempts_of_its_last_step(
+    remembered, old, steps
+):
+    failed = Standing("failed", attempts=2, hints=1, mistake="boundary")
+    stored_before(remembered.path, **{old: replace(failed, lead="Look at the limits.")})
+    assert remembered.standings() == {steps[-1]: failed}
 
 
 @pytest.mark.parametrize("content", DAMAGED)

@@ -31,8 +31,9 @@ def noted(lines):
 TABLES = {
     "04a": ("04a", page_04._each(page_04._state), page_04.FRIDGE_SUSPECTS),
     "04b": ("04b", page_04._alerts(), page_04.ROOM_SUSPECTS),
-    "04c mean": ("04c", page_04._means(), page_04.MEAN_SUSPECTS),
-    "04c status": ("04c", page_04._statuses(), page_04.STATUS_SUSPECTS),
+    "04c": ("04c", page_04._means(), page_04.MEAN_SUSPECTS),
+    "04d": ("04d", page_04._statuses(compares=False), page_04.EACH_SUSPECTS),
+    "04e": ("04e", page_04._statuses(), page_04.STATUS_SUSPECTS),
     "07b": ("07b", page_07._right, page_07._SUSPECT_MONITORS),
     "07b defaults": (
         fed("07b"),

@@ -240,7 +240,7 @@ def test_the_feedback_says_when_there_are_no_points_yet():
     told = Shown(feedback(one_of_each())).text
     assert "Your instructor will look" in told
     assert "04b, raise the alarm: not settled yet. It used more memory than there is." in told
-    assert "04c, a calm monitor, alone: 0.5 of 1." in told
+    assert "04c, the mean of five readings: 0.5 of 1." in told
     assert not one_of_each().is_settled
     assert of("moodle").is_settled
 
