@@ -25,8 +25,6 @@
 # %%
 from rosbeat import check, hint, progress, quiz, workspace
 
-workspace.catch_up("02")
-
 # %% [markdown]
 # ## Create it
 #

@@ -24,8 +24,6 @@
 # %%
 from rosbeat import check, hint, predict, progress, quiz, workspace
 
-workspace.catch_up("05")
-
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # ls

@@ -27,8 +27,6 @@ import signal
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
-workspace.catch_up("06")
-
 # %% [markdown]
 # ## Build
 #

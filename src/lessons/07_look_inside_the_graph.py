@@ -35,7 +35,6 @@ from rosbeat.scenarios.stranger import greenhouse
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
 greenhouse(ros)
 ros.start()
-workspace.catch_up("07")
 
 # %% [markdown]
 # The session joins the domain of your terminals. `greenhouse` adds its nodes to the session, and `start` runs them

@@ -43,8 +43,6 @@ from std_msgs.msg import Float32, Int32, String
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
-workspace.catch_up("05")
-
 # %%
 class TemperatureSensor(Node):
     def __init__(self):

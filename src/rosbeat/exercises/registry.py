@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import sys
 from collections.abc import Callable, Sequence
@@ -29,6 +28,7 @@ from rosbeat.exercises import (
     system,
 )
 from rosbeat.exercises.exercise import Exercise
+from rosbeat.workspace.place import page_number
 
 #: With this page the package is finished; those after it come in any order that `needs` allows.
 _LAST_CORE_PAGE = "06"
@@ -179,18 +179,15 @@ def _offered(page: Page | None) -> Sequence[Exercise[Any]]:
 
 
 #: How a page of the course is called: its number, and words.
-_FILE = re.compile(r"(\d\d)_[^/]*$")
 _ASKED = re.compile(r"""\b(?:check|hint)\(\s*["'](\w+)["']""")
 
 
 def this_page() -> Page | None:
     """Return the page that is open in this kernel; None if that cannot be told.
 
-    Jupyter's server names the notebook in the environment of its kernel. Elsewhere the exercises
-    that the cells so far have asked for tell the page.
+    Where nobody names it, the exercises that the cells so far have asked for tell the page.
     """
-    file = _FILE.search(os.environ.get("JPY_SESSION_NAME", ""))
-    number = file[1] if file else worked_on()[:2]
+    number = page_number() or worked_on()[:2]
     return next((page for page in PAGES if page.number and page.number == number), None)
 
 
