@@ -62,7 +62,7 @@ from rosbeat import check, hint, progress, quiz, workspace
 # The new folder also appears in JupyterLab's file browser on the left, beside your pages. This folder is yours: the
 # course never deletes what you put there.
 #
-# **Predict:** the next cell uses the same terminal. Which folder does it start in?
+# The next cell uses the same terminal. Which folder does it start in?
 
 # %% terminal="one"
 # pwd
@@ -102,7 +102,7 @@ from rosbeat import check, hint, progress, quiz, workspace
 # `-p` is short for *parents*, the folders that contain a folder. With `-p`, `mkdir` creates any missing parent
 # folders, and doesn't complain if a folder already exists.
 #
-# **Predict:** what happens without it?
+# What happens without it?
 
 # %% terminal="one"
 # mkdir resources/maps/kitchen
@@ -198,7 +198,7 @@ check("01b", workspace.terminal("two"))
 # echo "I am $ROBOT"
 
 # %% [markdown]
-# **Predict:** what does terminal `two` print?
+# What does terminal `two` print?
 
 # %% terminal="two"
 # echo "I am $ROBOT"
@@ -224,7 +224,7 @@ check("01b", workspace.terminal("two"))
 #
 # ## What went wrong: one character
 #
-# The tutorial begins with this line. **Predict:** why does it fail?
+# The tutorial begins with this line. Why does it fail?
 
 # %% terminal="one"
 # mkdir /Documents/ROS2_and_RL_Tutorials/
