@@ -147,7 +147,7 @@ class Reader(Node):
 newsroom = Session()
 newsroom.add(Reporter("sports", "Our team won"))
 newsroom.add(Reporter("politics", "The council met"))
-newsroom.add(Reporter("weather", "Sun all day"))
+weather = newsroom.add(Reporter("weather", "Sun all day"))
 newsroom.add(Reader("ana", "sports"))
 newsroom.add(Reader("ben", "weather"))
 newsroom.run(seconds=2)
@@ -204,10 +204,10 @@ newsroom.run(seconds=1)
 # %% [markdown]
 # Cleo reads what is published after she joins. She doesn't get earlier messages.
 #
-# **Does a subscriber need a publisher?** Remove the weather reporter.
+# **Does a subscriber need a publisher?** End the weather reporter.
 
 # %%
-newsroom.remove("weather_reporter")
+weather.destroy_node()
 newsroom.run(seconds=2)
 
 # %% [markdown]

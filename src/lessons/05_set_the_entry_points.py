@@ -83,10 +83,11 @@ from rosbeat import check, hint, progress, quiz, workspace
 # source install/setup.bash
 
 # %% [markdown]
-# `--packages-select` builds one package and ignores the others. Does `ros2 run` find the sensor now?
+# `--packages-select` builds one package and ignores the others. Does `ros2 run` find
+# the sensor now? If it does, `timeout 5` ends it after five seconds.
 
-# %% terminal="build --for 5"
-# ros2 run sensor_simulator temperature_publisher
+# %% terminal="build"
+# timeout 5 ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
 # No. `ros2 run` never looks at your files in `src`, and their permissions make no difference to it.

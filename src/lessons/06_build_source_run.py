@@ -211,7 +211,7 @@ check("06b", workspace.folder())
 # `ros2 pkg create` put three tests into the folder `test`, and `colcon test` runs them. Two of them check the style
 # of your code, and the third, about copyright notices, is skipped.
 
-# %% terminal="build --timeout 120"
+# %% terminal="build"
 # colcon test --packages-select sensor_simulator
 # colcon test-result
 

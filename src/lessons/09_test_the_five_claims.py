@@ -111,10 +111,10 @@ predict("High", monitor.status)
 
 # %% predict=true
 ros = Session(seed=8)
-ros.add(TemperatureSensor)
+sensor = ros.add(TemperatureSensor)
 ros.add(TemperatureMonitor)
 ros.run(seconds=2)
-ros.remove("temperature_sensor")
+sensor.destroy_node()
 ros.run(seconds=5)
 ros.add(TemperatureSensor)
 ros.run(seconds=2)
@@ -415,7 +415,7 @@ predict("[5.5, 3, 3]", [default, two, reentrant])
 # So threads can *wait* at the same time. Can they also *calculate* at the same time, on two cores? The next cell runs
 # the same two sums, first in two threads of one process, and then in two processes. `real` is the time on the clock.
 
-# %% terminal="cores --timeout 60" tags=["nbval-ignore-output"]
+# %% terminal="cores" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE/scripts" && cat > cores.py <<'EOF'
 # import sys, threading
 #
