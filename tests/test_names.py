@@ -1,13 +1,14 @@
 """A learner meets few names that are the course's own: the rest of a page is ROS and Python.
 
-Counted are the names that a page imports from `rosbeat`, the attributes of what they give (sessions,
-terminals, records ...), the options of both, and the commands `%%terminal` and `%%save` with theirs.
+Counted are the names that a page imports from `rosbeat`, the attributes of what they give, such as
+sessions, terminals and records, the options of both, and `%%terminal` and `%%save` with theirs.
 `python tests/test_names.py` lists them, with the pages that use them.
 """
 
 from __future__ import annotations
 
 import ast
+import inspect
 import re
 from collections.abc import Iterator
 from importlib import import_module
@@ -41,8 +42,8 @@ GIVEN = {
 }
 #: The receivers of attributes that are ROS, not the course: messages, and what a client is given.
 FOREIGN = {"self", "msg", "message", "request", "response", "result", "goal", "goal_handle"}
-#: The courses of the pages, and the names that each may use at most.
-MOST = {"course": 200, "electives": 200}
+#: At most so many names, and options of them, on the pages of the tutorial, and on all pages.
+MOST = {"06": (32, 12), "13": (58, 26)}
 
 
 def given() -> frozenset[str]:
@@ -54,7 +55,8 @@ def given() -> frozenset[str]:
             found |= set(module.__all__)
         for name in classes:
             one = getattr(module, name)
-            found |= {*dir(one), *getattr(one, "__annotations__", ())}
+            own = re.findall(r"\bself\.(\w+)(?:: [^=\n]+)? = ", inspect.getsource(one))
+            found |= {*dir(one), *getattr(one, "__annotations__", ()), *own}
     return frozenset(name for name in found if not name.startswith("_"))
 
 
@@ -94,7 +96,7 @@ def _outside_of_nodes(tree: ast.Module | None) -> Iterator[ast.AST]:
 def _is_ours(receiver: ast.expr, foreign: set[str]) -> bool:
     words = set(re.findall(r"\w+", ast.unparse(receiver)))
     root = re.match(r"\w*", ast.unparse(receiver))
-    asked = words & {"get_parameter", "get_clock", "result", "request", "reliability", "durability"}
+    asked = words & {"get_parameter", "get_clock", "result", "request", "offers", "asks"}
     modules = {"rclpy", "time", "random", "math", "sys", "struct", "sqlite3", "subprocess", "os"}
     return not asked and (root is None or root.group() not in foreign | modules)
 
@@ -118,11 +120,6 @@ def names_of(path: Path) -> set[str]:
     return {name for cell in read_lesson(path).cells for name in names_in(cell, ours, known)}
 
 
-def course_of(number: str) -> str:
-    """Return which course a page belongs to."""
-    return "course" if number <= "06" else "electives"
-
-
 def met() -> dict[str, list[str]]:
     """Return the names of the course, each with the pages that use it."""
     found: dict[str, list[str]] = {}
@@ -132,19 +129,40 @@ def met() -> dict[str, list[str]]:
     return found
 
 
-@pytest.mark.parametrize("course", MOST)
-def test_a_learner_meets_few_names_that_are_not_of_ros(course: str) -> None:
-    names = {
-        name: pages for name, pages in met().items() if course in {course_of(one) for one in pages}
-    }
-    assert len(names) <= MOST[course], names
+def until(last: str) -> dict[str, list[str]]:
+    """Return the names on the pages up to one.
+
+    Args:
+        last: The number of that page.
+    """
+    return {name: pages for name, pages in met().items() if pages[0] <= last}
+
+
+def is_option(name: str) -> bool:
+    """Return whether a name is an argument's, or an option of a command."""
+    return name.startswith("--") or name.endswith("=")
+
+
+@pytest.mark.parametrize("last", MOST)
+def test_a_learner_meets_few_names_that_are_not_of_ros(last: str) -> None:
+    found = until(last)
+    options = [name for name in found if is_option(name)]
+    assert len(found) - len(options) <= MOST[last][0], found
+    assert len(options) <= MOST[last][1], options
+
+
+def test_names_are_found_and_those_of_ros_are_not() -> None:
+    names = until("06")
+    assert {"Session", "add", "run", "queue", "seconds=", "returncode", "%%terminal"} <= set(names)
+    assert not {"create_publisher", "spin", "data", "lambda", "observation", "queue_steps"} & set(
+        names
+    )
 
 
 if __name__ == "__main__":
-    table = met()
-    for course in MOST:
-        rows = {n: p for n, p in table.items() if course in {course_of(one) for one in p}}
-        print(f"{course}: {len(rows)} names")
+    for last in MOST:
+        rows = until(last)
+        options = sum(map(is_option, rows))
+        print(f"{len(rows) - options} names and {options} options on the pages up to {last}")
         for name, pages in sorted(rows.items(), key=lambda row: (-len(row[1]), row[0])):
             print(f"  {name:20} {' '.join(pages)}")
-    print(f"all pages: {len(table)} names")
