@@ -416,14 +416,17 @@ check("12c", Thermostat)
 #
 # rclpy.init()
 # node = Node("asker")
-# node.create_service(Trigger, "ask", lambda request, response: response)
 # client = node.create_client(Trigger, "ask")
+#
+# def answer(request, response):
+#     return response
 #
 # def ask():
 #     node.get_logger().info("I ask")
 #     client.call(Trigger.Request())
 #     node.get_logger().info("I know")
 #
+# node.create_service(Trigger, "ask", answer)
 # node.create_timer(0.2, ask)
 # rclpy.spin(node)
 # EOF

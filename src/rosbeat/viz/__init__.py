@@ -1,7 +1,8 @@
 """Draw pictures of what was observed: records in, a `Picture` out.
 
-Every function takes a session, draws from what it has recorded, and needs no ROS. Importing this package does not
-import matplotlib; that happens when a picture is asked for the first time (PEP 562).
+Every function takes a session, draws from what it has recorded, and needs no ROS. Importing this
+package does not import matplotlib; that happens when a picture is asked for the first time
+(PEP 562).
 
 - `graph` shows the nodes, the topics and who talks to whom;
 - `timeline` shows when callbacks ran and which message caused which;
@@ -41,8 +42,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rosbeat.viz.message_flows import message_flow as message_flow
     from rosbeat.viz.graphs import graph as graph
+    from rosbeat.viz.message_flows import message_flow as message_flow
     from rosbeat.viz.picture import Picture as Picture
     from rosbeat.viz.plots import comparison as comparison
     from rosbeat.viz.plots import values as values

@@ -1,4 +1,4 @@
-"""Draw the flow of messages between two processes: two lanes of log lines, an arrow for each message."""
+"""Draw the flow of messages between two processes: two lanes, an arrow for each message."""
 
 from __future__ import annotations
 
