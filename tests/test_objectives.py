@@ -1,10 +1,11 @@
-"""What a page promises is practised on it: each objective names an exercise or a question."""
+"""What a page promises is practised on it: objectives have exercises, predictions an input."""
 
 import re
 from pathlib import Path
 
 import pytest
 
+from rosbeat.authoring.source import read_lesson
 from rosbeat.exercises.questions import QUESTIONS
 from rosbeat.exercises.registry import PAGES
 
@@ -38,3 +39,17 @@ def test_each_objective_is_practised_on_the_page(path):
         assert ids <= exercises | questions
         named += ids
     assert exercises <= set(named)
+
+
+@pytest.mark.parametrize("path", STATED, ids=lambda path: path.stem)
+def test_each_prediction_has_an_input(path):
+    """Whoever is asked to predict finds a blank to fill in before the text goes on."""
+    asked = None
+    for cell in read_lesson(path).cells:
+        if cell.kind == "markdown":
+            assert asked is None, f"line {asked} asks for a prediction, and no cell takes it"
+            asked = cell.line if "**Predict" in cell.source else None
+        elif cell.predict:
+            assert asked, f"line {cell.line} takes a prediction that nobody asked for"
+            asked = None
+    assert asked is None

@@ -69,27 +69,23 @@ ros.run(seconds=3)
 # time**](../docs/glossary.md#virtual-time): its clock jumps straight from one event to the next. A minute takes
 # almost no time, and everybody gets exactly the same result.
 #
-# **Predict:** a second session runs the same thermometer for a whole minute. How many messages does it
-# send? Replace the blank with a number and run the cell. A wrong guess costs nothing.
+# **Predict:** the next cell runs the thermometer on, until a whole minute has passed. How many messages has it sent
+# in that minute? Replace the blank with a number and run the cell. A wrong guess costs nothing.
 
 # %% predict=true
-with Session() as minute:
-    minute.add(Thermometer)
-    minute.run(seconds=60, quiet=True)
-    sent = len(minute.messages("temperature"))
-
+ros.run(seconds=57, quiet=True)
 # --- answer
-predict("60", sent)
+predict("60", len(ros.messages("temperature")))
 # --- blank
-# predict("____", sent)
+# predict("____", len(ros.messages("temperature")))
 # --- end
 
 # %% [markdown]
-# One every second. The `with` statement closes the session at the end of the block. `quiet=True` hides the log
-# lines; the messages are sent all the same, and the session records every one of them.
+# One every second. `quiet=True` hides the log lines; the messages are sent all the same, and the session records
+# every one of them.
 #
-# `ros.messages` returns these records. Here is the first one from your first session: when the message was sent (in
-# seconds), on which topic, by which node, and its value.
+# `ros.messages` returns these records. Here is the first one: when the message was sent (in seconds), on which topic,
+# by which node, and its value.
 
 # %%
 ros.messages("temperature")[0]
@@ -147,19 +143,24 @@ class Reader(Node):
 
 # %% [markdown]
 # You can hand `add` a class, as you did before. If the constructor needs arguments, create the node yourself and
-# hand over the object. `ros.close()` ends the first session.
+# hand over the object. A new session starts with no nodes.
 #
-# **Predict:** there are three reporters and two readers, and nobody reads politics. Which lines appear?
+# **Predict:** there are three reporters and two readers, and nobody reads politics. A reader logs a line for each
+# message it receives. How many lines appear in two seconds?
 
-# %%
-ros.close()
+# %% predict=true
 newsroom = Session()
 newsroom.add(Reporter("sports", "Our team won"))
 newsroom.add(Reporter("politics", "The council met"))
-newsroom.add(Reporter("weather", "Sun all day"))
+weather = newsroom.add(Reporter("weather", "Sun all day"))
 newsroom.add(Reader("ana", "sports"))
 newsroom.add(Reader("ben", "weather"))
 newsroom.run(seconds=2)
+# --- answer
+predict("4", len(newsroom.logs()))
+# --- blank
+# predict("____", len(newsroom.logs()))
+# --- end
 
 # %% [markdown]
 # Ana gets sports, Ben gets the weather, and neither gets anything else. The picture shows why:
@@ -167,14 +168,14 @@ newsroom.run(seconds=2)
 # name: here, `weather` and `/weather` are the same topic.
 
 # %%
-viz.graph(newsroom.graph())
+viz.graph(newsroom)
 
 # %% [markdown]
 # Together, the nodes and their topics form the [**ROS graph**](../docs/glossary.md#ros-graph). Notice that no arrow
 # goes directly from one node to another. Every message goes through a topic.
 
 # %%
-viz.timeline(newsroom.observation())
+viz.timeline(newsroom)
 
 # %% [markdown]
 # Time runs from left to right. Squares are timer callbacks; circles are subscription callbacks. In virtual time,
@@ -208,10 +209,10 @@ newsroom.run(seconds=1)
 # %% [markdown]
 # Cleo reads what is published after she joins. She doesn't get earlier messages.
 #
-# **Does a subscriber need a publisher?** Remove the weather reporter.
+# **Does a subscriber need a publisher?** End the weather reporter.
 
 # %%
-newsroom.remove("weather_reporter")
+weather.destroy_node()
 newsroom.run(seconds=2)
 
 # %% [markdown]
@@ -287,33 +288,38 @@ check("00b", SportsReporter)
 # %% [markdown]
 # ## What went wrong: one letter
 #
-# Dan wants to read sports, too. **Predict:** what does he read?
+# Dan wants to read sports, too. **Predict:** how many lines does he log in the next second?
 
-# %%
+# %% predict=true
 newsroom.add(Reader("dan", "sport"))
 newsroom.run(seconds=1)
+# --- answer
+predict("0", len(newsroom.logs("dan")))
+# --- blank
+# predict("____", len(newsroom.logs("dan")))
+# --- end
 
 # %% [markdown]
-# Nothing, and there's no error message either. That's the price of decoupling: to a subscriber, a topic that nobody
+# None, and there's no error message either. That's the price of decoupling: to a subscriber, a topic that nobody
 # publishes on looks exactly like one on which nothing has been published *yet*. Whenever a node stays silent, ask
 # the session to explain, and look at the graph:
 
 # %%
-why = newsroom.explain("sport")
-print(why)
-viz.graph(why)
+newsroom.explain("sport")
+
+# %%
+viz.graph(newsroom.explain("sport"))
 
 # %% [markdown]
 # Dan subscribes to `/sport`, but the reporter publishes on `/sports`. A dashed arrow means that its topic has only
-# one side. The dashed line between the two boxes points out that their names are almost the same. In the printed
-# text, what is in brackets after the message type is the QoS profile; page 08 explains it.
+# one side. The dashed line between the two boxes points out that their names are almost the same. In the
+# explanation, what is in brackets after the message type is the QoS profile; page 08 explains it.
 #
 # To fix it, add the missing letter.
 
 # %%
 newsroom.add(Reader("dan", "sports"))
 newsroom.run(seconds=1)
-newsroom.close()
 
 # %% [markdown]
 # In a session, adding a node replaces an older node of the same name. On a robot, both would run.

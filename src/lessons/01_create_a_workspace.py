@@ -65,7 +65,7 @@ viz.diagram("01")
 # The new folder also appears in JupyterLab's file browser on the left, beside your pages. This folder is yours: the
 # course never deletes what you put there.
 #
-# **Predict:** the next cell uses the same terminal. Which folder does it start in?
+# The next cell uses the same terminal. Which folder does it start in?
 
 # %% terminal="one"
 # pwd
@@ -105,7 +105,7 @@ viz.diagram("01")
 # `-p` is short for *parents*, the folders that contain a folder. With `-p`, `mkdir` creates any missing parent
 # folders, and doesn't complain if a folder already exists.
 #
-# **Predict:** what happens without it?
+# What happens without it?
 
 # %% terminal="one"
 # mkdir resources/maps/kitchen
@@ -201,7 +201,7 @@ check("01b", workspace.terminal("two"))
 # echo "I am $ROBOT"
 
 # %% [markdown]
-# **Predict:** what does terminal `two` print?
+# What does terminal `two` print?
 
 # %% terminal="two"
 # echo "I am $ROBOT"
@@ -231,7 +231,7 @@ viz.diagram("workspace")
 # %% [markdown]
 # ## What went wrong: one character
 #
-# The tutorial begins with this line. **Predict:** why does it fail?
+# The tutorial begins with this line. Why does it fail?
 
 # %% terminal="one"
 # mkdir /Documents/ROS2_and_RL_Tutorials/

@@ -20,12 +20,11 @@
 # the smallest unit that ROS can build, install and find, and it's what people share: a camera driver is a package,
 # and so is a set of messages.
 #
-# The next cell creates the workspace from the last page if it's missing. If you already have one, it stays as it is.
+# If the workspace from the last page is missing, the course creates it as soon as you open a terminal, and says so. What
+# you have made stays as it is.
 
 # %%
 from rosbeat import check, hint, progress, quiz, viz, workspace
-
-workspace.catch_up("02")
 
 # %%
 viz.diagram("02")
@@ -161,7 +160,7 @@ check("02a", workspace.folder())
 # ls install/sensor_simulator
 
 # %% [markdown]
-# **Predict:** the package is built. Does `ros2` find it now?
+# The package is built. Does `ros2` find it now?
 
 # %% terminal="build"
 # ros2 pkg prefix sensor_simulator
@@ -182,7 +181,7 @@ check("02a", workspace.folder())
 # sheet, so it's called an [**overlay**](../docs/glossary.md#overlay). It adds packages, and leaves those underneath
 # as they are.
 #
-# Sourcing changed this terminal and no other. **Predict:** what does a second terminal say?
+# Sourcing changed this terminal and no other. What does a second terminal say?
 
 # %% terminal="other"
 # ros2 pkg prefix sensor_simulator
@@ -241,7 +240,7 @@ check("02b", workspace.folder())
 # %% [markdown]
 # ## What went wrong: it already exists
 #
-# **Predict:** what happens if you create `sensor_simulator` a second time?
+# What happens if you create `sensor_simulator` a second time?
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE/src"

@@ -17,8 +17,6 @@
 #
 # **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb). To save the node into a
 # package, you also need [create a package](02_create_a_package.ipynb).
-#
-# You'll meet every line of a real sensor node, from the imports to the last line, which starts the program.
 
 # %% [markdown]
 # ## Import what you need
@@ -31,8 +29,7 @@
 # - `random` is part of Python. It makes the temperature fluctuate;
 # - `signal` is part of Python, too. Further down, it presses `Ctrl` + `C` for you.
 #
-# The last line imports what belongs to this course: the session, the pictures, the checks, and your workspace, where
-# you'll save the node. A robot doesn't need that line.
+# The last line imports what belongs to this course. A robot doesn't need it.
 
 # %%
 import random
@@ -42,7 +39,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
+from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
 # %%
 viz.diagram("03")
@@ -61,12 +58,17 @@ class QuietSensor(Node):
         self.get_logger().info("Temperature Sensor Node Started")
 
 # %% [markdown]
-# **Predict:** what does this node say in ten seconds?
+# **Predict:** how many lines does this node log in ten seconds?
 
-# %%
-with Session() as ros:
-    ros.add(QuietSensor)
-    ros.run(seconds=10)
+# %% predict=true
+ros = Session()
+ros.add(QuietSensor)
+ros.run(seconds=10)
+# --- answer
+predict("1", len(ros.logs()))
+# --- blank
+# predict("____", len(ros.logs()))
+# --- end
 
 # %% [markdown]
 # One line, and it comes from the constructor. A node does nothing on its own: something has to call its methods. For
@@ -101,23 +103,20 @@ class SteadySensor(Node):
 # of a message are its [**fields**](../docs/glossary.md#field); `Float32` has only this one. `Float32(data=22.0)`
 # creates and fills a message in one step.
 #
-# **Predict:** the timer starts at zero seconds. At which second is the first message published?
+# **Predict:** the timer starts at zero seconds. How many messages are published in the first half second?
 
 # %% predict=true
-with Session() as ros:
-    ros.add(SteadySensor)
-    ros.run(seconds=4)
-    readings = ros.messages("temperature")
-
-print([(reading.time, reading.value) for reading in readings])
+ros = Session()
+ros.add(SteadySensor)
+ros.run(seconds=0.5)
 # --- answer
-predict("1", readings[0].time)
+predict("0", len(ros.messages("temperature")))
 # --- blank
-# predict("____", readings[0].time)
+# predict("____", len(ros.messages("temperature")))
 # --- end
 
 # %% [markdown]
-# After one full period, not immediately. A timer waits first, and then calls.
+# None. A timer waits for one full period first, and then calls: the first message comes at 1 second.
 #
 # ## Let the temperature fluctuate
 #
@@ -159,13 +158,11 @@ ros.run(seconds=5)
 
 # %% [markdown]
 # Each reading is at most half a degree away from the one before. `seed=8` selects the sequence of random numbers:
-# the same seed always gives the same walk.
-#
-# **Predict:** what does a quarter of an hour look like? Will the walk reach one of its limits?
+# the same seed always gives the same walk. Now let it walk on, until a quarter of an hour has passed:
 
 # %%
 ros.run(seconds=895, quiet=True)
-viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)}, unit="°C")
+viz.values(ros, "temperature", bands={"allowed": (10.2, 28.0)}, unit="°C")
 
 # %% [markdown]
 # The band shows the range that the clamp allows, and the line connects the readings. The walk reaches the upper
@@ -174,18 +171,18 @@ viz.values(ros.observation(), "temperature", bands={"allowed": (10.2, 28.0)}, un
 # The picture was drawn from real messages. Compare the last message with the node's own variable:
 
 # %%
-ros.messages("temperature")[-1].value, sensor.temperature
+ros.messages("temperature")[-1], sensor.temperature
 
 # %% [markdown]
 # They differ in the last digits. Python calculates with 64 bits, but a `Float32` carries only 32, so subscribers
-# receive a rounded number. That's not a mistake: the message type promises no more.
+# receive a rounded number.
 #
 # ## Look at it from outside
 #
 # A publisher doesn't need a subscriber. Here is the graph: a sensor, a topic, and nothing on the other side yet.
 
 # %%
-viz.graph(ros.graph())
+viz.graph(ros)
 
 # %% [markdown]
 # ## Turn the class into a program
@@ -200,7 +197,7 @@ viz.graph(ros.graph())
 # - `Ctrl` + `C` raises `KeyboardInterrupt`. `main` catches it, and `pass` does nothing;
 # - finally, `main` destroys the node and shuts ROS down.
 #
-# `spawn` starts a whole program in a session, as a process of its own. **Predict:** what do you see?
+# `spawn` starts a whole program in a session, as a process of its own.
 
 # %%
 def main(args=None):
@@ -214,25 +211,24 @@ def main(args=None):
     node.destroy_node()
     rclpy.shutdown()
 
-with Session(seed=8) as robot:
-    robot.spawn(main)
+robot = Session(seed=8)
+robot.spawn(main)
 
 # %% [markdown]
 # A `NameError`. The tutorial spells its class in two ways, `TemperatureSensor` and `TemperaturSensor`. Python
 # compares names letter by letter, just as ROS compares topics.
 #
-# The next cell gives the class its second name as well, and presses `Ctrl` + `C` after three seconds.
+# The next cell gives the class its second name as well. After three seconds, it sends the program the signal `SIGINT`,
+# as the terminal does when you press `Ctrl` + `C`.
 #
 # **Predict:** what is the exit code?
 
 # %% predict=true
 TemperaturSensor = TemperatureSensor
 
-with Session(seed=8) as robot:
-    program = robot.spawn(main)
-    robot.run(seconds=3)
-    program.send_signal(signal.SIGINT)
-
+program = robot.spawn(main)
+robot.run(seconds=3)
+program.send_signal(signal.SIGINT)
 # --- answer
 predict("1", program.returncode)
 # --- blank
@@ -295,16 +291,14 @@ if __name__ == "__main__":
 # run as a program, but not if it's imported. They don't call it on this page either, because `main` would spin until
 # you interrupt it; on a page, you use `ros.run(...)` instead.
 #
-# **Predict:** what is the exit code of the program in your file?
+# The cell has also defined this `main` on the page, in place of the tutorial's. **Predict:** what is the exit code of
+# the program now?
 
 # %% predict=true
-file = workspace.folder() / "src/sensor_simulator/sensor_simulator/temperature_publisher.py"
-
-with Session(seed=8) as robot:
-    program = robot.spawn(file)
-    robot.run(seconds=3)
-    program.send_signal(signal.SIGINT)
-
+robot = Session(seed=8)
+program = robot.spawn(main)
+robot.run(seconds=3)
+program.send_signal(signal.SIGINT)
 # --- answer
 predict("0", program.returncode)
 # --- blank
@@ -312,8 +306,7 @@ predict("0", program.returncode)
 # --- end
 
 # %% [markdown]
-# The numbers are the same as before, and the exit code is 0. The code you tried is the code you'll build. The
-# tutorial edits the file with `nano`, an editor; here, you can double-click the file in the file browser.
+# The numbers are the same as before, and the exit code is 0. The tutorial edits the file with `nano`, an editor; here, you can double-click the file in the file browser.
 #
 # **How the data flows:** `main` initializes ROS and creates the node. The node creates its publisher and its
 # timer. Every second, the timer calls `publish_temperature`, which takes a random step, clamps the temperature,
@@ -409,19 +402,24 @@ check("03c", GreenhouseSensor)
 # %% [markdown]
 # ## What went wrong: a number is not a message
 #
-# **Predict:** this sensor publishes the number itself. What happens at the first tick?
+# **Predict:** this sensor publishes the number itself. How many messages does it publish in three seconds?
 
-# %%
+# %% predict=true
 class HastySensor(SteadySensor):
     def publish_temperature(self):
         self.publisher_.publish(self.temperature)
 
-with Session() as ros:
-    ros.add(HastySensor)
-    ros.run(seconds=3)
+ros = Session()
+ros.add(HastySensor)
+ros.run(seconds=3)
+# --- answer
+predict("0", len(ros.messages("temperature")))
+# --- blank
+# predict("____", len(ros.messages("temperature")))
+# --- end
 
 # %% [markdown]
-# **Symptom:** a `TypeError`, and the node stops. **Where to look:** the error itself. It names the line,
+# None. **Symptom:** a `TypeError`, and the node stops. **Where to look:** the error itself. It names the line,
 # what was expected, and what it got. **Cause:** a publisher sends messages of its type, and `22.0` is
 # a plain Python number. **Fix:** create a `Float32` and assign the number to its field `data`.
 #

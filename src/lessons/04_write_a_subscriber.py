@@ -25,8 +25,7 @@ import rclpy
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
-from rosbeat.records import queue_steps
+from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
 # %%
 viz.diagram("04")
@@ -34,7 +33,7 @@ viz.diagram("04")
 # %% [markdown]
 # The first imports are the same as the publisher's. A subscriber has to use the publisher's message type;
 # otherwise, no messages arrive. In a file of its own, the monitor doesn't need `random`; on this page, the sensor
-# does. You'll use `signal`, `String` and `queue_steps` further down.
+# does. You'll use `signal` and `String` further down.
 #
 # ## Bring a sensor
 #
@@ -78,15 +77,20 @@ class Listener(Node):
         self.get_logger().info(f"I heard {msg.data:.2f}")
 
 # %% [markdown]
-# **Predict:** the listener first runs alone for five seconds; then a sensor joins for three. What
-# is logged, and when?
+# **Predict:** the listener first runs alone for five seconds; then a sensor joins for three. How many lines does the
+# listener log?
 
-# %%
-with Session(seed=8) as ros:
-    ros.add(Listener)
-    ros.run(seconds=5)
-    ros.add(TemperatureSensor)
-    ros.run(seconds=3)
+# %% predict=true
+ros = Session(seed=8)
+ros.add(Listener)
+ros.run(seconds=5)
+ros.add(TemperatureSensor)
+ros.run(seconds=3)
+# --- answer
+predict("3", len(ros.logs()))
+# --- blank
+# predict("____", len(ros.logs()))
+# --- end
 
 # %% [markdown]
 # Nothing for five seconds, then one line per second. A publisher is active: its timer drives it. A
@@ -132,40 +136,18 @@ ros.add(TemperatureMonitor)
 ros.run(seconds=4)
 
 # %% [markdown]
-# Four readings, and four times *Normal*. Now count each status over ten minutes, and draw the readings with
-# the three states as bands. `status_of` extracts the status from a log line; you don't need to study it.
+# Four readings, and four times *Normal*. Now let ten minutes pass, and draw the readings with the three states as
+# bands.
 
 # %%
 ros.run(seconds=596, quiet=True)
-
-def status_of(line):
-    return line.text.split("Status:")[-1]
-
-lines = ros.logs("temperature_monitor")[1:]
-statuses = [status_of(line) for line in lines]
-{word: statuses.count(word) for word in ("Low", "Normal", "High")}
-
-# %%
 limits = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
-viz.values(ros.observation(), "temperature", bands=limits, unit="°C")
+viz.values(ros, "temperature", bands=limits, unit="°C")
 
 # %% [markdown]
-# Near a limit, a small step is enough to change the status. *Low*, which begins below 20, would be possible even if
-# the sensor's lower limit were 18.0, as the tutorial probably meant.
-#
-# **Predict:** how often does the status change in these ten minutes? A rough guess is good enough.
-
-# %% predict=true
-changes = sum(a != b for a, b in zip(statuses, statuses[1:]))
-# --- answer
-predict("26", changes, tolerance=5)
-# --- blank
-# predict("____", changes, tolerance=5)
-# --- end
-
-# %% [markdown]
-# 26 changes, although the line crosses a limit for good only a few times. Most of the changes come in groups:
-# the status flickers.
+# Near a limit, a small step is enough to change the status. The line crosses a limit for good only a few times, but
+# the status changes much more often: it flickers. *Low*, which begins below 20, would be possible even if the sensor's
+# lower limit were 18.0, as the tutorial probably meant.
 #
 # ## See the two together
 #
@@ -173,10 +155,10 @@ predict("26", changes, tolerance=5)
 # ellipse on the right, and the sensor wouldn't change at all.
 
 # %%
-viz.graph(ros.graph())
+viz.graph(ros)
 
 # %%
-viz.timeline(ros.observation(), until=3)
+viz.timeline(ros, until=3)
 
 # %% [markdown]
 # Each tick of the sensor's timer sends a message, and the message triggers the monitor's callback.
@@ -187,38 +169,32 @@ viz.timeline(ros.observation(), until=3)
 # What if the monitor is busy for a while? Its messages wait in a [**queue**](../docs/glossary.md#queue), and the 10
 # in `create_subscription` is the length of that queue. The publisher's 10 belongs to another queue, at the
 # publisher; messages for a busy callback wait in the subscriber's queue. `ros.pause` simulates the busy node: it
-# takes no messages until `ros.resume`. The line with `waited` counts the readings, and `seen` stores the run for
-# the picture below.
+# takes no messages until `ros.resume`. Here is the listener again, which logs one line for each reading.
 #
-# **Predict:** the monitor is paused for 15 seconds while the sensor publishes once a second. How
-# many readings does the monitor get when it resumes?
+# **Predict:** the listener is paused for 15 seconds while the sensor publishes once a second. How many readings does
+# it get when it resumes?
 
 # %% predict=true
-with Session(seed=8) as ros:
-    ros.add(TemperatureSensor)
-    ros.add(TemperatureMonitor)
-    ros.pause("temperature_monitor")
-    ros.run(seconds=15)
-    ros.resume("temperature_monitor")
-    ros.run(seconds=0, quiet=True)
-    waited = len(ros.logs("temperature_monitor")) - 1
-    seen = ros.observation()
-
+ros = Session(seed=8)
+ros.add(TemperatureSensor)
+listener = ros.add(Listener)
+ros.pause(listener)
+ros.run(seconds=15)
+ros.resume(listener)
+ros.run(seconds=0)
 # --- answer
-predict("10", waited)
+predict("10", len(ros.logs()))
 # --- blank
-# predict("____", waited)
+# predict("____", len(ros.logs()))
 # --- end
 
 # %% [markdown]
 # Ten. The picture shows the queue. The numbers are readings, and time runs from left to right. In the first 15
-# seconds, each column is one second. Then the monitor resumes and takes ten readings at the same instant, one per
+# seconds, each column is one second. Then the listener resumes and takes ten readings at the same instant, one per
 # column.
 
 # %%
-arrivals = [sample.time_ns for sample in seen.samples]
-takes = [call.time_ns for call in seen.callbacks if call.kind == "subscription"]
-viz.queue(queue_steps(arrivals, takes, depth=10), depth=10)
+viz.queue(ros, "temperature")
 
 # %% [markdown]
 # When the queue is full, each new reading pushes out the oldest one. The depth is a number of messages, not a rate.
@@ -288,12 +264,11 @@ def main(args=None):
     except KeyboardInterrupt:
         pass
 
-with Session(seed=8) as robot:
-    robot.add(TemperatureSensor)
-    program = robot.spawn(main)
-    robot.run(seconds=3)
-    program.send_signal(signal.SIGINT)
-
+robot = Session(seed=8)
+robot.add(TemperatureSensor)
+program = robot.spawn(main)
+robot.run(seconds=3)
+program.send_signal(signal.SIGINT)
 # --- answer
 predict("0", program.returncode)
 # --- blank
@@ -489,8 +464,7 @@ check("04e", CalmMonitor)
 # %% [markdown]
 # ## What went wrong: one pair of parentheses
 #
-# The line that subscribes has one pair of parentheses too many. **Predict:** when does this fail: at the
-# first message, or before?
+# The line that subscribes has one pair of parentheses too many. When does this fail: at the first message, or before?
 
 # %%
 class EagerMonitor(Node):
@@ -502,8 +476,7 @@ class EagerMonitor(Node):
         self.get_logger().info(f"I heard {msg.data:.2f}")
 
 # %% tags=["raises-exception"]
-with Session() as ros:
-    ros.add(EagerMonitor)
+ros.add(EagerMonitor)
 
 # %% [markdown]
 # **Symptom:** the constructor fails, before any message. **Where to look:** the line that the error

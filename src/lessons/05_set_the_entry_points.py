@@ -18,13 +18,11 @@
 # [write a publisher](03_write_a_publisher.ipynb) and [write a subscriber](04_write_a_subscriber.ipynb).
 #
 # The two files are in your package, but nothing marks them as programs yet. For that, `setup.py` needs one entry
-# for each. The next cell creates whatever earlier pages would have left here, unless it's there already. In the
+# for each. If something from an earlier page is missing, the course creates it when the first terminal opens. In the
 # commands below, a star stands for any text.
 
 # %%
-from rosbeat import check, hint, predict, progress, quiz, viz, workspace
-
-workspace.catch_up("05")
+from rosbeat import check, hint, progress, quiz, viz, workspace
 
 # %%
 viz.diagram("05")
@@ -65,12 +63,13 @@ viz.diagram("05")
 
 # %% [markdown]
 # A real node, running on its own. In an ordinary terminal, you'd press `Ctrl` + `C` to stop it. On a page, a
-# command does this for you: `%terminal`, with one percent sign, presses keys instead of typing a command.
+# command does this for you: `%terminal`, with one percent sign, presses keys instead of typing a command. Then `$?`
+# holds the exit code of the last command.
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
-# %%
-workspace.terminal("sensor").exit_code
+# %% terminal="sensor"
+# echo $?
 
 # %% [markdown]
 # Exit code 0: `main` caught the interrupt and cleaned up. A program that doesn't catch it ends with a different exit
@@ -87,11 +86,11 @@ workspace.terminal("sensor").exit_code
 # source install/setup.bash
 
 # %% [markdown]
-# `--packages-select` builds one package and ignores the others. **Predict:** does `ros2 run` find
-# the sensor?
+# `--packages-select` builds one package and ignores the others. Does `ros2 run` find
+# the sensor now? If it does, `timeout 5` ends it after five seconds.
 
-# %% terminal="build --for 5"
-# ros2 run sensor_simulator temperature_publisher
+# %% terminal="build"
+# timeout 5 ros2 run sensor_simulator temperature_publisher
 
 # %% [markdown]
 # No. `ros2 run` never looks at your files in `src`, and their permissions make no difference to it.
@@ -212,22 +211,16 @@ viz.diagram("entry point")
 # %% [markdown]
 # ## What went wrong: a comma is missing
 #
-# Here are two texts, one after the other, without a comma. **Predict:** how many entries does Python see?
+# Here are two entries, one after the other, without a comma between them.
 
-# %% predict=true
-entries = [
+# %%
+[
     "talk = rosie.voice:start"
     "sing = rosie.voice:start"
 ]
-print(entries)
-# --- answer
-predict("1", len(entries))
-# --- blank
-# predict("____", len(entries))
-# --- end
 
 # %% [markdown]
-# One. Python joins two strings if nothing separates them. **Symptom:** colcon stops with *setup() was never
+# Python joins two strings if nothing separates them, so this is only one entry. **Symptom:** colcon stops with *setup() was never
 # called*, which doesn't mention a comma. **Where to look:** the list, line by line. **Cause:** the joined
 # line isn't a valid entry point. **Fix:** put a comma after each entry. Because the build failed, `ros2 run` still
 # starts what was built before.

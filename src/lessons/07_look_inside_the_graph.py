@@ -28,8 +28,8 @@ from rcl_interfaces.msg import Log
 from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
-from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
-from rosbeat.scenarios.stranger import greenhouse
+from rosbeat import Session, check, hint, progress, quiz, viz
+from rosbeat.scenarios.stranger import Lamp, greenhouse
 
 # %%
 viz.diagram("07")
@@ -38,12 +38,10 @@ viz.diagram("07")
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
 greenhouse(ros)
 ros.start()
-workspace.catch_up("07")
 
 # %% [markdown]
 # The session joins the domain of your terminals. `greenhouse` adds its nodes to the session, and `start` runs them
-# in real time. From now on, your terminals see these nodes like any others. The last line creates whatever is still
-# missing in your workspace from earlier pages.
+# in real time. From now on, your terminals see these nodes like any others.
 #
 # ## Which nodes are running?
 
@@ -52,8 +50,7 @@ workspace.catch_up("07")
 
 # %% [markdown]
 # Five nodes. Now start the sensor from your own package as well. Its executable is called `temperature_publisher`.
-#
-# **Predict:** which name will the list show for it?
+# Which name will the list show for it?
 
 # %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE"
@@ -95,27 +92,20 @@ workspace.catch_up("07")
 # `ros2 topic hz` measures how many messages arrive per second. It runs until you stop it, so the next cell only
 # watches until it has printed four averages.
 #
-# **Predict:** the weather station publishes twice a second, and your sensor once. Which rate will it measure?
+# The weather station publishes twice a second, and your sensor once. Which rate will it measure?
 
 # %% terminal="rate --until average --lines 4" tags=["nbval-ignore-output"]
 # ros2 topic hz /temperature
 
-# %% predict=true
-rate = workspace.terminal("rate").text.split("average rate: ")[-1].split()[0]
-for name in ("rate", "sensor"):
-    workspace.terminal(name).ctrl_c(show=lambda line: None)
-
-# --- answer
-predict("3", round(float(rate)))
-# --- blank
-# predict("____", round(float(rate)))
-# --- end
-
 # %% [markdown]
 # Three: `ros2 topic hz` measures the messages that *it* receives, from all publishers together. It doesn't count
-# messages that were lost on the way, and while a topic is silent, it prints nothing. The last cell has also stopped
-# both programs, `hz` and the sensor.
-#
+# messages that were lost on the way, and while a topic is silent, it prints nothing. Stop both programs:
+
+# %% terminal="rate --ctrl-c" tags=["nbval-ignore-output"]
+
+# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
+
+# %% [markdown]
 # ## What belongs to one node?
 #
 # `ros2 node info` looks at the graph from the other side: it lists everything that belongs to one node.
@@ -142,8 +132,7 @@ predict("3", round(float(rate)))
 # The window opens above 25 degrees, and the weather station measures 23. *Double* is the type of a decimal number.
 # The other two parameters come with every node.
 #
-# **Predict:** the next cell sets the parameter twice. Which of the two commands takes effect, and what does the
-# window publish then?
+# The next cell sets the parameter twice. Which of the two commands takes effect, and what does the window publish then?
 
 # %% terminal="look"
 # ros2 param set /window open_above 22
@@ -172,12 +161,11 @@ predict("3", round(float(rate)))
 # ## What a command can't show you
 #
 # Only the process that has a queue knows its depth, so no command can show it. The greenhouse's nodes live in the
-# process of the session, so the session knows. Each `end` is one subscription. Its `qos` holds the settings that it
-# was created with, including the depth.
+# process of the session, so the session knows. The next cell shows the subscriptions on a topic. `qos` holds the
+# settings that each was created with, including the depth.
 
 # %%
-for end in ros.graph().on("/temperature", "subscription"):
-    print(end.node, "keeps", end.qos.depth)
+ros.graph().on("/temperature", "subscription")
 
 # %% [markdown]
 # ## Try it: a system of strangers
@@ -222,14 +210,11 @@ check("07a", findings)
 # If you haven't found everything yet, this section gives some of the answers away.
 #
 # **Symptom:** the lamp warns that it doesn't know how bright it is. It has a subscription, but nothing arrives.
-# **Where to look:** `explain` combines what all the other commands show. Its full report is long: `print(why)`
-# prints it, and so does `rosbeat explain light` in a terminal.
+# **Where to look:** `explain` combines what all the other commands show. Here is its picture;
+# `rosbeat explain light` prints its text in a terminal.
 
 # %%
-why = ros.explain("light", seconds=1)
-print(why.title)
-print(why.diagnoses[0].evidence)
-viz.graph(why)
+viz.graph(ros.explain("light"))
 
 # %% [markdown]
 # **Cause:** the two names differ in one letter. **Fix:** the author corrects the name of the topic. Until then, you
@@ -341,5 +326,4 @@ quiz("07", "c", "a", "b")
 # **Next:** [tune quality of service](08_tune_quality_of_service.ipynb).
 
 # %%
-ros.close()
 progress()

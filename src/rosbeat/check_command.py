@@ -124,7 +124,8 @@ def _checks(notebook: nbformat.NotebookNode) -> dict[str, nbformat.NotebookNode]
 
 def _execute(path: Path, notebook: nbformat.NotebookNode) -> str:
     """Run every cell; return why the rest did not run, or an empty text."""
-    with kernel_place() as place:
+    lesson = notebook.metadata.get("rosbeat", {}).get("lesson", "")
+    with kernel_place(f"{lesson}.ipynb" if lesson else path.name) as place:
         try:
             asyncio.run(_run_cells(notebook, path.resolve().parent, place))
         except DeadKernelError:

@@ -8,12 +8,12 @@ from PIL import Image
 
 from browser.notebook import Notebook, write_notebook
 from rosbeat.records import queue_steps
-from rosbeat.viz import queue
+from rosbeat.viz.queues import of_steps
 
 DRAW = """\
 from rosbeat.records import queue_steps
-from rosbeat.viz import queue
-queue(queue_steps([0] * 4, [1], 3), 3)
+from rosbeat.viz.queues import of_steps
+of_steps(queue_steps([0] * 4, [1], 3), 3)
 """
 PICTURE = "figure.rosbeat-picture img"
 THEMES = ("dark", "light")
@@ -34,7 +34,7 @@ def stored(lab):
     path = lab.root / "stored.ipynb"
     write_notebook(path, DRAW)
     notebook = nbformat.read(path, as_version=4)
-    bundle = queue(queue_steps([0] * 4, [1], 3), 3)._repr_mimebundle_()
+    bundle = of_steps(queue_steps([0] * 4, [1], 3), 3)._repr_mimebundle_()
     output = nbformat.v4.new_output("execute_result", bundle, execution_count=1)
     notebook.cells[0].outputs = [output]
     nbformat.write(notebook, path)

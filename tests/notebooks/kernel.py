@@ -28,12 +28,12 @@ class WatchedKernel(RunningKernel):
         asked: The id of the message that made it run the last cell.
     """
 
-    def __init__(self, cwd: str, startup_timeout: float) -> None:
+    def __init__(self, cwd: str, startup_timeout: float, page: str = "") -> None:
         self.reply: dict[str, Any] = {}
         self.asked = ""
         self._stack = ExitStack()
         # PYTEST_CURRENT_TEST stays behind, and sockets are files: see rosbeat.authoring.execution.
-        self.place = self._stack.enter_context(kernel_place())
+        self.place = self._stack.enter_context(kernel_place(page))
         log = self._stack.enter_context(self.place.log.open("wb"))
         self.km = KernelManager(**self.place.options())
         try:

@@ -46,7 +46,7 @@ class Page(IPyNbFile):
 
     def setup(self) -> None:
         timeout = self.config.option.nbval_kernel_startup_timeout
-        self.kernel = WatchedKernel(str(self.path.parent), timeout)
+        self.kernel = WatchedKernel(str(self.path.parent), timeout, self.path.name)
         self.setup_sanitize_files()
 
     def teardown(self) -> None:

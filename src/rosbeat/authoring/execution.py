@@ -32,6 +32,8 @@ KERNEL_NAME = "python3"
 DISPLAY_NAME = "Python 3 (ipykernel)"
 #: Names the folder of a page's own workspace (`rosbeat.workspace.place` reads it).
 STEADY_HOME = "ROSBEAT_STEADY_HOME"
+#: Names the page in its kernel, as Jupyter's server does (`rosbeat.workspace.place` reads it).
+PAGE = "JPY_SESSION_NAME"
 #: Seconds of wall time that one cell may take.
 CELL_SECONDS = 60.0
 EXPECTED = "raises-exception"
@@ -94,11 +96,14 @@ class KernelPlace:
 
 
 @contextmanager
-def kernel_place() -> Iterator[KernelPlace]:
+def kernel_place(page: str = "") -> Iterator[KernelPlace]:
     """Make the folder and the environment of one kernel, and remove the folder afterwards.
 
     The page gets an empty workspace of its own, and its terminals a ROS domain of their own, so
     that pages which run at the same time do not meet.
+
+    Args:
+        page: The name of the page's file, such as `05_set_the_entry_points.ipynb`.
 
     Raises:
         DomainsExhaustedError: Every private domain id of this machine is taken.
@@ -111,13 +116,14 @@ def kernel_place() -> Iterator[KernelPlace]:
     ) as name:
         lease = lease_domain()
         try:
-            yield KernelPlace(Path(name), _environment(Path(name), lease.domain_id))
+            yield KernelPlace(Path(name), _environment(Path(name), lease.domain_id, page))
         finally:
             lease.release()
 
 
-def _environment(folder: Path, domain_id: int) -> dict[str, str]:
+def _environment(folder: Path, domain_id: int, page: str) -> dict[str, str]:
     environment = {k: v for k, v in os.environ.items() if k not in _DROPPED}
+    environment[PAGE] = page
     # A user's own IPython start-up files would run in every page.
     environment["IPYTHONDIR"] = str(folder / "ipython")
     (folder / "home").mkdir()
@@ -137,7 +143,7 @@ def run_page(page: NotebookNode, folder: Path) -> None:
         LessonError: A cell failed, did not fail although it was to, or took too long.
     """
     run = _Run(page)
-    with kernel_place() as place:
+    with kernel_place(f"{page.metadata.rosbeat.lesson}.ipynb") as place:
         try:
             asyncio.run(run.through(folder, place))
         except (asyncio.CancelledError, *_FAILURES) as error:

@@ -517,11 +517,11 @@ def _remarks(seen: SystemRun) -> Iterator[str]:
 def _draw(seen: SystemRun) -> Picture | None:
     """Return which readings crossed between the two programs; None if none was logged."""
     # Drawing loads matplotlib, which grading does without.
-    from rosbeat.viz.crossings import crossing, first_number
+    from rosbeat.viz.message_flows import first_number, message_flow
 
     if not any(first_number(one.text) for one in seen.sent):
         return None
-    return crossing(seen.sent, seen.taken)
+    return message_flow(seen.sent, seen.taken)
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (

@@ -25,7 +25,7 @@ from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import scenario
 from rosbeat.grading import linux
 from rosbeat.grading.jobs import Job
-from rosbeat.workspace.place import STEADY
+from rosbeat.workspace.place import PAGE, STEADY
 from rosbeat.workspace.place import workspace as workspace_folder
 
 #: The file name of the answer's cell, by which its lines are found.
@@ -171,7 +171,8 @@ def _replayed(job: Job) -> Any:  # noqa: ANN401 - whatever a page hands over
     config.HistoryManager.enabled = False
     shell: Any = InteractiveShell.instance(config=config)
     workspace = import_module("rosbeat.workspace")
-    # The workspace is as the pages before leave it; what makes it is not in here.
+    # The workspace is as the pages before leave it; what makes it is not in here, so no page is.
+    os.environ.pop(PAGE, None)
     workspace.catch_up = StandIn()  # type: ignore[attr-defined]
     workspace.register(shell)
     run_imports(job.imports, shell.user_ns)

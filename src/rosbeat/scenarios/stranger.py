@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from rosbeat.ros import test_nodes
+from rosbeat.ros.test_nodes import Lamp
+
+__all__ = ["Lamp", "greenhouse"]
+
 
 def greenhouse(session: Any) -> None:  # noqa: ANN401 - a Session, which is not imported here
     """Put the five nodes of the greenhouse into a session.
@@ -11,6 +16,4 @@ def greenhouse(session: Any) -> None:  # noqa: ANN401 - a Session, which is not 
     Args:
         session: The session.
     """
-    from rosbeat.ros import test_nodes
-
     test_nodes.add_greenhouse(session)

@@ -1,15 +1,15 @@
 """Draw pictures of what was observed: records in, a `Picture` out.
 
-Every function here but `diagram` draws from records alone, and none needs ROS. Importing this
-package does not import matplotlib; that happens when a picture is asked for the first time (PEP
-562).
+Every function but `diagram` takes a session and draws from what it has recorded, and none needs
+ROS. Importing this package does not import matplotlib; that happens when a picture is asked for the
+first time (PEP 562).
 
 - `graph` shows the nodes, the topics and who talks to whom;
 - `timeline` shows when callbacks ran and which message caused which;
 - `values` shows a topic's numbers over virtual time;
 - `queue` shows a subscription's queue filling, emptying and dropping;
-- `crossing` shows which messages went from one process to another, and which were lost;
-- `differences` shows two runs over each other, and what only one of them has;
+- `message_flow` shows which messages went from one process to another, and which were lost;
+- `comparison` shows two runs over each other, and what only one of them has;
 - `diagram` shows where a page is going, and how folders, packages and programs belong together.
 
 There is one file for each kind of picture, with its words at the end. `theme` is the only place
@@ -38,35 +38,46 @@ a graph.
 
 from __future__ import annotations
 
+import warnings
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rosbeat.viz.crossings import crossing as crossing
     from rosbeat.viz.diagrams import diagram as diagram
     from rosbeat.viz.graphs import graph as graph
+    from rosbeat.viz.message_flows import message_flow as message_flow
     from rosbeat.viz.picture import Picture as Picture
-    from rosbeat.viz.plots import differences as differences
+    from rosbeat.viz.plots import comparison as comparison
     from rosbeat.viz.plots import values as values
     from rosbeat.viz.queues import queue as queue
     from rosbeat.viz.timelines import timeline as timeline
 
-__all__ = ["Picture", "crossing", "diagram", "differences", "graph", "queue", "timeline", "values"]
+__all__ = [
+    *("Picture", "comparison", "diagram", "graph", "message_flow", "queue", "timeline"),
+    "values",
+]
 
 _HOMES = {
     "Picture": "picture",
-    "crossing": "crossings",
+    "comparison": "plots",
     "diagram": "diagrams",
-    "differences": "plots",
     "graph": "graphs",
+    "message_flow": "message_flows",
     "queue": "queues",
     "timeline": "timelines",
     "values": "plots",
 }
+#: Names of an earlier version, and what they are called now.
+_RENAMED = {"crossing": "message_flow", "differences": "comparison"}
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the name
-    """Load a public name when it is first used."""
+    """Load a public name when it is first used; an old name still works, with a warning."""
+    if name in _RENAMED:
+        now = _RENAMED[name]
+        words = f"`viz.{name}` is deprecated: it is called `viz.{now}` now."
+        warnings.warn(words, DeprecationWarning, stacklevel=2)
+        name = now
     if name not in _HOMES:
         raise AttributeError(f"module 'rosbeat.viz' has no attribute {name!r}")
     return getattr(import_module(f"rosbeat.viz.{_HOMES[name]}"), name)

@@ -305,14 +305,14 @@ def _say_range(finite: Sequence[float], tail: str) -> str:
 # Two runs over each other.
 
 
-@called_as("viz.differences(comparison)")
-def differences(
-    comparison: Comparison, field: str | None = None, label: str | None = None, unit: str = ""
+@called_as("viz.comparison(compared)")
+def comparison(
+    compared: Comparison, field: str | None = None, label: str | None = None, unit: str = ""
 ) -> Picture:
     """Draw two runs over each other, and mark what only one of them has.
 
     Args:
-        comparison: What `rosbeat.bags.compare` found.
+        compared: What `rosbeat.bags.compare` found.
         field: Field to draw if messages have several, nested ones with dots.
         label: What the values are; the topic's name by default.
         unit: Unit of the values, such as `°C`.
@@ -324,25 +324,25 @@ def differences(
         PictureError: If it is no comparison, there is no value to draw, or the field is missing or
             not a number.
     """
-    if not isinstance(comparison, Comparison):
+    if not isinstance(compared, Comparison):
         raise PictureError(
-            f"Differences cannot be drawn from {type(comparison).__name__!r}.",
-            "They are drawn from a comparison of two runs.",
-            'Write `viz.differences(compare(one, other, "temperature"))`.',
+            f"A comparison cannot be drawn from {type(compared).__name__!r}.",
+            "It is drawn from two runs that were compared.",
+            'Write `viz.comparison(bags.compare(one, other, "temperature"))`.',
         )
-    missing = _series(comparison.missing, field).where(finite=True)
-    extra = _series(comparison.extra, field).where(finite=True)
-    one = _series([*(first for first, _ in comparison.pairs), *comparison.missing], field)
-    other = _series([*(second for _, second in comparison.pairs), *comparison.extra], field)
+    missing = _series(compared.missing, field).where(finite=True)
+    extra = _series(compared.extra, field).where(finite=True)
+    one = _series([*(first for first, _ in compared.pairs), *compared.missing], field)
+    other = _series([*(second for _, second in compared.pairs), *compared.extra], field)
     odd = other.where(finite=False)
     if not one.finite and not other.finite:
         raise PictureError(
-            f"There is no value to draw on {comparison.topic}.",
+            f"There is no value to draw on {compared.topic}.",
             "Neither run has a message with a finite number there.",
             "Run the sessions for some seconds first, or choose another topic.",
         )
-    name, hollow = label or comparison.topic, theme.CARD
-    first, second = comparison.names
+    name, hollow = label or compared.topic, theme.CARD
+    first, second = compared.names
     entries = (
         (Entry(first, _ONE), one),
         (Entry(second, _OTHER), other),
@@ -362,7 +362,7 @@ def differences(
         foot = low + _AIR / 2 * (high - low)
         _draw_marks(axes, odd.times, [foot] * len(odd.times), _ODD)
     words = f"{sentence_case(name)} of two runs" + (f", in {unit}." if unit else ".")
-    return Picture(canvas.figure, f"{words} {comparison!r}{_say_odd(odd)}", f"{name} compared")
+    return Picture(canvas.figure, f"{words} {compared!r}{_say_odd(odd)}", f"{name} compared")
 
 
 def _draw_marks(

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import itertools
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 from matplotlib.patches import Rectangle
 
 from rosbeat.errors import PictureError, called_as
-from rosbeat.records import QueueStep
+from rosbeat.records import Endpoint, Observation, QueueStep, queue_steps
 from rosbeat.viz import theme
 from rosbeat.viz.canvas import ROOM, Canvas, Entry, blank, text_width
 from rosbeat.viz.picture import Picture
-from rosbeat.viz.words import count, not_shown, ranges, seconds
+from rosbeat.viz.sources import Observed, known_name, observed, topic_names
+from rosbeat.viz.words import count, listing, not_shown, ranges, seconds
 
 #: More moments than this have no room side by side.
 MOST_MOMENTS = 220
@@ -69,13 +72,86 @@ def moments(steps: Sequence[QueueStep]) -> list[Moment]:
 # The picture.
 
 
-@called_as("viz.queue(steps, depth=5)")
-def queue(steps: Sequence[QueueStep], depth: int) -> Picture:
-    """Draw a queue filling, emptying and dropping.
+@called_as('viz.queue(ros, "temperature")')
+def queue(
+    source: Observed | Sequence[QueueStep],
+    topic: str | int | None = None,
+    depth: int | None = None,
+    *,
+    node: str | None = None,
+) -> Picture:
+    """Draw a subscription's queue filling, emptying and dropping.
 
     One column for every moment at which something happened, from left to right; in it the messages
     that wait then, the oldest at the bottom. Moments at the same virtual time stand side by side,
-    since a burst has no width on a time axis.
+    since a burst has no width on a time axis. Every message on the topic counts as one that
+    arrived: the subscription has to be there before the first one.
+
+    Args:
+        source: A session, or what it observed.
+        topic: The topic's name; `temperature` and `/temperature` are the same. None for the only
+            one that has a subscription.
+        depth: Queue length in messages, of steps only; a session knows the length.
+        node: The node that subscribes, if several do.
+
+    Returns:
+        The picture.
+
+    Raises:
+        PictureError: If `source` is no session, the topic has no subscription or several, no
+            message arrived there, or some expired in the queue.
+    """
+    if isinstance(source, Sequence):
+        return _queue_of_steps(source, topic if depth is None else depth)
+    seen = observed(source, "a session")
+    end = _subscription(seen, topic, node)
+    return of_steps(_steps(seen, end), end.qos.depth)
+
+
+def _queue_of_steps(steps: Sequence[QueueStep], depth: object) -> Picture:
+    """Draw from steps, as `viz.queue(steps, depth=5)` did before it drew from a session."""
+    words = "`viz.queue(steps, depth)` is deprecated: `viz.queue(ros, topic)` takes a session."
+    warnings.warn(words, DeprecationWarning, stacklevel=4)
+    return of_steps(steps, depth)
+
+
+def _subscription(seen: Observation, topic: object, node: str | None) -> Endpoint:
+    """Return the one subscription whose queue is drawn."""
+    graph = seen.graph
+    known = [name for name in graph.topics() if graph.on(name, "subscription")]
+    (name, *others) = topic_names(cast("str | None", topic), known) or ("",)
+    ends = graph.on(name, "subscription")
+    if node is not None:
+        wanted = known_name(node, [end.node for end in ends], "subscription of the node")
+        ends = tuple(end for end in ends if end.node == wanted)
+    if len(ends) == 1 and not others:
+        return ends[0]
+    many = [end.node for end in ends] if len(ends) > 1 else known
+    raise PictureError(
+        f"A picture shows the queue of one subscription, and here are {len(many) or 'none'}.",
+        f"Recorded: {listing(many)}." if many else "Nobody subscribes to a topic here.",
+        f'Choose one: `viz.queue(ros, "{name}", node="{ends[0].node}")`.'
+        if len(ends) > 1
+        else "Give the name of a topic: `viz.queue(ros, topic)`.",
+    )
+
+
+def _steps(seen: Observation, end: Endpoint) -> Sequence[QueueStep]:
+    """Replay the queue of a subscription from what was published and which callbacks ran."""
+    calls = [one for one in seen.callbacks if (one.node, one.source) == (end.node, end.name)]
+    if any(one.kind == "expired" for one in calls):
+        raise PictureError(
+            f"The queue of {end.node} for {end.name} cannot be drawn.",
+            "Some messages expired in it: they were older than a lifespan allows.",
+            "Draw the queue of a subscription without a lifespan.",
+        )
+    arrived = [one.time_ns for one in seen.samples if one.topic == end.name and end.matched]
+    taken = [one.time_ns for one in calls if one.kind == "subscription"]
+    return queue_steps(arrived, taken, end.qos.depth)
+
+
+def of_steps(steps: Sequence[QueueStep], depth: object) -> Picture:
+    """Draw the steps of a queue.
 
     Args:
         steps: From `rosbeat.records.queue_steps`.
@@ -88,31 +164,32 @@ def queue(steps: Sequence[QueueStep], depth: int) -> Picture:
         PictureError: If these are no steps, or there are none, or the depth is below 1 or below
             what waited.
     """
-    _check(steps, depth)
+    length = _checked(steps, depth)
     every = moments(steps)
     shown = every[:MOST_MOMENTS]
     note = not_shown(len(every) - len(shown), "later moment")
-    cell = max(3.0, min(_CELL, 264 / depth))
-    height = _HEAD + depth * cell + _FOOT
-    with blank(height, entries=_key(shown, depth), note=note) as canvas:
+    cell = max(3.0, min(_CELL, 264 / length))
+    height = _HEAD + length * cell + _FOOT
+    with blank(height, entries=_key(shown, length), note=note) as canvas:
         grid = _Grid(canvas.bottom + _FOOT, min(_WIDEST, ROOM / len(shown)), cell)
-        _draw(canvas, shown, depth, grid)
-    words = f"{describe(every, depth)} {note}".strip()
+        _draw(canvas, shown, length, grid)
+    words = f"{describe(every, length)} {note}".strip()
     return Picture(canvas.figure, words, "A queue filling and dropping")
 
 
-def _check(steps: Sequence[QueueStep], depth: int) -> None:
+def _checked(steps: Sequence[QueueStep], depth: object) -> int:
+    """Return the depth, if it is one and fits the steps."""
     if not isinstance(steps, Sequence) or not all(isinstance(one, QueueStep) for one in steps):
         raise PictureError(
-            "A picture of a queue is drawn from its steps, and these are none.",
-            "A step is a `QueueStep`: what came, was taken or was dropped at one moment.",
-            "Make them with `queue_steps(arrivals, takes, depth)`.",
+            "A picture of a queue is drawn from a session, and this is none.",
+            "A session has recorded what came, and when the callback took it.",
+            'Give it the session and the topic: `viz.queue(ros, "temperature")`.',
         )
     if not steps:
         raise PictureError(
-            "There are no steps of a queue to draw.",
+            "There is nothing to draw of this queue.",
             "No message arrived, so nothing waited, was taken or was dropped.",
-            "Make them with `queue_steps(arrivals, takes, depth)`.",
+            "Let the session run until messages arrive.",
         )
     longest = max(step.length for step in steps)
     if not isinstance(depth, int) or depth < max(1, longest):
@@ -121,6 +198,7 @@ def _check(steps: Sequence[QueueStep], depth: int) -> None:
             f"In them up to {count(longest, 'message')} wait at once; a depth is at least 1.",
             "Give the same depth as to `queue_steps`.",
         )
+    return depth
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ Nothing here imports rclpy: what runs in a terminal is another process. On a pag
 
     from rosbeat import workspace
 
-    workspace.catch_up("05")        # makes what earlier pages would have made
     workspace.terminal("sensor")    # the terminal of that name
     workspace.folder()              # where the workspace lies
+    workspace.catch_up("05")        # makes what earlier pages leave, as pages do by themselves
 
 Importing it inside IPython registers `%%terminal`, `%terminal` and `%%save`.
 

@@ -34,6 +34,8 @@ _CREATE = (
 )
 _SCRIPTS = [f"{one} = {PACKAGE}.{one}:main" for one in NODES]
 _MAKING, _BUILDING = 120.0, 300.0
+#: The pages whose terminals need something of earlier pages: all that those before this page leave.
+NEEDS = {"02": "02", "05": "05", "06": "06", "07": "07", "09": "05"}
 
 
 @dataclass(frozen=True)
@@ -89,6 +91,21 @@ def catch_up(page: str, root: Path | None = None) -> Report:
         return _through(number, base.resolve())
     except OSError as error:
         raise trouble("The workspace cannot be completed", error) from None
+
+
+def catch_up_on(page: str) -> None:
+    """Make what a page needs, and say in a line what was made or stands in the way.
+
+    Args:
+        page: The page's number, such as `05`.
+
+    Raises:
+        WorkspaceError: If the workspace cannot be written.
+    """
+    if page in NEEDS:
+        report = catch_up(NEEDS[page])
+        if report.made or report.attention:
+            print(report)
 
 
 def _through(number: int, root: Path) -> Report:

@@ -11,6 +11,9 @@ own, and what it prints names no machine and no person.
 from __future__ import annotations
 
 import os
+import re
+import sys
+from contextlib import suppress
 from pathlib import Path
 
 from rosbeat.environment import learners_folder
@@ -23,6 +26,9 @@ SETTING = "ROSBEAT_WORKSPACE_IN"
 #: from everywhere.
 VARIABLE = "ROS2_WORKSPACE"
 STEADY = "ROSBEAT_STEADY_HOME"
+#: Holds the page's file in a kernel that Jupyter's server has started.
+PAGE = "JPY_SESSION_NAME"
+_PAGE_NAME = re.compile(r"(\d\d)_[^/]*$")
 
 
 def steady_home() -> Path | None:
@@ -60,6 +66,36 @@ def is_a_solution(page: Path) -> bool:
     root = course_root()
     places = [root, Path(learners_folder() or root)] if root else []
     return page.resolve().parent in [place / "solutions" for place in places]
+
+
+def page_file() -> Path:
+    """Return the file of the page that is open in this kernel; it need not exist.
+
+    Jupyter's server names it in the environment of its kernel. Without one, as in an editor, it is
+    a file in the kernel's folder.
+    """
+    file = Path(os.environ.get(PAGE) or "page.ipynb")
+    with suppress(FileNotFoundError):  # the kernel's folder may be gone
+        return file.absolute()
+    return file
+
+
+def page_number() -> str:
+    """Return the number of the page in this kernel, such as `05`; empty if that cannot be told.
+
+    Jupyter's server names the notebook in the environment of its kernel, and Visual Studio Code in
+    its namespace. Elsewhere, as under nbgrader, it is the only page in the kernel's folder.
+    """
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    named = os.environ.get(PAGE, "")
+    if not named and shell is not None:
+        pages = [one.name for one in Path().glob("[0-9][0-9]_*.ipynb")]
+        named = str(
+            shell.user_ns.get("__vsc_ipynb_file__") or (pages[0] if len(pages) == 1 else "")
+        )
+    found = _PAGE_NAME.search(named)
+    return found[1] if found else ""
 
 
 @called_as("workspace.folder()")

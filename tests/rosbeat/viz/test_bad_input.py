@@ -9,7 +9,8 @@ from made_records import graph_of, pair, pub, sample
 from rosbeat.comparisons import compare
 from rosbeat.errors import PictureError
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, queue_steps
-from rosbeat.viz import crossing, differences, graph, queue, timeline, values
+from rosbeat.viz import comparison, graph, message_flow, queue, timeline, values
+from rosbeat.viz.queues import of_steps
 
 ONE = pair(1)
 SENT = [LogRecord(0, "INFO", "one", "5", "", 0)]
@@ -32,23 +33,24 @@ REFUSED = {
     # What is no run, no graph, no log lines, no queue, no comparison.
     **{f"{draw.__name__} {wrong!r}": (partial(draw, wrong), type(wrong).__name__)
        for draw in (graph, timeline, values) for wrong in (None, 3, "text", Session, [1])},
-    **{f"crossing {wrong!r}": (partial(crossing, wrong, []), "two processes")
+    **{f"message_flow {wrong!r}": (partial(message_flow, wrong, []), "two processes")
        for wrong in (5, "a text", [1, 2], None)},
-    "a receiver": (lambda: crossing(SENT, 5), "two processes"),
-    **{f"queue {wrong!r}": (partial(queue, wrong, 10), "from its steps")
-       for wrong in ([1, 2], 5, "ab")},
-    "a comparison": (lambda: differences(3), "cannot be drawn from 'int'"),
+    "a receiver": (lambda: message_flow(SENT, 5), "two processes"),
+    **{f"steps {wrong!r}": (partial(of_steps, wrong, 10), "from a session")
+       for wrong in ([1, 2], "ab")},
+    "queue": (lambda: queue(5), "cannot be drawn from 'int'"),
+    "a comparison": (lambda: comparison(3), "cannot be drawn from 'int'"),
     # Nothing to draw.
     "no node": (lambda: graph(GraphSnapshot()), "no node to draw"),
     "only hidden nodes": (lambda: graph(graph_of(alone=["/_hidden"])), "no node to draw"),
     "no event": (lambda: timeline(Observation(0, 7)), "nothing to put on a timeline"),
-    "no steps": (lambda: queue((), 5), "no steps"),
-    "no number": (lambda: crossing([LogRecord(0, "INFO", "one", "Started", "", 0)], []),
+    "no steps": (lambda: of_steps((), 5), "nothing to draw"),
+    "no number": (lambda: message_flow([LogRecord(0, "INFO", "one", "Started", "", 0)], []),
                   "no message to draw"),
     "no messages": (lambda: values([]), "no messages"),
     "no finite value": (lambda: values([sample(1, math.nan)]),
                         "Every value is infinite or not a number"),
-    "no finite difference": (lambda: differences(compared(math.nan)), "no value to draw"),
+    "no finite difference": (lambda: comparison(compared(math.nan)), "no value to draw"),
     # Names, with the nearest one.
     "node": (lambda: graph(ONE, highlight="senser"), "Did you mean '/sensor'"),
     "topic of a timeline": (lambda: timeline(ONE, topics="temprature"),
@@ -60,14 +62,14 @@ REFUSED = {
     "a field of several": (lambda: values([sample(1, POSE)]), "Choose a field: 'x' or 'y'"),
     **{f"field {field}": (partial(values, [sample(1, 1.0)], field=field), "'data'")
        for field in ("dta", "data.x")},
-    "field of two runs": (lambda: differences(compared(1.0), field="x"), "have no field 'x'"),
+    "field of two runs": (lambda: comparison(compared(1.0), field="x"), "have no field 'x'"),
     # Numbers.
     **{f"value {value!r}": (partial(values, [sample(1, value)]), "is not a number")
        for value in ("warm", [1.0, 2.0], None, "long " * 20)},
-    "no value of two runs": (lambda: differences(compared("warm")), "is not a number"),
+    "no value of two runs": (lambda: comparison(compared("warm")), "is not a number"),
     **{f"until {until}": (partial(timeline, ONE, until=until), "cannot end at")
        for until in (-1, math.nan, "soon")},
-    **{f"depth {depth}": (partial(queue, queue_steps([0, 0], [], 2), depth), "does not fit")
+    **{f"depth {depth}": (partial(of_steps, queue_steps([0, 0], [], 2), depth), "does not fit")
        for depth in (1, 0, 2.5)},
 }
 # fmt: on

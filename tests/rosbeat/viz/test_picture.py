@@ -16,11 +16,12 @@ from IPython.core.formatters import DisplayFormatter
 from rosbeat import viz
 from rosbeat.errors import PictureError
 from rosbeat.records import queue_steps
-from rosbeat.viz import Picture, queue, theme
+from rosbeat.viz import Picture, theme
+from rosbeat.viz.queues import of_steps
 
 
 def draw():
-    return queue(queue_steps([0] * 4, [1], 3), 3)
+    return of_steps(queue_steps([0] * 4, [1], 3), 3)
 
 
 @pytest.fixture(scope="module")
@@ -125,7 +126,8 @@ def test_another_process_makes_the_same_bytes_and_loads_what_it_needs(picture):
         "names = ('matplotlib', 'rclpy', 'matplotlib.pyplot')\n"
         "print(*(name in sys.modules for name in names))\n"
         "from rosbeat.records import queue_steps\n"
-        "p = viz.queue(queue_steps([0] * 4, [1], 3), 3)\n"
+        "from rosbeat.viz.queues import of_steps\n"
+        "p = of_steps(queue_steps([0] * 4, [1], 3), 3)\n"
         "print(sha256(p.svg().encode()).hexdigest())\n"
         "print(*(name in sys.modules for name in names))\n"
     )
@@ -148,3 +150,11 @@ def test_what_the_package_offers():
     assert all(callable(getattr(viz, name)) for name in viz.__all__)
     with pytest.raises(AttributeError, match="no attribute 'pie'"):
         _ = viz.pie
+
+
+@pytest.mark.parametrize(
+    ("old", "now"), [("crossing", "message_flow"), ("differences", "comparison")]
+)
+def test_an_old_name_still_works_and_says_the_new_one(old, now):
+    with pytest.warns(DeprecationWarning, match=f"it is called `viz.{now}` now"):
+        assert getattr(viz, old) is getattr(viz, now)

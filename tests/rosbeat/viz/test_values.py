@@ -9,7 +9,7 @@ from made_records import sample
 from pictures import is_tidy, words_in
 from rosbeat.comparisons import compare
 from rosbeat.errors import PictureError
-from rosbeat.viz import differences, theme, values
+from rosbeat.viz import comparison, theme, values
 
 BANDS = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
 NARROW = {"a": (None, 20.0), "b": (20.0, 20.1), "c": (20.1, 20.2), "d": (20.2, None)}
@@ -134,7 +134,7 @@ def compared(one, other):
 
 
 def test_both_runs_and_what_one_lacks_are_drawn():
-    picture = differences(compared(WALK, BROKEN), label="temperature", unit="°C")
+    picture = comparison(compared(WALK, BROKEN), label="temperature", unit="°C")
     one, other, missing, extra, odd = plot(picture).lines
     assert list(one.get_xdata()) == [float(time) for time in range(1, 41)]
     assert len(other.get_xdata()) == 38
@@ -150,7 +150,7 @@ def test_both_runs_and_what_one_lacks_are_drawn():
     assert said.startswith("Temperature of two runs, in °C. /temperature: 40 messages in recorded")
     assert "3 are missing in replayed" in said
     assert "2 values of the second are infinite or not a number." in said
-    again = differences(compared(WALK, BROKEN), label="temperature", unit="°C")
+    again = comparison(compared(WALK, BROKEN), label="temperature", unit="°C")
     assert again.svg() == picture.svg()
 
 
@@ -163,12 +163,12 @@ def test_both_runs_and_what_one_lacks_are_drawn():
     ],
 )  # fmt: skip
 def test_odd_runs_stay_readable(one, other):
-    picture = differences(compared(each_second(one), each_second(other)))
+    picture = comparison(compared(each_second(one), each_second(other)))
     assert is_tidy(picture)
     assert one != other or not UNUSED & set(words_in(picture))
 
 
 def test_a_field_of_both_runs_can_be_chosen():
     one = [sample(1, {"x": 1.0, "y": 2.0}), sample(2, {"x": 3.0, "y": 4.0})]
-    line, *_ = plot(differences(compared(one, one), field="y")).lines
+    line, *_ = plot(comparison(compared(one, one), field="y")).lines
     assert list(line.get_ydata()) == [2.0, 4.0]

@@ -3,6 +3,7 @@
 import errno
 import shutil
 import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -10,6 +11,7 @@ from rosbeat.errors import WorkspaceError
 from rosbeat.workspace import catch_up, catching_up
 from rosbeat.workspace.catching_up import NODES, PACKAGE, finished
 from rosbeat.workspace.packages import read_package
+from rosbeat.workspace.terminals import terminals_of
 
 # What `ros2 pkg create` writes.
 EMPTY = """from setuptools import find_packages, setup
@@ -256,3 +258,64 @@ def test_a_program_that_does_not_end_or_is_not_there(
     with pytest.raises(WorkspaceError) as caught:
         catch_up("03")
     says(caught.value, "ros2", words)
+
+
+@pytest.fixture
+def page(root, monkeypatch):
+    """The kernel of a page, whose terminals are closed afterwards."""
+    space = {}
+    held = SimpleNamespace(user_ns=space)
+    monkeypatch.setattr("IPython.get_ipython", lambda: held)
+    monkeypatch.delenv("JPY_SESSION_NAME", raising=False)
+    monkeypatch.chdir(root)
+    yield held
+    terminals_of(held).close()
+
+
+def by_server(_, monkeypatch, __):
+    monkeypatch.setenv("JPY_SESSION_NAME", "/home/ana/my_course/02_create_a_package.ipynb")
+
+
+def by_vs_code(page, _, __):
+    page.user_ns["__vsc_ipynb_file__"] = "/home/ana/my_course/02_create_a_package.ipynb"
+
+
+def by_folder(_, __, root):
+    (root / "02_create_a_package.ipynb").touch()
+    (root / "notes.ipynb").touch()
+
+
+@pytest.mark.parametrize("named", [by_server, by_vs_code, by_folder])
+def test_the_first_terminal_of_a_page_catches_up_once_and_says_so(
+    page, root, monkeypatch, capsys, named
+):
+    named(page, monkeypatch, root)
+    for name in ("build", "other"):
+        terminals_of(page).get(name)
+    (said, rest) = capsys.readouterr().out.split("\n", 1)
+    assert said.startswith("Created for you, because it did not exist yet: the folders docs,")
+    assert rest.count("\n") <= 1  # one sentence
+    assert (root / "scripts").is_dir()
+
+
+def test_nothing_is_said_where_nothing_is_missing(page, root, monkeypatch, capsys):
+    catch_up("02")
+    by_server(page, monkeypatch, root)
+    terminals_of(page).get("build")
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("pages", [(), ("12_beyond_topics",), ("02_a", "05_b")])
+def test_a_page_that_needs_nothing_or_is_not_known_makes_nothing(page, root, capsys, pages):
+    for name in pages:
+        (root / f"{name}.ipynb").touch()
+    terminals_of(page).get("build")
+    assert capsys.readouterr().out == ""
+    assert not (root / "docs").exists()
+
+
+def test_what_stands_in_the_way_is_said(page, root, monkeypatch, capsys):
+    by_server(page, monkeypatch, root)
+    (root / "docs").write_text("")
+    terminals_of(page).get("build")
+    assert "Please check: docs is a file" in capsys.readouterr().out

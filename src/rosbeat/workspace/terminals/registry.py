@@ -7,12 +7,13 @@ import os
 import secrets
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from rosbeat.errors import TerminalError, called_as
-from rosbeat.workspace.place import workspace_parent
+from rosbeat.workspace.place import page_number, workspace_parent
 from rosbeat.workspace.terminals import reaper
 from rosbeat.workspace.terminals.terminal import Terminal
 
@@ -24,10 +25,14 @@ class Terminals:
 
     Args:
         parent: The folder in which they start, by default the one that holds the workspace.
+        prepare: Called once, before the first of them opens.
     """
 
-    def __init__(self, parent: Path | None = None) -> None:
+    def __init__(
+        self, parent: Path | None = None, prepare: Callable[[], None] | None = None
+    ) -> None:
         self._parent = parent
+        self._prepare = prepare
         self._open: dict[str, Terminal] = {}
         self._mark = f"{secrets.token_hex(8)}."
         self._count = 0
@@ -59,6 +64,9 @@ class Terminals:
         """
         terminal = self.find(name)
         if terminal is None:
+            prepare, self._prepare = self._prepare, None
+            if prepare is not None:
+                prepare()
             self._watch_over()
             self._count += 1
             token = f"{self._mark}{self._count}."
@@ -105,12 +113,22 @@ class Terminals:
 
 
 def terminals_of(shell: Any) -> Terminals:  # noqa: ANN401 - IPython carries no types
-    """Return the terminals of a kernel, which its shell holds."""
+    """Return the terminals of a kernel, which its shell holds.
+
+    Before the first one opens on a page, what earlier pages leave in the workspace is made.
+    """
     held = getattr(shell, _HELD_AS, None)
     if held is None or held.alien:
-        held = Terminals()
+        held = Terminals(prepare=_catch_up)
         setattr(shell, _HELD_AS, held)
     return held
+
+
+def _catch_up() -> None:
+    # Where answers are observed, no page is open, and what makes a workspace is not there.
+    page = page_number()
+    if page:
+        import_module("rosbeat.workspace.catching_up").catch_up_on(page)
 
 
 @called_as('workspace.terminal("sensor")')

@@ -8,8 +8,8 @@ from made_records import at
 from pictures import heads, is_tidy, words_in
 from pictures import lines as drawn
 from rosbeat.records import LogRecord
-from rosbeat.viz import crossing, theme
-from rosbeat.viz.crossings import MOST, first_number, pairs
+from rosbeat.viz import message_flow, theme
+from rosbeat.viz.message_flows import MOST, first_number, pairs
 
 #: Seconds since the epoch, as the clock of a terminal's process shows them.
 EPOCH = 1_777_852_800
@@ -41,18 +41,18 @@ NAME = "building_a.floor_3.room_with_a_long_name.temperature_sensor"
 
 
 def test_one_arrow_for_each_message_and_those_without_are_hollow():
-    picture = crossing(sensor(10), monitor((3, 4, 7, 8, 9, 10)))
+    picture = message_flow(sensor(10), monitor((3, 4, 7, 8, 9, 10)))
     assert len(heads(picture)) == len(marks(picture, "s")) == len(marks(picture, "o")) == 6
     lost, early = (marks(picture, marker, hollow=True) for marker in "sD")
     assert [mark.get_markerfacecolor() for mark in lost + early] == [theme.CARD] * 4
     assert {mark.get_markeredgecolor() for mark in lost} == {theme.ALERT}
     assert {mark.get_markeredgecolor() for mark in early} == {theme.MUTED}
     assert len(lost) == len(early) == 2
-    picture = crossing(sensor(2), monitor([2], delay=0.5))
+    picture = message_flow(sensor(2), monitor([2], delay=0.5))
     (head,), (end,), (start,) = heads(picture), marks(picture, "o"), marks(picture, "s")
     assert head.get_path().vertices[0][0] == end.get_xdata()[0] > start.get_xdata()[0]
     assert [words_in(picture).count(words) for words in ("20.25", "20.12")] == [2, 1]
-    picture = crossing(sensor(3), STRANGE)
+    picture = message_flow(sensor(3), STRANGE)
     colours = [one.get_markeredgecolor() for one in marks(picture, "s", True)]
     assert (colours, len(marks(picture, "o", True))) == ([theme.MUTED] * 2, 1)
     assert marks(picture, "o", True)[0].get_markeredgecolor() == theme.PURPLE
@@ -95,7 +95,7 @@ def test_one_arrow_for_each_message_and_those_without_are_hollow():
     ],
 )  # fmt: skip
 def test_its_words(sent, got, written, words):
-    picture = crossing(sent, got)
+    picture = message_flow(sent, got)
     assert written <= set(words_in(picture))
     assert words in picture.description
     lost = [one for one in words_in(picture) if "lost" in one]
@@ -106,7 +106,7 @@ def test_its_words(sent, got, written, words):
 def test_the_axis_starts_at_the_first_line_of_either():
     late = [one for one in sensor(4) if "Started" not in one.text]
     for sent in (sensor(4), late):
-        picture = crossing(sent, monitor(range(1, 5)))
+        picture = message_flow(sent, monitor(range(1, 5)))
         rules = [one for one in picture.figure.axes[0].lines if one.get_zorder() == 0.5]
         every = [
             one for marker in "|so" for one in drawn(picture, marker) if one.get_zorder() > 2.5

@@ -1,4 +1,4 @@
-"""Draw what crossed between two processes: two lanes of log lines, an arrow for each message."""
+"""Draw the flow of messages between two processes: two lanes, an arrow for each message."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import itertools
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 from matplotlib.path import Path
 
@@ -36,6 +36,15 @@ _EARLY = theme.Style(theme.MUTED, "D", "")
 _LATE = theme.Style(theme.MUTED, "s", "")
 _STRANGE = theme.Style(theme.PURPLE, "o", "")
 _OTHER = theme.Style(theme.MUTED, "|", "")
+
+
+@runtime_checkable
+class Logged(Protocol):
+    """Describe what has log lines: a terminal, or a session."""
+
+    def logs(self) -> Sequence[LogRecord]:
+        """Return the log lines, in order."""
+        ...
 
 
 # Which lines of two logs tell of the same message.
@@ -172,9 +181,11 @@ def _links(here: Sequence[Line], there: Sequence[Line]) -> dict[int, int]:
 # The picture.
 
 
-@called_as("viz.crossing(sent, received)")
-def crossing(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Picture:
-    """Draw which messages crossed from one process to another, from what both have logged.
+@called_as("viz.message_flow(sensor, monitor)")
+def message_flow(
+    sent: Logged | Sequence[LogRecord], received: Logged | Sequence[LogRecord]
+) -> Picture:
+    """Draw which messages went from one process to another, from what both have logged.
 
     Each log line is a mark at its time, counted from the first line. A line that tells of a message
     has a number in it: the first in its text, such as 22.13 in `Publishing: 22.13C`. A line sent
@@ -184,14 +195,14 @@ def crossing(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pictur
     was sent after the receiver's last line.
 
     Args:
-        sent: Log lines of the process that publishes, such as `Terminal.logs()` has them.
-        received: Log lines of the process that subscribes.
+        sent: The terminal of the process that publishes, or its log lines.
+        received: The terminal of the process that subscribes, or its log lines.
 
     Returns:
         The picture. Its description tells names and numbers of messages, and no times.
 
     Raises:
-        PictureError: If these are no log lines, or no line of `sent` has a number.
+        PictureError: If these are no terminals or log lines, or no line of `sent` has a number.
     """
     ours, theirs = _records(sent), _records(received)
     shown = pairs(ours, theirs)
@@ -211,14 +222,16 @@ def crossing(sent: Sequence[LogRecord], received: Sequence[LogRecord]) -> Pictur
 
 
 def _records(given: object) -> tuple[LogRecord, ...]:
+    if isinstance(given, Logged) and not isinstance(given, type):
+        given = given.logs()
     if isinstance(given, Iterable) and not isinstance(given, (str, bytes)):
         items = tuple(given)
         if all(isinstance(item, LogRecord) for item in items):
             return items
     raise PictureError(
-        f"What crossed cannot be drawn from {type(given).__name__!r}.",
-        "It is drawn from the log lines of two processes: those sent, then those received.",
-        'Give it lines of two terminals: `workspace.terminal("sensor").logs()`.',
+        f"A flow of messages cannot be drawn from {type(given).__name__!r}.",
+        "It is drawn from what two processes have logged: first the sender, then the receiver.",
+        'Give it two terminals, such as `workspace.terminal("sensor")`.',
     )
 
 
