@@ -171,7 +171,7 @@ check("06a", workspace.folder())
 # %% [markdown]
 # Now start this monitor beside the first one. Two nodes shouldn't have the same name, because you couldn't tell them
 # apart. Everything after `--ros-args` is meant for ROS: `-r` is short for *remap*, and with `__node` (two underscores)
-# it gives the node another name. **Predict:** which text does it log?
+# it gives the node another name. Which text does it log?
 
 # %% terminal="third --until Monitor" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE"

@@ -640,7 +640,7 @@ def generate_launch_description():
 # ros2 run greenhouse vent_control --ros-args -p open_above:=27.0 -r temperature:=checked/temperature
 
 # %% [markdown]
-# Now for a sensor. `ros2 topic pub` publishes 27.5 degrees once a second. **Predict:** does the vent open?
+# Now for a sensor. `ros2 topic pub` publishes 27.5 degrees once a second. Does the vent open?
 
 # %% terminal="sensor --until publishing" tags=["nbval-ignore-output"]
 # ros2 topic pub --rate 1 /temperature std_msgs/msg/Float32 "{data: 27.5}"
