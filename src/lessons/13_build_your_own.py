@@ -124,7 +124,8 @@ predict("70-90", len(ros.messages("temperature")))
 
 # %% [markdown]
 # The rest is silence: long enough for an alarm, for a second alarm that nobody wants, and for a report without a single
-# reading. Of the readings that come, two are impossible, and four are NaN. NaN means *not a number*. It's neither above nor below anything: any comparison with `<`, `>` or `==` is False.
+# reading. Of the readings that come, two are outside -20 to 60 degrees, and four are NaN. NaN means *not a number*. It's
+# neither above nor below anything: any comparison with `<`, `>` or `==` is False.
 
 # %% [markdown]
 # ## Draw before you write

@@ -260,7 +260,7 @@ def test_the_page_names_the_numbers_of_the_rubric():
         f'declare_parameter("open_above", {n["open_above"]})',
         f'declare_parameter("close_below", {n["close_below"]})',
         f'declare_parameter("dry_below", {n["dry_below"]})',
-        f"not {n['temperature_min']:g} <= one.value <= {n['temperature_max']:g}",
+        f"outside {n['temperature_min']:g} to {n['temperature_max']:g} degrees",
         {2.0: "two"}[n["react_seconds"]] + " seconds to do whatever",
     ):
         assert said in text
