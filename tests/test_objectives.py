@@ -7,7 +7,7 @@ import pytest
 
 from rosbeat.authoring.source import read_lesson
 from rosbeat.exercises.questions import QUESTIONS
-from rosbeat.exercises.registry import PAGES
+from rosbeat.exercises.registry import EXERCISES, PAGES
 
 LESSONS = Path(__file__).resolve().parents[1] / "src" / "lessons"
 HEAD = "# **After this page, you can:**\n#\n"
@@ -53,3 +53,22 @@ def test_each_prediction_has_an_input(path):
             assert asked, f"line {cell.line} takes a prediction that nobody asked for"
             asked = None
     assert asked is None
+
+
+def headings(path):
+    """The heading above each exercise, and how many exercises share it."""
+    above, found = "", {}
+    for cell in read_lesson(path).cells:
+        if cell.kind == "markdown":
+            above = ([above, *re.findall(r"(?m)^## (?:Try it: )?(.+)$", cell.source)])[-1]
+        elif cell.exercise:
+            found.setdefault(above, []).append(cell.exercise)
+    return {one: (above, len(set(ids))) for above, ids in found.items() for one in ids}
+
+
+@pytest.mark.parametrize("path", STATED, ids=lambda path: path.stem)
+def test_an_exercise_is_called_what_its_heading_says(path):
+    """So that a learner finds the exercise that progress and a grade name."""
+    for exercise, (heading, sharing) in headings(path).items():
+        title = EXERCISES[exercise].title
+        assert sharing > 1 or title.removesuffix(" each").endswith(heading), exercise

@@ -30,7 +30,7 @@ from rosbeat.workspace.packages import Package
 # on this page. Each judge generates what is wrong, the causes before what follows from them, and
 # the first counts.
 
-# 02a, fill in the manifest.
+# 02a, complete the manifest.
 
 _FIRST, _FIRST_NEEDS = "sensor_simulator", ("rclpy", "std_msgs")
 _MANIFEST = "src/sensor_simulator/package.xml"
@@ -325,7 +325,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "02a",
         look_at_workspace,
         _judge_manifest,
-        title="fill in the manifest",
+        title="complete the manifest",
         points=2,
         hints=(
             ("Two entries of the manifest are still open. Look for the blanks."),

@@ -545,7 +545,7 @@ _TUNING = Exercise(
     "07b",
     _observe_tuning,
     _judge_tuning,
-    "limits to turn",
+    "limits that you can set",
     2,
     (
         "A parameter is declared in the constructor, with its name and its first value.",

@@ -1,4 +1,4 @@
-"""Page 08, tune quality of service: the last word waits, listen to everybody, missed deadlines.
+"""Page 08, tune quality of service: the current mode, listen to everybody, count missed deadlines.
 
 The scenarios know only what they feed. What a right node makes of it, and what a node makes of it
 whose author misunderstood something, is simulated by the judges.
@@ -79,7 +79,7 @@ def _suspects_by_policy(
     return alone + [replace(one, model=partial(model, qos=mine)) for one in harmful]
 
 
-# 08a, the last word waits: displays come at different times and log what they hear.
+# 08a, the current mode: displays come at different times and log what they hear.
 
 _MODE, _COMMAND = Wire("/mode", _STRING), Wire("/command", _STRING)
 #: Modes of which three are commanded, besides the first one.
@@ -478,7 +478,7 @@ def _diagnose_order(kept: Sequence[float], fed: Sensors) -> Diagnosis | None:
     return None
 
 
-# 08c, missed deadlines: readings that stop for a while.
+# 08c, count missed deadlines: readings that stop for a while.
 
 _TEMPERATURE, _MISSED = Wire("/temperature", _FLOAT), Wire("/missed", "std_msgs/msg/Int32")
 #: The deadline that the sensor offers, in seconds.
@@ -683,7 +683,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "08a",
         _run_mode_keeper,
         _judge_mode_keeper,
-        "the last word waits",
+        "the current mode",
         2,
         (
             (
@@ -723,7 +723,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "08c",
         _run_watchdog,
         _judge_watchdog,
-        "missed deadlines",
+        "count missed deadlines",
         3,
         (
             (

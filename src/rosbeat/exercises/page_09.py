@@ -199,7 +199,7 @@ def _first_word(mismatch: Mismatch, evidence: str) -> Diagnosis:
     return Diagnosis("noticed-late", evidence, _IN_TIME)
 
 
-# 09b: work, and go on beating.
+# 09b: work, and keep beating.
 
 _ORDER, _DONE, _BEAT = Wire("/order", _INT), Wire("/done", _INT), Wire("/beat", _STRING)
 #: Seconds that an order takes.
@@ -870,7 +870,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "09b",
         _run_with_orders,
         _judge_work,
-        "work, and go on beating",
+        "work, and keep beating",
         3,
         (
             ("No callback may take long: each one does a little, returns, and is called again."),

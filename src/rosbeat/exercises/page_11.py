@@ -520,7 +520,7 @@ def _other_alarm(recording: Recording, task: Task, mismatch: Mismatch) -> Diagno
     return Diagnosis("wrong-word", f"{said} {right[0]!r} was due.", hint)
 
 
-# 11b, notice a sick sensor: NaN, jumps, and a sensor that hangs.
+# 11b, notice a faulty sensor: NaN, jumps, and a sensor that hangs.
 
 #: Up to four equal readings in a row, steps of a thousandth of a degree, and pairs of equals.
 _QUIET = (
@@ -961,7 +961,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "11b",
         _replay,
         partial(_judge_alarms, SICK_SENSOR),
-        "notice a sick sensor",
+        "notice a faulty sensor",
         3,
         (
             (
@@ -981,7 +981,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "11c",
         _replay,
         partial(_judge_alarms, TWO_SENSORS),
-        "compare two sensors, alone",
+        "compare two sensors on your own",
         4,
         (
             (

@@ -1025,7 +1025,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "12b",
         observe_parameters,
         _judge_parameters,
-        "parameters that are checked",
+        "two limits that belong together",
         3,
         (
             "The callback is handed a list of parameters, each with a name and a value. Not every "

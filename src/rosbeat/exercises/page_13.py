@@ -1079,7 +1079,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
         "13b",
         observe_greenhouse,
         _judge_greenhouse,
-        "a greenhouse",
+        "the whole greenhouse",
         TOTAL,
         (
             (
