@@ -34,7 +34,8 @@
 from rclpy.duration import Duration
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, QoSProfile, ReliabilityPolicy
+from rclpy.qos import qos_profile_sensor_data
 from std_msgs.msg import Float32, Int32, String
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz
@@ -387,11 +388,11 @@ check("08c", Watchdog)
 # %% [markdown]
 # ## What went wrong: two defaults that don't fit
 #
-# rclpy comes with ready-made profiles. This one is made for cameras, laser scanners and similar sensors. Here, a
-# collector with the usual `10` subscribes to a source that uses it.
+# rclpy comes with ready-made profiles. `SENSOR_DATA`, or `qos_profile_sensor_data` for short, is made for cameras and
+# similar sensors. Here, a collector with the usual `10` subscribes to a source that uses it.
 
 # %%
-qos_profile_sensor_data
+QoSPresetProfiles.SENSOR_DATA.value
 
 # %%
 ros = Session()

@@ -32,6 +32,7 @@
 # %%
 import math
 import random
+import threading
 import time
 
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
