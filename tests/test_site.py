@@ -6,6 +6,7 @@ Sphinx itself, whose warnings are errors, and the browser are in tests/browser/t
 import importlib.util
 import json
 import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -17,10 +18,15 @@ FENCE = re.compile(r"(?ms)^( *)(```+|~~~+).*?^\1\2")
 
 
 @pytest.fixture(scope="module")
-def staged(tmp_path_factory):
+def build():
     spec = importlib.util.spec_from_file_location("build_site", ROOT / "docs" / "site" / "build.py")
-    build = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(build)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def staged(build, tmp_path_factory):
     folder = tmp_path_factory.mktemp("staged")
     build.stage(folder)
     return folder
@@ -84,6 +90,45 @@ def test_every_document_is_in_a_table_of_contents(staged):
         for path in (*staged.rglob("*.md"), *staged.rglob("*.ipynb"))
     }
     assert documents - listed == {"index"}
+
+
+def test_every_page_can_be_started_elsewhere_once_the_repository_is_known(build, tmp_path):
+    build.stage(tmp_path, "ada/rosbeat")
+    for path in (*tmp_path.rglob("*.md"), *tmp_path.rglob("*.ipynb")):
+        if path.suffix == ".md":
+            title, text = path.read_text("utf-8").split("\n", 1)
+        else:
+            title, text = "".join(cells(path)[0]["source"]).split("\n", 1)
+        assert title.startswith("# ")
+        page = path.name if path.suffix == ".ipynb" else "home.ipynb"
+        assert text.count(f"mybinder.org/v2/gh/ada/rosbeat/HEAD?urlpath=lab/tree/{page}") == 1
+        assert text.count("https://codespaces.new/ada/rosbeat") == 1
+
+
+def test_a_readme_with_its_own_links_keeps_them(build):
+    text = "# rosbeat\n\n[Binder](https://mybinder.org/v2/gh/ada/rosbeat/HEAD)\n"
+    assert build.with_launch(text, "ada/rosbeat") == text
+
+
+@pytest.mark.parametrize(
+    ("remote", "found"),
+    [
+        ("https://github.com/ada/rosbeat", "ada/rosbeat"),
+        ("https://github.com/ada/ros.beat.git", "ada/ros.beat"),
+        ("https://x-access-token:secret@github.com/ada/rosbeat.git", "ada/rosbeat"),
+        ("git@github.com:ada/rosbeat.git", "ada/rosbeat"),
+        ("ssh://git@github.com/ada/rosbeat", "ada/rosbeat"),
+        ("https://gitlab.com/ada/rosbeat.git", ""),
+        ("https://example.org/github.com/ada/rosbeat", ""),
+        ("", ""),
+    ],
+)
+def test_the_repository_is_where_origin_is(build, monkeypatch, tmp_path, remote, found):
+    subprocess.run(["git", "init", "-q", tmp_path], check=True)
+    if remote:
+        subprocess.run(["git", "remote", "add", "origin", remote], cwd=tmp_path, check=True)
+    monkeypatch.setattr(build, "ROOT", tmp_path)
+    assert build.on_github() == found
 
 
 def test_the_version_is_the_same_wherever_it_stands():

@@ -44,27 +44,37 @@ FILES = (
 )
 _COURSE = 7  # pages 00 to 06 are the course, the others are electives
 _RECORD = "application/vnd.rosbeat.outcome+json"
+_GITHUB = re.compile(
+    r"(?:https://(?:[^@/]+@)?|ssh://git@|git@)github\.com[:/]([\w.-]+/[\w.-]+?)(?:\.git)?/?"
+)
 _HOME = re.compile(r"\]\((?:\.\./)?(?:notebooks/)?home\.ipynb\)")
 
 
-def stage(target: Path) -> None:
+def stage(target: Path, repository: str = "") -> None:
     """Lay out the source of the site in an empty folder, under the names of the repository.
 
     Args:
         target: The folder. A link from one document to another holds there as it does in the
             repository; a page of `notebooks/` is the executed one of `solutions/`.
+        repository: The owner and name on GitHub, for the links that start the course elsewhere.
     """
     pages = sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb"))
     (target / "notebooks").mkdir(parents=True)
     for page in pages:
         notebook = for_readers(json.loads(page.read_text(encoding="utf-8")))
+        first = notebook["cells"][0]
+        first["source"] = with_launch(first["source"], repository, page.name)
         text = json.dumps(notebook, ensure_ascii=False)
         (target / "notebooks" / page.name).write_text(text, encoding="utf-8")
     for name in (*(name for part in DOCUMENTS.values() for name in part), *FILES):
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / name, target / name)
+        if name.endswith(".md"):
+            text = (ROOT / name).read_text(encoding="utf-8")
+            (target / name).write_text(with_launch(text, repository), encoding="utf-8")
     shutil.copytree(ROOT / "docs" / "images", target / "docs" / "images")
-    (target / "index.md").write_text(_landing([page.stem for page in pages]), encoding="utf-8")
+    landing = with_launch(_landing([page.stem for page in pages]), repository)
+    (target / "index.md").write_text(landing, encoding="utf-8")
     shutil.copyfile(HERE / "conf.py", target / "conf.py")
     (target / "_static").mkdir()
     for name in ("site.css", "favicon.svg"):
@@ -109,6 +119,33 @@ def for_readers(notebook: dict[str, Any]) -> dict[str, Any]:
     }
 
 
+def with_launch(text: str, repository: str, page: str = "home.ipynb") -> str:
+    """Return a text in Markdown with a line below its title that starts the course elsewhere.
+
+    Args:
+        text: The text. It stays as it is if it leads to Binder already.
+        repository: The owner and name on GitHub; without them, nobody could start it.
+        page: What Binder opens, in the learner's folder.
+    """
+    if not repository or f"//mybinder.org/v2/gh/{repository}" in text:
+        return text
+    binder = f"https://mybinder.org/v2/gh/{repository}/HEAD?urlpath=lab/tree/{page}"
+    links = (("Binder", binder), ("GitHub Codespaces", f"https://codespaces.new/{repository}"))
+    shown = " ".join(f'<a href="{address}">{name}</a>' for name, address in links)
+    title, _, rest = text.partition("\n")
+    return f'{title}\n\n<p class="launch">Start without installing: {shown}</p>\n{rest}'
+
+
+def on_github() -> str:
+    """Return the owner and name of this repository, if `origin` is on GitHub, else nothing."""
+    command = ["git", "remote", "get-url", "origin"]
+    if not shutil.which("git"):
+        return ""
+    answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    found = _GITHUB.fullmatch(answer.stdout.strip())
+    return found[1] if found else ""
+
+
 def _landing(pages: list[str]) -> str:
     """Return the README as a landing page, with the tables of contents that Sphinx asks for."""
     readme = _HOME.sub("](#the-pages)", (ROOT / "README.md").read_text(encoding="utf-8"))
@@ -128,7 +165,7 @@ def build(out: Path) -> int:
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "source"
         source.mkdir()
-        stage(source)
+        stage(source, on_github())
         command = [sys.executable, "-m", "sphinx", "-b", "html", "-W", "--keep-going", "-q"]
         return subprocess.call([*command, "-d", f"{folder}/doctrees", str(source), str(out)])
 

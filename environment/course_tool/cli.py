@@ -11,7 +11,7 @@ from pathlib import Path
 
 from course_tool import commands, folder, testing
 from course_tool.doctor import doctor
-from course_tool.lab import lab
+from course_tool.lab import lab, prepare_image, serve
 from course_tool.layout import Layout, of_this_checkout
 from course_tool.problems import Problem, complain, disk_full, not_writable, of_another_user, say
 
@@ -107,5 +107,8 @@ _COMMANDS: dict[str, Callable[[Layout, Sequence[str]], int]] = {
     "site": commands.site,
     "lock": commands.lock,
     "variables": commands.variables,
+    "prepare": prepare_image,
+    "serve": serve,
 }
-_PUBLIC = tuple(name for name in _COMMANDS if name != "variables")
+#: The last three are for shells and for images of containers.
+_PUBLIC = tuple(_COMMANDS)[:-3]

@@ -74,7 +74,7 @@ def site(layout: Layout, arguments: Sequence[str]) -> int:
     learner's `.venv` nor the tests grow by them.
     """
     environ = installing.for_installers(layout, prepare.ready(layout, "course"))
-    command = [
+    command: list[str | Path] = [
         *(layout.uv, "run", "--quiet", "--isolated", "--no-project", "--python", layout.python),
         *("--with-requirements", layout.lock("site"), layout.root / "docs" / "site" / "build.py"),
     ]

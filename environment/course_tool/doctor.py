@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import platform
+import re
 import shlex
 import shutil
 import subprocess
@@ -69,6 +70,7 @@ def look(layout: Layout, clean: Surroundings) -> list[Finding]:
         clock(time.time()),
         another_ros(clean),
         sandbox(_can_isolate()),
+        *wsl(platform.release(), layout.root),
         made,
     ]
     if made.state == "ok":
@@ -195,6 +197,28 @@ def sandbox(possible: bool) -> Finding:
         return Finding("ok", "sandbox", "can be made, for grading")
     text = "cannot be made here; only rosbeat grade needs it, and says what to do"
     return Finding("note", "sandbox", text)
+
+
+def wsl(release: str, root: Path) -> list[Finding]:
+    """Say what matters in the Linux of Windows (WSL); nothing on any other machine.
+
+    Args:
+        release: The release of the kernel, as `uname -r` prints it.
+        root: The checkout.
+    """
+    if "microsoft" not in release.lower():
+        return []
+    if release.endswith("-Microsoft"):
+        name = os.environ.get("WSL_DISTRO_NAME", "Ubuntu")
+        cure = f"in PowerShell: wsl --set-version {name} 2"
+        return [Finding("problem", "WSL", "is version 1, which is no Linux of its own", cure)]
+    text = "version 2; if no browser opens, open the address that course lab prints in Windows"
+    findings = [Finding("ok", "WSL", text)]
+    if re.match(r"/mnt/[a-z](/|$)", str(root)):
+        slow = f"{root} is on a drive of Windows, where installing and building take far longer"
+        cure = f"copy the course to Linux, and work there: cp -r {shlex.quote(str(root))} ~"
+        findings.append(Finding("note", "WSL", slow, cure))
+    return findings
 
 
 def _can_isolate() -> bool:

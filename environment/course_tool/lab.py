@@ -1,4 +1,4 @@
-"""`course lab`: JupyterLab in the learner's folder, with its messages in a file."""
+"""`course lab`: JupyterLab in the learner's folder, with its messages in a file; and for images."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from course_tool import commands, folder, prepare, running
 from course_tool.layout import Layout
@@ -32,13 +32,10 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     Raises:
         Problem: If it does not start, or ends with an error.
     """
-    environ = commands.for_shells(prepare.ready(layout, "course"), layout)
-    folder.make(layout)
+    environ = _ready(layout)
     newer = [one.name[:2] for one in folder.shipped_pages(layout) if folder.is_newer(layout, one)]
     if newer:
         say(f"There is a new version of {', '.join(newer)}:  ./environment/course update  takes it")
-    # A terminal that was opened before the folder was made may have another one in mind.
-    environ.pop("ROS2_WORKSPACE", None)
     home = layout.learner / folder.HOME
     if home.exists():  # it opens with today's progress in it
         bring = [str(layout.python), "-m", "rosbeat", "progress", "--home", str(home)]
@@ -84,15 +81,52 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     raise stopped(log.read_text(errors="replace"), bool(info), str(log.relative_to(layout.root)))
 
 
+def prepare_image(layout: Layout, arguments: Sequence[str]) -> int:
+    """Make `.venv` and the learner's folder, and open nothing: for the images of containers."""
+    _ready(layout)
+    return 0
+
+
+def serve(layout: Layout, arguments: Sequence[str]) -> NoReturn:
+    """Become a program that opens JupyterLab, with the course's options behind its own.
+
+    Binder starts every JupyterLab itself, with options of its own: the address and the token.
+    """
+    if not arguments:
+        raise Problem(
+            "The command that opens JupyterLab is missing.",
+            "Only .binder/start uses this: Binder gives it the command.",
+            "Open the course:  ./environment/course lab",
+        )
+    environ = _ready(layout)
+    os.chdir(layout.learner)
+    command = [*arguments, *lab_options(layout, (), root_user=os.geteuid() == 0)]
+    os.execvpe(command[0], command, environ)
+
+
+def _ready(layout: Layout) -> dict[str, str]:
+    """Make what a JupyterLab of the course needs; return its environment."""
+    environ = commands.for_shells(prepare.ready(layout, "course"), layout)
+    folder.make(layout)
+    # A terminal that was opened before the folder was made may have another one in mind.
+    environ.pop("ROS2_WORKSPACE", None)
+    return environ
+
+
 def lab_command(layout: Layout, options: Sequence[str], root_user: bool) -> list[str]:
-    """Return the command that opens JupyterLab.
+    """Return the command that opens JupyterLab; `lab_options` says what the arguments are."""
+    return [str(layout.python), "-m", "jupyterlab", *lab_options(layout, options, root_user)]
+
+
+def lab_options(layout: Layout, options: Sequence[str], root_user: bool) -> list[str]:
+    """Return the options with which JupyterLab is the course's.
 
     Args:
         layout: The checkout.
         options: What the person added; a page of their own takes the first page's place.
         root_user: Whether to allow what Jupyter refuses to the root user, as in a container.
     """
-    command = [str(layout.python), "-m", "jupyterlab"]
+    command = []
     elsewhere = _is_elsewhere(layout, options)
     if not elsewhere:  # Jupyter refuses to hear two
         command.append(f"--ServerApp.root_dir={layout.learner}")

@@ -118,8 +118,9 @@ def check_libc(version: str) -> None:
     raise Problem(
         f"This Linux has {'glibc ' + version if version else 'another C library than glibc'}.",
         "The ready-made ROS 2 needs glibc 2.28 or newer (Debian 10, Ubuntu 20.04 and later).",
-        "Use the container, environment/Dockerfile, or conda with environment/environment.yml;\n"
-        "environment/README.md says how.",
+        "./environment/container\n"
+        "It opens the course in a container, with Docker or podman.\n"
+        "environment/README.md also has the way with conda.",
     )
 
 

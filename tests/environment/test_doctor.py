@@ -127,6 +127,27 @@ def test_a_sandbox_is_optional():
     assert doctor.sandbox(True).state == "ok"
 
 
+@pytest.mark.parametrize("release", ["6.8.0-45-generic", "24.1.0"])
+def test_wsl_is_not_mentioned_elsewhere(release):
+    assert doctor.wsl(release, Path("/mnt/c/course")) == []
+
+
+def test_wsl_2_is_fine_except_on_a_drive_of_windows():
+    release = "5.15.167.4-microsoft-standard-WSL2"
+    (home,) = doctor.wsl(release, Path("/home/ada/course"))
+    assert home.state == "ok"
+    ok, slow = doctor.wsl(release, Path("/mnt/c/Users/Ada Lovelace/course"))
+    assert (ok.state, slow.state) == ("ok", "note")
+    assert slow.cure.endswith("cp -r '/mnt/c/Users/Ada Lovelace/course' ~")
+
+
+def test_wsl_1_is_to_be_converted(monkeypatch):
+    monkeypatch.setenv("WSL_DISTRO_NAME", "Debian")
+    (found,) = doctor.wsl("4.4.0-22621-Microsoft", Path("/home/ada/course"))
+    assert found.state == "problem"
+    assert found.cure.endswith("wsl --set-version Debian 2")
+
+
 def test_a_ros_that_is_as_it_should_be():
     assert {finding.state for finding in doctor.judge(FACTS, {}, "/c/.venv")} == {"ok"}
 

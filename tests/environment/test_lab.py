@@ -23,7 +23,7 @@ from course_tool import cli, prepare
 from course_tool.layout import Layout
 cli.of_this_checkout = lambda: Layout(Path({root!r}))
 prepare.ready = lambda layout, level: dict(os.environ)
-sys.exit(cli.main(["lab", *sys.argv[1:]]))
+sys.exit(cli.main(sys.argv[1:]))
 """
 #: What JupyterLab does when its port is open. Its process id stays when it becomes `sleep`.
 OPENS = """\
@@ -120,12 +120,21 @@ def test_its_style_sheet_is_there(layout):
 
 
 @pytest.fixture
-def start(made, tmp_path):
-    """Start `course lab` with a program in the place of JupyterLab."""
+def tool(made):
+    """The tool as a program, in a checkout with one page."""
     page(made, "notebooks/00_hear.ipynb")
-    tool = TOOL.format(environment=str(ENVIRONMENT), root=str(made.root))
+    return TOOL.format(environment=str(ENVIRONMENT), root=str(made.root))
+
+
+@pytest.fixture
+def environ():
     dropped = ("ROSBEAT_WORKSPACE_IN", "JUPYTER_RUNTIME_DIR")
-    environ = {name: value for name, value in os.environ.items() if name not in dropped}
+    return {name: value for name, value in os.environ.items() if name not in dropped}
+
+
+@pytest.fixture
+def start(made, tool, environ):
+    """Start `course lab` with a program in the place of JupyterLab."""
     started = []
     port = socket.create_server(("localhost", 0))
 
@@ -134,7 +143,7 @@ def start(made, tmp_path):
         made.python.write_text(f"#!/bin/sh\n{program}")
         started.append(
             subprocess.Popen(
-                [sys.executable, "-I", "-c", tool],
+                [sys.executable, "-I", "-c", tool, "lab"],
                 env=environ, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
             )
         )  # fmt: skip
@@ -219,3 +228,30 @@ def test_a_folder_nobody_may_write_in_is_told(start, made, tmp_path):
     said = process.communicate(timeout=100)[1]
     assert "What happened:       my_course is not a folder: it is a file, or a link" in said
     assert "What to try:" in said
+
+
+# For the images of containers.
+
+
+def test_an_image_gets_the_folder_and_nothing_is_opened(tool, environ, made):
+    command = [sys.executable, "-I", "-c", tool, "prepare"]
+    done = subprocess.run(command, env=environ, capture_output=True, text=True, check=True)
+    assert done.stdout == "Your own pages are in the folder my_course.\n"
+    assert (made.learner / "00_hear.ipynb").exists()
+
+
+def test_the_program_that_binder_starts_gets_the_options_of_the_course(tool, environ, made):
+    program = ["sh", "-c", 'pwd; printf "%s\\n" "$@"', "sh", "--port=8888"]
+    command = [sys.executable, "-I", "-c", tool, "serve", *program]
+    done = subprocess.run(command, env=environ, capture_output=True, text=True, check=True)
+    folder, *options = done.stdout.splitlines()[1:]
+    assert Path(folder).samefile(made.learner)
+    assert options[0] == "--port=8888"
+    assert options[1:] == lab.lab_options(made, (), root_user=os.geteuid() == 0)
+
+
+def test_without_a_program_there_is_nothing_to_serve(tool, environ):
+    command = [sys.executable, "-I", "-c", tool, "serve"]
+    done = subprocess.run(command, env=environ, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "What to try:         Open the course:  ./environment/course lab" in done.stderr

@@ -190,15 +190,20 @@ def test_rosbeat_python_that_is_none(machine: Machine):
     assert "does not run as a Python" in machine.refuses(ROSBEAT_PYTHON="/nowhere/python3")
 
 
-@pytest.mark.parametrize(
-    ("system", "kind"), [("Darwin", "arm64"), ("Linux", "aarch64"), ("MINGW64_NT-10.0", "x86_64")]
-)
-def test_other_machines_are_shown_their_ways(machine: Machine, system: str, kind: str):
+@pytest.mark.parametrize(("system", "kind"), [("Darwin", "arm64"), ("Linux", "aarch64")])
+def test_other_machines_are_led_to_one_command(machine: Machine, system: str, kind: str):
     machine.is_a(system, kind)
     text = machine.refuses()
     assert f"This machine is {system} on {kind}." in text
-    assert "environment/environment.yml" in text
-    assert "environment/Dockerfile" in text
+    assert "What to try:         ./environment/container\n" in text
+
+
+@pytest.mark.parametrize("system", ["MINGW64_NT-10.0", "MSYS_NT-10.0", "CYGWIN_NT-10.0"])
+def test_windows_is_led_to_its_linux(machine: Machine, system: str):
+    machine.is_a(system, "x86_64")
+    text = machine.refuses()
+    assert "This is a Windows terminal." in text
+    assert "What to try:         wsl --install -d Ubuntu-24.04\n" in text
 
 
 def test_the_launcher_can_be_run_as_it_is():

@@ -226,10 +226,10 @@ def _write_marker(target: Path, history: History) -> None:
 # What is in it.
 
 #: Folders of the course that learners get, and single files.
-_FOLDERS = ("environment", "src/rosbeat", "src/ros2_command", ".devcontainer")
+_FOLDERS = ("environment", "src/rosbeat", "src/ros2_command", ".devcontainer", ".binder")
 _FILES = (
-    *("pyproject.toml", "LICENSE", "COLCON_IGNORE", ".gitignore", ".dockerignore"),
-    "docs/troubleshooting.md",
+    *("pyproject.toml", "LICENSE", "COLCON_IGNORE", "docs/troubleshooting.md"),
+    *(".gitignore", ".gitattributes", ".dockerignore"),
 )
 _CLUTTER = {"__pycache__", ".ipynb_checkpoints", ".mypy_cache", ".ruff_cache", ".DS_Store"}
 _CLUTTER_ENDINGS = (".pyc", ".pyo", ".part", ".swp", "~")
