@@ -6,7 +6,7 @@ import posixpath
 import re
 import shlex
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -311,7 +311,8 @@ def _judge_way(seen: TypedIn) -> Verdict:
     if seen.folder == _GOAL:
         # What was typed before the line that left the start did not lead away.
         left = max((at for at, (place, _) in enumerate(tried) if place.endswith(_START)), default=0)
-        return _judge_kind_of_path([text for _, text in tried[left:]])
+        texts = [text for _, text in tried]
+        return _judge_kind_of_path(texts[left:], _variables(texts))
     if not tried and seen.folder == _START:
         return not_attempted(f"The terminal is still in {_START}.")
     if not tried:
@@ -335,8 +336,22 @@ def _tried(seen: TypedIn) -> list[tuple[str, str]]:
     ]
 
 
-def _judge_kind_of_path(lines: list[str]) -> Verdict:
-    went = [words[1:] for line in lines for words in _commands(line) if words[0] in ("cd", "pushd")]
+def _variables(lines: list[str]) -> dict[str, str]:
+    """Return the variables that the lines set, such as `UP=../..`, by name."""
+    words = [words[0] for line in lines for words in _commands(line) if len(words) == 1]
+    return dict(word.split("=", 1) for word in words if re.match(r"[A-Za-z_]\w*=", word))
+
+
+def _judge_kind_of_path(lines: list[str], variables: Mapping[str, str]) -> Verdict:
+    def filled(word: str) -> str:
+        return re.sub(r"\$\{?(\w+)\}?", lambda found: variables.get(found[1], found[0]), word)
+
+    went = [
+        [filled(word) for word in words[1:]]
+        for line in lines
+        for words in _commands(line)
+        if words[0] in ("cd", "pushd")
+    ]
     if any(_is_absolute(words) for words in went):
         evidence = f"The terminal is in {_GOAL}, by an absolute path."
         return Diagnosis("absolute-path", evidence, _RELATIVE)

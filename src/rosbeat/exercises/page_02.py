@@ -109,6 +109,13 @@ def _slips_of_values(manifest: Manifest, todo: list[str]) -> Iterator[Diagnosis]
             f"The {todo[0]} in {_MANIFEST} is still open.",
             f"Put a text of your own between <tag> and </tag>, in place of TODO or {BLANK}.",
         )
+    if _is_known_license(manifest.description) and not _is_known_license(manifest.license):
+        yield Diagnosis(
+            "manifest-value",
+            f"The description is {manifest.description}, the short name of a licence.",
+            "Each text belongs between the tags that name it: <description> says what the package "
+            "is for, and <license> holds the licence.",
+        )
     if manifest.name != _FIRST:
         yield Diagnosis(
             "package-renamed",

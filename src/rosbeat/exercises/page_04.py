@@ -368,7 +368,17 @@ def _means_of_five_seconds(seconds: Seconds) -> Track:
     return {now: (sum(last) / len(last),) for now, last in windows.items()}
 
 
+def _means_that_change(seconds: Seconds) -> Track:
+    found, last = {}, None
+    for second, mean in _means()(seconds).items():
+        if mean != last:
+            found[second] = last = mean
+    return found
+
+
 MEAN_SUSPECTS = suspects(
+    ("wrong-rate", "A mean is published only when it differs from the one before. Here, each "
+     "reading gets a mean.", _means_that_change),
     ("wrong-window", "It is the last reading alone. The last five count.", _means(1)),
     ("wrong-window", "It is the mean of all readings so far. The last five count.",
      _means(10_000)),
@@ -536,6 +546,8 @@ def draw_hysteresis(draw: Draw) -> Seconds:
                         (far(30.0, 27.0, 50.0), far(23.0, 22.0, 24.5), 0.0, 0.0, 23.5),
                         (far(19.0, -9.0, 19.5), far(25.5, 22.0, 25.5)),
                         (far(27.0, 26.5, 50.0), far(20.5, 20.5, 24.5)),
+                        # So often that the mean stays the same.
+                        (22.5,) * 6,
                     )
                 )
             ),
