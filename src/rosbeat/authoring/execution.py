@@ -101,7 +101,7 @@ def kernel_place() -> Iterator[KernelPlace]:
     that pages which run at the same time do not meet.
 
     Raises:
-        DomainsExhaustedError: Every private domain id of this machine is taken.
+        DomainsExhaustedError: Every domain id for checks and builds is in use on this machine.
     """
     usual = tempfile.gettempdir()
     is_short = len(os.fsencode(usual)) < _LONGEST_FOLDER - len("/rb-12345678")
