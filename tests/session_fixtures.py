@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from rosbeat import Session
+from rosbeat.domains import lease_domain
 from rosbeat.errors import RosbeatError
 
 
@@ -13,6 +14,14 @@ from rosbeat.errors import RosbeatError
 def ros() -> Iterator[Session]:
     with Session(seed=1) as session:
         yield session
+
+
+@pytest.fixture
+def empty_domain() -> Iterator[int]:
+    """Return the id of a domain that nobody has joined."""
+    lease = lease_domain()
+    yield lease.domain_id
+    lease.release()
 
 
 @pytest.fixture

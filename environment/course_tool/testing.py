@@ -19,7 +19,7 @@ from course_tool.running import quiet
 
 #: Steps that run at a time, before the tests.
 _AT_ONCE = 2
-#: Each test process may hold several of the 51 domain ids for private sessions.
+#: Each test process may lease several of the 51 domain ids for programs.
 _MOST_WORKERS = 6
 _TESTS = "tests: units, ROS, pages"
 

@@ -107,8 +107,8 @@ viz.message_flow(workspace.terminal("sensor"), workspace.terminal("monitor"))
 #
 # ## Look from this page
 #
-# This page is a process as well. A session on this page sees none of these nodes, because each session has a
-# [**domain**](../docs/glossary.md#domain) of its own. A domain is identified by a number: nodes in the same domain
+# This page is a process as well. A session on this page sees none of these nodes, because it is private unless it
+# joins a [**domain**](../docs/glossary.md#domain). A domain is identified by a number: nodes in the same domain
 # find each other, and nodes in different domains never do. Your terminals have a domain number in their
 # environment, and a session can join that domain:
 

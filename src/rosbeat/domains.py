@@ -1,12 +1,18 @@
-"""Private ROS domain ids, so that two sessions never hear each other.
+"""Which ROS domain ids are for whom, and a lease on one for programs that nobody else shall hear.
 
-Two participants of DDS talk if their domain ids are equal. Each session therefore takes an id of
-its own from 51 to 101; ids 1 to 50 are for the course's terminals (`rosbeat.environment`), and
-above 101 the ports of DDS reach into those that Linux hands out by itself
+Two participants of DDS talk if their domain ids are equal. Ids 1 to 50 are for the course's
+terminals (`rosbeat.environment`). Programs that a check or a build runs get an id of their own from
+51 to 101; above, the ports of DDS reach into those that Linux hands out by itself, 32768 to 60999
 (ROS 2 documentation, "The ROS_DOMAIN_ID").
 
-Whoever holds an id also holds the TCP port with the number of that domain's UDP discovery port,
-7400 + 250 * id (RTPS specification, section 9.6.1). The operating system gives a port to one
+A private session needs no id of its own: its context is made with discovery off
+(`rosbeat.ros.context`), and accepts no other participant on whatever domain. The domain decides
+only which UDP ports Fast DDS binds, and those of 215 and above lie beyond the ones that Linux hands
+out. Fast DDS numbers the participants of a process and ends the process if a number leads to a port
+above 65535; in domain 222 that is the 1312th.
+
+Whoever holds a leased id also holds the TCP port with the number of that domain's UDP discovery
+port, 7400 + 250 * id (RTPS specification, section 9.6.1). The operating system gives a port to one
 process only, in the same network namespace that DDS traffic stays in, and takes it back when the
 process ends, however it ends. A node that outlives the process that held the id still speaks in
 that domain, so an id is given out only while the UDP port of a domain's first participant, 7410 +
@@ -22,11 +28,15 @@ from dataclasses import dataclass
 from rosbeat.errors import DomainsExhaustedError
 
 PRIVATE_IDS = range(51, 102)
+"""Ids to lease, each to the programs of one check, build or test."""
+
+SESSION_DOMAINS = range(215, 223)
+"""Domains of private sessions, whose UDP ports begin at 61160."""
 
 
 @dataclass
 class DomainLease:
-    """Hold a private domain id until `release` is called or the process ends.
+    """Hold a domain id until `release` is called or the process ends.
 
     Attributes:
         domain_id: The id.
@@ -57,7 +67,7 @@ def _require_silence(domain_id: int) -> None:
 
 
 def lease_domain(ids: range = PRIVATE_IDS) -> DomainLease:
-    """Take a domain id that no other session on this machine has.
+    """Take a domain id that nobody else on this machine has leased or uses.
 
     Args:
         ids: The ids to choose from.
@@ -72,7 +82,7 @@ def lease_domain(ids: range = PRIVATE_IDS) -> DomainLease:
         if lock is not None:
             return DomainLease(domain_id, lock)
     raise DomainsExhaustedError(
-        f"All {len(ids)} private ROS domain ids are in use on this machine.",
-        "Each open session holds one, and so do sessions in other notebooks.",
-        "Close sessions you no longer need (`ros.close()`), or restart their kernels.",
+        f"All {len(ids)} ROS domain ids for checks and builds are in use on this machine.",
+        "Each check or build that starts programs gives them a domain of their own.",
+        "Wait until other checks and builds have ended, then try again.",
     )

@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 SHARED_DOMAINS = range(1, 51)
-"""Domain ids for people and their checkouts; 0 is ROS's own, 51 to 101 are for private sessions."""
+"""Domain ids for people and their checkouts; `rosbeat.domains` says what the others are for."""
 
 _PATH = "AMENT_PREFIX_PATH"
 _PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"

@@ -28,10 +28,10 @@ class Session(session.Session):
             ros.messages("temperature")
             ros.explain("temperature")
 
-    The nodes are real `rclpy` nodes on the real middleware, in a ROS context and domain of their
-    own. In virtual time (`run`) the clock jumps from one timer to the next, so a minute takes
-    milliseconds and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes
-    run against the wall clock, and other processes in the same domain can talk to them.
+    The nodes are real `rclpy` nodes on the real middleware, in a ROS context of their own. In
+    virtual time (`run`) the clock jumps from one timer to the next, so a minute takes milliseconds
+    and every run gives the same result. Live (`start`, `wait`, `stop`) the same nodes run against
+    the wall clock; in a domain that was joined with `domain_id`, other processes can talk to them.
 
     A session closes at the end of its `with` block, on `close()`, when it is garbage-collected, or
     when the kernel ends, and releases all its resources. A node that is created without a context
@@ -41,12 +41,11 @@ class Session(session.Session):
         seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
             global generator. The same seed gives the same run.
         domain_id: The ROS domain to join, 0 to 101; the session then also discovers the nodes of
-            other processes in that domain. By default each session has a private domain, which no
-            other session or terminal can reach.
+            other processes in that domain. By default a session is private: no other session or
+            terminal can reach it.
 
     Raises:
         SessionError: If the seed or the domain id is not an integer in its range.
-        DomainsExhaustedError: If no private domain id is left on this machine.
     """
 
     @called_as('ros.explain("temperature")')

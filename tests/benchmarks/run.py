@@ -21,6 +21,7 @@ import live_mode
 import memory
 import panel
 import scaling
+import sessions
 import simulation
 import throughput
 from measuring import Row, table
@@ -30,6 +31,7 @@ BENCHMARKS = {
     "simulation": simulation.measure,
     "live": live_mode.measure,
     "memory": memory.measure,
+    "sessions": sessions.measure,
     "panel": panel.measure,
     "scaling": scaling.measure,
     "commands": commands.measure,

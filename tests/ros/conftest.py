@@ -1,5 +1,5 @@
 """Each test owns its sessions."""
 
-from session_fixtures import eventually, ros, says, slept
+from session_fixtures import empty_domain, eventually, ros, says, slept
 
-__all__ = ["eventually", "ros", "says", "slept"]
+__all__ = ["empty_domain", "eventually", "ros", "says", "slept"]

@@ -208,7 +208,7 @@ def test_waiting_in_an_empty_domain(says):
 def test_waiting_is_refused_where_nobody_can_come(ros, says):
     with pytest.raises(SessionError) as caught:
         ros.wait_for_nodes("talker")
-    says(caught.value, "private ROS domain", "ROS_DOMAIN_ID")
+    says(caught.value, "A session is private", "ROS_DOMAIN_ID")
 
 
 def test_what_is_asked_for_is_checked(joined, says, capsys):
@@ -233,24 +233,16 @@ def test_a_topic_that_only_others_use_is_explained(joined, says):
 # The hidden node through which a session sees other processes.
 
 
-@pytest.fixture
-def empty():
-    """A domain that nobody has joined."""
-    lease = lease_domain()
-    yield lease.domain_id
-    lease.release()
-
-
-def test_own_messages_are_told_from_those_of_another_session(empty, eventually):
-    with Session(domain_id=empty) as one, Session(domain_id=empty) as two:
+def test_own_messages_are_told_from_those_of_another_session(empty_domain, eventually):
+    with Session(domain_id=empty_domain) as one, Session(domain_id=empty_domain) as two:
         one.add(Talker)
         two.add(Talker)
         eventually(lambda: len(one.graph().on("/count", "publisher")) == 2, 30)
         eventually(lambda: one.graph().nodes == ("/talker", "/talker"), 30)
 
 
-def test_the_observer_is_no_node_of_the_session_and_has_nothing_to_say(empty):
-    with Session(domain_id=empty) as ros:
+def test_the_observer_is_no_node_of_the_session_and_has_nothing_to_say(empty_domain):
+    with Session(domain_id=empty_domain) as ros:
         observer = ros._world.graph_observer
         assert ros.nodes == ()
         assert ros.graph().nodes == ros.graph().endpoints == ()
@@ -269,8 +261,10 @@ def test_a_private_session_has_none(ros):
     assert ros._world.graph_observer is None
 
 
-def test_a_node_that_is_listed_after_it_has_left_does_not_count(empty, eventually, monkeypatch):
-    with Session(domain_id=empty) as one, Session(domain_id=empty) as two:
+def test_a_node_that_is_listed_after_it_has_left_does_not_count(
+    empty_domain, eventually, monkeypatch
+):
+    with Session(domain_id=empty_domain) as one, Session(domain_id=empty_domain) as two:
         two.add(Talker)
         eventually(lambda: one.graph().nodes == ("/talker",), 30)
         # As the middleware does it now and then on a busy machine.
@@ -280,9 +274,9 @@ def test_a_node_that_is_listed_after_it_has_left_does_not_count(empty, eventuall
         assert one.graph().nodes == ("/talker",)
 
 
-def test_nodes_of_one_name_count_each(empty, eventually):
+def test_nodes_of_one_name_count_each(empty_domain, eventually):
     with ExitStack() as stack:
-        one, two, three = (stack.enter_context(Session(domain_id=empty)) for _ in range(3))
+        one, two, three = (stack.enter_context(Session(domain_id=empty_domain)) for _ in range(3))
         for session in two, three:
             session.add(Talker)
         eventually(lambda: one.graph().nodes == ("/talker", "/talker"), 30)
@@ -327,12 +321,12 @@ def test_nothing_is_known_without_a_table():
     assert udp_ports("") == udp_ports("nonsense\n1: 2") == set()
 
 
-def test_a_session_is_counted_and_is_no_other(ros):
-    ros.add(Talker)
-    assert count_participants(ros.domain_id) == 1
-    assert ros.domain_id not in domains_in_use()
-    with Session(domain_id=ros.domain_id):
-        assert count_participants(ros.domain_id) == 2
+def test_a_session_is_counted_and_is_no_other(empty_domain):
+    with Session(domain_id=empty_domain):
+        assert count_participants(empty_domain) == 1
+        assert empty_domain not in domains_in_use()
+        with Session(domain_id=empty_domain):
+            assert count_participants(empty_domain) == 2
 
 
 # Waiting with a deadline.

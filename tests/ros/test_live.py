@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 
 from nodes import AsyncDoer, Doer, Listener, Server, Speaker, Talker, Ticker
 from rosbeat import Session
-from rosbeat.errors import DurationError, SessionError, UnknownTopicError
+from rosbeat.errors import DurationError, SessionError
 from rosbeat.ros.context import Interrupts, show_briefly
 from rosbeat.ros.wait_set import WaitSetExecutor
 
@@ -312,9 +312,9 @@ def test_stopping_in_full_swing_records_no_fault(ros):
     assert ros.observation().faults == ()
 
 
-def test_two_sessions_in_one_domain_hear_each_other(ros):
-    with Session(domain_id=ros.domain_id) as other:
-        assert other.domain_id == ros.domain_id
+def test_two_sessions_in_one_domain_hear_each_other(empty_domain):
+    with Session(domain_id=empty_domain) as ros, Session(domain_id=empty_domain) as other:
+        assert other.domain_id == ros.domain_id == empty_domain
         ros.add(partial(Talker, period=0.02))
         listener = other.add(Listener)
         ros.start()
@@ -326,34 +326,23 @@ def test_two_sessions_in_one_domain_hear_each_other(ros):
         assert {sample.node for sample in samples} == {"/talker"}
 
 
-def test_a_private_session_says_that_it_does_not_record_others(ros):
-    with Session(domain_id=ros.domain_id) as other:
-        other.add(partial(Talker, period=0.02))
-        listener = ros.add(Listener)
-        other.start()
-        ros.start()
-        assert ros.wait(20, until=lambda: listener.heard)
-        with pytest.raises(UnknownTopicError, match="No node of this session") as caught:
-            ros.messages("count")
-        assert "Another process publishes on it" in caught.value.means
-
-
-def test_another_process_hears_and_is_heard(ros):
-    ros.add(partial(Talker, period=0.02))
-    listener = ros.add(partial(Listener, topic="reply"))
-    ros.start()
-    environ = {**os.environ, "ROS_DOMAIN_ID": str(ros.domain_id)}
+def test_another_process_hears_and_is_heard(empty_domain):
+    environ = {**os.environ, "ROS_DOMAIN_ID": str(empty_domain)}
     environ["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
     program = f"import rosbeat\n{OTHER_PROCESS}"
-    outside = subprocess.Popen(
-        [sys.executable, "-c", program], env=environ, stdout=subprocess.PIPE, text=True
-    )
-    try:
-        assert outside.stdout.readline() == "ready\n"
-        assert ros.wait(30, until=lambda: len(listener.heard) >= 3)
-    finally:
-        outside.kill()
-        outside.communicate()
+    with Session(domain_id=empty_domain) as ros:
+        ros.add(partial(Talker, period=0.02))
+        listener = ros.add(partial(Listener, topic="reply"))
+        ros.start()
+        outside = subprocess.Popen(
+            [sys.executable, "-c", program], env=environ, stdout=subprocess.PIPE, text=True
+        )
+        try:
+            assert outside.stdout.readline() == "ready\n"
+            assert ros.wait(30, until=lambda: len(listener.heard) >= 3)
+        finally:
+            outside.kill()
+            outside.communicate()
 
 
 # Ctrl+C, and Interrupt of a kernel.

@@ -8,7 +8,7 @@ from threading import Timer
 
 import pytest
 
-from rosbeat.domains import lease_domain
+from rosbeat.domains import PRIVATE_IDS, lease_domain
 from rosbeat.ros.programs import MOST_OUTPUT, Program, private_domain, program_environment
 
 
@@ -66,7 +66,7 @@ def test_it_has_a_home_and_a_domain_of_its_own():
     home, domain, place = done.output.split()
     assert home == place
     assert not Path(home).exists()
-    assert 51 <= int(domain) <= 101
+    assert int(domain) in PRIVATE_IDS
     lease_domain(range(int(domain), int(domain) + 1)).release()  # it was given back
 
 

@@ -292,8 +292,8 @@ def test_what_is_made_live_is_left_to_the_middleware(ros):
     assert events(ros)[0][1:] == ("on_missed", "deadline of /pulse")
 
 
-def test_a_domain_that_was_joined_shows_what_was_written(ros):
-    with Session(domain_id=ros.domain_id) as joined:
+def test_a_domain_that_was_joined_shows_what_was_written(empty_domain):
+    with Session(domain_id=empty_domain) as joined:
         heart = joined.add(lambda: Heart(quality(0.5, 0.25)))
         told = joined.add(lambda: Node("asker"))
         (info,) = told.get_publishers_info_by_topic(f"/{TOPIC}")
@@ -683,9 +683,9 @@ def test_a_real_limit_below_three_years_is_not_touched():
     assert info.qos_profile.deadline == Duration(seconds=86400 * 365)
 
 
-def test_a_node_outside_of_a_session_is_not_stretched(ros):
+def test_a_node_outside_of_a_session_is_not_stretched(ros, empty_domain):
     context = rclpy.Context()
-    context.init(domain_id=ros.domain_id)
+    context.init(domain_id=empty_domain)
     try:
         stranger = Node("stranger", context=context)
         stranger.create_publisher(Int32, "own", quality(0.5))
@@ -781,8 +781,8 @@ def test_a_lifespan_on_a_topic_of_every_node_is_left_to_the_middleware(ros):
     assert heard == ["hello"]
 
 
-def test_a_joined_domain_is_left_to_the_middleware(ros):
-    with Session(domain_id=ros.domain_id) as joined:
+def test_a_joined_domain_is_left_to_the_middleware(empty_domain):
+    with Session(domain_id=empty_domain) as joined:
         joined.add(lambda: Nurse(quality(1.0, 1.0)))
         joined.add(lambda: Heart(quality(1.0)))
         assert not joined._world.virtual.deadlines

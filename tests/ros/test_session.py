@@ -9,6 +9,7 @@ from functools import partial
 
 import psutil
 import pytest
+from rcl_interfaces.msg import Log
 from rclpy.node import Node
 from std_msgs.msg import String
 
@@ -30,6 +31,15 @@ class Endless(Node):
         while True:
             if time.monotonic() > end:
                 signal.raise_signal(signal.SIGINT)
+
+
+def test_messages_of_ros_itself_are_not_recorded(ros, says):
+    ros.add(lambda: Node("asker")).create_subscription(Log, "/rosout", lambda _: None, 10)
+    ros.add(Talker)
+    ros.run(1)
+    with pytest.raises(UnknownTopicError) as caught:
+        ros.messages("rosout")
+    says(caught.value, "Messages on /rosout are not recorded", "ROS itself publishes on it")
 
 
 def test_an_interrupt_names_the_endless_callback_and_ends_its_node(ros, capsys):

@@ -106,7 +106,7 @@ def kernel_place(page: str = "") -> Iterator[KernelPlace]:
         page: The name of the page's file, such as `05_set_the_entry_points.ipynb`.
 
     Raises:
-        DomainsExhaustedError: Every private domain id of this machine is taken.
+        DomainsExhaustedError: Every domain id for checks and builds is in use on this machine.
     """
     usual = tempfile.gettempdir()
     is_short = len(os.fsencode(usual)) < _LONGEST_FOLDER - len("/rb-12345678")

@@ -761,19 +761,6 @@ def _other_domain(
     )
 
 
-def private_domains(scene: Scene) -> str:
-    """Return what to know of domains that were not looked into, as a sentence, or an empty text."""
-    ids = [str(one.domain_id) for one in scene.other_domains if one.private]
-    if not ids:
-        return ""
-    word = "domain" if len(ids) == 1 else "domains"
-    return (
-        f"ROS {word} {listing(ids)} also {'has' if len(ids) == 1 else 'have'} participants, "
-        "probably the sessions of pages: each session has a private domain, unless it is opened "
-        "with `Session(domain_id=...)`."
-    )
-
-
 def stale(scene: Scene) -> Iterator[Finding]:
     """Find programs that were edited and not built again."""
     for build in scene.stale_builds:
@@ -818,8 +805,11 @@ def _sentences(sides: Sides, scene: Scene) -> Iterator[str]:
         yield f"{end.node} subscribes to {_what(end)}{_heard(beat)}."
     if scene.arriving_hz:
         yield f"In total, {comes(scene.arriving_hz, 'arrives', 'arrive')} from other processes."
-    if sides.missing:
-        yield private_domains(scene)
+    if sides.missing and scene.private_sessions:
+        yield (
+            "Pages on this machine have private sessions open. Only a session that is opened with "
+            "`Session(domain_id=...)` can be heard in other processes."
+        )
 
 
 def _what(end: Endpoint) -> str:

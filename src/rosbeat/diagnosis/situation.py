@@ -88,13 +88,11 @@ class OtherDomain:
         domain_id: Its id.
         publishers: Full names of the nodes that publish on the topic there.
         subscriptions: Full names of the nodes that subscribe to the topic there.
-        private: Whether it is one that sessions of pages take, which was not looked into.
     """
 
     domain_id: int
     publishers: tuple[str, ...] = ()
     subscriptions: tuple[str, ...] = ()
-    private: bool = False
 
 
 @dataclass(frozen=True)
@@ -127,9 +125,10 @@ class Scene:
         own: The nodes of the page's own session; all others are in other processes.
         virtual: Whether time is virtual, and so stands still between two runs.
         waiting: Whether callbacks wait for the next run.
-        domain_id: The ROS domain, or -1 if it is a private one of which nobody need know.
+        domain_id: The ROS domain, or -1 for a private session.
         former: Who has published there before.
         other_domains: Other domains in which somebody takes part.
+        private_sessions: Whether other processes of this machine have private sessions open.
         stale_builds: What was edited and not built again.
     """
 
@@ -144,6 +143,7 @@ class Scene:
     domain_id: int = -1
     former: tuple[Former, ...] = ()
     other_domains: tuple[OtherDomain, ...] = ()
+    private_sessions: bool = False
     stale_builds: tuple[StaleBuild, ...] = ()
 
     def beat(self, end: Endpoint) -> Beat:

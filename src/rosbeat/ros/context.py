@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from functools import wraps
+from itertools import count
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +18,7 @@ import rclpy.utilities
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation
 
+from rosbeat.domains import SESSION_DOMAINS
 from rosbeat.ros.console import note
 from rosbeat.ros.recording import Watcher, in_kernel
 
@@ -27,6 +30,42 @@ if TYPE_CHECKING:
 #: the same in JupyterLab and in a test. Nor are log files written into the home directory.
 SESSION_ARGUMENTS = ["--ros-args", "--disable-stdout-logs", "--disable-external-lib-logs"]
 
+# The isolation of a private session: its context is made with discovery off, and then accepts no
+# other participant. Fast DDS looks for free ports among a hundred pairs of the context's domain, so
+# private sessions spread over several domains (`rosbeat.domains.SESSION_DOMAINS`).
+
+#: rcl reads these in `Context.init`; ROS_LOCALHOST_ONLY=1 would take precedence.
+_NO_DISCOVERY: dict[str, str | None] = {
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
+    "ROS_LOCALHOST_ONLY": None,
+}
+#: Fast DDS reads this when a context's first node is made. Messages in one process take no
+#: transport; without shared memory, a process that is killed leaves no files in /dev/shm.
+_NO_SHARED_MEMORY: dict[str, str | None] = {"FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
+#: A process has one environment: nobody may read it while it is changed for somebody else.
+_environment_lock = threading.RLock()
+_private_contexts = count()
+
+
+@contextmanager
+def _environment(values: dict[str, str | None]) -> Iterator[None]:
+    """Let the middleware read these variables, for which there is no argument, in this block."""
+    with _environment_lock:
+        before = {name: os.environ.get(name) for name in values}
+        _set_environment(values)
+        try:
+            yield
+        finally:
+            _set_environment(before)
+
+
+def _set_environment(values: dict[str, str | None]) -> None:
+    for name, value in values.items():
+        if value is not None:
+            os.environ[name] = value
+        elif name in os.environ:
+            del os.environ[name]
+
 
 class SessionContext(Context):
     """Watch the nodes that are created in this context.
@@ -36,19 +75,25 @@ class SessionContext(Context):
 
     Args:
         watcher: Observer that is notified of every node and entity created in this context.
-        domain_id: The ROS domain to join.
+        domain_id: The ROS domain to join; None for a private context, which no participant outside
+            of it can hear, whether in this process or in another.
 
     Attributes:
         watcher: The observer; None when the session has ended, so that the context keeps nothing
             alive.
     """
 
-    def __init__(self, watcher: Watcher, domain_id: int) -> None:
+    def __init__(self, watcher: Watcher, domain_id: int | None) -> None:
         super().__init__()
         self.watcher: Watcher | None = watcher
         # Always an older one, so that these references never form a circle.
         self._previous: Context | None = rclpy.utilities.g_default_context
-        super().init(SESSION_ARGUMENTS, domain_id=domain_id)
+        self._is_private = domain_id is None
+        if domain_id is None:
+            number = os.getpid() + next(_private_contexts)
+            domain_id = SESSION_DOMAINS[number % len(SESSION_DOMAINS)]
+        with _environment(_NO_DISCOVERY if self._is_private else {}):
+            super().init(SESSION_ARGUMENTS, domain_id=domain_id)
         _configure_logging(self, rclpy.utilities.g_default_context)
 
     def init(self, args: Any = None, **_: Any) -> None:  # noqa: ANN401 - rclpy's own signature
@@ -66,6 +111,12 @@ class SessionContext(Context):
         """Answer a learner's `rclpy.try_shutdown()`: the session goes on."""
         if self.watcher is not None:
             self.watcher.explain_shutdown()
+
+    @contextmanager
+    def making_node(self) -> Iterator[None]:
+        """Make a node in this block: with the first one, Fast DDS creates the participant."""
+        with _environment(_NO_SHARED_MEMORY if self._is_private else {}):
+            yield
 
     def end(self) -> None:
         """Shut the context down for real and hand the default back."""

@@ -208,8 +208,9 @@ def unknown_topic(name: str, known: set[str], graph: GraphSnapshot) -> UnknownTo
     listening = graph.on(name, "subscription")
     if any(end.matched > 0 for end in listening):
         return UnknownTopicError(
-            f"No node of this session has published on {name}.",
-            "Another process publishes on it. Its messages are delivered, but not recorded.",
+            f"Messages on {name} are not recorded.",
+            "ROS itself publishes on it for each node. The messages are delivered, but a session "
+            "records only what the nodes' own publishers send.",
             "Log or store the messages in the callback of a node that subscribes.",
         )
     listeners = ", ".join(end.node for end in listening)

@@ -23,6 +23,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
+from rosbeat.domains import SESSION_DOMAINS
 from rosbeat.errors import SessionError
 from rosbeat.records import (
     INFRASTRUCTURE_TOPICS,
@@ -286,8 +287,9 @@ def count_participants(domain_id: int, ports: Collection[int] | None = None) -> 
 def domains_in_use() -> list[int]:
     """Return the domains in which another process of this machine takes part, ascending."""
     ports = udp_ports(_socket_table(), _own_sockets())
-    # From 102 on Linux hands out the ports by itself.
-    return [number for number in range(102) if count_participants(number, ports)]
+    # From 102 on Linux hands out the ports by itself, up to those of private sessions.
+    numbers = (*range(102), *SESSION_DOMAINS)
+    return [number for number in numbers if count_participants(number, ports)]
 
 
 def udp_ports(table: str, ignored: Collection[str] = ()) -> set[int]:
@@ -337,14 +339,15 @@ def wait_for_nodes(world: World, names: list[str], seconds: float) -> None:
     """Wait until nodes of these full names are in the graph, with all that belongs to them.
 
     Raises:
-        SessionError: If the domain is private, or they do not come.
+        SessionError: If the session is private, or they do not come.
     """
     observer = world.graph_observer
     if observer is None:
         raise SessionError(
             "This session cannot see nodes of other processes.",
-            "A session has a private ROS domain, and the nodes of a terminal are in another one.",
-            'Join their domain: `Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))`.',
+            "A session is private: no other process hears it, and it hears none.",
+            "Join the domain of your terminals: "
+            '`Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))`.',
         )
     wanted, looks = set(names), observer.looks()
 

@@ -32,7 +32,7 @@ from rosbeat.diagnosis.situation import (
     Scene,
     rate_of,
 )
-from rosbeat.domains import PRIVATE_IDS
+from rosbeat.domains import PRIVATE_IDS, SESSION_DOMAINS
 from rosbeat.records import NANOSECONDS, GraphSnapshot, is_hidden
 from rosbeat.ros.context import SESSION_ARGUMENTS
 from rosbeat.ros.entities import NodeState
@@ -61,6 +61,7 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
     with world.recorder.lock:
         messages = world.recorder.times(topic)
     states = world.states()
+    other_domains, private_sessions = _elsewhere(world, topic, graph)
     return Scene(
         graph,
         world.now(),
@@ -76,7 +77,8 @@ def inspect_topic(world: World, topic: str, seconds: float) -> Scene:
         waiting=world.virtual.has_work,
         domain_id=-1 if observer is None else world.domain_id or 0,
         former=() if graph.on(topic, "publisher") else _former(messages),
-        other_domains=_other_domains(world, topic, graph),
+        other_domains=other_domains,
+        private_sessions=private_sessions,
     )
 
 
@@ -297,20 +299,27 @@ def _silent(services: Mapping[str, Any], spin: _Spin) -> set[str]:
 _MOST_DOMAINS = 10
 
 
-def _other_domains(world: World, topic: str, graph: GraphSnapshot) -> tuple[OtherDomain, ...]:
+def _elsewhere(
+    world: World, topic: str, graph: GraphSnapshot
+) -> tuple[tuple[OtherDomain, ...], bool]:
     """Look into other domains, if a side is missing here and other processes matter at all.
 
-    The private domains of sessions are named and not looked into: no node shall appear there.
+    Domains of checks and builds are left alone: no node shall appear there. Private sessions cannot
+    be looked into.
+
+    Returns:
+        The other domains, and whether other processes have private sessions.
     """
     publishers = graph.on(topic, "publisher")
     heard = graph.on(topic, "subscription") or any(end.matched > 0 for end in publishers)
     is_alone = world.graph_observer is None and world.live is None
     if is_alone or (publishers and heard):
-        return ()
-    used = [number for number in domains_in_use() if number != (world.domain_id or 0)]
-    shared = [number for number in used if number not in PRIVATE_IDS]
-    private = [OtherDomain(number, private=True) for number in used if number in PRIVATE_IDS]
-    return (*(_look_into(number, topic) for number in shared[:_MOST_DOMAINS]), *private)
+        return (), False
+    used = domains_in_use()
+    apart = {world.domain_id, *PRIVATE_IDS, *SESSION_DOMAINS}
+    shared = [number for number in used if number not in apart]
+    found = tuple(_look_into(number, topic) for number in shared[:_MOST_DOMAINS])
+    return found, any(number in SESSION_DOMAINS for number in used)
 
 
 def _look_into(domain_id: int, topic: str) -> OtherDomain:

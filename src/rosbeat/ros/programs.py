@@ -57,10 +57,10 @@ def program_environment(home: Path, domain_id: int) -> dict[str, str]:
 
 @contextmanager
 def private_domain() -> Iterator[int]:
-    """Hold a ROS domain id that no session has.
+    """Hold a ROS domain id that nobody else has.
 
     Raises:
-        DomainsExhaustedError: If no private domain id is left on this machine.
+        DomainsExhaustedError: If all of them are in use on this machine.
     """
     lease = lease_domain()
     try:

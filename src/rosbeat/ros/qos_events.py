@@ -238,8 +238,8 @@ class Deadlines(list[Deadline]):
 
 # Which deadlines and lifespans a session counts itself, and what has to be heard for that.
 #
-# Only in a private domain, and for what is made in virtual time. Where other processes listen, they
-# shall see what the learner wrote, and what is made live is counted by the middleware. Nor is
+# Only in a private session, and for what is made in virtual time. Where other processes listen,
+# they shall see what the learner wrote, and what is made live is counted by the middleware. Nor is
 # anything counted while a session is live: deadlines wait for the first message in virtual time.
 #
 # A subscription's lifespan drops what has waited too long in its queue. A publisher's drops what it

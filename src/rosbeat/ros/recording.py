@@ -530,7 +530,8 @@ def _watch_birth(original: Callable[..., None]) -> Callable[..., None]:
             kwargs["cli_args"] = [*said, *start.arguments()] or None
             namespace = start.namespace or kwargs.get("namespace") or "/"
             watcher.node_begins(start.name or name, namespace)
-            original(node, *args, **kwargs)
+            with watcher.context.making_node():
+                original(node, *args, **kwargs)
         watcher.node_made(node)
 
     return init

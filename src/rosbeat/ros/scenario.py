@@ -598,7 +598,6 @@ def observe(
 
     Raises:
         KeyboardInterrupt: If Interrupt was pressed.
-        DomainsExhaustedError: If no private domain id is left on this machine.
     """
     maker = Maker(answer, start or Launch())
     return _observe(_Run(_Run.add_node, maker, seconds, others, steps, seed, deadline))

@@ -80,9 +80,9 @@ class Session:
         return self._world.now() / 1e9
 
     @property
-    def domain_id(self) -> int:
-        """Return the ROS domain, the `ROS_DOMAIN_ID` of processes that shall hear these nodes."""
-        return int(self._world.domain_id or 0)
+    def domain_id(self) -> int | None:
+        """Return the ROS domain that the session has joined; None if it is private."""
+        return self._world.domain_id
 
     @property
     def is_live(self) -> bool:
@@ -285,9 +285,10 @@ class Session:
     def start(self) -> None:
         """Go live: run the nodes against the wall clock, in a background thread.
 
-        Other processes in this ROS domain see the nodes and can talk to them. A session that is
-        live already stays so. Each timer begins a new period; the parameter `use_sim_time` reads
-        False while the session is live.
+        In a domain that was joined with `domain_id`, other processes see the nodes and can talk to
+        them; nobody sees those of a private session. A session that is live already stays so. Each
+        timer begins a new period; the parameter `use_sim_time` reads False while the session is
+        live.
 
         Raises:
             SessionError: If `start` is called from a callback.

@@ -23,7 +23,6 @@ from rclpy.publisher import Publisher
 from rclpy.task import Future
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
-from rosbeat.domains import DomainLease, lease_domain
 from rosbeat.errors import SessionError
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Fault, GraphSnapshot, LogRecord
 from rosbeat.ros.actions import action_of
@@ -68,9 +67,9 @@ class World:
     Attributes:
         virtual: The executor of virtual time; it also keeps the time while nothing runs.
         live: The live executor while the session is live, else None.
-        graph_observer: Observes the other processes; None in a private domain, where there are
-            none.
-        external_messages: Records messages from other processes; None in a private domain.
+        domain_id: The domain that the session has joined; None in a private session.
+        graph_observer: Observes the other processes; None in a private session, which has none.
+        external_messages: Records messages from other processes; None in a private session.
         start: How the node that is being created is started.
         makers: The factory of each node, and how the node was started.
         next_number: Returns the position of a new entity in the order of creation.
@@ -85,12 +84,11 @@ class World:
         self._goals = count(1)
         self.next_number = count(1).__next__
         repair_message_classes()
-        self._lease: DomainLease | None = lease_domain() if domain_id is None else None
-        self.domain_id = self._lease.domain_id if self._lease else domain_id
+        self.domain_id = domain_id
         self.start = Launch()
         self.recorder = Recorder()
         self.console = Console()
-        self.context = SessionContext(self, self.domain_id or 0)
+        self.context = SessionContext(self, domain_id)
         self.virtual = VirtualTimeExecutor(self.context, self.recorder, self)
         self.live: LiveExecutor | None = None
         self.limits = Limits(self)
@@ -517,7 +515,7 @@ class World:
             self.live.interrupt()
 
     def close(self) -> None:
-        """Destroy the nodes, end the context and give the domain id back."""
+        """Destroy the nodes and end the context."""
         if self.closed:
             return
         if self.panel is not None:
@@ -535,8 +533,6 @@ class World:
             self.graph_observer.destroy_node()
         self.virtual.shutdown()
         self.context.end()
-        if self._lease:
-            self._lease.release()
 
     # Watching what nodes make.
 

@@ -210,12 +210,9 @@ CASES = {
     "another domain, and nothing is missing": (
         silent(other_domains=(OTHER,)), "never-published", []),
     "an empty domain": (scene(sub(), other_domains=(OtherDomain(12),)), "no-publisher", []),
-    "a private domain": (
-        scene(sub(), other_domains=(OtherDomain(60, private=True),)), "no-publisher",
-        ["ROS domain 60"]),
-    "private domains": (
-        scene(sub(), other_domains=tuple(OtherDomain(k, private=True) for k in (60, 61))),
-        "no-publisher", ["domains 60 and 61"]),
+    "private sessions": (
+        scene(sub(), private_sessions=True), "no-publisher",
+        ["Pages on this machine have private sessions", "Session(domain_id=...)"]),
     "an old build": (
         elsewhere(scene(sub(), stale_builds=(BUILD,))), "not-rebuilt no-publisher",
         ["ros2 run sensor_simulator temperature_publisher", "colcon build"]),

@@ -1,0 +1,162 @@
+"""Private sessions: as many as one likes, in one process and in several; none hears another."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from contextlib import ExitStack, contextmanager
+from functools import partial
+from pathlib import Path
+
+import pytest
+from rclpy.node import Node
+from std_msgs.msg import Int32
+
+from nodes import Listener
+from rosbeat import Session
+from rosbeat.domains import SESSION_DOMAINS
+
+pytestmark = pytest.mark.ros
+
+#: More than there are domain ids for programs: sessions once had one each.
+MANY = 60
+#: So many that two of one process share a domain.
+SHARING = len(SESSION_DOMAINS) + 1
+
+
+class Repeater(Node):
+    """Publishes its number again and again."""
+
+    def __init__(self, number: int, period: float = 1.0) -> None:
+        super().__init__("repeater")
+        self.number = number
+        self.publisher = self.create_publisher(Int32, "count", 10)
+        self.create_timer(period, self.talk)
+
+    def talk(self) -> None:
+        self.publisher.publish(Int32(data=self.number))
+
+
+def test_many_sessions_in_one_process_hear_only_themselves():
+    with ExitStack() as stack:
+        sessions = [stack.enter_context(Session()) for _ in range(MANY)]
+        ears = []
+        for number, ros in enumerate(sessions):
+            ros.add(partial(Repeater, number))
+            ears.append(ros.add(Listener))
+        for ros in sessions:
+            ros.run(3)
+        assert [ear.heard for ear in ears] == [[number] * 3 for number in range(MANY)]
+        assert {ros.graph().nodes for ros in sessions} == {("/repeater", "/listener")}
+
+
+@pytest.mark.parametrize("localhost_only", ["", "1"])
+def test_live_sessions_hear_only_themselves(localhost_only, monkeypatch):
+    # rcl lets this variable take precedence over the range of discovery.
+    monkeypatch.setenv("ROS_LOCALHOST_ONLY", localhost_only)
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
+    monkeypatch.delenv("FASTDDS_BUILTIN_TRANSPORTS", raising=False)
+    before = dict(os.environ)
+    with ExitStack() as stack:
+        sessions = [stack.enter_context(Session()) for _ in range(SHARING)]
+        ears = []
+        for number, ros in enumerate(sessions):
+            ros.add(partial(Repeater, number, 0.02))
+            ears.append(ros.add(Listener))
+            ros.start()
+        for ros, ear in zip(sessions, ears, strict=True):
+            assert ros.wait(30, until=lambda ear=ear: len(ear.heard) >= 20)
+        assert [set(ear.heard) for ear in ears] == [{number} for number in range(SHARING)]
+        assert dict(os.environ) == before
+
+
+PROGRAM = """
+import json, sys
+from functools import partial
+from nodes import Listener
+from rosbeat import Session
+from rosbeat.domains import SESSION_DOMAINS
+from test_private_sessions import Repeater
+
+first, last = int(sys.argv[1]), int(sys.argv[2])
+sessions, ears = [Session() for _ in range(first, last)], []
+for number, ros in enumerate(sessions, first):
+    ros.add(partial(Repeater, number, 0.05))
+    ears.append(ros.add(Listener))
+    ros.start()
+print("ready", flush=True)
+sys.stdin.readline()
+arrived = [ros.wait(60, until=lambda ear=ear: len(ear.heard) >= 10)
+           for ros, ear in zip(sessions, ears)]
+nodes = sorted({name for ros in sessions for name in ros.graph().nodes})
+print(json.dumps([all(arrived), [sorted(set(ear.heard)) for ear in ears], nodes]), flush=True)
+sys.stdin.readline()
+"""
+
+
+@contextmanager
+def sessions_elsewhere(first, last):
+    """Open sessions in another process; yield it when their nodes run."""
+    places = [str(Path(__file__).parent), *filter(None, sys.path)]
+    environ = {**os.environ, "PYTHONPATH": os.pathsep.join(places)}
+    process = subprocess.Popen(
+        [sys.executable, "-c", PROGRAM, str(first), str(last)], env=environ, text=True,
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    )  # fmt: skip
+    try:
+        assert process.stdout.readline() == "ready\n"
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def test_sessions_of_several_processes_hear_only_themselves():
+    with ExitStack() as stack:
+        ranges = [(first, first + MANY // 4) for first in range(0, MANY, MANY // 4)]
+        running = [stack.enter_context(sessions_elsewhere(*one)) for one in ranges]
+        for process in running:  # all are open before anybody is asked
+            print(file=process.stdin, flush=True)
+        for process, (first, last) in zip(running, ranges, strict=True):
+            arrived, heard, nodes = json.loads(process.stdout.readline())
+            assert arrived
+            assert heard == [[number] for number in range(first, last)]
+            assert nodes == ["/listener", "/repeater"]
+
+
+def test_a_session_in_a_joined_domain_hears_no_private_one(empty_domain):
+    with Session() as private, Session(domain_id=empty_domain) as joined:
+        private.add(partial(Repeater, 1, 0.02))
+        ear = private.add(Listener)
+        joined.add(partial(Repeater, 2, 0.02))
+        other = joined.add(Listener)
+        private.start()
+        joined.start()
+        assert private.wait(30, until=lambda: len(ear.heard) >= 10)
+        assert joined.wait(30, until=lambda: len(other.heard) >= 10)
+        assert (set(ear.heard), set(other.heard)) == ({1}, {2})
+
+
+def sockets(process):
+    """Return the inodes of a process's sockets."""
+    links = [os.readlink(link) for link in Path(f"/proc/{process.pid}/fd").iterdir()]
+    return {link[len("socket:[") : -1] for link in links if link.startswith("socket:")}
+
+
+def bound():
+    """Return the inodes of all UDP sockets of this machine."""
+    lines = Path("/proc/net/udp").read_text(encoding="ascii").splitlines()[1:]
+    return {line.split()[9] for line in lines}
+
+
+@pytest.mark.skipif(not Path("/proc/net/udp").exists(), reason="Linux's table of sockets")
+def test_a_process_that_is_killed_leaves_nothing_behind(eventually):
+    with sessions_elsewhere(0, 3) as process:
+        held = sockets(process) & bound()
+        maps = Path(f"/proc/{process.pid}/maps").read_text(encoding="utf-8", errors="replace")
+        assert held
+        assert "/dev/shm/fastrtps" not in maps  # such files would outlive it
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        eventually(lambda: not held & bound())
