@@ -133,8 +133,8 @@ ros.run(seconds=2)
 #
 # | symptom | instrument | what it shows |
 # |---|---|---|
-# | silence | `ros.explain(topic)` | who is on each side, whether the sides match, and who has ended |
-# | silence, though everything seems fine | `ros.graph()` | each name, letter by letter, and who subscribes to what |
+# | silence | `ros.explain(topic)` | which nodes are on each side, whether they match, and which have ended |
+# | silence, though everything seems fine | `ros.graph()` | each name, letter by letter, and which node subscribes to what |
 # | it stopped | `ros.messages(topic)[-1]` | when the last message came, and from which node |
 # | something is missing | `ros.logs(node)` | what a node received, and since when |
 # | too many or too few | `ros.explain(topic)` | messages per second, for each publisher |
@@ -164,8 +164,8 @@ patient
 # %% [markdown]
 # First come the words of the system's owner. They don't name a cause, but you can trust them: whatever they call
 # *fine* is fine.
-# `Ordered` describes how the system should be: who publishes on which topic, who subscribes to it, and what the
-# numbers mean. `patient.ros` is an ordinary session, so you can use every instrument on it.
+# `Ordered` describes how the system should be: which node publishes on which topic, which nodes subscribe to it, and
+# what the numbers mean. `patient.ros` is an ordinary session, so you can use every instrument on it.
 
 # %%
 viz.graph(patient.ros)
