@@ -35,8 +35,8 @@ from rosbeat import Session, check, hint, predict, progress, quiz, viz
 viz.diagram("12")
 
 # %% [markdown]
-# A topic is a stream: the publisher never learns who received a message. That's right for readings, but it isn't
-# enough for a request ("set the limit to 24") or for work that takes time ("heat to 22 degrees"). ROS has three more
+# A topic is a stream: the publisher never learns which nodes received a message. That's right for readings, but it
+# isn't enough for a request ("set the limit to 24") or for work that takes time ("heat to 22 degrees"). ROS has three more
 # ways to communicate:
 #
 # | | topic | service | parameter | action |
