@@ -29,9 +29,8 @@ from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
 from rosbeat import Session, check, hint, progress, quiz, viz
-from rosbeat.scenarios.stranger import Lamp, greenhouse
+from rosbeat.scenarios.stranger import greenhouse
 
-# %%
 viz.diagram("07")
 
 # %%
@@ -44,13 +43,9 @@ ros.start()
 # in real time. From now on, your terminals see these nodes like any others.
 #
 # ## Which nodes are running?
-
-# %% terminal="look"
-# ros2 node list
-
-# %% [markdown]
-# Five nodes. Now start the sensor from your own package as well. Its executable is called `temperature_publisher`.
-# Which name will the list show for it?
+#
+# First start the sensor from your own package as well. Its executable is called `temperature_publisher`. Which name
+# will the list of nodes show for it?
 
 # %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE"
@@ -62,8 +57,9 @@ ros.start()
 # ros2 topic list -t
 
 # %% [markdown]
-# `/temperature_sensor`: the name that the node gives itself. The graph contains nodes, not executables or
-# processes. Five of these nodes run on this page and one runs in a terminal, but the list doesn't tell you that.
+# Six nodes, and yours is `/temperature_sensor`: the name that the node gives itself. The graph contains nodes, not
+# executables or processes. Five of these nodes run on this page and one runs in a terminal, but the list doesn't tell
+# you that.
 #
 # ## Which topics do they use?
 #
@@ -85,7 +81,7 @@ ros.start()
 # %% [markdown]
 # Two publishers on `/temperature`! The weather station of the greenhouse publishes there, and so does your sensor.
 # With `--verbose`, `ros2 topic info` names them both. The message has one field, `data`. The comments above it say
-# that the type was made as an example.
+# that the type was only meant as an example.
 #
 # ## How often do messages arrive?
 #
@@ -146,11 +142,11 @@ ros.start()
 # ## What do they log?
 #
 # Log lines are messages, too. Every node publishes its own on `/rosout`, with the message type `Log`. The field
-# `name` says who logged the line, and `msg` holds the text. `level` is a number that says how serious it is: 10 is
-# `DEBUG`, 20 is `INFO`, 30 is `WARN`, 40 is `ERROR`, and 50 is `FATAL`.
+# `name` names the logger, which is usually the node, and `msg` holds the text. `level` is a number that says how
+# serious it is: 10 is `DEBUG`, 20 is `INFO`, 30 is `WARN`, 40 is `ERROR`, and 50 is `FATAL`.
 #
-# Because log lines are messages, `ros2 topic echo` can print them. In the next cell, `--filter` lets only warnings
-# and worse through; in it, `m` stands for the message. `--field msg` prints only the text.
+# So `ros2 topic echo` can print log lines. In the next cell, `--filter` lets only warnings and worse through; in it,
+# `m` stands for the message. `--field msg` prints only the text.
 
 # %% terminal="look"
 # ros2 topic echo --once /rosout --filter "m.level >= 30" --field msg
@@ -160,9 +156,9 @@ ros.start()
 #
 # ## What a command can't show you
 #
-# Only the process that has a queue knows its depth, so no command can show it. The greenhouse's nodes live in the
-# process of the session, so the session knows. The next cell shows the subscriptions on a topic. `qos` holds the
-# settings that each was created with, including the depth.
+# The depth of a queue is known only in the process that has the queue, so no command can show it. The greenhouse's
+# nodes run in the process of the session, so the session knows. The next cell shows the subscriptions on a topic.
+# `qos` holds the settings that each was created with, including the depth.
 
 # %%
 ros.graph().on("/temperature", "subscription")
@@ -218,8 +214,8 @@ viz.graph(ros.explain("light"))
 
 # %% [markdown]
 # **Cause:** the two names differ in one letter. **Fix:** the author corrects the name of the topic. Until then, you
-# can remap it: start the lamp with another topic name in place of its own, as `ros2 run` does with
-# `-r light:=lights`. The code stays as it is.
+# can **remap** it: start the lamp with another topic name in place of the one in its code. With `ros2 run`, the
+# options `--ros-args -r light:=lights` do that.
 #
 # ## Try it: limits that you can set
 #
@@ -261,9 +257,8 @@ check("07b", TunableMonitor)
 # ## Try it: a log watcher
 #
 # Write a node that subscribes to `/rosout`. For each line that is a warning or worse, it publishes a `String` on
-# the topic `warnings`: the name of whoever logged the line, exactly as it is in the message. Every such line
-# counts, even if its name has been published before. The type `Log` is imported above, and `Log.WARN` is the number
-# 30.
+# the topic `warnings`: the message's field `name`, exactly as it is. Every such line counts, even if the same name has
+# been published before. The type `Log` is imported above, and `Log.WARN` is the number 30.
 #
 # Be careful: your node's own log lines go to `/rosout`, too. If it logs every line that it hears, it hears itself
 # and never stops.
@@ -294,8 +289,8 @@ check("07c", LogWatcher)
 # level.
 #
 # The panel also has controls: you can pause, stop and start a node, publish a value of your own, keep nodes busy,
-# or lose messages on purpose. What does the window do when you publish 20 degrees? Where no browser can show the
-# panel, you see a still picture instead.
+# or lose messages on purpose. For example, publish 20 degrees on `/temperature`: the window shuts, until the weather
+# station's next reading opens it again. Where no browser can show the panel, you see a still picture instead.
 
 # %%
 ros.panel()

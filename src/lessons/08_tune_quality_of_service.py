@@ -40,14 +40,13 @@ from std_msgs.msg import Float32, Int32, String
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
-# %%
 viz.diagram("08")
 
 # %% [markdown]
 # Each publisher and each subscription is an [**endpoint**](../docs/glossary.md#endpoint) of its topic. Every
 # endpoint has a [**QoS profile**](../docs/glossary.md#qos-profile), which holds one value for each policy. You've
-# passed a profile every time: the `10` is short for `QoSProfile(depth=10)`, and the policies that you leave out
-# have default values.
+# passed a profile every time: the `10` is short for `QoSProfile(depth=10)`. The policies that you leave out have
+# default values: `RELIABLE`, `VOLATILE`, `KEEP_LAST`, and neither a deadline nor a lifespan.
 #
 # ## Create a source and a collector
 #
@@ -76,12 +75,7 @@ class Collector(Node):
     def collect(self, msg):
         self.got.append(msg.data)
 
-# %%
-QoSProfile(depth=10)
-
 # %% [markdown]
-# These are the defaults: `RELIABLE`, `VOLATILE`, and `KEEP_LAST` with a depth.
-#
 # ## Depth: which queue drops messages?
 #
 # The tutorial says that the publisher's 10 "keeps last 10 messages if subscribers are slow", and it says nearly the
@@ -118,23 +112,20 @@ print(got)
 viz.queue(ros, "number")
 
 # %% [markdown]
-# The publisher's depth was 20 and the subscriber's 5, and five numbers arrived: only the subscriber's depth makes a
-# difference. The tutorial is right about the subscriber, but not about the publisher: messages for a slow subscriber
-# wait in the subscriber's own queue. The picture shows that queue. From 6 seconds on, each new number pushes the oldest
-# one out. That's what `KEEP_LAST` means.
+# This time, the publisher's depth was 20 and the subscriber's 5, and five numbers arrived. The tutorial is right about
+# the subscriber, but not about the publisher: messages for a slow subscriber wait in the subscriber's own queue. The
+# picture shows that queue. From 6 seconds on, each new number pushes the oldest one out: that's `KEEP_LAST`.
 #
-# What is the publisher's depth good for, then? It matters to subscribers that join late. It
-# also matters when the middleware can't deliver messages yet, because the network is slow or the subscriber's whole
-# process is suspended. This page can't show that, because a session delivers every message at once.
-
-# %% [markdown]
+# The publisher's depth matters to subscribers that join late. It also matters when the middleware can't deliver
+# messages yet, because the network is slow or the subscriber's whole process is suspended. This page can't show that,
+# because a session delivers every message at once.
+#
 # ## Reliability: offer and request
 #
 # If a message gets lost, a `RELIABLE` publisher sends it again. A `BEST_EFFORT` publisher sends it only once.
 # That's fine for a camera, where the next picture comes anyway.
 #
-# A publisher **offers** one of the two. A subscription **requests** one: in the words of this course, it *asks for*
-# it.
+# A publisher **offers** one of the two. A subscription **requests** one; this page also says that it *asks for* it.
 #
 # **Predict:** the publisher offers best effort, and the subscription asks for reliable. Both have a depth of 10.
 # How many numbers does the busy collector get?
@@ -203,18 +194,18 @@ for offers, asks in ((5, 10), (1, 10), (10, 1)):
     print(f"publisher's depth {offers:2}, subscription's {asks:2}", got)
 
 # %% [markdown]
-# In the first four rows, stored messages arrive only if *both* sides use `TRANSIENT_LOCAL`. The same rule
-# applies: a subscription that asks for more than the publisher offers gets nothing at all, not even new messages.
-#
-# In the last three rows, the smaller of the two depths wins.
+# When the collector joins, the publisher has stored its last five numbers, 4 to 8. The first four rows show that
+# stored messages arrive only if *both* sides use `TRANSIENT_LOCAL`. The same rule applies: a subscription that asks
+# for more than the publisher offers gets nothing at all, not even new messages. In the last three rows, the smaller of
+# the two depths decides.
 #
 # ## Try it: the current mode
 #
-# A robot has a mode. The first one is `idle`; after that, it's whatever arrives on `command`. Displays come and go.
-# Complete the node so that
+# A robot has a mode. The first one is `idle`; after that, each message on `command` sets it. Displays come and go.
+# Complete the node so that:
 #
 # - it publishes the mode on `mode`, at once when it starts and at each change, but not if the mode stays as it is;
-# - a late-joining display that asks for stored messages gets the mode of that moment, and no older one.
+# - a late-joining display that asks for stored messages gets the current mode, and no older one.
 
 # %% exercise="08a"
 class ModeKeeper(Node):
@@ -272,9 +263,9 @@ check("08b", Archive)
 # %% [markdown]
 # ## Deadline: notice a silence
 #
-# A subscriber reacts to messages. So how does it notice that none are coming? With a **deadline**: the longest time
-# allowed between one message and the next. The publisher offers one, which is a promise, and the subscription asks
-# for one. The rule is the same: a promise of 1.5 seconds is good enough for a subscription that asks for 2.
+# How does a subscriber notice that no messages are coming? With a **deadline**: the longest time allowed between one
+# message and the next. The publisher offers one, which is a promise, and the subscription asks for one. The rule is the
+# same: a promise of 1.5 seconds is good enough for a subscription that asks for 2.
 #
 # When a deadline is missed, the middleware reports an [**event**](../docs/glossary.md#event), and ROS calls a
 # method of yours. `event_callbacks` says which one.
@@ -313,8 +304,8 @@ predict(3, guard.missed)
 # --- end
 
 # %% [markdown]
-# The event repeats after each further period of silence. To report a silence only once, the node must remember that
-# it already has.
+# The last number came at 3 seconds, so the deadline is missed at 5, 7 and 9. The event repeats after each further
+# period of silence. To report a silence only once, the node must remember that it already has.
 #
 # ## Lifespan: drop old messages
 #
@@ -332,19 +323,13 @@ predict(4, len(got))
 # predict("____", len(got))
 # --- end
 
-# %%
-stored_shortly = stored(20)
-stored_shortly.lifespan = short
-print("with the lifespan at the publisher:", busy(stored_shortly, 20)[1])
-print("the same for a late collector:     ", late(stored_shortly, stored(20)))
-
 # %% [markdown]
-# The other numbers were too old. And again, there are two queues. A publisher's lifespan applies to the messages
-# that it stores for late-joining subscriptions. It doesn't affect messages that have already reached a
-# subscription. That's how Fast DDS, the middleware that runs here, does it. Others may differ.
+# The other numbers were too old. A publisher's lifespan applies to the messages that it stores for late-joining
+# subscriptions, and not to messages that have already reached a subscription. That's how Fast DDS, the middleware that
+# runs here, does it. Others may differ.
 #
 # In a session, deadlines and lifespans are measured by the session's clock. One more policy, liveliness, is about
-# whether a publisher is still alive. The middleware watches it in real time; see
+# whether a publisher is still alive; see
 # [what is simulated, and how](../docs/architecture.md#what-is-simulated-and-how).
 #
 # ## Try it: count missed deadlines
@@ -388,11 +373,8 @@ check("08c", Watchdog)
 # %% [markdown]
 # ## What went wrong: two defaults that don't fit
 #
-# rclpy comes with ready-made profiles. `SENSOR_DATA`, or `qos_profile_sensor_data` for short, is made for cameras and
-# similar sensors. Here, a collector with the usual `10` subscribes to a source that uses it.
-
-# %%
-QoSPresetProfiles.SENSOR_DATA.value
+# `QoSPresetProfiles` holds ready-made profiles. `SENSOR_DATA`, or `qos_profile_sensor_data` for short, is made for
+# cameras and similar sensors. Here, a collector with the usual `10` subscribes to a source that uses it.
 
 # %%
 ros = Session()
@@ -416,19 +398,8 @@ ros.explain("number")
 # timeout 60 ros2 topic echo --qos-reliability reliable /number std_msgs/msg/Int32
 
 # %% [markdown]
-# Among many other lines, the warning is easy to miss. `timeout` ends both commands after a minute. Without `--qos-reliability`, `ros2 topic echo` first looks at
-# what the publisher offers, and asks for that.
-#
-# ## Choose your policies
-#
-# | what you want | policy | what it costs |
-# |---|---|---|
-# | nothing is lost while a subscriber is busy | a deeper queue at the [**subscription**](../docs/glossary.md#subscription) | memory, and old messages afterwards |
-# | nothing is lost on the way | reliable on both sides | some messages are sent twice |
-# | every publisher is heard | ask for best effort | a lost message stays lost |
-# | late-joining subscriptions get the last message | transient local on both sides, depth 1 at the publisher | the publisher stores it as long as it lives |
-# | silence is noticed | a deadline on both sides, and an event callback | a promise that has to be kept |
-# | no old messages | a lifespan at the endpoint where they would wait | messages that nobody reads in time are gone |
+# Among many other lines, the warning is easy to miss. `timeout` ends both commands after a minute. Without
+# `--qos-reliability`, `ros2 topic echo` first looks at what the publisher offers, and asks for that.
 #
 # ## Three questions
 #
@@ -443,11 +414,17 @@ quiz("08", "c", "a", "b")
 # %% [markdown]
 # ## Remember
 #
-# - The publisher must offer at least what the subscription asks for. If it doesn't, nothing arrives.
-# - Messages for a slow subscriber wait in its own queue. The publisher's depth matters to late-joining
-#   subscriptions.
-# - With `TRANSIENT_LOCAL` on both sides, a late-joining subscription gets the last messages.
-# - A deadline turns silence into an event.
+# The publisher must offer at least what the subscription asks for. If it doesn't, nothing arrives. Choose your policies
+# by what you need:
+#
+# | what you want | policy | what it costs |
+# |---|---|---|
+# | nothing is lost while a subscriber is busy | a deeper queue at the [**subscription**](../docs/glossary.md#subscription) | memory, and old messages afterwards |
+# | nothing is lost on the way | reliable on both sides | some messages are sent twice |
+# | every publisher is heard | ask for best effort | a lost message stays lost |
+# | late-joining subscriptions get the last message | transient local on both sides, depth 1 at the publisher | the publisher stores it as long as it lives |
+# | silence is noticed | a deadline on both sides, and an event callback | a promise that has to be kept |
+# | no old messages | a lifespan at the endpoint where they would wait | messages that nobody reads in time are gone |
 #
 # **Outside the notebook**, `ros2 topic info --verbose` shows what each endpoint offers or asks for, and
 # `ros2 topic echo` can ask for the QoS that you choose:

@@ -26,8 +26,7 @@
 # - **concurrency:** nodes run in parallel;
 # - **re-usability:** the same node works elsewhere.
 #
-# A claim is worth as much as the experiment that supports it. Here are five, with the sensor and the monitor that
-# you know.
+# Here is an experiment for each claim, with the sensor and the monitor that you know.
 
 # %%
 import math
@@ -41,7 +40,6 @@ from std_msgs.msg import Float32, Int32, String
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
-# %%
 viz.diagram("09")
 
 # %%
@@ -67,7 +65,7 @@ class TemperatureMonitor(Node):
 
 # %% [markdown]
 # One thing is new: `declare_parameter("start", 22.0)`. The initial temperature is a **parameter**, a named value
-# that can be set from outside. You'll need it for the fifth claim.
+# that can be set from outside. The fifth experiment uses it.
 #
 # ## 1. Modularity: replace a part
 #
@@ -102,9 +100,8 @@ predict("High", monitor.status)
 
 # %% [markdown]
 # **Result: true for what ROS compares:** topic, type and quality of service. ROS doesn't compare what a number
-# *means*. `ros.explain` would find nothing wrong, but every status is wrong. The unit is part of the
-# agreement between the two sides, but the message type doesn't hold it. Write it down where the authors of both
-# sides will read it.
+# *means*: `ros.explain` would find nothing wrong, but every status is wrong. The message type doesn't hold the unit.
+# Write it down where the authors of both sides will read it.
 #
 # ## 2. Decentralization: take a part away
 #
@@ -131,9 +128,9 @@ predict("4", len(ros.logs()))
 # %% [markdown]
 # One for each reading, and none while the sensor was gone. Nobody had to connect the two again.
 #
-# Does this also hold for a real crash? The next cells start two processes, running the files of your package directly,
-# without a build. The third cell does to the sensor what `kill -9` does: it ends the process immediately, whatever it's
-# doing.
+# Does this also hold for a real crash? The next two cells start a process each, running the files of your package
+# directly, without a build. The third cell does to the sensor what `kill -9` does: it ends the process immediately,
+# whatever it's doing.
 #
 # **Predict:** is the monitor still running after that? Answer `yes` or `no`.
 
@@ -157,7 +154,7 @@ predict("yes", workspace.terminal("monitor").busy)
 # %% [markdown]
 # **Result: partly true.** There is no central program that has to stay alive, and the monitor kept running. But it
 # ran *without readings*, and it didn't say so, because silence isn't a message. Wherever only one node knows
-# something, that node is still a single point of failure. So some other node has to notice when it's gone.
+# something, that node is still a single point of failure, and another node has to notice when it's gone.
 #
 # ## Try it: notice the silence
 #
@@ -224,8 +221,8 @@ predict("60", len(ros.messages("temperature")))
 # --- end
 
 # %% [markdown]
-# The sensor publishes each message once, and all 50 monitors receive it. What does that cost? The next cell measures
-# how long the processor is busy.
+# The sensor publishes each message once, and all 50 monitors receive it. The next cell measures how long that keeps
+# the processor busy.
 
 # %% tags=["nbval-ignore-output"]
 def cost(size):
@@ -241,8 +238,7 @@ print(f"1 monitor: {cost(1):.3f} s, 50 monitors: {cost(50):.3f} s")
 
 # %% [markdown]
 # **Result: true for the code**, which nobody had to change. **Not for the cost:** it grows with the number of
-# subscribers, because each of them takes and unpacks every message. You'll notice it most with large messages, such
-# as pictures.
+# subscribers, because each of them takes and unpacks every message.
 #
 # ## 4. Concurrency: do two things at once
 #
@@ -297,8 +293,8 @@ predict("5.5", ros.messages("beat")[2].time)
 viz.timeline(ros)
 
 # %% [markdown]
-# The bar is the sleeping callback, and the frame is the process. The heart's timer is due at 3 s, but it has to
-# wait until the other node's callback returns.
+# The bar is the sleeping callback, and the frame is the process. The heart's timer is due at 3 s, but its callback
+# has to wait until the other node's callback returns.
 #
 # Now each node gets a process of its own, as if you had typed `ros2 run` three times.
 #
@@ -323,8 +319,8 @@ predict("3", ros.messages("beat")[2].time)
 #
 # Complete the worker. It subscribes to `order` (`Int32`), works on each order for 3 seconds, and then publishes the
 # order's number on `done` (`Int32`). Every second, it publishes any `String` on `beat`, whatever else it's doing.
-# Orders that arrive in the meantime wait. The worker does them one after the other, in the order they came. Two orders
-# can have the same number; the worker does both.
+# Orders that arrive in the meantime wait, and are done one after the other, in the sequence in which they came. Two
+# orders can have the same number; the worker does both.
 #
 # Don't sleep, because the beat would have to wait. And don't start any threads, because they run in real time.
 
@@ -366,8 +362,8 @@ class SteadyWorker(Node):
 check("09b", SteadyWorker)
 
 # %% [markdown]
-# There's another way: a **MultiThreadedExecutor** runs callbacks in several threads. But that alone isn't enough.
-# By default, all callbacks of a node belong to one [**callback group**](../docs/glossary.md#callback-group), which
+# There's another way: a **MultiThreadedExecutor** runs callbacks in several threads. That alone isn't enough:
+# by default, all callbacks of a node belong to one [**callback group**](../docs/glossary.md#callback-group), which
 # decides whether they may run at the same time. The default group is **mutually exclusive**: it runs one callback
 # at a time. You can create other groups. In a **reentrant** group, callbacks may overlap, and a callback may even
 # overlap with itself.
@@ -433,9 +429,10 @@ predict("[5.5, 3, 3]", [default, two, reentrant])
 # time (python3 cores.py 1 & python3 cores.py 1; wait)
 
 # %% [markdown]
-# **Result: partly true.** Two processes can use two cores, and take about half the time if both cores are free. Two
-# threads in one process gain nothing: within a process, Python's [**global interpreter lock**](../docs/glossary.md#global-interpreter-lock) lets only one thread
-# at a time run Python code. So give heavy work a process of its own: another `ros2 run`.
+# **Result: partly true.** Two processes can use two cores. If both cores are free, they take about half the time; on a
+# busy computer, you may see no difference. Two threads in one process gain nothing, because Python's
+# [**global interpreter lock**](../docs/glossary.md#global-interpreter-lock) lets only one thread at a time run Python
+# code. So give heavy work a process of its own: another `ros2 run`.
 #
 # ## 5. Re-usability: take a node elsewhere
 #
@@ -471,9 +468,6 @@ predict("High", monitor.status)
 # predict("____", monitor.status)
 # --- end
 
-# %%
-viz.graph(ros)
-
 # %% [markdown]
 # **Result: partly true.** You could change the names from outside, and the sensor's initial value. But the
 # monitor's limits and its *C* are fixed in its code. A node is as re-usable as its author makes it: with
@@ -493,7 +487,7 @@ viz.graph(ros)
 # and `unit` (`"C"`). For each reading, it publishes a `String` on `status`, such as `High 27.5 C`. This text has
 # three parts, with a space between them:
 #
-# - `High` above the upper limit, `Low` below the lower one, or else `Normal`;
+# - `High` above the upper limit, `Low` below the lower one, and `Normal` otherwise;
 # - the reading, with at least one decimal;
 # - the unit.
 

@@ -28,7 +28,6 @@ from std_msgs.msg import Float32, String
 
 from rosbeat import Session, check, clinic, hint, predict, progress, quiz, viz
 
-# %%
 viz.diagram("10")
 
 # %% [markdown]
@@ -36,7 +35,7 @@ viz.diagram("10")
 #
 # You already know most of the mistakes. The hard part is finding out which one you're looking at. A **symptom** is
 # what somebody notices: the lamp stays dark. A **cause** is what has to be fixed. A **diagnosis** names the cause
-# and its place.
+# and its place. On this page, a **patient** is a system with a fault.
 #
 # The first patient has three nodes. A sensor publishes readings, a guard turns each reading into a status, and
 # a lamp shows the status. You can see the code here, because you'll fix it later. Try not to search it for the fault.
@@ -100,7 +99,7 @@ predict("20", len(ros.messages("status")))
 # --- end
 
 # %% [markdown]
-# They are published. With one question, you've ruled out the sensor, the topic `temperature` and the guard:
+# All 20 are published. With one question, you've ruled out the sensor, the topic `temperature` and the guard:
 # whatever the guard needs must be working, too. The fault is somewhere between the guard and the lamp.
 #
 # Do these two match?
@@ -108,12 +107,9 @@ predict("20", len(ros.messages("status")))
 # %%
 ros.explain("status")
 
-# %%
-viz.graph(ros.explain("status"))
-
 # %% [markdown]
-# The names aren't the problem: both sides use the same topic. The line to the lamp is broken, because the lamp
-# asks for stored messages and the guard doesn't store any.
+# The names aren't the problem: both sides use the same topic. But the lamp asks for stored messages, and the guard
+# doesn't store any.
 #
 # **Diagnosis:** `qos-mismatch` at `/status`. **Fix:** give both sides the same QoS profile. A diagnosis is only a
 # guess until the fix works. To prove it, correct the class, add it again, and run.
@@ -137,15 +133,15 @@ ros.run(seconds=2)
 #
 # | symptom | instrument | what it shows |
 # |---|---|---|
-# | silence | `ros.explain(topic)` | who is on each side, whether the sides match, and who has ended |
-# | silence, though everything seems fine | `ros.graph()` | each name, letter by letter, and who subscribes to what |
+# | silence | `ros.explain(topic)` | which nodes are on each side, whether they match, and which have ended |
+# | silence, though everything seems fine | `ros.graph()` | each name, letter by letter, and which node subscribes to what |
 # | it stopped | `ros.messages(topic)[-1]` | when the last message came, and from which node |
 # | something is missing | `ros.logs(node)` | what a node received, and since when |
 # | too many or too few | `ros.explain(topic)` | messages per second, for each publisher |
 # | strange numbers | `viz.values(ros, topic)` | each reading, with its limits as bands |
 # | strange order | `viz.timeline(ros)` | what caused what |
 #
-# And which question reveals which cause? Here are the four questions again, with the names of the causes:
+# Here are the four questions again, with the causes that each of them can reveal:
 #
 # | question | causes that make the answer "no" |
 # |---|---|
@@ -155,8 +151,7 @@ ros.run(seconds=2)
 # | right? | `wrong-unit`, `never-changes`, `no-clamp`, `clamped-too-early`, `boundary`, `two-sources`, `run-twice`, `wrong-rate` |
 #
 # `clinic.names()`, further down, explains each of these names.
-
-# %% [markdown]
+#
 # ## Walk through the ward
 #
 # Eleven patients are waiting. They are all real nodes that have run for a minute. You can't see their code.
@@ -167,9 +162,10 @@ patient = ward.patient(1)
 patient
 
 # %% [markdown]
-# First come the owner's words. They don't name a cause, but you can trust them: whatever they call *fine* is fine.
-# `Ordered` describes how the system should be: who publishes on which topic, who subscribes to it, and what the
-# numbers mean. `patient.ros` is an ordinary session, so you can use every instrument on it.
+# First come the words of the system's owner. They don't name a cause, but you can trust them: whatever they call
+# *fine* is fine.
+# `Ordered` describes how the system should be: which node publishes on which topic, which nodes subscribe to it, and
+# what the numbers mean. `patient.ros` is an ordinary session, so you can use every instrument on it.
 
 # %%
 viz.graph(patient.ros)
@@ -181,8 +177,7 @@ viz.graph(patient.ros)
 # Be careful with `ros.explain`: it covers a single topic. Follow the data from the sensor, and ask first about the
 # first topic that is silent. About a later topic, it may say that the guard has published nothing. That's true, but
 # the guard may be healthy and simply have nothing to report. What looks like a fault there is only a symptom.
-
-# %% [markdown]
+#
 # A diagnosis is a name and a place. The place is the full name of the node or of the topic that has the
 # fault, which isn't always where you notice the symptom. If the fault is between two nodes, name the topic. The clinic
 # knows twenty causes, and not all of them occur here:
@@ -201,7 +196,8 @@ for number in (2, 3, 4):
 
 # %% [markdown]
 # Examine one patient after the other: change the number below, add cells, use any instrument. Write down what each
-# answer rules out. `hint("10a")` costs nothing; hints are only counted.
+# answer rules out. `hint("10a")` costs nothing; hints are only counted. Your diagnoses go into
+# the function `diagnoses`.
 
 # %%
 patient = ward.patient(2)
@@ -239,16 +235,15 @@ check("10a", diagnoses)
 for number in (5, 6, 7, 8):
     print(ward.patient(number))
 
-# %%
 patient = ward.patient(8)
 limits = {"as ordered": (23, 31)}
 viz.values(patient.ros, "pool_temperature", bands=limits, unit="°C")
 
 # %% [markdown]
-# The picture says more than a hundred log lines: the band shows what was ordered, and the line shows the readings.
-# For these patients, the last of the four questions counts: is the value right? Compare what you see with the order,
-# number by number: limits, steps, the rate, and who publishes. `ros.graph()` is still useful, because a node that
-# subscribes to the wrong topic receives messages, too.
+# The band shows what was ordered, and the line shows the readings. For these patients, the last of the four questions
+# counts: is the value right? Compare what you see with the order, number by number: limits, steps, the rate, and which
+# nodes publish. `ros.graph()` is still useful, because a node that subscribes to the wrong topic receives messages,
+# too.
 
 # %% exercise="10b"
 def diagnoses():
@@ -272,8 +267,8 @@ check("10b", diagnoses)
 # %% [markdown]
 # ## What went wrong: a letter is missing
 #
-# Here is the system with the sensor, the guard and the lamp again, with the repaired lamp and a different guard.
-# Its owner has found a fault in a topic's name, and is sure: fix it, and the lamp will shine.
+# Here are the sensor and the repaired lamp again, with a different guard. The owner of this system has found a fault in
+# a topic's name, and is sure: fix it, and the lamp will shine.
 
 # %%
 class Guard(Node):

@@ -37,13 +37,12 @@ from std_msgs.msg import Float32, String
 
 from rosbeat import Session, bags, check, hint, predict, progress, quiz, viz, workspace
 
-# %%
 viz.diagram("11")
 
 # %% [markdown]
-# ## Bring both nodes
+# ## Define both nodes
 #
-# The sensor comes from page 03 and the monitor from page 04. This sensor doesn't log.
+# The sensor comes from page 03 and the monitor from page 04. This time, the sensor doesn't log.
 
 # %%
 class TemperatureSensor(Node):
@@ -140,7 +139,7 @@ predict("yes", again.logs() == first.logs())
 # --- end
 
 # %% [markdown]
-# It does. A monitor can't tell the difference, because a subscriber knows the topic, but not the publisher.
+# It does. A monitor can't tell the difference, because a subscriber knows the topic, but not its publishers.
 #
 # ## Compare two runs
 #
@@ -171,6 +170,8 @@ strict = play(StrictMonitor)
 sum(old.text != new.text for old, new in zip(first.logs(), strict.logs()))
 
 # %% [markdown]
+# Twelve: the readings between 25 and 26 degrees.
+#
 # ## Break it on purpose
 #
 # Sensors fail. You can add faults to the replay; the bag itself doesn't change. All times are in seconds:
@@ -196,8 +197,7 @@ viz.comparison(broken, unit="°C")
 # From left to right, you see a flat line, rings where messages are missing, crosses for NaN, and a line that drifts
 # away from the other one.
 #
-# Now the sensor sends nothing but NaN. What does the monitor make of it? **Predict:** which status does it log: `High`,
-# `Low` or `Normal`?
+# Now the sensor sends nothing but NaN. **Predict:** which status does the monitor log: `High`, `Low` or `Normal`?
 
 # %% predict=true
 dead = play(TemperatureMonitor, bags.with_nan(at=0, seconds=None))
@@ -225,8 +225,8 @@ class HopefulMonitor(TemperatureMonitor):
 len(play(HopefulMonitor, bags.with_nan(at=0, seconds=None)).logs())
 
 # %% [markdown]
-# None of them. **Symptom:** a condition that is never true. **Where to look:** a replay with `with_nan`. **Cause:** `<`, `>`
-# and `==` are false whenever one side is NaN, even if both sides are. **Fix:** `math.isnan(value)`.
+# None of them. **Symptom:** a condition that is never true. **Where to look:** a replay with `with_nan`. **Cause:**
+# `<`, `>` and `==` are false whenever one side is NaN, even if both sides are. **Fix:** `math.isnan(value)`.
 #
 # ## Try it: look into a bag
 #
@@ -298,7 +298,7 @@ check("11b", Watchdog)
 # %% [markdown]
 # ## Try it: compare two sensors on your own
 #
-# With a single sensor, nobody can recognize a drift. With a second one, you can. Write a node that listens to
+# With a single sensor, nobody can recognize a drift. With a second one, you can. Write a node that subscribes to
 # `temperature` and to `reference`. Each reading of `temperature` forms a pair with the newest reading of `reference`,
 # if there has been one. A pair that contains NaN doesn't count.
 #

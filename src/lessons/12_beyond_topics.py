@@ -32,12 +32,11 @@ from test_msgs.srv import BasicTypes
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
-# %%
 viz.diagram("12")
 
 # %% [markdown]
-# A topic is a stream: the publisher never learns who received a message. That's right for readings, but it isn't
-# enough for a request ("set the limit to 24") or for work that takes time ("heat to 22 degrees"). ROS has three more
+# A topic is a stream: the publisher never learns which nodes received a message. That's right for readings, but it
+# isn't enough for a request ("set the limit to 24") or for work that takes time ("heat to 22 degrees"). ROS has three more
 # ways to communicate:
 #
 # | | topic | service | parameter | action |
@@ -174,6 +173,8 @@ lamp = ros.add(Lamp)
 lamp.set_parameters([Parameter("watts", value=40.0), Parameter("watts", value=900.0)])
 
 # %% [markdown]
+# The lamp accepts 40 watts, and refuses 900 with its reason.
+#
 # ## Try it: two limits that belong together
 #
 # `high` must be above `low`, whichever of them changes. Both may be in the same list. In that case, only the new
@@ -214,7 +215,7 @@ class CarefulMonitor(Node):
 check("12b", CarefulMonitor)
 
 # %% [markdown]
-# ## Send to work: an action
+# ## Give a task: an action
 #
 # An [**action**](../docs/glossary.md#action) is for work that takes time. A client sends a
 # [**goal**](../docs/glossary.md#goal), and the server accepts or rejects it. While it works, the server sends
@@ -300,7 +301,7 @@ predict("3", len(guest.result))
 # --- end
 
 # %% [markdown]
-# The work checks whether it was canceled the next time it wakes up, at 3 seconds.
+# The next time the work continues, at 3 seconds, it finds that it was canceled.
 #
 # ## Look underneath
 #
@@ -437,7 +438,8 @@ check("12e", Thermostat)
 # %% [markdown]
 # ## What went wrong: a call in a callback
 #
-# This node asks in a callback, and waits there for the answer. What does it log in three seconds?
+# This node calls a service in a timer's callback, and waits there for the response. What does it log in
+# three seconds?
 
 # %% terminal="asker"
 # mkdir -p "$ROS2_WORKSPACE/scripts"
@@ -466,12 +468,11 @@ check("12e", Thermostat)
 # timeout --signal=KILL 3 python3 deadlock.py
 
 # %% [markdown]
-# **Symptom:** it asks once, and then nothing more happens. **Where to look:** run it with a time limit (`timeout`);
-# exit code 137 means that the program had to be killed. **Cause:** a [**deadlock**](../docs/glossary.md#deadlock).
-# `call` waits until another callback takes the response, but the executor can't run another callback until this one
-# returns. **Fix:** `call_async`, with a done callback or an `await`.
-
-# %% [markdown]
+# **Symptom:** it logs "I ask" once, and then nothing more happens. **Where to look:** run it with a time limit
+# (`timeout`); exit code 137 means that the program had to be killed. **Cause:** a
+# [**deadlock**](../docs/glossary.md#deadlock). `call` waits until another callback takes the response, but the executor
+# can't run another callback until this one returns. **Fix:** `call_async`, with a done callback or an `await`.
+#
 # ## Three questions
 #
 # Choose the best answer to each question. You can try as often as you like.

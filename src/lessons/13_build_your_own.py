@@ -20,9 +20,9 @@
 # [tune quality of service](08_tune_quality_of_service.ipynb) and
 # [test the five claims](09_test_the_five_claims.ipynb).
 #
-# You'll design a greenhouse with at least four nodes, build it, and have it tested on good days and bad ones. After
-# a first node to complete, this page gives you no more code. Instead, it gives you requirements: sentences that
-# have to be true when you're done. How you get there is up to you.
+# You'll design a greenhouse with at least four nodes, build it, and have it tested on good days and bad ones. The
+# page begins with a first node to complete. For the others, it gives you no code, but requirements: sentences that have
+# to be true when you're done. How you get there is up to you.
 
 # %%
 from rclpy.node import Node
@@ -34,7 +34,6 @@ from rosbeat.exercises.greenhouse import requirements, weather
 
 workspace.catch_up("02")
 
-# %%
 viz.diagram("13")
 
 # %% [markdown]
@@ -44,7 +43,8 @@ viz.diagram("13")
 # other side are a vent, a pump, a display for alarms and a display for reports. The names and types of these
 # six topics are the **interface**: what both sides have agreed on. They agree on nothing else.
 #
-# Here is the interface as a single node, an empty box.
+# Here is the interface as a single node, an empty box. `weather()` returns the two sensors, as classes. They publish
+# the same values in every run. Their plain day lasts 170 seconds.
 
 # %%
 class Box(Node):
@@ -60,11 +60,6 @@ class Box(Node):
     def ignore(self, msg):
         pass
 
-# %% [markdown]
-# `weather()` returns the two sensors, as classes. They publish the same values in every run. Their plain day lasts 170
-# seconds.
-
-# %%
 ros = Session()
 for sensor in weather("plain day"):
     ros.add(sensor)
@@ -87,11 +82,11 @@ requirements()
 #
 # - your nodes have two seconds to do whatever is required;
 # - `True` on `vent` opens the vent, and `True` on `pump` starts the pump. Until the first command, the vent is
-#   closed and the pump is off. A node may publish that when it starts;
+#   closed and the pump is off. A node may publish these two states when it starts;
 # - a limit itself doesn't count as crossed: at exactly 28, the vent doesn't open;
-# - if there was no temperature in the last 10 s, there is no mean. The report may then say nothing, but its node
+# - if there was no temperature in the last 10 s, there is no mean. The report may then stay silent, but its node
 #   keeps running;
-# - a sensor is silent when nothing arrives. Whether nonsense ends a silence is up to you;
+# - a sensor is silent when nothing arrives. Whether an impossible reading (R5) ends a silence is up to you;
 # - an optional requirement earns its points, but you can pass without it.
 #
 # ## Look at the weather
@@ -106,7 +101,8 @@ viz.values(ros, "temperature", bands=limits, unit="°C")
 viz.values(ros, "humidity", bands={"dry": (None, 40.0)}, unit="%")
 
 # %% [markdown]
-# The other day is for R4 and R5: its sensors send nonsense, then one of them is silent for a while, and then both.
+# The other day is for R4 and R5: its sensors send impossible readings, then one of them is silent for a while, and then
+# both.
 #
 # **Predict:** a healthy thermometer would send 120 readings in two minutes. How many does this one send? You may
 # answer with a range, such as `100-110`.
@@ -123,11 +119,10 @@ predict("70-90", len(ros.messages("temperature")))
 # --- end
 
 # %% [markdown]
-# The rest is silence: long enough for an alarm, for a second alarm that nobody wants, and for a report without a single
-# reading. Of the readings that come, two are outside -20 to 60 degrees, and four are NaN. NaN means *not a number*. It's
-# neither above nor below anything: any comparison with `<`, `>` or `==` is False.
-
-# %% [markdown]
+# It sends 78. The rest is silence: long enough for an alarm, for a second alarm that R4 doesn't allow, and for a report
+# without a single reading. Of the readings that come, two are outside -20 to 60 degrees, and four are NaN, "not a
+# number": any comparison with `<`, `>` or `==` is False.
+#
 # ## Draw before you write
 #
 # Take a sheet of paper. Draw the six topics at the edges and your nodes in the middle. For each node, write down
@@ -205,10 +200,9 @@ predict("2", len(ros.messages("vent")))
 # predict("____", len(ros.messages("vent")))
 # --- end
 
-# %%
-ros.messages("vent")
-
 # %% [markdown]
+# The vent opens at 29 degrees. At 27, it stays as it is, and at the second 25, it closes.
+#
 # ## Measure a silence
 #
 # When a sensor is silent, no callback runs, so something else has to check from time to time: a timer. Every node
@@ -237,10 +231,9 @@ ros.run(seconds=12)
 
 # %% [markdown]
 # The sensor stopped after three seconds, and the timer noticed. Use the node's clock rather than `time.time()`: these
-# twelve seconds took almost no time on your computer. `timer.reset()` restarts a timer's period, so you can also use a
-# timer like an egg timer. Unlike an egg timer, it rings again and again, until you call `cancel()`.
-
-# %% [markdown]
+# twelve seconds took almost no time on your computer. A timer can also measure the silence itself: its `reset()` starts
+# the period again at each message. It repeats until you call `cancel()`.
+#
 # ## Try it: the whole greenhouse
 #
 # Write your nodes in the next cells, or add cells of your own. The function `greenhouse` at the end returns the list
@@ -253,7 +246,7 @@ ros.run(seconds=12)
 # %% exercise="13b"
 # --- answer
 class Guard(Node):
-    """Passes on what can be, on topics of its own."""
+    """Publishes the possible readings again, on topics of its own."""
 
     def __init__(self):
         super().__init__("guard")
@@ -376,9 +369,9 @@ def greenhouse():
 check("13b", greenhouse)
 
 # %% [markdown] only="solution"
-# This is one greenhouse of many. It uses five nodes. `guard` keeps nonsense away from three others, which don't need to
-# know about it: their topics are remapped when they are started. `watch` subscribes to the sensors directly, because
-# nonsense is a sign of life, too.
+# This is one greenhouse of many. It uses five nodes. `guard` keeps impossible readings away from three others, which
+# don't need to know about it: their topics are remapped when they are started. `watch` subscribes to the sensors
+# directly, because a sensor that sends an impossible reading isn't silent.
 
 # %% only="solution"
 ros = Session()
@@ -393,9 +386,8 @@ viz.graph(ros)
 # %% [markdown]
 # ## What went wrong: two controllers, one vent
 #
-# It rains into the greenhouse, so somebody adds a node that closes the vent when the air is very humid, and
-# changes nothing else. **Predict:** how many commands does the vent get in ten hot and
-# humid seconds?
+# It rains into the greenhouse, so somebody adds a node that closes the vent when the air is very humid, and changes
+# nothing else. **Predict:** how many commands does the vent get in ten hot and humid seconds?
 
 # %%
 class HeatVent(Node):
@@ -438,8 +430,7 @@ viz.graph(ros)
 # own. **Where to look:** the graph, where two nodes publish on `vent`. **Cause:** a topic can have many publishers, and
 # the vent obeys the last message; nothing decides between them. **Fix:** let one node decide. The others tell it
 # what they want, on topics of their own.
-
-# %% [markdown]
+#
 # ## Make it a package
 #
 # Nothing in your nodes depends on this page, so they can become programs, as on pages 02 to 06. Begin with a
@@ -620,10 +611,10 @@ def generate_launch_description():
 # ls install/greenhouse/share/greenhouse/launch
 
 # %% [markdown]
-# The programs and the launch file are installed. On a robot, `ros2 launch greenhouse greenhouse.launch.py` would now start the whole system.
-# `ros2 launch` comes with a full ROS 2 installation; it isn't available on PyPI, so this course doesn't have it.
-# Without it, you start each program in a terminal of its own. The launch file's options become options of the
-# command, after `--ros-args`: `-p` sets a parameter, and `-r` remaps a topic.
+# The programs and the launch file are installed. On a robot, `ros2 launch greenhouse greenhouse.launch.py` would now
+# start the whole system. `ros2 launch` comes with a full ROS 2 installation; it isn't available on PyPI, so this course
+# doesn't have it. Without it, you start each program in a terminal of its own. The launch file's options become options
+# of the command, after `--ros-args`: `-p` sets a parameter, and `-r` remaps a topic.
 
 # %% terminal="vent --until ready" only="notebook"
 # cd "$ROS2_WORKSPACE"
@@ -650,8 +641,8 @@ def generate_launch_description():
 # ros2 topic echo --once --qos-durability transient_local /vent
 
 # %% [markdown]
-# It does, because the parameter moved the limit to 27. `echo` asked for the last message that was kept, so it
-# doesn't matter who started first. Only the sensor is simulated now: if a driver publishes a `Float32` on
+# It does, because the parameter moved the limit to 27. `echo` asked for the last message that the publisher stores, so
+# it doesn't matter which of them started first. Only the sensor is simulated now: if a driver publishes a `Float32` on
 # `temperature` instead, no other node notices the difference.
 
 # %% tags=["nbval-ignore-output"]

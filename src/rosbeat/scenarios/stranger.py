@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from rosbeat.ros import test_nodes
-from rosbeat.ros.test_nodes import Lamp
 
-__all__ = ["Lamp", "greenhouse"]
+__all__ = ["greenhouse"]
 
 
 def greenhouse(session: Any) -> None:  # noqa: ANN401 - a Session, which is not imported here
