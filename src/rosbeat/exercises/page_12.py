@@ -827,7 +827,7 @@ class _Heating:
         self.end = got["result"].time if "result" in got else None
         result = got["result"].data if "result" in got else {"status": "", "sequence": ()}
         self._status, self._degrees = str(result["status"]), list(result["sequence"])
-        room = [(one.time, int(one.value)) for one in samples_on(seen, _TEMPERATURE)]
+        self._room = room = [(one.time, int(one.value)) for one in samples_on(seen, _TEMPERATURE)]
         start = next((value for at, value in reversed(room) if at < goal.at), start)
         self._wanted = list(range(start + 1, goal.order + 1))
         self._right = [self._wanted, [start, *self._wanted]]
@@ -919,6 +919,31 @@ class _Heating:
         found = [list(one.data["sequence"]) for one in self._feedback]
         return [one for one in found if not one or one != self._degrees[: len(one)]]
 
+    def left_out(self) -> Diagnosis | None:
+        """Name a reading on the way to the target that is not in the result, or not reported.
+
+        The step that asks for both is exact; the one after it is about the cancel.
+        """
+        if not self._goal.is_good or self._goal.is_canceled or self._goal.is_reached:
+            return None
+        heard = [value for at, value in self._room if self._goal.at < at <= (self.end or 0)]
+        if self._degrees != heard:
+            return Diagnosis(
+                "result-wrong",
+                f"The temperatures read for the goal {self._goal.order} were {heard[:8]}, and the "
+                f"result holds {self._degrees[:8]}.",
+                "Every reading since the goal was accepted belongs in the list, also the first.",
+            )
+        told = {len(one.data["sequence"]) for one in self._feedback}
+        silent = [value for count, value in enumerate(heard, 1) if count not in told]
+        if silent:
+            return Diagnosis(
+                "feedback-missing",
+                f"There was no feedback after the reading of {silent[0]}.",
+                "After each reading comes a feedback, also after the first and the last one.",
+            )
+        return None
+
     def _feedback_text(self) -> str:
         if self._reported() == "others":
             return f"Feedback held {self._strange()[0][:8]}; the result is {self._degrees[:8]}."
@@ -943,8 +968,11 @@ def _judge_decisions(seen: Observation, fed: Heating) -> Verdict:
 
 
 def _judge_heating(seen: Observation, fed: Heating) -> Verdict:
-    return _wrong_heating(seen, fed) or passed(
-        f"Heated to {fed.goals[0].order}, with a report each second."
+    works = [_Heating(seen, goal, fed.start) for goal in fed.goals]
+    return (
+        _wrong_heating(seen, fed)
+        or next(filter(None, (work.left_out() for work in works)), None)
+        or passed(f"Heated to {fed.goals[0].order}, with a report each second.")
     )
 
 
