@@ -24,7 +24,8 @@
 # page from top to bottom. While a cell is running, it shows `[*]`. If you get lost, choose
 # *Kernel, Restart Kernel* from the menu and start again at the top.
 #
-# The second cell draws what you'll build in this course. The part in colour is what this page is about.
+# The first cell imports what this page needs, and draws what you'll build in this course. The part in colour is what
+# this page is about.
 
 # %%
 from rclpy.node import Node
@@ -32,7 +33,6 @@ from std_msgs.msg import Float32, String
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
-# %%
 viz.diagram("00")
 
 # %% [markdown]
@@ -61,9 +61,9 @@ ros.add(Thermometer)
 ros.run(seconds=3)
 
 # %% [markdown]
-# That's a heartbeat: one message every second. Each line you see is a [**log**](../docs/glossary.md#log) line, a
-# note for humans. The number after `INFO` is the time in seconds, and the name after it tells you which node is
-# speaking.
+# That's a heartbeat: one message every second. Each line you see is a [**log**](../docs/glossary.md#log) line, which
+# is meant for people. The number after `INFO` is the time in seconds, and the name after it tells you which node
+# logged the line.
 #
 # You didn't have to wait three seconds. A `Session` runs real ROS nodes in [**virtual
 # time**](../docs/glossary.md#virtual-time): its clock jumps straight from one event to the next. A minute takes
@@ -81,16 +81,9 @@ predict("60", len(ros.messages("temperature")))
 # --- end
 
 # %% [markdown]
-# One every second. `quiet=True` hides the log lines; the messages are sent all the same, and the session records
-# every one of them.
+# One every second. `quiet=True` hides the log lines; the messages are sent all the same. The session records every one
+# of them, and `ros.messages` returns these records.
 #
-# `ros.messages` returns these records. Here is the first one: when the message was sent (in seconds), on which topic,
-# by which node, and its value.
-
-# %%
-ros.messages("temperature")[0]
-
-# %% [markdown]
 # On a robot, a node usually runs in a [**process**](../docs/glossary.md#process) of its own, which is the operating
 # system's word for a running program. A session gives each node a simulated process, and the messages travel
 # through real ROS software. If you'd like to know more, read [what is simulated, and
@@ -112,11 +105,10 @@ ros.messages("temperature")[0]
 # This model is called [**publish and subscribe**](../docs/glossary.md#publish-and-subscribe), or pub/sub for short.
 # The two sides only have to agree on the name of the topic and on the [**message
 # type**](../docs/glossary.md#message-type), which defines what kind of data a message carries.
-
-# %% [markdown]
+#
 # Here is a reporter. It publishes text, which has the message type `String`, on a topic of your choice.
 # `create_timer(1.0, self.write)` creates a [**timer**](../docs/glossary.md#timer) that calls `write` every 1.0
-# seconds. A later page explains the number 10.
+# seconds. Page 03 explains the number 10.
 
 # %%
 class Reporter(Node):
@@ -142,8 +134,8 @@ class Reader(Node):
         self.get_logger().info(f"I read: {msg.data}")
 
 # %% [markdown]
-# You can hand `add` a class, as you did before. If the constructor needs arguments, create the node yourself and
-# hand over the object. A new session starts with no nodes.
+# You can pass a class to `add`, as you did with the thermometer. If the constructor needs arguments, create the node
+# yourself and pass the object. A new session starts with no nodes.
 #
 # **Predict:** there are three reporters and two readers, and nobody reads politics. A reader logs a line for each
 # message it receives. How many lines appear in two seconds?
@@ -178,7 +170,7 @@ viz.graph(newsroom)
 viz.timeline(newsroom)
 
 # %% [markdown]
-# Time runs from left to right. Squares are timer callbacks; circles are subscription callbacks. In virtual time,
+# Time runs from left to right. Squares are callbacks of timers; circles are callbacks of subscribers. In virtual time,
 # messages on sports and weather arrive at the instant they are sent; on a robot, this takes a moment. The short
 # arrows are messages on politics, which nobody receives.
 #
@@ -236,9 +228,8 @@ newsroom.run(seconds=2)
 # - **decentralization:** if one node crashes, the others can often carry on;
 # - **scalability:** you can add nodes without changing existing code;
 # - **concurrency:** nodes run independently, often at the same time;
-# - **re-usability:** the same node can work in another robot.
-
-# %% [markdown]
+# - **reusability:** the same node can work in another robot.
+#
 # ## Try it: read the weather
 #
 # Replace the blank `____` so that this reader gets the weather and nothing else. Run the cell, and then the check
@@ -313,7 +304,7 @@ viz.graph(newsroom.explain("sport"))
 # %% [markdown]
 # Dan subscribes to `/sport`, but the reporter publishes on `/sports`. A dashed arrow means that its topic has only
 # one side. The dashed line between the two boxes points out that their names are almost the same. In the
-# explanation, what is in brackets after the message type is the QoS profile; page 08 explains it.
+# explanation, the text in brackets after the message type is the QoS profile; page 08 explains it.
 #
 # To fix it, add the missing letter.
 
