@@ -22,13 +22,12 @@
 #
 # ## Open a terminal
 #
-# People who work with ROS type commands into a [**terminal**](../docs/glossary.md#terminal). This cell brings
-# terminals to your page:
+# People who work with ROS type commands into a [**terminal**](../docs/glossary.md#terminal). This cell makes
+# terminals available on your page, and draws the map of the course again:
 
 # %%
 from rosbeat import check, hint, progress, quiz, viz, workspace
 
-# %%
 viz.diagram("01")
 
 # %% [markdown]
@@ -41,7 +40,7 @@ viz.diagram("01")
 
 # %% [markdown]
 # The line with the `$` shows the command. The text before the `$` is the current folder, in short form. The line
-# below is the answer. It's the folder of your pages, because your terminals start there. On the solution page, it's
+# below is the output: the folder of your pages, because your terminals start there. On the solution page, it's
 # the home folder instead, which a terminal writes as `~`.
 #
 # JupyterLab has terminals of its own: choose *File, New, Terminal*. Everything you type on these pages
@@ -65,20 +64,14 @@ viz.diagram("01")
 # The new folder also appears in JupyterLab's file browser on the left, beside your pages. This folder is yours: the
 # course never deletes what you put there.
 #
-# The next cell uses the same terminal. Which folder does it start in?
-
-# %% terminal="one"
-# pwd
-
-# %% [markdown]
-# In the new folder: a terminal remembers where it is. Another terminal isn't affected:
+# Terminal `one` stays in the new folder from now on. Which folder is a second terminal in?
 
 # %% terminal="two"
 # pwd
 
 # %% [markdown]
-# Terminal `two` has a current folder of its own. Later, one terminal will run the sensor and another will run the
-# monitor.
+# Not in the new one: terminal `two` has a current folder of its own. Later, one terminal will run the sensor and
+# another will run the monitor.
 #
 # ## Add the folders inside
 #
@@ -105,23 +98,18 @@ viz.diagram("01")
 # `-p` is short for *parents*, the folders that contain a folder. With `-p`, `mkdir` creates any missing parent
 # folders, and doesn't complain if a folder already exists.
 #
-# What happens without it?
+# What happens without it? The next cell tries both.
 
 # %% terminal="one"
 # mkdir resources/maps/kitchen
-
-# %% [markdown]
-# `mkdir` refuses, because `resources/maps` does not exist. Every command ends with an [**exit
-# code**](../docs/glossary.md#exit-code): 0 means success, and any other number means that something went wrong.
-# Lines that begin with `#` are notes from this course; an ordinary terminal doesn't print them.
-#
-# With `-p` it works:
-
-# %% terminal="one"
 # mkdir -p resources/maps/kitchen
 # ls resources
 
 # %% [markdown]
+# The first command fails, because `resources/maps` doesn't exist yet; the second creates both folders. Every command
+# ends with an [**exit code**](../docs/glossary.md#exit-code): 0 means success, and any other number means that
+# something went wrong. Lines that begin with `#` are notes from this course; an ordinary terminal doesn't print them.
+#
 # ## Find your way
 #
 # A [**path**](../docs/glossary.md#path) says where a file or folder is:
@@ -163,12 +151,10 @@ check("01a", workspace.folder())
 # %% [markdown]
 # ## Try it: from here to there
 #
-# Terminal `two` goes to `resources/images`. From there, go to `src` with one `cd` and a relative path.
-
-# %% terminal="two"
-# cd "$ROS2_WORKSPACE/resources/images"
+# The first line takes terminal `two` to `resources/images`. From there, go to `src` with one `cd` and a relative path.
 
 # %% terminal="two" exercise="01b"
+# cd "$ROS2_WORKSPACE/resources/images"
 # --- answer
 # cd ../../src
 # --- blank

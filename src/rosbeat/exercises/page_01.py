@@ -354,7 +354,7 @@ def _is_absolute(words: Sequence[str]) -> bool:
 
 _UPWARDS = (
     f"From {_START}, two folders up is the workspace. `..` is one folder up, and paths are "
-    "joined with `/`. Run the cell above first: it goes back to the start."
+    "joined with `/`. The first line of the cell goes back to the start each time."
 )
 _RELATIVE = (
     "A relative path begins where you are, with `..` for one folder up. It still works "
