@@ -20,13 +20,12 @@
 # the smallest unit that ROS can build, install and find, and it's what people share: a camera driver is a package,
 # and so is a set of messages.
 #
-# If the workspace from the last page is missing, the course creates it as soon as you open a terminal, and says so. What
-# you have made stays as it is.
+# If the workspace from the last page is missing, the course creates it as soon as you open a terminal, and says so.
+# It never changes what you have made.
 
 # %%
 from rosbeat import check, hint, progress, quiz, viz, workspace
 
-# %%
 viz.diagram("02")
 
 # %% [markdown]
@@ -98,8 +97,7 @@ viz.diagram("02")
 #
 # Two entries still say `TODO`. That does no harm today, but a package that you share needs both: without a
 # licence, nobody else is allowed to use it. The maintainer's name is a guess, taken from this computer's settings.
-
-# %% [markdown]
+#
 # ## Try it: complete the manifest
 #
 # A cell that begins with `%%save` becomes a file in your workspace. If the file already exists and is different, the
@@ -168,8 +166,8 @@ check("02a", workspace.folder())
 # %% [markdown]
 # ## Load it
 #
-# Not yet. This terminal's environment lists the packages that came with ROS, but not yours. The command `source` runs
-# a file in the current terminal, and this file adds your packages to the terminal's environment:
+# `ros2` doesn't find it yet: this terminal's environment lists the packages that came with ROS, but not yours. The
+# command `source` runs a file in the current terminal. Here, the file adds your packages to the terminal's environment:
 
 # %% terminal="build"
 # source install/setup.bash
@@ -209,7 +207,7 @@ viz.diagram("overlay")
 # ros2 pkg executables sensor_simulator
 
 # %% [markdown]
-# None, because there's no code in it yet. Compare it with `std_msgs`, a package that comes with ROS. It
+# None, because there's no code in it yet. `std_msgs`, a package that comes with ROS, has no programs either: it
 # provides message definitions rather than programs, and you can read each definition. In ROS, a message type is one
 # kind of [**interface**](../docs/glossary.md#interface): something that two nodes have to agree on.
 
@@ -255,8 +253,7 @@ check("02b", workspace.folder())
 # `src`. Second, if you forget `--build-type ament_python`, a full ROS installation creates a C++ package, which
 # has no `setup.py`. If that happens, remove the folder and start again. The `ros2` command of this course creates
 # Python packages only, and tells you so.
-
-# %% [markdown]
+#
 # ## Three questions
 #
 # Choose the best answer to each question. You can try as often as you like.
