@@ -17,8 +17,7 @@
 #
 # **Time:** 40 minutes. **You need:** [hear the heartbeat](00_hear_the_heartbeat.ipynb). To save the node into a
 # package, you also need [create a package](02_create_a_package.ipynb).
-
-# %% [markdown]
+#
 # ## Import what you need
 #
 # The imports come first:
@@ -27,9 +26,9 @@
 # - `Node` is the base class of every node;
 # - `Float32` is the message type: it carries one decimal number;
 # - `random` is part of Python. It makes the temperature fluctuate;
-# - `signal` is part of Python, too. Further down, it presses `Ctrl` + `C` for you.
+# - `signal` is part of Python, too. Further down, you'll use it to interrupt a program.
 #
-# The last line imports what belongs to this course. A robot doesn't need it.
+# The import from `rosbeat` belongs to this course. A robot doesn't need it.
 
 # %%
 import random
@@ -41,7 +40,6 @@ from std_msgs.msg import Float32
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
-# %%
 viz.diagram("03")
 
 # %% [markdown]
@@ -76,7 +74,7 @@ predict("1", len(ros.logs()))
 #
 # ## Publish on every tick
 #
-# Two lines in the constructor turn the node into a sensor that publishes regularly:
+# Two calls in the constructor turn the node into a sensor that publishes regularly:
 #
 # - `create_publisher(Float32, "temperature", 10)` creates a publisher for one topic. The arguments are
 #   the message type, the topic's name, and the **queue depth**: how many of the newest messages the
@@ -148,27 +146,25 @@ class TemperatureSensor(Node):
 
 # %% [markdown]
 # This is the complete sensor. Its last line logs what it published. The `f` before the quotes inserts
-# values where the braces are, and `:.2f` formats a number with two decimals. The log is for people;
-# the message is for nodes.
+# values where the braces are, and `:.2f` formats a number with two decimals.
+#
+# Run it for five seconds with its log lines, and then without them, until a quarter of an hour has passed. `seed=8`
+# selects the sequence of random numbers: the same seed always gives the same walk.
 
 # %%
 ros = Session(seed=8)
 sensor = ros.add(TemperatureSensor)
 ros.run(seconds=5)
-
-# %% [markdown]
-# Each reading is at most half a degree away from the one before. `seed=8` selects the sequence of random numbers:
-# the same seed always gives the same walk. Now let it walk on, until a quarter of an hour has passed:
-
-# %%
 ros.run(seconds=895, quiet=True)
 viz.values(ros, "temperature", bands={"allowed": (10.2, 28.0)}, unit="°C")
 
 # %% [markdown]
-# The band shows the range that the clamp allows, and the line connects the readings. The walk reaches the upper
-# limit several times, and follows it until a step leads back down. It never comes close to the lower limit.
+# Each reading is at most half a degree away from the one before. The band shows the range that the clamp allows, and
+# the line connects the readings. The walk reaches the upper limit several times, and follows it until a step leads
+# back down. It never comes close to the lower limit.
 #
-# The picture was drawn from real messages. Compare the last message with the node's own variable:
+# A session keeps a record of each message: when it was sent, on which topic, by which node, and its value. Compare the
+# last record with the node's own variable:
 
 # %%
 ros.messages("temperature")[-1], sensor.temperature
@@ -177,14 +173,6 @@ ros.messages("temperature")[-1], sensor.temperature
 # They differ in the last digits. Python calculates with 64 bits, but a `Float32` carries only 32, so subscribers
 # receive a rounded number.
 #
-# ## Look at it from outside
-#
-# A publisher doesn't need a subscriber. Here is the graph: a sensor, a topic, and nothing on the other side yet.
-
-# %%
-viz.graph(ros)
-
-# %% [markdown]
 # ## Turn the class into a program
 #
 # On a robot, the class is in a file of its own, together with a function called `main`. The next cell contains the
@@ -239,10 +227,10 @@ predict("1", program.returncode)
 # `main` caught the `KeyboardInterrupt`, but then its last line failed. When you press `Ctrl` + `C`, rclpy shuts ROS
 # down itself, and a second `shutdown` is an error. `try_shutdown` shuts ROS down only if it's still running.
 #
-# There's another way to stop a program: the operating system can send it the signal `SIGTERM`. In that case, `spin`
-# raises an `ExternalShutdownException`. Your own `main` catches both exceptions.
+# The operating system can also stop a program with the signal `SIGTERM`. In that case, `spin` raises an
+# `ExternalShutdownException`. Your own `main` catches both exceptions.
 #
-# Here is the whole file. `%%save` writes it into your package and runs it.
+# Here is the whole file. `%%save` writes it into your package, and also runs its code here.
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_publisher.py"
 #!/usr/bin/env python3
@@ -289,10 +277,9 @@ if __name__ == "__main__":
 # %% [markdown]
 # The very first line tells the system to run the file with Python 3. The last two lines call `main` if the file is
 # run as a program, but not if it's imported. They don't call it on this page either, because `main` would spin until
-# you interrupt it; on a page, you use `ros.run(...)` instead.
+# you interrupt it.
 #
-# The cell has also defined this `main` on the page, in place of the tutorial's. **Predict:** what is the exit code of
-# the program now?
+# On this page, `main` is now the one from your file. **Predict:** what is the exit code of the program this time?
 
 # %% predict=true
 robot = Session(seed=8)
@@ -306,7 +293,8 @@ predict("0", program.returncode)
 # --- end
 
 # %% [markdown]
-# The numbers are the same as before, and the exit code is 0. The tutorial edits the file with `nano`, an editor; here, you can double-click the file in the file browser.
+# The numbers are the same as before, and the exit code is 0. The tutorial edits the file with `nano`, an editor;
+# here, you can double-click the file in the file browser.
 #
 # **How the data flows:** `main` initializes ROS and creates the node. The node creates its publisher and its
 # timer. Every second, the timer calls `publish_temperature`, which takes a random step, clamps the temperature,
@@ -338,9 +326,9 @@ check("03a", HumiditySensor)
 # %% [markdown]
 # ## Try it: a living room
 #
-# 10.2 degrees is cold for a room. The tutorial itself notes that it probably meant 18.0. And in a room with thick
-# walls, the temperature changes slowly. Write the method yourself: take a random step of at most 0.3 degrees up or
-# down, keep the temperature between 18.0 and 28.0, and publish it. Write the numbers with decimal points: a
+# 10.2 degrees is cold for a room; the tutorial notes that it probably meant 18.0. In a room with thick walls, the
+# temperature also changes slowly. Complete the method: take a random step of at most 0.3 degrees up or down, keep
+# the temperature between 18.0 and 28.0, and publish it. Write the numbers with decimal points: a
 # `Float32` needs a float, and 18 is an int. You may replace the last blank with several lines.
 
 # %% exercise="03b"
@@ -368,16 +356,15 @@ check("03b", RoomSensor)
 # %% [markdown]
 # ## Try it: a greenhouse, alone
 #
-# Now write a node of your own, from the first line to the last. It's a sensor for a greenhouse in a country where
-# people measure in degrees Fahrenheit. The node
+# Now write a node of your own, from the first line to the last: a sensor for a greenhouse. The node
 #
-# - walks like the sensor on this page: it starts at 22.0 degrees Celsius, each step is at most 0.5 up or down,
-#   and it stays between 10.2 and 28.0;
+# - follows a random walk, like the sensor on this page: it starts at 22.0 degrees Celsius, each step is at most 0.5
+#   up or down, and it stays between 10.2 and 28.0;
 # - publishes the temperature in degrees Fahrenheit, as a `Float32`: `c` degrees Celsius are `c * 9 / 5 + 32`
 #   degrees Fahrenheit;
 # - publishes on the topic `greenhouse/temperature`, four times a second.
 #
-# Choose all other names yourself, and add methods if you like. If you're stuck, use the *Hint* button.
+# Choose all other names yourself, and add methods if you like.
 
 # %% exercise="03c"
 class GreenhouseSensor(Node):
@@ -440,8 +427,6 @@ quiz("03", "b", "c", "a")
 # - `create_publisher(type, topic, depth)` creates a publisher; `publish(msg)` sends a message.
 # - `create_timer(period, method)` calls the method once per period, for the first time after one full period.
 # - `rclpy.init`, `rclpy.spin` and `try_shutdown` belong to the program around the node.
-#
-# The file `temperature_publisher.py` in your package contains the class `TemperatureSensor` from this page.
 #
 # **Next:** [write a subscriber](04_write_a_subscriber.ipynb) that listens to this sensor.
 
