@@ -27,13 +27,11 @@ from std_msgs.msg import Float32, String
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz
 
-# %%
 viz.diagram("04")
 
 # %% [markdown]
-# The first imports are the same as the publisher's. A subscriber has to use the publisher's message type;
-# otherwise, no messages arrive. In a file of its own, the monitor doesn't need `random`; on this page, the sensor
-# does. You'll use `signal` and `String` further down.
+# Most of the imports are the same as the publisher's. A subscriber has to use the publisher's message type;
+# otherwise, no messages arrive. You'll use `signal` and `String` further down.
 #
 # ## Bring a sensor
 #
@@ -99,113 +97,10 @@ predict("3", len(ros.logs()))
 #
 # ## Judge the temperature
 #
-# The monitor reports *High* above 26 degrees, *Low* below 20, and *Normal* in between.
-
-# %%
-class TemperatureMonitor(Node):
-    def __init__(self):
-        super().__init__("temperature_monitor")
-        self.subscription = self.create_subscription(
-            Float32, "temperature", self.temperature_callback, 10
-        )
-        self.get_logger().info("Temperature Monitor Node Started")
-
-    def temperature_callback(self, msg):
-        temp = msg.data
-        if temp > 26.0:
-            status = "High"
-        elif temp < 20.0:
-            status = "Low"
-        else:
-            status = "Normal"
-        self.get_logger().info(f"Temperature: {temp:.2f}C - Status:{status}")
-
-# %% [markdown]
-# This is the complete monitor. Read the callback from top to bottom:
-#
-# - `temp = msg.data` gets the number from the message;
-# - Python tries `if`, `elif` and `else` in this order and takes the first branch that fits, so every number
-#   gets exactly one status;
-# - `>` and `<` exclude the limits themselves: exactly 26.0 is *Normal*, and so is exactly 20.0;
-# - the last line logs the temperature with two decimals, and the status.
-
-# %%
-ros = Session(seed=8)
-ros.add(TemperatureSensor)
-ros.add(TemperatureMonitor)
-ros.run(seconds=4)
-
-# %% [markdown]
-# Four readings, and four times *Normal*. Now let ten minutes pass, and draw the readings with the three states as
-# bands.
-
-# %%
-ros.run(seconds=596, quiet=True)
-limits = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
-viz.values(ros, "temperature", bands=limits, unit="°C")
-
-# %% [markdown]
-# Near a limit, a small step is enough to change the status. The line crosses a limit for good only a few times, but
-# the status changes much more often: it flickers. *Low*, which begins below 20, would be possible even if the sensor's
-# lower limit were 18.0, as the tutorial probably meant.
-#
-# ## See the two together
-#
-# In the graph, the sensor and the monitor are on the two sides of one topic. A second monitor would add another
-# ellipse on the right, and the sensor wouldn't change at all.
-
-# %%
-viz.graph(ros)
-
-# %%
-viz.timeline(ros, until=3)
-
-# %% [markdown]
-# Each tick of the sensor's timer sends a message, and the message triggers the monitor's callback.
-# Neither node's code mentions the other. Any node that publishes a `Float32` on `temperature` would do.
-#
-# ## Let messages wait
-#
-# What if the monitor is busy for a while? Its messages wait in a [**queue**](../docs/glossary.md#queue), and the 10
-# in `create_subscription` is the length of that queue. The publisher's 10 belongs to another queue, at the
-# publisher; messages for a busy callback wait in the subscriber's queue. `ros.pause` simulates the busy node: it
-# takes no messages until `ros.resume`. Here is the listener again, which logs one line for each reading.
-#
-# **Predict:** the listener is paused for 15 seconds while the sensor publishes once a second. How many readings does
-# it get when it resumes?
-
-# %% predict=true
-ros = Session(seed=8)
-ros.add(TemperatureSensor)
-listener = ros.add(Listener)
-ros.pause(listener)
-ros.run(seconds=15)
-ros.resume(listener)
-ros.run(seconds=0)
-# --- answer
-predict("10", len(ros.logs()))
-# --- blank
-# predict("____", len(ros.logs()))
-# --- end
-
-# %% [markdown]
-# Ten. The picture shows the queue. The numbers are readings, and time runs from left to right. In the first 15
-# seconds, each column is one second. Then the listener resumes and takes ten readings at the same instant, one per
-# column.
-
-# %%
-viz.queue(ros, "temperature")
-
-# %% [markdown]
-# When the queue is full, each new reading pushes out the oldest one. The depth is a number of messages, not a rate.
-# The sensor never waits for anyone. It doesn't even notice that five readings were lost. For a temperature, that's
-# fine: the newest readings matter most.
-#
-# ## Turn the class into a program
-#
-# The monitor's `main` is the sensor's `main` with another class in it. `rclpy.init` initializes ROS,
-# `TemperatureMonitor()` creates the node, and `rclpy.spin` keeps the program running and calls the
-# callback whenever a message arrives. Save the whole file into your package:
+# The monitor reports *High* above 26 degrees, *Low* below 20, and *Normal* in between. This is the whole file, which
+# `%%save` writes into your package. Its `main` is the sensor's `main` with another class in it: `rclpy.init`
+# initializes ROS, `TemperatureMonitor()` creates the node, and `rclpy.spin` keeps the program running and calls the
+# callback whenever a message arrives.
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_subscriber.py"
 #!/usr/bin/env python3
@@ -249,8 +144,84 @@ if __name__ == "__main__":
     main()
 
 # %% [markdown]
-# The tutorial's own `main` leaves out two lines: it doesn't destroy the node, and it doesn't shut ROS down. Here it
-# is, next to a sensor.
+# Read the callback from top to bottom:
+#
+# - `temp = msg.data` gets the number from the message;
+# - Python tries `if`, `elif` and `else` in this order and takes the first branch that fits, so every number
+#   gets exactly one status;
+# - `>` and `<` exclude the limits themselves: exactly 26.0 is *Normal*, and so is exactly 20.0;
+# - the last line logs the temperature with two decimals, and the status.
+#
+# Run the two nodes for four seconds with their log lines, and then without them, until ten minutes have passed. The
+# picture shows the readings, with the three states as bands.
+
+# %%
+ros = Session(seed=8)
+ros.add(TemperatureSensor)
+ros.add(TemperatureMonitor)
+ros.run(seconds=4)
+ros.run(seconds=596, quiet=True)
+limits = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
+viz.values(ros, "temperature", bands=limits, unit="°C")
+
+# %% [markdown]
+# The first four readings are *Normal*. Near a limit, a small step is enough to change the status. The line crosses a
+# limit for good only a few times, but the status changes much more often: it flickers. *Low*, which begins below 20,
+# would be possible even if the sensor's lower limit were 18.0, as the tutorial probably meant.
+#
+# ## See the two together
+#
+# Here are the first three seconds on a timeline:
+
+# %%
+viz.timeline(ros, until=3)
+
+# %% [markdown]
+# Each tick of the sensor's timer sends a message, and the message triggers the monitor's callback. Neither node's code
+# mentions the other. Any node that publishes a `Float32` on `temperature` would do, and a second monitor could join
+# without any change to the sensor.
+#
+# ## Let messages wait
+#
+# What if the monitor is busy for a while? Its messages wait in a [**queue**](../docs/glossary.md#queue), and the 10
+# in `create_subscription` is the length of that queue. The publisher's 10 belongs to another queue, at the
+# publisher; messages for a busy callback wait in the subscriber's queue. `ros.pause` simulates the busy node: it
+# takes no messages until `ros.resume`. Here is the listener again, which logs one line for each reading.
+#
+# **Predict:** the listener is paused for 15 seconds while the sensor publishes once a second. How many readings does
+# it get when it resumes?
+
+# %% predict=true
+ros = Session(seed=8)
+ros.add(TemperatureSensor)
+listener = ros.add(Listener)
+ros.pause(listener)
+ros.run(seconds=15)
+ros.resume(listener)
+ros.run(seconds=0)
+# --- answer
+predict("10", len(ros.logs()))
+# --- blank
+# predict("____", len(ros.logs()))
+# --- end
+
+# %% [markdown]
+# Ten. In the picture of the queue, the numbers are readings, and time runs from left to right. In the first 15
+# seconds, each column is one second. Then the listener resumes and takes ten readings at the same instant, one per
+# column.
+
+# %%
+viz.queue(ros, "temperature")
+
+# %% [markdown]
+# When the queue is full, each new reading pushes out the oldest one. The depth is a number of messages, not a rate.
+# The sensor never waits for anyone. It doesn't even notice that five readings were lost. For a temperature, that's
+# fine: the newest readings matter most.
+#
+# ## Run the class as a program
+#
+# The tutorial's own `main` leaves out two lines of yours: it doesn't destroy the node, and it doesn't shut ROS down.
+# Here it runs beside a sensor.
 #
 # **Predict:** what is its exit code after `Ctrl` + `C`?
 
@@ -276,8 +247,8 @@ predict("0", program.returncode)
 # --- end
 
 # %% [markdown]
-# The program ends, and the operating system releases everything it used. Clean up all the same: in larger programs,
-# it matters.
+# 0 means success: the program ends, and the operating system releases everything it used. Clean up all the same: in
+# larger programs, it matters.
 #
 # **How the data flows:** `main` creates the node, and the node creates its subscription. `rclpy.spin` waits.
 # When a message arrives, the callback evaluates the temperature and logs the status. Then `spin` waits again, until
@@ -358,8 +329,8 @@ check("04b", Alarm)
 # ## Try it: a calm monitor, in three steps
 #
 # Near a limit, the status flickers. In three steps, you'll write a monitor that stays calm. In the first step, write
-# a node that listens to `temperature`, and publishes on `mean`, for each reading, the mean of the last five
-# readings, as a `Float32`. While there are fewer than five, it's the mean of all of them.
+# a node that listens to `temperature`. For each reading, it publishes the mean of the last five readings on the topic
+# `mean`, as a `Float32`. While there are fewer than five, it's the mean of all of them.
 
 # %% exercise="04c"
 class MeanMonitor(Node):
@@ -382,10 +353,10 @@ check("04c", MeanMonitor)
 
 # %% [markdown]
 # Real monitors use two limits: one to enter a state, and another to leave it. This is called
-# [**hysteresis**](../docs/glossary.md#hysteresis). Publish the status on `status` as well, for each reading, as a
-# `String`. The status begins as `Normal`, and follows the reading itself, not the mean: above 26 it is `High`, and
-# below 20 it is `Low`, whatever it was before. From `High`, the status returns to `Normal` only below 25; from `Low`,
-# only above 21.
+# [**hysteresis**](../docs/glossary.md#hysteresis). In the second step, also publish the status on `status`, for each
+# reading, as a `String`. The status begins as `Normal`, and follows the reading itself, not the mean: above 26 it is
+# `High`, and below 20 it is `Low`, whatever it was before. From `High`, the status returns to `Normal` only below 25;
+# from `Low`, only above 21.
 
 # %% exercise="04d"
 class StatusMonitor(Node):
@@ -466,7 +437,7 @@ check("04e", CalmMonitor)
 #
 # The line that subscribes has one pair of parentheses too many. When does this fail: at the first message, or before?
 
-# %%
+# %% tags=["raises-exception"]
 class EagerMonitor(Node):
     def __init__(self):
         super().__init__("temperature_monitor")
@@ -475,7 +446,6 @@ class EagerMonitor(Node):
     def temperature_callback(self, msg):
         self.get_logger().info(f"I heard {msg.data:.2f}")
 
-# %% tags=["raises-exception"]
 ros.add(EagerMonitor)
 
 # %% [markdown]
@@ -501,8 +471,7 @@ quiz("04", "b", "c", "a")
 # - A queue keeps the newest messages for a slow subscriber, up to its depth.
 # - A publisher acts, a subscriber reacts, and a node can do both.
 #
-# The file `temperature_subscriber.py` in your package contains the class `TemperatureMonitor` from this page. You
-# now have both halves of a system, and neither knows about the other.
+# You now have both halves of a system, and neither knows about the other.
 #
 # **Next:** [set the entry points](05_set_the_entry_points.ipynb), so that `ros2 run` finds the two programs.
 
