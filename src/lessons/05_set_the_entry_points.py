@@ -18,53 +18,45 @@
 # [write a publisher](03_write_a_publisher.ipynb) and [write a subscriber](04_write_a_subscriber.ipynb).
 #
 # The two files are in your package, but nothing marks them as programs yet. For that, `setup.py` needs one entry
-# for each. If something from an earlier page is missing, the course creates it when the first terminal opens. In the
-# commands below, a star stands for any text.
+# for each. If something from an earlier page is missing, the course creates it when the first terminal opens.
 
 # %%
 from rosbeat import check, hint, progress, quiz, viz, workspace
 
-# %%
 viz.diagram("05")
-
-# %% terminal="build"
-# cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
-# ls
 
 # %% [markdown]
 # ## Make a file executable
 #
 # A file is just data until the system is told that it may be run. That permission is shown as one letter, `x`, for
-# *execute*. `stat` prints facts about a file: here, its permissions and its name.
+# *execute*. `chmod` is short for *change mode*, and `+x` adds the permission. `stat` prints facts about a file: here,
+# its permissions and its name. The star stands for any text.
 
 # %% terminal="build"
+# cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # stat -c "%A %n" temperature_*.py
-
-# %% [markdown]
-# The first character is the kind: `-` for a file, `d` for a folder. Then come three groups of three characters.
-# `r` is *read*, `w` is *write*, and `x` is *execute*: first for you, then for your group, then for everyone
-# else. There is no `x` yet. You can still start the file with `python3 temperature_publisher.py`, because then
-# it's only read, by Python. To start it by its own name, it needs the `x`. `chmod` is short for *change mode*, and
-# `+x` adds the permission:
-
-# %% terminal="build"
 # chmod +x temperature_publisher.py
 # chmod +x temperature_subscriber.py
 # stat -c "%A %n" temperature_*.py
 
 # %% [markdown]
+# The first character is the kind: `-` for a file, `d` for a folder. Then come three groups of three characters.
+# `r` is *read*, `w` is *write*, and `x` is *execute*: first for you, then for your group, then for everyone
+# else. At first, there was no `x`. You could still have started the file with `python3 temperature_publisher.py`,
+# because Python only has to read it. To start it by its own name, it needs the `x`.
+#
 # Now you can start the sensor directly. `./` means *in this folder*; without it, the shell doesn't look for programs
 # in the current folder. The first line of the file, `#!/usr/bin/env python3`, says which program runs it. A sensor
-# never ends, so this cell waits only until a reading appears, while the program keeps running in its terminal.
+# never ends, so this cell waits only until a reading appears. The program keeps running in its terminal.
 
 # %% terminal="sensor --until Publishing" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
 # ./temperature_publisher.py
 
 # %% [markdown]
-# A real node, running on its own. In an ordinary terminal, you'd press `Ctrl` + `C` to stop it. On a page, a
-# command does this for you: `%terminal`, with one percent sign, presses keys instead of typing a command. Then `$?`
-# holds the exit code of the last command.
+# This is a real node, running on its own. In an ordinary terminal, you'd press `Ctrl` + `C` to stop it. On a page,
+# `%terminal` with one percent sign presses keys instead of typing a command. Then `$?` holds the exit code of the
+# last command.
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
@@ -86,8 +78,8 @@ viz.diagram("05")
 # source install/setup.bash
 
 # %% [markdown]
-# `--packages-select` builds one package and ignores the others. Does `ros2 run` find
-# the sensor now? If it does, `timeout 5` ends it after five seconds.
+# `--packages-select` builds one package and ignores the others. Does `ros2 run` find the sensor now? If it does,
+# `timeout 5` ends it after five seconds.
 
 # %% terminal="build"
 # timeout 5 ros2 run sensor_simulator temperature_publisher
@@ -95,13 +87,8 @@ viz.diagram("05")
 # %% [markdown]
 # No. `ros2 run` never looks at your files in `src`, and their permissions make no difference to it.
 # There's a good reason: a robot may not have `src` at all, only what was installed. `ros2 run`
-# looks for programs in one folder of the installed package, and there are none. `ros2 pkg executables`
-# lists what's there.
-
-# %% terminal="build"
-# ros2 pkg executables sensor_simulator
-
-# %% [markdown]
+# looks for programs in one folder of the installed package, and so far, there are none.
+#
 # ## Read setup.py
 #
 # `setup.py` tells Python how to install your package. It's the instruction manual that colcon follows.
@@ -126,8 +113,7 @@ viz.diagram("05")
 # installed only if `data_files` lists it.
 #
 # The last piece matters most here.
-
-# %% [markdown]
+#
 # ## Understand an entry point
 #
 # An [**entry point**](../docs/glossary.md#entry-point) is one line of text. The part before the equals sign is the
@@ -199,8 +185,8 @@ check("05a", workspace.folder())
 # ros2 pkg executables sensor_simulator
 
 # %% [markdown]
-# There they are. From two lines of text, colcon has created two small programs. Each one imports its
-# module and calls its function, and both are in the folder that `setup.cfg` names.
+# There they are: `ros2 pkg executables` lists a package's programs. From two lines of text, colcon has created two
+# small programs. Each one imports its module and calls its function, and both are in the folder that `setup.cfg` names.
 
 # %% terminal="build"
 # ls install/sensor_simulator/lib/sensor_simulator
@@ -220,12 +206,14 @@ viz.diagram("entry point")
 ]
 
 # %% [markdown]
-# Python joins two strings if nothing separates them, so this is only one entry. **Symptom:** colcon stops with *setup() was never
-# called*, which doesn't mention a comma. **Where to look:** the list, line by line. **Cause:** the joined
-# line isn't a valid entry point. **Fix:** put a comma after each entry. Because the build failed, `ros2 run` still
-# starts what was built before.
+# Python joins two strings if nothing separates them, so this is only one entry. **Symptom:** colcon stops with
+# *setup() was never called*, which doesn't mention a comma. **Where to look:** the list, line by line. **Cause:** the
+# joined line isn't a valid entry point. **Fix:** put a comma after each entry. Because the build failed, `ros2 run`
+# still starts what was built before.
 #
 # ## What went wrong: one letter
+#
+# Why does this fail, although the program is built?
 
 # %% terminal="build"
 # ros2 run sensor_simulator temprature_publisher
