@@ -16,8 +16,8 @@
 #
 # **Time:** 35 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
 #
-# A process is a running program. It has its own memory, which no other process can read. Two nodes in two processes
-# share nothing but the messages that ROS carries between them. If something from an earlier page is missing, the
+# Each process has its own memory, which no other process can read. Two nodes in two processes share nothing but the
+# messages that ROS carries between them. If something from an earlier page is missing, the
 # course creates it when the first terminal opens.
 
 # %%
@@ -25,16 +25,17 @@ import os
 
 from rosbeat import Session, check, hint, predict, progress, quiz, viz, workspace
 
-# %%
 viz.diagram("06")
 
 # %% [markdown]
 # ## Build
 #
-# Build in the workspace, not in `src`. `--packages-select` builds only the package that you name, which saves time
-# in a workspace with many packages. There are three steps, always in this order: **build** puts your code into
-# `install`, **source** adds it to a terminal's environment, and **run** starts it. After a change, build again; a
-# terminal that has sourced the workspace once doesn't need to source it again.
+# There are three steps, always in this order: **build** puts your code into `install`, **source** adds it to a
+# terminal's environment, and **run** starts it. After a change, build again; a terminal that has sourced the workspace
+# once doesn't need to source it again.
+#
+# Build in the workspace, not in `src`. `--packages-select` builds only the package that you name, which saves time in
+# a workspace with many packages.
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE"
@@ -61,18 +62,23 @@ viz.diagram("06")
 #
 # ## Start the monitor
 #
+# In its second terminal, the tutorial types `ros2 run` at once, without sourcing. The first line of the next cell does
+# the same; the other lines source the workspace and try again.
+#
 # The sensor has been running for a while. Which reading does the monitor see first?
 
 # %% terminal="monitor --until Status --lines 10" tags=["nbval-ignore-output"]
+# ros2 run sensor_simulator temperature_subscriber
 # cd "$ROS2_WORKSPACE"
 # source install/setup.bash
 # ros2 run sensor_simulator temperature_subscriber
 
 # %% [markdown]
-# The next one published after it connects. The earlier readings are gone: a topic doesn't store old messages.
+# The first line fails: the package is built, but this terminal hadn't sourced the workspace yet. If a new terminal of
+# yours finds the package anyway, something sources the workspace automatically when the terminal opens.
 #
-# The tutorial doesn't source the workspace in its second terminal. If a new terminal of yours finds the package
-# anyway, something sources it automatically when the terminal opens.
+# The monitor sees the next reading that is published after it connects. The earlier ones are gone: a topic doesn't
+# store old messages.
 #
 # ## See the flow of messages
 #
@@ -90,24 +96,9 @@ viz.message_flow(workspace.terminal("sensor"), workspace.terminal("monitor"))
 # each message to the middleware in its own process, which turned it into a few bytes. The middleware in the other
 # process turned those bytes back into a message.
 #
-# ## Look from another terminal
-#
-# A third terminal can look at the running programs, too. `ros2 topic list` prints the topics that are in use, and
-# `ros2 topic echo` prints the messages on one of them. With `--once`, it stops after the first message. Both
-# commands come with ROS, so this terminal doesn't have to source your workspace.
-
-# %% terminal="look" tags=["nbval-ignore-output"]
-# ros2 topic list
-# ros2 topic echo --once /temperature
-
-# %% [markdown]
-# `echo` subscribed to the topic, received one message, and stopped. The other two topics come with every node:
-# `/rosout` carries log lines, and `/parameter_events` reports changes of parameters. You'll use these commands on
-# page 07.
-#
 # ## Look from this page
 #
-# This page is a process as well. A session on this page sees none of these nodes, because each session has a
+# This page is a process as well. By default, a session sees none of these nodes, because each session has a
 # [**domain**](../docs/glossary.md#domain) of its own. A domain is identified by a number: nodes in the same domain
 # find each other, and nodes in different domains never do. Your terminals have a domain number in their
 # environment, and a session can join that domain:
@@ -118,10 +109,10 @@ ros.wait_for_nodes("temperature_sensor", "temperature_monitor")
 viz.graph(ros)
 
 # %% [markdown]
-# You know this graph from page 04. There, a session simulated both processes; here, the nodes run in two real ones,
-# and the picture is the same. Nodes don't depend on where the other nodes run: on a robot, they may even run on
-# different computers. There's also no central program that keeps a list of nodes: each process tells the others
-# what it offers and what it needs. This is called [**discovery**](../docs/glossary.md#discovery).
+# If a session simulates both processes, as on page 04, the graph is the same. Nodes don't depend on where the other
+# nodes run: on a robot, they may even run on different computers. There's also no central program that keeps a list
+# of nodes: each process tells the others what it offers and what it needs. This is called
+# [**discovery**](../docs/glossary.md#discovery).
 #
 # ## Stop one of them
 #
@@ -155,7 +146,7 @@ predict("yes", workspace.terminal("monitor").busy)
 # ## Try it: change the code
 #
 # When the monitor starts, it logs *Temperature Monitor Node Started*. Let it log *Temperature Monitor Version 2*
-# instead. You could change the file in an editor; `sed -i` replaces a text from a terminal. Fill in the new text.
+# instead. You could change the file in an editor; here, `sed -i` replaces a text in it. Fill in the new text.
 
 # %% terminal="build" exercise="06a"
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
@@ -169,26 +160,30 @@ predict("yes", workspace.terminal("monitor").busy)
 check("06a", workspace.folder())
 
 # %% [markdown]
-# Now start this monitor beside the first one. Two nodes shouldn't have the same name, because you couldn't tell them
-# apart. Everything after `--ros-args` is meant for ROS: `-r` is short for *remap*, and with `__node` (two underscores)
-# it gives the node another name. Which text does it log?
+# ## What went wrong: the old code
+#
+# Now start this monitor beside the first one, for three seconds. Two nodes shouldn't have the same name, because you
+# couldn't tell them apart. Everything after `--ros-args` is meant for ROS: `-r` is short for *remap*, and with `__node`
+# (two underscores) it gives the node another name. Which text does it log first?
 
-# %% terminal="third --until Monitor" tags=["nbval-ignore-output"]
+# %% terminal="third" tags=["nbval-ignore-output"]
 # cd "$ROS2_WORKSPACE"
 # source install/setup.bash
-# ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
+# timeout 3 ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
 
 # %% [markdown]
-# The old one. `ros2 run` uses only what is in `install`, and colcon has **copied** your files there. `diff` shows the
-# lines in which a file and its copy differ; the star stands for any text.
+# The old one. Exit code 124 only means that `timeout` has ended the program. `diff` shows the lines in which a file in
+# `src` and its copy in `install` differ.
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE"
 # diff src/sensor_simulator/sensor_simulator/temperature_subscriber.py install/sensor_simulator/lib/python3*/site-packages/sensor_simulator/
 
 # %% [markdown]
-# You ran the *old* code, and ROS itself didn't tell you: the lines that begin with `#` come from this course's
-# terminals. Sooner or later, this costs everyone an afternoon. Either build after each change, or let colcon create a link instead of a copy: then a change takes effect the next time the program
+# **Symptom:** a change has no effect, and ROS itself doesn't tell you why: the lines that begin with `#` come from this
+# course's terminals. **Where to look:** in `install`, with `diff`. Its exit code 1 means that the files differ.
+# **Cause:** `ros2 run` uses only what is in `install`, and colcon has copied your files there. **Fix:** build after
+# each change, or let colcon create a link instead of a copy: then a change takes effect the next time the program
 # starts. Changes to `setup.py` still need a build.
 #
 # ## Try it: link instead of copy
@@ -210,75 +205,25 @@ check("06b", workspace.folder())
 
 # %% [markdown]
 # The linked files are in a different folder from the copies. So this once, terminals that are already open have to
-# source the workspace again. Stop the second monitor, and start it anew:
+# source the workspace again. Start the second monitor once more:
 
-# %% terminal="third --ctrl-c" tags=["nbval-ignore-output"]
-
-# %% terminal="third --until Monitor" tags=["nbval-ignore-output"]
+# %% terminal="third" tags=["nbval-ignore-output"]
 # source install/setup.bash
-# ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
+# timeout 3 ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
 
 # %% [markdown]
 # *Version 2*. From now on, a change takes effect without a build.
 #
-# ## Test the package
-#
-# `ros2 pkg create` put three tests into the folder `test`, and `colcon test` runs them. Two of them check the style
-# of your code, and the third, about copyright notices, is skipped.
-
-# %% terminal="build"
-# colcon test --packages-select sensor_simulator
-# colcon test-result
-
-# %% [markdown]
-# ## What went wrong: a new terminal
-#
-# Why does this fail, although the package is built?
-
-# %% terminal="fresh"
-# ros2 run sensor_simulator temperature_publisher
-
-# %% [markdown]
-# **Symptom:** *Package 'sensor_simulator' not found*. **Where to look:** has *this* terminal sourced the workspace?
-# **Cause:** it hasn't. **Fix:** `source install/setup.bash`, in the workspace.
-#
 # ## Clean up
 #
-# Press `Ctrl` + `C` in every terminal. The tutorial's own sensor would print a traceback here, as you saw on the
-# page about publishers. Your programs print nothing and end with exit code 0.
-
-# %% terminal="third --ctrl-c" tags=["nbval-ignore-output"]
+# Press `Ctrl` + `C` in both terminals. The tutorial's own sensor would print a traceback here, as you saw on page 03.
+# Your programs print nothing and end with exit code 0.
 
 # %% terminal="monitor --ctrl-c" tags=["nbval-ignore-output"]
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
 # %% [markdown]
-# ## Rehearse in a session
-#
-# To try out a change, you need neither terminals nor a build. A session can run the same two files in virtual
-# time, each as a process of its own.
-#
-# **Predict:** both programs start at the same instant. The monitor logs one line when it starts, and one for each
-# reading. How many lines does it log in three seconds?
-
-# %% predict=true
-package = workspace.folder() / "src/sensor_simulator/sensor_simulator"
-
-ros = Session(seed=8)
-ros.spawn(package / "temperature_publisher.py")
-ros.spawn(package / "temperature_subscriber.py")
-ros.run(seconds=3)
-# --- answer
-predict("4", len(ros.logs("temperature_monitor")))
-# --- blank
-# predict("____", len(ros.logs("temperature_monitor")))
-# --- end
-
-# %% [markdown]
-# All three readings arrive: a session connects the programs immediately. Real programs need a moment to discover
-# each other.
-#
 # ## Try it: leave the notebook
 #
 # Now do it all without this page. JupyterLab has an editor and terminals of its own.
@@ -332,11 +277,11 @@ quiz("06", "b", "a", "c")
 # - A node can stop and come back, and the other one keeps running.
 # - `ros2 run` starts what is installed, not what is in `src`.
 #
-# Topics are the first of three patterns. **Services** are for questions that have an answer, and **actions** are for
-# work that takes time. You can meet both on page 12.
+# Topics are the first of three patterns of communication. **Services** are for questions that have an answer, and
+# **actions** are for work that takes time. Page 12 covers both.
 #
-# This is the end of the tutorial, and of the core of the course. The pages from 07 on are electives: take the ones
-# that you like. **Next:** [look inside the graph](07_look_inside_the_graph.ipynb), where you examine a running system.
+# This is the end of the tutorial, and of the core of the course. The pages from 07 on are electives: take those that
+# you like. **Next:** [look inside the graph](07_look_inside_the_graph.ipynb), where you examine a running system.
 
 # %%
 progress()
