@@ -23,7 +23,7 @@
 # ## Open a terminal
 #
 # People who work with ROS type commands into a [**terminal**](../docs/glossary.md#terminal). This cell makes
-# terminals available on your page, and draws where the workspace belongs:
+# terminals available on your page, and draws the map of the course again:
 
 # %%
 from rosbeat import check, hint, progress, quiz, viz, workspace

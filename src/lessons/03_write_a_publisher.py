@@ -146,8 +146,7 @@ class TemperatureSensor(Node):
 
 # %% [markdown]
 # This is the complete sensor. Its last line logs what it published. The `f` before the quotes inserts
-# values where the braces are, and `:.2f` formats a number with two decimals. The log is for people;
-# the message is for nodes.
+# values where the braces are, and `:.2f` formats a number with two decimals.
 #
 # Run it for five seconds with its log lines, and then without them, until a quarter of an hour has passed. `seed=8`
 # selects the sequence of random numbers: the same seed always gives the same walk.
@@ -164,8 +163,8 @@ viz.values(ros, "temperature", bands={"allowed": (10.2, 28.0)}, unit="°C")
 # the line connects the readings. The walk reaches the upper limit several times, and follows it until a step leads
 # back down. It never comes close to the lower limit.
 #
-# The picture was drawn from real messages. A session keeps a record of each one: when it was sent, on which topic, by
-# which node, and its value. Compare the last record with the node's own variable:
+# A session keeps a record of each message: when it was sent, on which topic, by which node, and its value. Compare the
+# last record with the node's own variable:
 
 # %%
 ros.messages("temperature")[-1], sensor.temperature
@@ -231,7 +230,7 @@ predict("1", program.returncode)
 # The operating system can also stop a program with the signal `SIGTERM`. In that case, `spin` raises an
 # `ExternalShutdownException`. Your own `main` catches both exceptions.
 #
-# Here is the whole file. `%%save` writes it into your package, and runs its code on this page.
+# Here is the whole file. `%%save` writes it into your package, and also runs its code here.
 
 # %% save="src/sensor_simulator/sensor_simulator/temperature_publisher.py"
 #!/usr/bin/env python3
@@ -280,8 +279,7 @@ if __name__ == "__main__":
 # run as a program, but not if it's imported. They don't call it on this page either, because `main` would spin until
 # you interrupt it.
 #
-# The cell has also defined this `main` on the page, in place of the tutorial's. **Predict:** what is the exit code of
-# the program now?
+# On this page, `main` is now the one from your file. **Predict:** what is the exit code of the program this time?
 
 # %% predict=true
 robot = Session(seed=8)
@@ -358,8 +356,7 @@ check("03b", RoomSensor)
 # %% [markdown]
 # ## Try it: a greenhouse, alone
 #
-# Now write a node of your own, from the first line to the last. It's a sensor for a greenhouse in a country where
-# people measure in degrees Fahrenheit. The node
+# Now write a node of your own, from the first line to the last: a sensor for a greenhouse. The node
 #
 # - follows a random walk, like the sensor on this page: it starts at 22.0 degrees Celsius, each step is at most 0.5
 #   up or down, and it stays between 10.2 and 28.0;

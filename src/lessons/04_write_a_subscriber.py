@@ -329,8 +329,8 @@ check("04b", Alarm)
 # ## Try it: a calm monitor, in three steps
 #
 # Near a limit, the status flickers. In three steps, you'll write a monitor that stays calm. In the first step, write
-# a node that listens to `temperature`. For each reading, it publishes on `mean` the mean of the last five readings, as
-# a `Float32`. While there are fewer than five, it's the mean of all of them.
+# a node that listens to `temperature`. For each reading, it publishes the mean of the last five readings on the topic
+# `mean`, as a `Float32`. While there are fewer than five, it's the mean of all of them.
 
 # %% exercise="04c"
 class MeanMonitor(Node):

@@ -87,7 +87,7 @@ viz.diagram("05")
 # %% [markdown]
 # No. `ros2 run` never looks at your files in `src`, and their permissions make no difference to it.
 # There's a good reason: a robot may not have `src` at all, only what was installed. `ros2 run`
-# looks for programs in one folder of the installed package, and there are none.
+# looks for programs in one folder of the installed package, and so far, there are none.
 #
 # ## Read setup.py
 #

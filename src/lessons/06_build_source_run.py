@@ -17,8 +17,8 @@
 # **Time:** 35 minutes. **You need:** [set the entry points](05_set_the_entry_points.ipynb).
 #
 # Each process has its own memory, which no other process can read. Two nodes in two processes share nothing but the
-# messages that ROS carries between them. If something from an earlier page is missing, the
-# course creates it when the first terminal opens.
+# messages that ROS carries between them. If something from an earlier page is missing, the course creates it when the
+# first terminal opens.
 
 # %%
 import os
@@ -161,7 +161,7 @@ predict("yes", workspace.terminal("monitor").busy)
 # ## Try it: change the code
 #
 # When the monitor starts, it logs *Temperature Monitor Node Started*. Let it log *Temperature Monitor Version 2*
-# instead. You could change the file in an editor; `sed -i` replaces a text from a terminal. Fill in the new text.
+# instead. You could change the file in an editor; here, `sed -i` replaces a text in it. Fill in the new text.
 
 # %% terminal="build" exercise="06a"
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"

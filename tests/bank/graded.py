@@ -22,7 +22,7 @@ _AT_ONCE = 6
 #: are no texts of a cell: what a terminal shows, or lines that do by hand what a command would do.
 _ABOVE = {
     "01a": '%%terminal one\ncd "$ROS2_WORKSPACE"\n',
-    "01b": "%%terminal two\n",
+    "01b": '%%terminal two\ncd "$ROS2_WORKSPACE/resources/images"\n',
     "02a": "%%save src/sensor_simulator/package.xml\n",
     "05a": "%%save src/sensor_simulator/setup.py\n",
     "05b": "%%save src/lamp_control/setup.py\n",
