@@ -42,7 +42,8 @@ viz.diagram("00")
 # [**node**](../docs/glossary.md#node). The data that one node sends to others is a
 # [**message**](../docs/glossary.md#message).
 #
-# Here is a complete node: a thermometer. Run the next two cells.
+# Here is a complete node: a thermometer. You don't have to understand every line yet; page 03 explains them all.
+# Run the next two cells.
 
 # %%
 class Thermometer(Node):
@@ -70,7 +71,8 @@ ros.run(seconds=3)
 # almost no time, and everybody gets exactly the same result.
 #
 # **Predict:** the next cell runs the thermometer on, until a whole minute has passed. How many messages has it sent
-# in that minute? Replace the blank with a number and run the cell. A wrong guess costs nothing.
+# in that minute? Write a number between the quotes, in place of the blank, and run the cell. A wrong guess costs
+# nothing.
 
 # %% predict=true
 ros.run(seconds=57, quiet=True)
@@ -192,7 +194,7 @@ predict("2", len(newsroom.messages("politics")))
 # %% [markdown]
 # The politics reporter published two messages. It doesn't matter to a publisher whether anyone is listening.
 #
-# **Does a publisher notice a new subscriber?** Cleo joins late. Not a line of any reporter's code changes.
+# **Does a publisher notice a new subscriber?** Cleo joins late, and not a line of any reporter's code changes.
 
 # %%
 newsroom.add(Reader("cleo", "weather"))
@@ -213,7 +215,7 @@ newsroom.run(seconds=2)
 #
 # - **in name:** a node knows the topic, not the nodes on the other side;
 # - **in number:** either side can have no nodes, one, or many;
-# - **in time:** every node starts and stops on its own.
+# - **in time:** every node starts and stops on its own, but a late reader misses what was sent before.
 #
 # ## See what this is good for
 #

@@ -40,11 +40,11 @@ viz.diagram("01")
 
 # %% [markdown]
 # The line with the `$` shows the command. The text before the `$` is the current folder, in short form. The line
-# below is the output: the folder of your pages, because your terminals start there. On the solution page, it's
-# the home folder instead, which a terminal writes as `~`.
+# below is the output: the folder in which the terminal starts. For you, that's the folder of your pages. `~` is
+# short for your home folder.
 #
-# JupyterLab has terminals of its own: choose *File, New, Terminal*. Everything you type on these pages
-# works there, too.
+# JupyterLab has terminals of its own: choose *File, New, Terminal*. Every command of a terminal cell works there,
+# too.
 #
 # ## Make the folder
 #
@@ -223,9 +223,10 @@ viz.diagram("workspace")
 # mkdir /Documents/ROS2_and_RL_Tutorials/
 
 # %% [markdown]
-# **Symptom:** an error and exit code 1. **Where to look:** the path in the message. **Cause:** the path begins
-# with `/`, so it starts at the top of the file system, where there is no folder `Documents`. **Fix:**
-# the tutorial means `~/Documents/...`, in your home folder. A single character makes the difference.
+# **Symptom:** an error and exit code 1. **Where to look:** the path in the message. **Cause:** the path begins with
+# `/`, so it starts at the top of the file system, where there is no folder `Documents`, and where you may not
+# create one. **Fix:** the tutorial means `~/Documents/...`, in your home folder. A single character makes the
+# difference.
 #
 # ## What went wrong: the wrong folder
 #

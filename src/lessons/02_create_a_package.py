@@ -207,9 +207,10 @@ viz.diagram("overlay")
 # ros2 pkg executables sensor_simulator
 
 # %% [markdown]
-# None, because there's no code in it yet. `std_msgs`, a package that comes with ROS, has no programs either: it
-# provides message definitions rather than programs, and you can read each definition. In ROS, a message type is one
-# kind of [**interface**](../docs/glossary.md#interface): something that two nodes have to agree on.
+# None: the package doesn't declare any programs yet. Page 05 shows how. `std_msgs`, a package that comes with ROS,
+# has no programs either: it provides message definitions rather than programs, and you can read each definition. In
+# ROS, a message type is one kind of [**interface**](../docs/glossary.md#interface): something that two nodes have
+# to agree on.
 
 # %% terminal="build"
 # ros2 interface show std_msgs/msg/Float32

@@ -276,8 +276,8 @@ if __name__ == "__main__":
 
 # %% [markdown]
 # The very first line tells the system to run the file with Python 3. The last two lines call `main` if the file is
-# run as a program, but not if it's imported. They don't call it on this page either, because `main` would spin until
-# you interrupt it.
+# run as a program, but not if it's imported. On this page, `%%save` leaves that call out, because `main` would spin
+# until you interrupt it.
 #
 # On this page, `main` is now the one from your file. **Predict:** what is the exit code of the program this time?
 
@@ -364,7 +364,7 @@ check("03b", RoomSensor)
 #   degrees Fahrenheit;
 # - publishes on the topic `greenhouse/temperature`, four times a second.
 #
-# Choose all other names yourself, and add methods if you like.
+# Keep the name of the class; all other names are up to you. The timer needs a method of yours.
 
 # %% exercise="03c"
 class GreenhouseSensor(Node):

@@ -165,9 +165,9 @@ limits = {"Low": (None, 20.0), "Normal": (20.0, 26.0), "High": (26.0, None)}
 viz.values(ros, "temperature", bands=limits, unit="°C")
 
 # %% [markdown]
-# The first four readings are *Normal*. Near a limit, a small step is enough to change the status. The line crosses a
-# limit for good only a few times, but the status changes much more often: it flickers. *Low*, which begins below 20,
-# would be possible even if the sensor's lower limit were 18.0, as the tutorial probably meant.
+# The first four readings are *Normal*. Near a limit, a small step is enough to change the status. When the
+# temperature wanders around a limit, the status changes again and again: it flickers. *Low* begins below 20, so it
+# would occur even with 18.0 as the sensor's lower limit.
 #
 # ## See the two together
 #
@@ -187,6 +187,7 @@ viz.timeline(ros, until=3)
 # in `create_subscription` is the length of that queue. The publisher's 10 belongs to another queue, at the
 # publisher; messages for a busy callback wait in the subscriber's queue. `ros.pause` simulates the busy node: it
 # takes no messages until `ros.resume`. Here is the listener again, which logs one line for each reading.
+# `run(seconds=0)` handles what is waiting, without moving the clock.
 #
 # **Predict:** the listener is paused for 15 seconds while the sensor publishes once a second. How many readings does
 # it get when it resumes?
@@ -220,8 +221,8 @@ viz.queue(ros, "temperature")
 #
 # ## Run the class as a program
 #
-# The tutorial's own `main` leaves out two lines of yours: it doesn't destroy the node, and it doesn't shut ROS down.
-# Here it runs beside a sensor.
+# The tutorial's own `main` is shorter than yours: it doesn't destroy the node, doesn't shut ROS down, and handles
+# only `KeyboardInterrupt`. Here it runs beside a sensor.
 #
 # **Predict:** what is its exit code after `Ctrl` + `C`?
 
@@ -268,9 +269,9 @@ predict("0", program.returncode)
 #
 # ## Try it: watch a fridge
 #
-# A fridge has limits of its own. Above 8 degrees it's *Warm*, below 2 degrees it's *Frost*, and in
-# between it's *Fine*. Exactly 8.0 and exactly 2.0 are still *Fine*. Write the decision; you may replace the blank
-# with several lines.
+# A fridge has limits of its own. Above 8 degrees it's *Warm*, below 2 degrees it's *Frost*, and in between it's
+# *Fine*. Exactly 8.0 and exactly 2.0 are still *Fine*. Write the decision: replace the whole line that has the
+# blank with several lines of your own.
 
 # %% exercise="04a"
 class FridgeMonitor(Node):
@@ -328,9 +329,10 @@ check("04b", Alarm)
 # %% [markdown]
 # ## Try it: a calm monitor, in three steps
 #
-# Near a limit, the status flickers. In three steps, you'll write a monitor that stays calm. In the first step, write
-# a node that listens to `temperature`. For each reading, it publishes the mean of the last five readings on the topic
-# `mean`, as a `Float32`. While there are fewer than five, it's the mean of all of them.
+# Near a limit, the status flickers. In three steps, you'll write a monitor that stays calm. In the first step,
+# write a node that listens to `temperature`. For each reading, it publishes the mean of the last five readings on
+# the topic `mean`, as a `Float32`. While there are fewer than five, it's the mean of all of them. You'll need a
+# callback, and a list that keeps the readings.
 
 # %% exercise="04c"
 class MeanMonitor(Node):
@@ -393,8 +395,8 @@ class StatusMonitor(Node):
 check("04d", StatusMonitor)
 
 # %% [markdown]
-# The status still comes once a second, although it rarely changes. In the last step, publish it only when it changes.
-# Keep publishing the mean for each reading.
+# The status still comes once a second, although it rarely changes. In the last step, publish it only when it
+# changes; the `Normal` that it begins with isn't a change. Keep publishing the mean for each reading.
 
 # %% exercise="04e"
 class CalmMonitor(Node):

@@ -55,8 +55,8 @@ viz.diagram("05")
 
 # %% [markdown]
 # This is a real node, running on its own. In an ordinary terminal, you'd press `Ctrl` + `C` to stop it. On a page,
-# `%terminal` with one percent sign presses keys instead of typing a command. Then `$?` holds the exit code of the
-# last command.
+# `%terminal` with one percent sign types no command: `--ctrl-c` presses keys, and `--until` waits for a text. Then
+# `$?` holds the exit code of the last command.
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
@@ -102,9 +102,9 @@ viz.diagram("05")
 # | `name`, `version` | the package's name and version, as in `package.xml` |
 # | `packages=find_packages(...)` | which folders of Python code to install: all except `test` |
 # | `data_files` | what else to copy: the marker and the manifest |
-# | `install_requires` | which Python packages it needs |
+# | `install_requires` | Python packages that pip would install; ROS packages are listed in `package.xml` |
 # | `zip_safe` | whether it could run from a zip file |
-# | `maintainer`, `description`, `license` | the same as in `package.xml`; no tool compares the two, so you should |
+# | `maintainer`, `description`, `license` | keep them the same as in `package.xml`: no tool compares them, and yours may still say `TODO` here |
 # | `extras_require` | what its tests need |
 # | `entry_points` | which functions become programs |
 #
@@ -125,10 +125,10 @@ viz.diagram("05")
 # | `rosie.voice` | the module: the file `rosie/voice.py`, written with a dot and without `.py` |
 # | `start` | the function in that module |
 #
-# To run it, you type `ros2 run rosie talk`. Three names are involved, and they can all be different. The
-# *executable* is what you type. The *module* is the file that contains the code. The *node name* is set in
-# `super().__init__(...)`; it's what others see in the graph, and `ros2 run` doesn't use it. For our
-# sensor, the executable and the module are both called `temperature_publisher`, while the node is called
+# If you had a package `rosie`, you would type `ros2 run rosie talk`. Three names are involved, and they can all be
+# different. The *executable* is what you type. The *module* is the file that contains the code. The *node name* is
+# set in `super().__init__(...)`; it's what others see in the graph, and `ros2 run` doesn't use it. For our sensor,
+# the executable and the module are both called `temperature_publisher`, while the node is called
 # `temperature_sensor`.
 
 # %% [markdown]
@@ -229,8 +229,9 @@ viz.diagram("entry point")
 #
 # ## Try it: repair a setup.py
 #
-# A friend sends you a package, `lamp_control`. It has two programs, `lamp` and `switch`, in files of the same names,
-# and each file defines `main`. The next cell stands for what you receive: it creates the package and the two files.
+# A friend sends you a package, `lamp_control`. It has two programs, `lamp` and `switch`, in files of the same
+# names, and each file defines `main`. The next cell stands for what you receive: it creates the package and the two
+# files. `> lamp.py` writes a text into a file, and `> /dev/null` throws it away.
 
 # %% terminal="build"
 # cd "$ROS2_WORKSPACE/src"

@@ -31,8 +31,8 @@ viz.diagram("06")
 # ## Build
 #
 # There are three steps, always in this order: **build** puts your code into `install`, **source** adds it to a
-# terminal's environment, and **run** starts it. After a change, build again; a terminal that has sourced the workspace
-# once doesn't need to source it again.
+# terminal's environment, and **run** starts it. After a change, build again; a terminal that has sourced the
+# workspace once needs to do so again only if a package is new, or is built in another way.
 #
 # Build in the workspace, not in `src`. `--packages-select` builds only the package that you name, which saves time in
 # a workspace with many packages.
@@ -74,8 +74,8 @@ viz.diagram("06")
 # ros2 run sensor_simulator temperature_subscriber
 
 # %% [markdown]
-# The first line fails: the package is built, but this terminal hadn't sourced the workspace yet. If a new terminal of
-# yours finds the package anyway, something sources the workspace automatically when the terminal opens.
+# The first line fails: the package is built, but this terminal hadn't sourced the workspace yet. If a new terminal
+# of yours finds the package anyway, it sources the workspace when it opens, often because of a line in `~/.bashrc`.
 #
 # The monitor sees the next reading that is published after it connects. The earlier ones are gone: a topic doesn't
 # store old messages.
@@ -99,17 +99,17 @@ viz.message_flow(workspace.terminal("sensor"), workspace.terminal("monitor"))
 # ## Look from another terminal
 #
 # A third terminal can look at the running programs, too. `ros2 topic list` prints the topics that are in use, and
-# `ros2 topic echo` prints the messages on one of them. With `--once`, it stops after the first message. Both
-# commands come with ROS, so this terminal doesn't have to source your workspace.
+# `ros2 topic echo` prints the messages on one of them. With `--once`, it stops after the first message. The
+# commands and the type `Float32` come with ROS, so this terminal doesn't have to source your workspace.
 
 # %% terminal="look" tags=["nbval-ignore-output"]
 # ros2 topic list
 # ros2 topic echo --once /temperature
 
 # %% [markdown]
-# `echo` subscribed to the topic, received one message, and stopped. The other two topics come with every node:
-# `/rosout` carries log lines, and `/parameter_events` reports changes of parameters. You'll use these commands on
-# page 07.
+# `echo` subscribed to the topic, received one message, and stopped. It prints more digits than the 32 bits of a
+# `Float32` hold; only about the first seven mean anything. The other two topics come with every node: `/rosout`
+# carries log lines, and `/parameter_events` reports changes of parameters. You'll use these commands on page 07.
 #
 # ## Look from this page
 #
@@ -124,14 +124,14 @@ ros.wait_for_nodes("temperature_sensor", "temperature_monitor")
 viz.graph(ros)
 
 # %% [markdown]
-# If a session simulates both processes, as on page 04, the graph is the same. Nodes don't depend on where the other
+# A session that simulates both nodes, as on page 04, has the same graph. Nodes don't depend on where the other
 # nodes run: on a robot, they may even run on different computers. There's also no central program that keeps a list
 # of nodes: each process tells the others what it offers and what it needs. This is called
 # [**discovery**](../docs/glossary.md#discovery).
 #
 # ## Stop one of them
 #
-# Press `Ctrl` + `C` in the sensor's terminal:
+# The next cell presses `Ctrl` + `C` in the sensor's terminal:
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
 
@@ -161,7 +161,8 @@ predict("yes", workspace.terminal("monitor").busy)
 # ## Try it: change the code
 #
 # When the monitor starts, it logs *Temperature Monitor Node Started*. Let it log *Temperature Monitor Version 2*
-# instead. You could change the file in an editor; here, `sed -i` replaces a text in it. Fill in the new text.
+# instead. You could change the file in an editor; here, `sed -i` does it: `s/old/new/` replaces the old text with
+# the new one. Fill in the words that replace *Node Started*.
 
 # %% terminal="build" exercise="06a"
 # cd "$ROS2_WORKSPACE/src/sensor_simulator/sensor_simulator"
@@ -227,12 +228,12 @@ check("06b", workspace.folder())
 # timeout 3 ros2 run sensor_simulator temperature_subscriber --ros-args -r __node:=second_monitor
 
 # %% [markdown]
-# *Version 2*. From now on, a change takes effect without a build.
+# *Version 2*. From now on, a change to the code takes effect the next time you start the program.
 #
 # ## Clean up
 #
-# Press `Ctrl` + `C` in both terminals. The tutorial's own sensor would print a traceback here, as you saw on page 03.
-# Your programs print nothing and end with exit code 0.
+# The next two cells press `Ctrl` + `C` in both terminals. The tutorial's own sensor would print a traceback here,
+# as you saw on page 03. Your programs print nothing and end with exit code 0.
 
 # %% terminal="monitor --ctrl-c" tags=["nbval-ignore-output"]
 

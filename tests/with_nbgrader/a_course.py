@@ -19,8 +19,16 @@ from nbgrader.apps import AutogradeApp, GenerateAssignmentApp, GenerateFeedbackA
 from nbgrader.utils import is_grade
 from nbgrader.validator import Validator
 
-from bank.class_of_learners import NAMES, PAGES, answers_of, blank, filled, nbgrader_course
-from bank.pages import NODE_EXERCISES, solution
+from bank.class_of_learners import (
+    NAMES,
+    PAGES,
+    POINTS,
+    answers_of,
+    blank,
+    filled,
+    nbgrader_course,
+)
+from bank.pages import solution
 
 #: Beside the pages: what the pages of this class do not do.
 ODD = {
@@ -48,7 +56,7 @@ def main(folder: Path) -> None:
         shorten(page)
     add_odd_page(source)
     run(GenerateAssignmentApp, "ps1")
-    solutions = {name: solution(name) for name in NODE_EXERCISES}
+    solutions = {name: solution(name) for name in POINTS if name[:2] in PAGES}
     hand_in("ada", solutions, *PAGES)
     hand_in("bob", {name: one.text for name, one in answers_of(1).items()}, *PAGES)
     hand_in("cleo", {}, "03")
