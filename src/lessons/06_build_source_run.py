@@ -148,15 +148,15 @@ predict("yes", workspace.terminal("monitor").busy)
 # %% [markdown]
 # It is, and it's waiting. It got no error: to a subscriber, silence isn't unusual. Start the sensor again:
 
-# %% terminal="sensor --until Publishing --lines 2" tags=["nbval-ignore-output"]
+# %% terminal="sensor --until Publishing --lines 3" tags=["nbval-ignore-output"]
 # ros2 run sensor_simulator temperature_publisher
 
-# %% terminal="monitor --until Status --lines 2" tags=["nbval-ignore-output"]
+# %% terminal="monitor" tags=["nbval-ignore-output"]
 
 # %% [markdown]
-# The monitor continues as if nothing had happened. It may miss the first reading, because the two have to discover
-# each other first. The terminal `sensor` is still in the right folder and has already sourced the workspace, so a
-# single line was enough to start the sensor.
+# The last lines are the new readings: the monitor continues as if nothing had happened. It may miss the first
+# reading, because the two have to discover each other first. The terminal `sensor` is still in the right folder and
+# has already sourced the workspace, so a single line was enough to start the sensor.
 #
 # ## Try it: change the code
 #
