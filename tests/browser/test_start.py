@@ -162,7 +162,7 @@ def test_the_address_leads_to_the_first_page_and_its_first_message(page, course,
     assert names.evaluate_all(cut) == 0
     cell = page.locator(f"{SHOWN} .jp-CodeCell")
     cell.first.locator(".cm-content").click()
-    for _ in range(3):
+    for _ in range(4):
         page.keyboard.press("Shift+Enter")
     said = page.locator(".jp-OutputArea-output", has_text="It is 22.5 degrees").first
     said.wait_for(timeout=PATIENCE)
