@@ -94,8 +94,9 @@ ros.start()
 # ros2 topic hz /temperature
 
 # %% [markdown]
-# Three: `ros2 topic hz` measures the messages that *it* receives, from all publishers together. It doesn't count
-# messages that were lost on the way, and while a topic is silent, it prints nothing. Stop both programs:
+# About three: the first averages come from few messages. `ros2 topic hz` measures the messages that *it* receives,
+# from all publishers together. It doesn't count messages that were lost on the way, and while a topic is silent, it
+# prints nothing. Stop both programs:
 
 # %% terminal="rate --ctrl-c" tags=["nbval-ignore-output"]
 

@@ -116,14 +116,14 @@ viz.queue(ros, "number")
 # the subscriber, but not about the publisher: messages for a slow subscriber wait in the subscriber's own queue. The
 # picture shows that queue. From 6 seconds on, each new number pushes the oldest one out: that's `KEEP_LAST`.
 #
-# The publisher's depth matters to subscribers that join late. It also matters when the middleware can't deliver
-# messages yet, because the network is slow or the subscriber's whole process is suspended. This page can't show that,
-# because a session delivers every message at once.
+# The publisher's depth matters to subscribers that join late and ask for stored messages. It also matters when the
+# middleware can't deliver messages yet, because the network is slow or the subscriber's whole process is suspended.
+# This page can't show that, because a session delivers every message at once.
 #
 # ## Reliability: offer and request
 #
-# If a message gets lost, a `RELIABLE` publisher sends it again. A `BEST_EFFORT` publisher sends it only once.
-# That's fine for a camera, where the next picture comes anyway.
+# If a message gets lost, a `RELIABLE` publisher sends it again, as long as it's still in the publisher's queue. A
+# `BEST_EFFORT` publisher sends it only once. That's fine for a camera, where the next picture comes anyway.
 #
 # A publisher **offers** one of the two. A subscription **requests** one; this page also says that it *asks for* it.
 #
@@ -147,8 +147,8 @@ for offers in (reliable, best_effort):
         print(f"offers {offers.reliability.name:11}  asks {asks.reliability.name:11}", got)
 
 # %% [markdown]
-# Within one process, nothing gets lost on the way, so three of the rows are alike: the collector's queue of 10
-# drops the rest. In the third row, the two endpoints aren't connected, because their QoS is
+# In a session, nothing gets lost on the way, so three of the rows are alike: the collector's queue of 10 drops the
+# rest. In the third row, the two endpoints aren't connected, because their QoS is
 # [**incompatible**](../docs/glossary.md#incompatible). The rule is: **the publisher must offer at least what the
 # subscription asks for.** If it doesn't, no messages arrive, and there's no error.
 #
@@ -388,8 +388,8 @@ ros.explain("number")
 # aren't connected. `ros.explain` tells you which policy doesn't fit. **Cause:** the subscription asks for more
 # than the publisher offers. **Fix:** ask for less.
 #
-# Between two real processes, there's one more sign. Incompatible QoS is an event, too, called `incompatible_qos`.
-# If you don't pass a callback for it, rclpy logs a warning:
+# Outside a session, there's one more sign. Incompatible QoS is an event, too, called `incompatible_qos`. If you
+# don't pass a callback for it, rclpy logs a warning:
 
 # %% terminal="sensor --until publishing" tags=["nbval-ignore-output"]
 # timeout 60 ros2 topic pub --rate 5 --qos-profile sensor_data /number std_msgs/msg/Int32 "{data: 1}"

@@ -99,8 +99,8 @@ predict("20", len(ros.messages("status")))
 # --- end
 
 # %% [markdown]
-# All 20 are published. With one question, you've ruled out the sensor, the topic `temperature` and the guard:
-# whatever the guard needs must be working, too. The fault is somewhere between the guard and the lamp.
+# All 20 are published. With one question, you know that everything up to the guard's `publish` works: whatever the
+# guard needs must be working, too. The fault is somewhere between the guard and the lamp.
 #
 # Do these two match?
 

@@ -76,8 +76,8 @@ class TemperatureMonitor(Node):
 # %% [markdown]
 # ## Record a run
 #
-# In ROS, a recording is called a [**bag**](../docs/glossary.md#bag). It contains every message that was published,
-# and when. `bags.record` writes the messages of a session to a bag in your workspace.
+# In ROS, a recording is called a [**bag**](../docs/glossary.md#bag). It contains the messages of the recorded
+# topics, each with its time. `bags.record` writes the messages of a session to a bag in your workspace.
 
 # %%
 first = Session(seed=8)
@@ -226,7 +226,7 @@ len(play(HopefulMonitor, bags.with_nan(at=0, seconds=None)).logs())
 
 # %% [markdown]
 # None of them. **Symptom:** a condition that is never true. **Where to look:** a replay with `with_nan`. **Cause:**
-# `<`, `>` and `==` are false whenever one side is NaN, even if both sides are. **Fix:** `math.isnan(value)`.
+# `<`, `>` and `==` are false if either side is NaN, or both. **Fix:** `math.isnan(value)`.
 #
 # ## Try it: look into a bag
 #

@@ -36,8 +36,8 @@ viz.diagram("12")
 
 # %% [markdown]
 # A topic is a stream: the publisher never learns which nodes received a message. That's right for readings, but it
-# isn't enough for a request ("set the limit to 24") or for work that takes time ("heat to 22 degrees"). ROS has three more
-# ways to communicate:
+# isn't enough for a request ("set the limit to 24") or for work that takes time ("heat to 22 degrees"). Services
+# and actions are the other two ways to communicate; parameters are settings, built on services:
 #
 # | | topic | service | parameter | action |
 # |---|---|---|---|---|
@@ -301,7 +301,7 @@ predict("3", len(guest.result))
 # --- end
 
 # %% [markdown]
-# The next time the work continues, at 3 seconds, it finds that it was canceled.
+# The work continues at 3 seconds, counts that second, and only then sees the request to cancel.
 #
 # ## Look underneath
 #
@@ -470,8 +470,9 @@ check("12e", Thermostat)
 # %% [markdown]
 # **Symptom:** it logs "I ask" once, and then nothing more happens. **Where to look:** run it with a time limit
 # (`timeout`); exit code 137 means that the program had to be killed. **Cause:** a
-# [**deadlock**](../docs/glossary.md#deadlock). `call` waits until another callback takes the response, but the executor
-# can't run another callback until this one returns. **Fix:** `call_async`, with a done callback or an `await`.
+# [**deadlock**](../docs/glossary.md#deadlock). `call` waits until another callback takes the response, but the
+# executor can't run another callback until this one returns. **Fix:** `call_async` with a done callback. With
+# `await`, the client needs another callback group as well.
 #
 # ## Three questions
 #
@@ -490,9 +491,9 @@ quiz("12", "b", "c", "a")
 #   canceled.
 # - A service's callback fills in the response and returns it.
 # - Check a value before you keep it, and give a reason when you refuse it.
-# - Never wait inside a callback: use `await`, or a done callback.
+# - Never wait inside a callback: use a done callback.
 #
-# In a terminal:
+# If these nodes ran as programs, you would type in a terminal:
 #
 # ```bash
 # ros2 service call /open_window test_msgs/srv/BasicTypes "{float32_value: 30.0}"

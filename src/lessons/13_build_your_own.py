@@ -426,10 +426,10 @@ predict("20", len(ros.messages("vent")))
 viz.graph(ros)
 
 # %% [markdown]
-# **Symptom:** the vent opens and closes every second, and ends up closed on a hot day. Neither node has a fault of its
-# own. **Where to look:** the graph, where two nodes publish on `vent`. **Cause:** a topic can have many publishers, and
-# the vent obeys the last message; nothing decides between them. **Fix:** let one node decide. The others tell it
-# what they want, on topics of their own.
+# **Symptom:** the vent opens and closes every second, and ends up closed on a hot day. Neither node has a fault of
+# its own. **Where to look:** the graph, where two nodes publish on `vent`. **Cause:** a topic can have many
+# publishers, and the vent obeys the last message; nothing decides between them. **Fix:** let one node decide. The
+# others tell it what they want, on topics of their own.
 #
 # ## Make it a package
 #
@@ -441,9 +441,10 @@ viz.graph(ros)
 # ros2 pkg create greenhouse --build-type ament_python --dependencies rclpy std_msgs
 
 # %% [markdown] only="notebook"
-# `--with` copies what you name from the cells above, and puts it below the imports. A file may contain several nodes;
-# each of them needs a function that starts it. If your greenhouse has more nodes than `VentControl`, add their names
-# to the first line, and a function for each at the end.
+# `--with` copies what you name from the cells above, and puts it below the imports. A file may contain several
+# nodes; each of them needs a function that starts it. If your greenhouse has more nodes than `VentControl`, add
+# their names to the first line, with those of your constants and helper functions, and a function for each node at
+# the end. Add the imports that they need.
 
 # %% [markdown] only="solution"
 # `--with` copies what you name from the cells above, and puts it below the imports. A file may contain several nodes;
@@ -571,9 +572,10 @@ setup(
 
 # %% [markdown]
 # A [**launch file**](../docs/glossary.md#launch-file) is a Python file that says which programs to start, and how.
-# The function `generate_launch_description` returns what your function `greenhouse` returns: a list. Each item
-# names a package and an executable, and can have the same options as before: `name`, `namespace`, `parameters`,
-# `remappings`. `Node` is another class here: it stands for a program to start.
+# The function `generate_launch_description` returns a `LaunchDescription`, which holds a list, as your function
+# `greenhouse` does. Each item names a package and an executable, and can have the options from before, partly in
+# another form: `parameters` is a list of dictionaries, and `remappings` a list of pairs. `Node` is another class
+# here: it stands for a program to start.
 
 # %% save="src/greenhouse/launch/greenhouse.launch.py" only="notebook"
 from launch import LaunchDescription
@@ -669,7 +671,7 @@ quiz("13", "b", "c", "a")
 # ## Remember
 #
 # - First the interface, then the requirements, then the drawing, then the code.
-# - One task per node, and for each actuator one node that decides.
+# - One task per node, and for each device, such as the vent, one node that decides.
 # - A silence doesn't trigger a callback: use a timer to detect it.
 # - Check a reading before you believe it.
 # - Test one requirement at a time, with a day made for it.
