@@ -26,7 +26,7 @@ from browser.notebook import PATIENCE, Notebook, browser_path, write_notebook  #
 
 IMAGES = ROOT / "docs" / "images"
 WINDOW = {"width": 1120, "height": 960}
-PAGE, LAST_CELL = "00_hear_the_heartbeat.ipynb", "viz.graph(newsroom.graph())"
+PAGE, LAST_CELL = "00_hear_the_heartbeat.ipynb", "viz.graph(newsroom)"
 #: The most that the moving picture may weigh, in bytes, and its colours.
 HEAVIEST, COLOURS = 1_500_000, 200
 #: Seconds for which each of its pictures is seen at least.
