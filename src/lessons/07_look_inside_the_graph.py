@@ -147,10 +147,10 @@ ros.start()
 # serious it is: 10 is `DEBUG`, 20 is `INFO`, 30 is `WARN`, 40 is `ERROR`, and 50 is `FATAL`.
 #
 # So `ros2 topic echo` can print log lines. In the next cell, `--filter` lets only warnings and worse through; in it,
-# `m` stands for the message. `--field msg` prints only the text.
+# `m` stands for the message. `grep msg:` keeps only the line with the text.
 
 # %% terminal="look"
-# ros2 topic echo --once /rosout --filter "m.level >= 30" --field msg
+# ros2 topic echo --once /rosout --filter "m.level >= 30" | grep msg:
 
 # %% [markdown]
 # One of the nodes has a problem. You'll find out which.

@@ -50,6 +50,8 @@ def test_echo(graph):
     once = ("topic", "echo", "--once", "/temperature", "std_msgs/msg/Float32")
     assert graph.out(*once, "--csv") == "25.5\n"
     assert graph.out(*once, "--field", "data") == "25.5\n---\n"
+    # As upstream does, the filter looks at the field.
+    assert graph.out(*once, "--field", "data", "--filter", "m > 20") == "25.5\n---\n"
     assert graph.out(*once, "--raw") == r"b'\x00\x01\x00\x00\x00\x00\xccA'" + "\n---\n"
     assert re.match(r"publication_sequence_number: \d+\nreceived_timestamp: \d+\n"
                     r"reception_sequence_number: null\nsource_timestamp: \d+\n---\ndata: 25.5",
@@ -68,6 +70,10 @@ def test_echo(graph):
         (("/temperature", "--field", "dat"), "object has no attribute 'dat'\nDid you mean 'data'?"),
         (("/temperature", "--filter", "m.("), "is not a Python expression"),
         (("/temperature", "--filter", "m.nope"), "has no attribute 'nope'"),
+        (
+            ("/temperature", "--field", "data", "--filter", "m.data > 20"),
+            "'float' object has no attribute 'data'",
+        ),
         (("bad name!",), "topic name 'bad name!' is invalid"),
     ],
 )

@@ -174,7 +174,7 @@ def subscribe(
 
 
 def compile_filter(text: str | None) -> Callable[[Any], bool]:
-    """Return a condition over the message `m`.
+    """Return a condition over `m`, a message or the field of it that is asked for.
 
     Raises:
         CommandError: If the text is no Python expression, or later, if it cannot be computed.
@@ -189,9 +189,9 @@ def compile_filter(text: str | None) -> Callable[[Any], bool]:
             "Write a condition over the message m, for example:  --filter 'm.data > 20'",
         ) from None
 
-    def holds(message: Untyped) -> bool:
+    def holds(value: Untyped) -> bool:
         try:
-            return bool(eval(code, {"m": message}))
+            return bool(eval(code, {"m": value}))
         except Exception as error:
             raise CommandError(f"--filter {text!r} failed: {error}") from None
 
@@ -209,7 +209,7 @@ def _add_echo(parser: ArgumentParser) -> None:
     add("--no-lost-messages", action="store_true", help="Don't report when a message is lost")
     add("--raw", action="store_true", help="Echo the raw binary representation")
     add("--filter", metavar="FILTER", dest="filter_expr",
-        help="Python expression that selects messages (the message is 'm')")  # fmt: skip
+        help="Python expression that selects messages ('m': the message or its field)")  # fmt: skip
     add("--once", action="store_true", help="Print the first message received and then exit.")
     add("--timeout", metavar="N", type=float, help="Set a timeout in seconds for waiting")
     add("-i", "--include-message-info", action="store_true", help="Shows the associated info")
@@ -234,9 +234,15 @@ def _echo(args: Namespace) -> None:
 
         def show(message: Untyped, info: dict[str, Any]) -> None:
             nonlocal count
-            if not (count and args.once) and (args.raw or wanted(message)):
+            if count and args.once:
+                return
+            value = message
+            if args.field is not None and not args.raw:
+                value = selected(message, args.field)
+            # As upstream does: with --field, the filter's m is that field.
+            if args.raw or wanted(value):
                 count += 1
-                sys.stdout.write(_text_of(message, info, args))
+                sys.stdout.write(_text_of(value, info, args))
 
         lost = None if args.no_lost_messages else _report_loss
         subscribe(graph, args.topic_name, kind, show, profile, args.raw, lost)
@@ -254,11 +260,10 @@ def _report_loss(event: Untyped) -> None:
     )
 
 
-def _text_of(message: Untyped, info: dict[str, Any], args: Namespace) -> str:
+def _text_of(value: Untyped, info: dict[str, Any], args: Namespace) -> str:
     style, about = style_of(args), info if args.include_message_info else None
     if args.raw:
-        return _info_yaml(about) + f"{message!r}\n---\n"
-    value = selected(message, args.field) if args.field is not None else message
+        return _info_yaml(about) + f"{value!r}\n---\n"
     if not is_message_value(value):
         if about is None:
             return f"{value}\n---\n"
