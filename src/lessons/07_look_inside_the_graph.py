@@ -167,9 +167,9 @@ ros.graph().on("/temperature", "subscription")
 # %% [markdown]
 # ## Try it: a system of strangers
 #
-# Now find out the rest. Type your commands into the terminal `look`, in new cells that begin with
-# `%%terminal look`. Replace the blanks with what you find: names in quotes, numbers without. You can run the check
-# after each answer.
+# Now find out the rest. Type your commands into the terminal `look`, in new cells that begin with `%%terminal
+# look`. Replace the blanks with what you find: names in quotes, numbers without. The topics that every node brings,
+# such as `/rosout`, don't count. You can run the check after each answer.
 #
 # A command that doesn't end by itself needs a terminal of its own: `%%terminal rate --for 5` watches it for five
 # seconds, and `%terminal rate --ctrl-c` ends it.

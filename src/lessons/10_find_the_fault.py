@@ -176,11 +176,12 @@ viz.graph(patient.ros)
 #
 # Be careful with `ros.explain`: it covers a single topic. Follow the data from the sensor, and ask first about the
 # first topic that is silent. About a later topic, it may say that the guard has published nothing. That's true, but
-# the guard may be healthy and simply have nothing to report. What looks like a fault there is only a symptom.
+# the node that publishes there may be healthy and simply have nothing to report. What looks like a fault there is
+# only a symptom.
 #
-# A diagnosis is a name and a place. The place is the full name of the node or of the topic that has the
-# fault, which isn't always where you notice the symptom. If the fault is between two nodes, name the topic. The clinic
-# knows twenty causes, and not all of them occur here:
+# A diagnosis is a name and a place. The place is the full name of the node or of the topic that has the fault,
+# which isn't always where you notice the symptom. If the fault is between two nodes, name the topic. Where more
+# than one place fits, each of them counts. The clinic knows twenty causes, and not all of them occur here:
 
 # %%
 clinic.names()

@@ -263,7 +263,8 @@ check("11a", look_into)
 # - `stuck`: when five readings in a row are exactly equal, at the fifth of them. It isn't published again until the
 #   reading has changed.
 #
-# The very first reading is never a fault, unless it's NaN.
+# The very first reading is never a fault, unless it's NaN. After a NaN, the next reading is compared with the last
+# number before it.
 
 # %% exercise="11b"
 class Watchdog(Node):

@@ -165,15 +165,16 @@ class Lamp(Node):
         self.add_on_set_parameters_callback(self.look)
 
     def look(self, parameters):
-        bright = [one for one in parameters if one.name == "watts" and one.value > 60.0]
-        reason = "60 watts at most" if bright else ""
-        return SetParametersResult(successful=not bright, reason=reason)
+        wrong = [one for one in parameters if one.name == "watts" and not 0.0 <= one.value <= 60.0]
+        reason = "0 to 60 watts" if wrong else ""
+        return SetParametersResult(successful=not wrong, reason=reason)
 
 lamp = ros.add(Lamp)
 lamp.set_parameters([Parameter("watts", value=40.0), Parameter("watts", value=900.0)])
 
 # %% [markdown]
-# The lamp accepts 40 watts, and refuses 900 with its reason.
+# The lamp accepts 40 watts, and refuses 900 with its reason. `set_parameters` calls the callback for each parameter
+# on its own. `set_parameters_atomically` passes all of them in one list, and sets all or none.
 #
 # ## Try it: two limits that belong together
 #
@@ -470,9 +471,9 @@ check("12e", Thermostat)
 # %% [markdown]
 # **Symptom:** it logs "I ask" once, and then nothing more happens. **Where to look:** run it with a time limit
 # (`timeout`); exit code 137 means that the program had to be killed. **Cause:** a
-# [**deadlock**](../docs/glossary.md#deadlock). `call` waits until another callback takes the response, but the
-# executor can't run another callback until this one returns. **Fix:** `call_async` with a done callback. With
-# `await`, the client needs another callback group as well.
+# [**deadlock**](../docs/glossary.md#deadlock). `call` waits for the response, and for that, the executor would have
+# to run `answer`. But it can't run another callback until this one returns. **Fix:** `call_async` with a done
+# callback. With `await`, the client and the service also need a callback group of their own.
 #
 # ## Three questions
 #
