@@ -62,8 +62,11 @@ class TemperatureSensor(Node):
 #
 # You never call the callback yourself. ROS calls it once for each message, and passes the message as `msg`. That's
 # why the method has two parameters: `self` and the message.
+#
+# **Predict:** the listener first runs alone for five seconds; then a sensor joins for three. How many lines does the
+# listener log?
 
-# %%
+# %% predict=true
 class Listener(Node):
     def __init__(self):
         super().__init__("temperature_monitor")
@@ -74,11 +77,6 @@ class Listener(Node):
     def temperature_callback(self, msg):
         self.get_logger().info(f"I heard {msg.data:.2f}")
 
-# %% [markdown]
-# **Predict:** the listener first runs alone for five seconds; then a sensor joins for three. How many lines does the
-# listener log?
-
-# %% predict=true
 ros = Session(seed=8)
 ros.add(Listener)
 ros.run(seconds=5)

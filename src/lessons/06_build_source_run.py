@@ -131,12 +131,10 @@ viz.graph(ros)
 #
 # ## Stop one of them
 #
-# The next cell presses `Ctrl` + `C` in the sensor's terminal:
+# The next cell presses `Ctrl` + `C` in the sensor's terminal. **Predict:** is the monitor still running after that?
+# Answer `yes` or `no` in the cell below it.
 
 # %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
-
-# %% [markdown]
-# **Predict:** is the monitor still running? Answer `yes` or `no`.
 
 # %% predict=true
 # --- answer
@@ -232,12 +230,12 @@ check("06b", workspace.folder())
 #
 # ## Clean up
 #
-# The next two cells press `Ctrl` + `C` in both terminals. The tutorial's own sensor would print a traceback here,
+# The next cell presses `Ctrl` + `C` in both terminals. The tutorial's own sensor would print a traceback here,
 # as you saw on page 03. Your programs print nothing and end with exit code 0.
 
-# %% terminal="monitor --ctrl-c" tags=["nbval-ignore-output"]
-
-# %% terminal="sensor --ctrl-c" tags=["nbval-ignore-output"]
+# %% tags=["nbval-ignore-output"]
+for name in ("monitor", "sensor"):
+    workspace.terminal(name).ctrl_c()
 
 # %% [markdown]
 # ## Try it: leave the notebook

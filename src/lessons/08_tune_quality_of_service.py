@@ -83,8 +83,10 @@ class Collector(Node):
 #
 # The next function keeps a collector busy for 20 seconds while 20 numbers are published. `offers` is the
 # publisher's QoS, and `asks` is the subscriber's. The function returns the session, and the numbers that arrived.
+#
+# **Predict:** the publisher's depth is 1, and the subscriber's is 20. How many of the 20 numbers arrive?
 
-# %%
+# %% predict=true
 def busy(offers, asks):
     ros = Session()
     ros.add(Source(offers))
@@ -95,10 +97,6 @@ def busy(offers, asks):
     ros.run(seconds=0)
     return ros, collector.got
 
-# %% [markdown]
-# **Predict:** the publisher's depth is 1, and the subscriber's is 20. How many of the 20 numbers arrive?
-
-# %% predict=true
 ros, got = busy(1, 20)
 # --- answer
 predict(20, len(got))
@@ -305,7 +303,7 @@ predict(3, guard.missed)
 
 # %% [markdown]
 # The last number came at 3 seconds, so the deadline is missed at 5, 7 and 9. The event repeats after each further
-# period of silence. To report a silence only once, the node must remember that it already has.
+# period of silence.
 #
 # ## Lifespan: drop old messages
 #
@@ -325,8 +323,8 @@ predict(4, len(got))
 
 # %% [markdown]
 # The other numbers were too old. A publisher's lifespan applies to the messages that it stores for late-joining
-# subscriptions, and not to messages that have already reached a subscription. That's how Fast DDS, the middleware that
-# runs here, does it. Others may differ.
+# subscriptions, and not to messages that have already reached a subscription. That's how Fast DDS, the middleware
+# that runs here, does it.
 #
 # In a session, deadlines and lifespans are measured by the session's clock. One more policy, liveliness, is about
 # whether a publisher is still alive; see

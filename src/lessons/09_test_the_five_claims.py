@@ -26,7 +26,7 @@
 # - **concurrency:** nodes run in parallel;
 # - **re-usability:** the same node works elsewhere.
 #
-# Here is an experiment for each claim, with the sensor and the monitor that you know.
+# Here is an experiment for each of them.
 
 # %%
 import math
@@ -69,13 +69,13 @@ class TemperatureMonitor(Node):
 #
 # ## 1. Modularity: replace a part
 #
-# Somebody else has written a sensor. It has nothing in common with yours, except for the topic and the message
-# type. It can also measure in Fahrenheit, where 22 °C is 71.6 °F.
+# Somebody else has written a sensor. It shares only the topic and the message type with yours. It can also measure
+# in Fahrenheit, where 22 °C is 71.6 °F.
 #
 # **Predict:** a Fahrenheit sensor takes the place of yours. Which status does the monitor report: `High`, `Low` or
 # `Normal`?
 
-# %%
+# %% predict=true
 class Wave(Node):
     def __init__(self, scale=1.0, offset=0.0):
         super().__init__("wave")
@@ -87,7 +87,6 @@ class Wave(Node):
         celsius = 22.0 + 3.0 * math.sin(self.get_clock().now().nanoseconds / 1e9)
         self.out.publish(Float32(data=celsius * self.scale + self.offset))
 
-# %% predict=true
 ros = Session(seed=8)
 ros.add(Wave(scale=1.8, offset=32.0))
 monitor = ros.add(TemperatureMonitor)
@@ -129,8 +128,7 @@ predict("4", len(ros.logs()))
 # One for each reading, and none while the sensor was gone. Nobody had to connect the two again.
 #
 # Does this also hold for a real crash? The next two cells start a process each, running the files of your package
-# directly, without a build. The third cell does to the sensor what `kill -9` does: it ends the process immediately,
-# whatever it's doing.
+# directly, without a build. The third cell does to the sensor what `kill -9` does: it ends the process immediately.
 #
 # **Predict:** is the monitor still running after that? Answer `yes` or `no`.
 
@@ -163,7 +161,7 @@ predict("yes", workspace.terminal("monitor").busy)
 # - `lost`, once in each silence, when no reading has come for 3 seconds;
 # - `back`, once after each silence, when a reading comes again.
 #
-# Either may come up to a second late. Before the first reading, the node publishes nothing. Measure time with the
+# Either may come up to a second late, so a silence of 3 to 4 seconds may go unreported. Before the first reading, the node publishes nothing. Measure time with the
 # node's own clock, `self.get_clock().now().nanoseconds`, or with timers. A timer's `reset()` starts its period
 # again, and `cancel()` stops the timer.
 
@@ -429,10 +427,10 @@ predict("[5.5, 3, 3]", [default, two, reentrant])
 # time (python3 cores.py 1 & python3 cores.py 1; wait)
 
 # %% [markdown]
-# **Result: partly true.** Two processes can use two cores. If both cores are free, they take about half the time; on a
-# busy computer, you may see no difference. Two threads in one process gain nothing, because Python's
-# [**global interpreter lock**](../docs/glossary.md#global-interpreter-lock) lets only one thread at a time run Python
-# code. So give heavy work a process of its own: another `ros2 run`.
+# **Result: partly true.** Two processes can use two cores. If both cores are free, they take about half the time;
+# on a busy computer, you may see no difference. Two threads in one process gain nothing, because Python's [**global
+# interpreter lock**](../docs/glossary.md#global-interpreter-lock) lets only one thread at a time run Python code.
+# So give heavy work a process of its own.
 #
 # ## 5. Re-usability: take a node elsewhere
 #
@@ -555,7 +553,7 @@ quiz("09", "a", "b", "c")
 # | concurrency | processes run in parallel; a SingleThreadedExecutor runs one callback at a time; threads share one Python interpreter |
 # | re-usability | true as far as names are relative and values are parameters |
 #
-# **Next:** [find the fault](10_find_the_fault.ipynb), with everything that you've learned.
+# **Next:** [find the fault](10_find_the_fault.ipynb).
 
 # %%
 progress()

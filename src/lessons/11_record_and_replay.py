@@ -13,7 +13,7 @@
 # - record a run in a bag, and read the messages in it (11a, 11.1);
 # - replay a run to a node that you changed, and compare (11.2);
 # - put faults into a replay, and write nodes that notice them (11b);
-# - recognize a drift by comparing two sensors (11c);
+# - write a test that faulty nodes fail (11c);
 # - handle NaN correctly (11.3).
 #
 # **Time:** 45 minutes. **You need:** [write a subscriber](04_write_a_subscriber.ipynb) and
@@ -297,49 +297,34 @@ class Watchdog(Node):
 check("11b", Watchdog)
 
 # %% [markdown]
-# ## Try it: compare two sensors on your own
+# ## Try it: test a watchdog
 #
-# With a single sensor, nobody can recognize a drift. With a second one, you can. Write a node that subscribes to
-# `temperature` and to `reference`. Each reading of `temperature` forms a pair with the newest reading of `reference`,
-# if there has been one. A pair that contains NaN doesn't count.
+# These three watchdogs each have one fault. In everything else, they do what 11b asks for:
 #
-# The difference of a pair is the temperature minus the reference. When the mean of the last ten differences
-# is more than 1 degree away from 0, the sensor is drifting: publish `drift` on `fault`, once. Publish it again
-# only after the mean has been back within 1 degree. While there are fewer than ten pairs, publish nothing.
+# | watchdog | its fault |
+# |---|---|
+# | A | it reports only jumps upwards |
+# | B | it keeps NaN as the last number, so it compares the next reading with NaN |
+# | C | once it has reported `stuck`, it does so again at each further equal reading |
+#
+# A list of readings is a test. A watchdog fails the test if it publishes anything else than a correct one. Write a
+# list of at most 12 readings, one a second, that all three watchdogs fail. For NaN, write `math.nan`.
 
 # %% exercise="11c"
-class DriftWatch(Node):
-    def __init__(self):
-        # --- answer
-        super().__init__("drift_watch")
-        self.create_subscription(Float32, "reference", self.remember, 10)
-        self.create_subscription(Float32, "temperature", self.compare, 10)
-        self.alarms = self.create_publisher(String, "fault", 10)
-        self.reference = math.nan
-        self.last = []
-        self.drifts = False
-
-    def remember(self, msg):
-        self.reference = msg.data
-
-    def compare(self, msg):
-        difference = msg.data - self.reference
-        if math.isnan(difference):
-            return
-        self.last = [*self.last, difference][-10:]
-        mean = sum(self.last) / len(self.last)
-        drifts = len(self.last) == 10 and abs(mean) > 1.0
-        if drifts and not self.drifts:
-            self.alarms.publish(String(data="drift"))
-        self.drifts = drifts
-        # --- blank
-        # ____
-        # --- end
+def readings():
+    # --- answer
+    return [22.0, 15.0, math.nan, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0]
+    # --- blank
+    # return [____]
+    # --- end
 
 # %% check="11c"
-check("11c", DriftWatch)
+check("11c", readings)
 
 # %% [markdown]
+# In a bag, such readings are a test that you can replay to every new version of a node. One fault remains: with a
+# single sensor, no watchdog can recognize a drift. With a second sensor, it can compare the two.
+#
 # ## Three questions
 #
 # Choose the best answer to each question. You can try as often as you like.

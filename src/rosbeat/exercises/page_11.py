@@ -1,4 +1,4 @@
-"""Page 11, record and replay: look into a bag, notice what is wrong, alone with two sensors.
+"""Page 11, record and replay: look into a bag, notice what is wrong, and test who notices it.
 
 The scenarios know only what they record and replay. What a right answer makes of it, and what one
 makes of it whose author misunderstood something, is simulated by the judges from what was drawn:
@@ -7,7 +7,7 @@ what was played is not taken from the evidence.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import accumulate, chain, pairwise
@@ -43,11 +43,13 @@ from rosbeat.exercises.model import (
     variants,
 )
 from rosbeat.exercises.scenarios import Answer, Report, observe, report
-from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Observation, Sample
+from rosbeat.records import NANOSECONDS, Observation, Sample
 
 _FLOAT, _STRING = "std_msgs/msg/Float32", "std_msgs/msg/String"
-_TEMPERATURE, _REFERENCE = Wire("/temperature", _FLOAT), Wire("/reference", _FLOAT)
+_TEMPERATURE = Wire("/temperature", _FLOAT)
 _FAULT = Wire("/fault", _STRING)
+#: What a watchdog may say.
+WORDS = ("nan", "jump", "stuck")
 #: The node that plays a recording, and the one that is said to have made it.
 _PLAYER, _MAKER = "/replay", "/recorded"
 
@@ -314,7 +316,7 @@ def _near(one: float, other: float) -> bool:
     return isclose(one, other, rel_tol=1e-9, abs_tol=0.006)
 
 
-# What 11b and 11c share: recordings are played to a node, and it says what is wrong in them.
+# 11b, notice a faulty sensor: recordings are played to a node, and it says what is wrong in them.
 
 
 @dataclass(frozen=True)
@@ -401,37 +403,7 @@ def _replay(answer: Answer, recordings: Iterable[Recording]) -> Replays:
     return Replays(tuple(runs))
 
 
-#: What a node says of a recording that it hears, by time in nanoseconds.
-_Watch = Callable[..., Track]
-
-
-@dataclass(frozen=True)
-class Task:
-    """Say what is asked of a node that listens to recordings.
-
-    Attributes:
-        wires: What it has to listen to.
-        words: What it may say.
-        right: The right model.
-        suspects: What it might say instead, and why; the likely ones first.
-        context: Says what was heard until a time, in a few words.
-    """
-
-    wires: tuple[Wire, ...]
-    words: tuple[str, ...]
-    right: _Watch
-    suspects: tuple[Suspect, ...]
-    context: Callable[[Sequence[Sample], int], str]
-
-    @property
-    def models(self) -> tuple[Model, tuple[Suspect, ...]]:
-        """Return the right model and the suspects as they hear one recording after the other."""
-        return _in_all(self.right), tuple(
-            replace(one, model=_in_all(one.model)) for one in self.suspects
-        )
-
-
-def _in_all(model: _Watch) -> Model:
+def _in_all(model: Callable[..., Track]) -> Model:
     return lambda recordings: {
         (number, at): words
         for number, one in enumerate(recordings)
@@ -439,7 +411,7 @@ def _in_all(model: _Watch) -> Model:
     }
 
 
-def _judge_alarms(task: Task, seen: Replays, recordings: Sequence[Recording]) -> Verdict:
+def _judge_alarms(seen: Replays, recordings: Sequence[Recording]) -> Verdict:
     for run in seen.runs:
         early = before_judging(run.observation)
         if early:
@@ -447,38 +419,24 @@ def _judge_alarms(task: Task, seen: Replays, recordings: Sequence[Recording]) ->
     runs = [*zip(seen.runs, recordings, strict=True)]
     # Silence is a mistake only in all recordings, and where something was due.
     due = [run for run, _ in runs if run.said]
-    due += [run for run, recording in runs if task.right(recording.heard)]
-    words = (diagnose_words(run.observation, _FAULT, task.words) for run, _ in runs)
+    due += [run for run, recording in runs if watch_one(recording.heard)]
+    words = (diagnose_words(run.observation, _FAULT, WORDS) for run, _ in runs)
     wrong = (
-        _diagnose_unheard(runs[0][0].observation, task)
+        diagnose_unheard(runs[0][0].observation, _TEMPERATURE)
         or diagnose_unpublished(due[0].observation, _FAULT)
         or next(filter(None, words), None)
-        or _diagnose_alarms(runs, task)
+        or _diagnose_alarms(runs)
     )
     heard = [one.heard for one in recordings]
-    count = sum(len(task.right(one)) for one in heard)
+    count = sum(len(watch_one(one)) for one in heard)
     return wrong or passed(
         f"{len(runs)} recordings, {sum(map(len, heard))} readings: "
         f"{count} alarms where there was something wrong, and none where all was well."
     )
 
 
-def _diagnose_unheard(seen: Observation, task: Task) -> Diagnosis | None:
-    """Say why no callback ran for a topic, as of a node that listens to another one only."""
-    ends = [one for one in seen.graph.endpoints if one.node == seen.subject]
-    heard = {one.name for one in ends if one.kind == "subscription"} - INFRASTRUCTURE_TOPICS
-    for topic in [one.topic for one in task.wires if one.topic not in heard]:
-        if heard and heard <= {one.topic for one in task.wires}:
-            return Diagnosis(
-                "no-subscription",
-                f"The node listens to {' and '.join(sorted(heard))} only; {topic} passes it by.",
-                "A node may have as many subscriptions as it needs, each with its own callback.",
-            )
-    return next(filter(None, (diagnose_unheard(seen, wire) for wire in task.wires)), None)
-
-
-def _diagnose_alarms(runs: Sequence[tuple[Replayed, Recording]], task: Task) -> Diagnosis | None:
-    found = ((pair, first_mismatch(pair[0].said, task.right(pair[1].heard))) for pair in runs)
+def _diagnose_alarms(runs: Sequence[tuple[Replayed, Recording]]) -> Diagnosis | None:
+    found = ((pair, first_mismatch(pair[0].said, watch_one(pair[1].heard))) for pair in runs)
     first = next(((pair, mismatch) for pair, mismatch in found if mismatch), None)
     if first is None:
         return None
@@ -487,7 +445,7 @@ def _diagnose_alarms(runs: Sequence[tuple[Replayed, Recording]], task: Task) -> 
     # the first wrong one and the most others. Silence alone has too many explanations.
     explained = {
         one: [pair for pair in runs if agree(one.model(pair[1].heard), pair[0].said)]
-        for one in task.suspects
+        for one in SUSPECTS
     }
     fit = [
         one
@@ -497,15 +455,15 @@ def _diagnose_alarms(runs: Sequence[tuple[Replayed, Recording]], task: Task) -> 
     most = max((len(explained[one]) for one in fit), default=0)
     return name_mistake(
         [one for one in fit if len(explained[one]) == most],
-        _other_alarm(wrong[1], task, mismatch),
+        _other_alarm(wrong[1], mismatch),
     )
 
 
-def _other_alarm(recording: Recording, task: Task, mismatch: Mismatch) -> Diagnosis:
+def _other_alarm(recording: Recording, mismatch: Mismatch) -> Diagnosis:
     """Name what no suspect reproduces by the first moment at which it is not right."""
     at, done, right = mismatch.at, mismatch.done, mismatch.right
     before = f"In the recording of {recording.words}, at {at / NANOSECONDS:g} s, "
-    before += f"{task.context(recording.heard, at)}, the node said"
+    before += f"{_last_readings(recording.heard, at)}, the node said"
     word = (right or done)[0]
     which = f"Which condition of yours decides about {word!r}? Print what it compares."
     if not done:
@@ -519,8 +477,6 @@ def _other_alarm(recording: Recording, task: Task, mismatch: Mismatch) -> Diagno
     hint = "Go through your conditions in their order with this reading."
     return Diagnosis("wrong-word", f"{said} {right[0]!r} was due.", hint)
 
-
-# 11b, notice a faulty sensor: NaN, jumps, and a sensor that hangs.
 
 #: Up to four equal readings in a row, steps of a thousandth of a degree, and pairs of equals.
 _QUIET = (
@@ -579,7 +535,7 @@ def draw_sick(draw: Draw) -> Sequence[Recording]:
                 ),
             ),
         ),
-        lambda recordings: tells_apart(recordings, *SICK_SENSOR.models),
+        lambda recordings: tells_apart(recordings, *models()),
     )
 
 
@@ -594,7 +550,7 @@ _SAYS: dict[str, Callable[[int, int, bool], bool]] = {
 }
 
 
-def _watch_one(
+def watch_one(
     heard: Iterable[Sample],
     *,
     hears_nan: bool = True,
@@ -680,7 +636,7 @@ _COUNT = "Count on paper: which is the fifth equal reading in a row, if the firs
 _AGAIN = "Report it once. Report it again only after the reading has changed."
 _MOVED = "What has to happen to the stored state when the reading changes again?"
 _QUIETLY = "A sensor in a quiet room moves very little, and that is no hang: compare exactly."
-SICK_SUSPECTS = variants(_watch_one, (
+SUSPECTS = variants(watch_one, (
     ("nan-compared", _NAN, {"hears_nan": False, "keeps_nan": True}, {"hears_nan": False}),
     ("nan-kept", _NAN_KEPT, {"keeps_nan": True}, {"keeps_nan": True, "jump_resets": False}),
     ("alarm-at-start", _FIRST, *({"start": one} for one in (0.0, 20.0, 22.0, 25.0))),
@@ -708,236 +664,113 @@ def _last_readings(heard: Sequence[Sample], at: int) -> str:
     return f"after {more}{', '.join(f'{value:g}' for value in values[-6:])}"
 
 
-SICK_SENSOR = Task(
-    (_TEMPERATURE,), ("nan", "jump", "stuck"), _watch_one, SICK_SUSPECTS, _last_readings
-)
+def models() -> tuple[Model, tuple[Suspect, ...]]:
+    """Return the right model and the suspects as they hear one recording after the other."""
+    return _in_all(watch_one), tuple(replace(one, model=_in_all(one.model)) for one in SUSPECTS)
 
 
-# 11c, compare two sensors: one of them drifts.
+# 11c, test a watchdog: readings for which each of three faulty ones does what a right one does not.
 
-#: As far off as a sensor may be; no mean of ten comes near the limit by chance.
-_OFF = 2.609375
-#: Back within the limit, and not by much, whatever the noise adds.
-_NEARLY = 0.6875
-
-
-def _pair(
-    offsets: Sequence[float], seed: int, start: float = 22.0, moves: bool = True
-) -> tuple[Sample, ...]:
-    """Return two sensors: one reads what the other does, and so much more, with some noise."""
-    dice, truth = Random(seed), _walk(seed, len(offsets), start)
-    truth = truth if moves else [start] * len(offsets)
-    values = [a + b + dice.choice((-0.25, 0.25)) for a, b in zip(truth, offsets, strict=True)]
-    return _column(truth, "/reference", first=0.5) + _column(values)
+#: The faulty watchdogs: letter, what each does wrong, and its model.
+FAULTY: dict[str, tuple[str, Callable[..., Track]]] = {
+    "A": ("reports only jumps upwards", partial(watch_one, signs=(1,))),
+    "B": ("keeps NaN as the last number", partial(watch_one, keeps_nan=True)),
+    "C": ("repeats `stuck` at each further equal reading", partial(watch_one, says="always")),
+}
+#: How many readings a test may have.
+MOST = 12
+#: What a `Float32` can hold.
+_LARGEST = 3.4e38
 
 
-def _episodes(*parts: tuple[float, int]) -> list[float]:
-    """Return so many readings each that are off by so much."""
-    return [off for off, count in parts for _ in range(count)]
-
-
-def draw_two(draw: Draw) -> Sequence[Recording]:
-    """Draw recordings without a drift first, then with drifts of several kinds."""
-    whole = draw.whole
-
-    def lasts(usual: int) -> int:
-        return whole(usual, usual - 1, usual + 2)
-
-    return draw.until(
-        lambda: (
-            Recording(
-                "a noisy sensor on a disturbed line",
-                _pair(
-                    [-2.0, 2.0] * lasts(10)
-                    + _episodes((0, lasts(12)), (6, 1), (0, lasts(12)), (-6, 1), (0, 6)),
-                    whole(4, 1, 10**6),
-                ),
-                (bags.dropouts(0.1, seed=whole(3, 1, 10**6), topic="/temperature"),),
-            ),
-            Recording(
-                "a sensor that drifts",
-                _pair(_episodes((0, 35)), whole(2, 1, 10**6)),
-                (
-                    bags.drift(0.125, at=whole(14, 12, 17), topic="/temperature"),
-                    bags.dropouts(0.4, seed=whole(11, 1, 10**6), topic="/reference"),
-                ),
-            ),
-            Recording(
-                "a drift that comes, goes and comes again",
-                _pair(
-                    _episodes(
-                        *((0, lasts(12)), (_OFF, lasts(14)), (_NEARLY, lasts(14))),
-                        *((_OFF, lasts(14)), (0, lasts(14)), (-_OFF, lasts(14)), (0, lasts(12))),
-                        *((_OFF, 14), (-60, 1), (-_OFF, 5)),
-                    ),
-                    whole(6, 1, 10**6),
-                ),
-            ),
-            Recording(
-                "a drift with NaN on the way",
-                _pair(_episodes((0, 40)), whole(8, 1, 10**6)),
-                (
-                    bags.with_nan(whole(5, 4, 6), topic="/temperature"),
-                    bags.with_nan(whole(8, 7, 9), topic="/reference"),
-                    bags.drift(-0.2, at=whole(14, 13, 15), topic="/temperature"),
-                    bags.with_nan(18, 2, topic="/temperature"),
-                    bags.with_nan(20.5, topic="/reference"),
-                ),
-            ),
-            Recording(
-                "a sensor that drifts in ice water, where the reference is 0",
-                _pair(_episodes((0, lasts(12)), (_OFF, 14)), whole(3, 1, 10**6), 0.0, moves=False),
-            ),
-            Recording(
-                "a sensor that is wrong from the beginning, and a reference that comes late",
-                _pair(_episodes((3, 25)), whole(9, 1, 10**6), 31.0),
-                (bags.dropouts(spans=[(0, whole(4, 3, 6))], topic="/reference"),),
-            ),
-        ),
-        lambda recordings: (
-            all(map(_is_clear, recordings)) and tells_apart(recordings, *TWO_SENSORS.models)
-        ),
+def _judge_test(seen: Report) -> Verdict:
+    wrong = before_reading(seen, 'check("11c", readings)') or _diagnose_readings(seen)
+    if wrong:
+        return wrong
+    values = [as_float32(one) for one in seen.value]
+    heard = _column(values)
+    right = watch_one(heard)
+    missed = [name for name, (_, model) in FAULTY.items() if agree(model(heard), right)]
+    if not missed:
+        return passed(
+            f"{len(values)} readings, and each of the three watchdogs fails your test: "
+            + ", ".join(
+                f"{name} at reading {_first(model(heard), right)}"
+                for name, (_, model) in FAULTY.items()
+            )
+            + "."
+        )
+    name = missed[0]
+    fault = FAULTY[name][0]
+    evidence = (
+        f"A correct watchdog publishes {_words(right)} for your readings, and so does watchdog "
+        f"{name}, which {fault}."
     )
+    mistake, hint = _MISSED[name](values)
+    return Diagnosis(mistake, evidence, hint)
 
 
-def _is_clear(recording: Recording) -> bool:
-    """Return whether no mean of ten is so near the limit that rounding would decide."""
-    kept = [one for _, one in _differences(recording.heard) if not isnan(one)]
-    sums = [sum(kept[at : at + 10]) for at in range(len(kept) - 9)]
-    return all(abs(abs(one) - 10) > 0.01 for one in sums)
+def _first(done: Track, right: Track) -> int:
+    """Return the number of the first reading at which a faulty watchdog shows, from 1."""
+    mismatch = first_mismatch(done, right)
+    return round(mismatch.at / NANOSECONDS) if mismatch else 0
 
 
-def _differences(
-    heard: Iterable[Sample], partner: str = "newest", start: float | None = None
-) -> Iterator[tuple[int, float]]:
-    """Give the differences of pairs, each with its time.
-
-    Args:
-        heard: The readings of both sensors.
-        partner: The reference of a temperature: the `newest` one; the `next` one in the order in
-            which both came; each that comes `after` it; the newest one that is a `number`; or the
-            newest one, unless that is 0 (`not zero`) or has made a pair already (`used up`).
-        start: The reference before the first one; None if it waits for one.
-    """
-    references = [] if start is None else [start]
-    temperatures: list[float] = []
-    for one in heard:
-        is_reference = one.topic == _REFERENCE.topic
-        if partner == "number" and is_reference and isnan(one.value):
-            continue
-        mine = references if is_reference else temperatures
-        if partner != "next":
-            mine.clear()
-        mine.append(float(one.value))
-        if not references or not temperatures:
-            continue
-        if partner == "not zero" and references[0] == 0:
-            continue
-        if partner == "used up" and not is_reference:
-            yield one.time_ns, temperatures.pop() - references.pop()
-            continue
-        if partner == "next":
-            yield one.time_ns, temperatures.pop(0) - references.pop(0)
-        elif is_reference == (partner == "after"):
-            yield one.time_ns, temperatures[0] - references[0]
+def _words(said: Track) -> str:
+    """Return what a watchdog says, with the number of each reading."""
+    each = [f"{word!r} at reading {round(at / NANOSECONDS)}" for at, (word, *_) in said.items()]
+    return " and ".join([", ".join(each[:-1]), each[-1]] if each[1:] else each) or "nothing"
 
 
-def _watch_two(
-    heard: Iterable[Sample],
-    *,
-    pairs: slice = slice(-10, None),
-    least: int = 10,
-    sizes: bool = False,
-    signs: Sequence[int] = (-1, 1),
-    limit: float = 1.0,
-    nan_is: str = "skipped",
-    start: float | None = None,
-    partner: str = "newest",
-    says: str = "once",
-) -> Track:
-    """Return what a node says of two sensors; by default it does what is asked for.
-
-    Args:
-        heard: The readings of both.
-        pairs: Of which pairs it takes the mean.
-        least: For how many pairs it waits.
-        sizes: Whether it takes the mean of sizes, without signs.
-        signs: Of which means it notices a drift.
-        limit: What the mean must be beyond.
-        nan_is: What happens with NaN in a pair: it is `skipped`, `kept` as any other difference, or
-            never `lost` again, in a running sum.
-        start: The reference before the first one came; None if it waits for one.
-        partner: Which reference belongs to a temperature, as `_differences` takes it.
-        says: Whether it says of a drift `once`, `always` while it lasts, or `never again`.
-    """
-    said: dict[int, tuple[str, ...]] = {}
-    kept: list[float] = []
-    drifts = False
-    for at, difference in _differences(heard, partner, start):
-        if not isnan(difference) or nan_is != "skipped":
-            kept.append(abs(difference) if sizes else difference)
-        some = kept if nan_is == "lost" and any(map(isnan, kept)) else kept[pairs]
-        mean = sum(some) / len(some) if len(some) >= max(least, 1) else 0.0
-        before, drifts = drifts, any(sign * mean > limit for sign in signs)
-        if drifts and (says == "always" or not before):
-            said[at] = ("drift",)
-        drifts = drifts or (before and says == "never again")
-    return said
+def _diagnose_readings(seen: Report) -> Diagnosis | None:
+    """Say why a result is no test, or None if it is one."""
+    values = seen.value
+    if not isinstance(values, list) or not values:
+        what = "an empty list" if values == [] else f"a {seen.type_name}"
+        evidence = f"The function returned {what}."
+        return Diagnosis("no-readings", evidence, "Return a list of readings: `[22.0, 22.5, ...]`.")
+    odd = [one for one in values if isinstance(one, bool) or not isinstance(one, int | float)]
+    odd += [one for one in values if one not in odd and abs(one) > _LARGEST]
+    if odd:
+        hint = "Each reading is a number that a `Float32` can hold, or `math.nan`."
+        return Diagnosis("no-number", f"The list contains {odd[0]!r}.", hint)
+    if len(values) > MOST:
+        hint = "A short test is easier to read. Which readings do you need for which watchdog?"
+        return Diagnosis("too-many-readings", f"The list has {len(values)} readings.", hint)
+    return None
 
 
-_WINDOW = "The last ten pairs count, and no others: how many differences are in your mean?"
-_EARLY = "With fewer than ten pairs nothing is said. What does your mean do at the beginning?"
-_SIGNS = (
-    "The difference keeps its sign until the mean is made. A noisy sensor is as often above as "
-    "below, and that is no drift."
-)
-_DRIFTS = "A sensor may drift up or down. What is the sign of your mean then?"
-_SUM = "A sum with NaN in it is NaN, which is never above or below a limit. Keep it out."
-_START = "What is in your memory of the reference before its first reading has come?"
-_ONCE = "Say it once, when it is found. The next time is after the mean has come back."
-_BACK = "What has to happen to your memory when the mean has come back?"
-_LIMIT = "A mean of more than 1 degree is a drift: 1.5 is, but 0.8 isn't."
-_NEWEST = (
-    "While the newest reference is NaN, a reading of temperature makes no pair with an old one."
-)
-_USED = "A reference stays the newest one until another comes: it may make several pairs."
-_LISTS = "If a reading is lost, the two lists are no longer in step. Which reference is the newest?"
-_WHEN = "Each reading of temperature makes a pair. Which of your two callbacks makes yours?"
-_LIMITS = (0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 5.0, 10.0)
-_ALL = slice(None)
-TWO_SUSPECTS = variants(_watch_two, (
-    ("wrong-window", _WINDOW,
-     *({"pairs": slice(-one, None), "least": one} for one in (9, 11, 1, 5, 8, 12, 20)),
-     {"pairs": _ALL, "least": 0}, {"pairs": slice(-1, None), "least": 1, "says": "always"},
-     {"pairs": slice(10)}),
-    ("too-few-pairs", _EARLY, {"least": 0}),
-    ("mean-of-sizes", _SIGNS, {"sizes": True}),
-    ("one-direction", _DRIFTS, {"signs": (1,)}, {"signs": (-1,)}),
-    ("nan-spreads", _SUM, {"nan_is": "kept"}, {"nan_is": "lost"}),
-    ("wrong-start", _START, *({"start": one} for one in (0.0, 20.0, 22.0))),
-    ("status-repeated", _ONCE, {"says": "always"}),
-    ("never-reset", _BACK, {"says": "never again"}),
-    ("other-limits", _LIMIT, *({"limit": one} for one in _LIMITS)),
-    ("nan-left-out", _NEWEST, {"partner": "number"}),
-    ("zero-is-false", f"Your node takes a reference of 0 for none. {ZERO_IS_FALSE}",
-     {"partner": "not zero"}),
-    ("pairs-mixed-up", _USED, {"partner": "used up"}),
-    ("pairs-mixed-up", _LISTS, {"partner": "next"}),
-    ("pairs-mixed-up", _WHEN, {"partner": "after"}),
-    ("wrong-window", _WINDOW,
-     *({"pairs": slice(-one, None), "least": 0} for one in (9, 11, 5, 20))),
-))  # fmt: skip
+def _missed_jump(values: Sequence[float]) -> tuple[str, str]:
+    """Return why a test does not catch a watchdog that looks for jumps upwards only."""
+    steps = [later - one for one, later in pairwise(one for one in values if not isnan(one))]
+    if any(step == -5 for step in steps):
+        return "test-at-limit", "A step of exactly 5 degrees is no jump yet. Let it be larger."
+    if any(step > 5 for step in steps):
+        hint = "All the jumps in your list go up. What does this watchdog do with another one?"
+        return "test-one-direction", hint
+    return "test-lacks-case", "Which of your readings is a jump that this watchdog doesn't notice?"
 
 
-def _last_pairs(heard: Sequence[Sample], at: int) -> str:
-    until = [one for one in heard if one.time_ns <= at]
-    kept = [one for _, one in _differences(until) if not isnan(one)]
-    if len(kept) < 10:
-        return f"after {len(kept)} pair{'' if len(kept) == 1 else 's'}"
-    return f"with a mean difference of {sum(kept[-10:]) / 10:.2f} in the last 10 pairs"
+def _missed_nan(values: Sequence[float]) -> tuple[str, str]:
+    """Return why a test does not catch a watchdog that keeps NaN."""
+    if not any(map(isnan, values)):
+        return "test-lacks-case", "Only a list that contains `math.nan` can catch this watchdog."
+    hint = (
+        "After NaN, this watchdog can't compare the next reading with anything. What should that "
+        "reading be, so that a correct watchdog reports it?"
+    )
+    return "test-no-effect", hint
 
 
-TWO_SENSORS = Task((_TEMPERATURE, _REFERENCE), ("drift",), _watch_two, TWO_SUSPECTS, _last_pairs)
+def _missed_repeat(values: Sequence[float]) -> tuple[str, str]:
+    """Return why a test does not catch a watchdog that repeats itself."""
+    if ("stuck",) in watch_one(_column(values)).values():
+        hint = "The list ends too early, or changes too early. At which equal reading does it show?"
+        return "test-at-limit", hint
+    return "test-lacks-case", "When is `stuck` due at all? Your list doesn't get that far."
+
+
+_MISSED = {"A": _missed_jump, "B": _missed_nan, "C": _missed_repeat}
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
@@ -960,7 +793,7 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     Exercise(
         "11b",
         _replay,
-        partial(_judge_alarms, SICK_SENSOR),
+        _judge_alarms,
         "notice a faulty sensor",
         3,
         (
@@ -979,26 +812,16 @@ EXERCISES: tuple[Exercise[Any], ...] = (
     ),
     Exercise(
         "11c",
-        _replay,
-        partial(_judge_alarms, TWO_SENSORS),
-        "compare two sensors on your own",
-        4,
+        report,
+        _judge_test,
+        "test a watchdog",
+        3,
         (
-            (
-                "Use two subscriptions with two callbacks. One callback only stores "
-                "the reading; the other one decides."
-            ),
-            "Keep the differences in a list and leave NaN out of it, also before there is a "
-            "reference.",
-            (
-                "Page 04 has a list of the last few readings. Here, the list has to "
-                "be full before it counts."
-            ),
-            (
-                "The node has to remember whether it has reported the drift, and "
-                "publish only when a drift begins."
-            ),
+            "Take one watchdog at a time. What does a correct watchdog do that this one doesn't, "
+            "and for which readings?",
+            "For B: which reading after NaN would a correct watchdog report?",
+            "For C: how many equal readings does it take until a correct watchdog has said "
+            "`stuck`? What does it say at the next one?",
         ),
-        draw=draw_two,
     ),
 )

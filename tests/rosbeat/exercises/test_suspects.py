@@ -62,8 +62,7 @@ TABLES = {
         f"11a {key}": ("11a", partial(page_11._in_each, find=find), found, page_11._near)
         for key, (find, found) in page_11.ASKED.items()
     },
-    "11b": ("11b", *page_11.SICK_SENSOR.models),
-    "11c": ("11c", *page_11.TWO_SENSORS.models),
+    "11b": ("11b", *page_11.models()),
     "12a": ("12a", *page_12.SERVICE_MODELS, page_12.same),
     "12b": ("12b", *page_12.PARAMETER_MODELS, page_12.same),
 }
