@@ -336,6 +336,7 @@ _OF_PAGES = (
     Mistake("never-reset", "a state that is never reset"),
     Mistake("nearly-equal", "nearly equal values treated as equal"),
     Mistake("no-readings", "a test without readings"),
+    Mistake("no-reading", "a reading that is not a number"),
     Mistake("too-many-readings", "a test with too many readings"),
     Mistake("test-lacks-case", "a test without the case that would reveal the fault"),
     Mistake("test-one-direction", "a test in one direction only"),

@@ -16,7 +16,7 @@ from pathlib import Path
 from random import Random
 from statistics import median
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, NamedTuple
 
 from rosbeat import bags
 from rosbeat.diagnosis.mistakes import Diagnosis
@@ -671,43 +671,10 @@ def models() -> tuple[Model, tuple[Suspect, ...]]:
 
 # 11c, test a watchdog: readings for which each of three faulty ones does what a right one does not.
 
-#: The faulty watchdogs: letter, what each does wrong, and its model.
-FAULTY: dict[str, tuple[str, Callable[..., Track]]] = {
-    "A": ("reports only jumps upwards", partial(watch_one, signs=(1,))),
-    "B": ("keeps NaN as the last number", partial(watch_one, keeps_nan=True)),
-    "C": ("repeats `stuck` at each further equal reading", partial(watch_one, says="always")),
-}
 #: How many readings a test may have.
 MOST = 12
 #: What a `Float32` can hold.
 _LARGEST = 3.4e38
-
-
-def _judge_test(seen: Report) -> Verdict:
-    wrong = before_reading(seen, 'check("11c", readings)') or _diagnose_readings(seen)
-    if wrong:
-        return wrong
-    values = [as_float32(one) for one in seen.value]
-    heard = _column(values)
-    right = watch_one(heard)
-    missed = [name for name, (_, model) in FAULTY.items() if agree(model(heard), right)]
-    if not missed:
-        return passed(
-            f"{len(values)} readings, and each of the three watchdogs fails your test: "
-            + ", ".join(
-                f"{name} at reading {_first(model(heard), right)}"
-                for name, (_, model) in FAULTY.items()
-            )
-            + "."
-        )
-    name = missed[0]
-    fault = FAULTY[name][0]
-    evidence = (
-        f"A correct watchdog publishes {_words(right)} for your readings, and so does watchdog "
-        f"{name}, which {fault}."
-    )
-    mistake, hint = _MISSED[name](values)
-    return Diagnosis(mistake, evidence, hint)
 
 
 def _first(done: Track, right: Track) -> int:
@@ -733,7 +700,7 @@ def _diagnose_readings(seen: Report) -> Diagnosis | None:
     odd += [one for one in values if one not in odd and abs(one) > _LARGEST]
     if odd:
         hint = "Each reading is a number that a `Float32` can hold, or `math.nan`."
-        return Diagnosis("no-number", f"The list contains {odd[0]!r}.", hint)
+        return Diagnosis("no-reading", f"The list contains {odd[0]!r}.", hint)
     if len(values) > MOST:
         hint = "A short test is easier to read. Which readings do you need for which watchdog?"
         return Diagnosis("too-many-readings", f"The list has {len(values)} readings.", hint)
@@ -770,7 +737,54 @@ def _missed_repeat(values: Sequence[float]) -> tuple[str, str]:
     return "test-lacks-case", "When is `stuck` due at all? Your list doesn't get that far."
 
 
-_MISSED = {"A": _missed_jump, "B": _missed_nan, "C": _missed_repeat}
+class FaultyWatchdog(NamedTuple):
+    """Hold a watchdog with one fault.
+
+    Attributes:
+        fault: What it does wrong, a verb and more.
+        model: What it says of readings.
+        diagnose_miss: Returns why readings do not show the fault: the mistake's id and a hint.
+    """
+
+    fault: str
+    model: Callable[..., Track]
+    diagnose_miss: Callable[[Sequence[float]], tuple[str, str]]
+
+
+#: The faulty watchdogs of the page.
+FAULTY = {
+    "A": FaultyWatchdog("reports only jumps upwards", partial(watch_one, signs=(1,)), _missed_jump),
+    "B": FaultyWatchdog(
+        "keeps NaN as the last number", partial(watch_one, keeps_nan=True), _missed_nan
+    ),
+    "C": FaultyWatchdog(
+        "repeats `stuck` at each further equal reading",
+        partial(watch_one, says="always"),
+        _missed_repeat,
+    ),
+}
+
+
+def _judge_test(seen: Report) -> Verdict:
+    wrong = before_reading(seen, 'check("11c", readings)') or _diagnose_readings(seen)
+    if wrong:
+        return wrong
+    values = [as_float32(one) for one in seen.value]
+    heard = _column(values)
+    right = watch_one(heard)
+    for name, (fault, model, diagnose_miss) in FAULTY.items():
+        if agree(model(heard), right):
+            evidence = (
+                f"A correct watchdog publishes {_words(right)} for your readings, and so does "
+                f"watchdog {name}, which {fault}."
+            )
+            mistake, hint = diagnose_miss(values)
+            return Diagnosis(mistake, evidence, hint)
+    shown = (f"{name} at reading {_first(one.model(heard), right)}" for name, one in FAULTY.items())
+    return passed(
+        f"{len(values)} readings, and each of the three watchdogs fails your test: "
+        f"{', '.join(shown)}."
+    )
 
 
 EXERCISES: tuple[Exercise[Any], ...] = (
