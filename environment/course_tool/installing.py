@@ -189,13 +189,11 @@ def write_ours(layout: Layout, environ: Mapping[str, str]) -> None:
     """Make an environment that pip has filled an underlay, for `rosbeat new`.
 
     An environment that has setup files already, as conda's have, stays as it is. So does one that
-    somebody else made one, and in which this user may only read.
+    this user may only read: pages work in it, because `import rosbeat` sets the same for them.
     """
     hook, setup = layout.site_packages / _HOOK, layout.venv / "local_setup.bash"
-    if hook.exists():
-        if not os.access(layout.site_packages, os.W_OK):
-            return
-    elif setup.exists():
+    is_foreign = setup.exists() and not hook.exists()
+    if is_foreign or not os.access(layout.site_packages, os.W_OK):
         return
     write_start_hook(layout)
     write_underlay(layout, environ)
