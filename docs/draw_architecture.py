@@ -42,6 +42,7 @@ PART_OF = {
     "comparisons": "records",
     "check_command": "cli",
     "explain_command": "cli",
+    "new_command": "cli",
     "__main__": "cli",
     "domains": "environment",
     "page_errors": "page_session",

@@ -42,6 +42,7 @@ MAY_IMPORT = {
     "testing": {"errors", "records", "ros", "page_session"},
     "pytest_plugin": {"testing"},
     "explain_command": {"errors", "ros", "diagnosis"},
+    "new_command": {"errors"},
     "check_command": {"errors", "records_json", "authoring", "exercises"},
     "clinic": {"page_session", "ros", "diagnosis", "records", "errors"},
     # The import line of page 07.

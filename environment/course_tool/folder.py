@@ -6,6 +6,7 @@ page as it was when it was copied. This tells which pages somebody has worked in
 still fit a new version of a page.
 
 In a release (`rosbeat release`), the folder of the pages is the learner's own as it stands.
+`rosbeat new` makes the same folder, in a place of the learner's, from the pages in a wheel.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ _Cell = dict[str, Any]
 
 def make(layout: Layout) -> None:
     """Make the learner's folder, or add what is new; whatever is there stays as it is."""
-    check_writable(layout.root)
+    check_writable(layout.learner.parent)
     if os.path.lexists(layout.learner) and not layout.learner.is_dir():
         raise Problem(
             f"{layout.learner.name} is not a folder: it is a file, or a link that leads nowhere.",
@@ -298,7 +299,7 @@ def _update_one(layout: Layout, page: Path, carries: bool) -> str:
     if not carries:
         return (
             f"yours    {page.name}: you have worked in it, so it stays. To have the new version\n"
-            f"         with your answers in it:  ./environment/course update {page.name[:2]}"
+            f"         with your answers in it:  {layout.update_command(page.name[:2])}"
         )
     after, fit, others = carried(mine, then, now)
     kept = _keep(target)
@@ -443,7 +444,7 @@ def _write(path: Path, content: bytes, mode: int | None = None) -> None:
 
 
 def _shown(layout: Layout, path: Path) -> str:
-    return str(path.relative_to(layout.root))
+    return str(path.relative_to(layout.learner.parent))
 
 
 # What is in a page.

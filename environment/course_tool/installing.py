@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import json
+import os
 import re
 import shlex
 import shutil
@@ -28,6 +29,7 @@ _AT_START = (
     "import sys; exec('try:\\n import _rosbeat_environment as e; e.apply()\\n"
     "except Exception:\\n pass')\n"
 )
+_HOOK = "zz_rosbeat_environment.pth"
 #: The name of the course's kernel, in the launcher and on pages.
 KERNEL = "ROS 2 (rosbeat)"
 #: What JupyterLab's file browser leaves out by itself.
@@ -183,13 +185,27 @@ def _fetch_uv(layout: Layout, env: Mapping[str, str]) -> None:
 # What is ours.
 
 
+def write_ours(layout: Layout, environ: Mapping[str, str]) -> None:
+    """Make an environment that pip has filled an underlay, for `rosbeat new`.
+
+    An environment that has setup files already, as conda's have, stays as it is. So does one that
+    this user may only read: pages work in it, because `import rosbeat` sets the same for them.
+    """
+    hook, setup = layout.site_packages / _HOOK, layout.venv / "local_setup.bash"
+    is_foreign = setup.exists() and not hook.exists()
+    if is_foreign or not os.access(layout.site_packages, os.W_OK):
+        return
+    write_start_hook(layout)
+    write_underlay(layout, environ)
+
+
 def write_start_hook(layout: Layout) -> None:
     """Make every Python of the environment set what nodes need, before anything is imported."""
     link = layout.site_packages / "_rosbeat_environment.py"
     link.unlink(missing_ok=True)
-    link.symlink_to(layout.root / "src" / "rosbeat" / "environment.py")
+    link.symlink_to(layout.settings)
     # "zz": .pth files run in this order, and ROS's own starts Python once more.
-    hook = layout.site_packages / "zz_rosbeat_environment.pth"
+    hook = layout.site_packages / _HOOK
     hook.write_text(_AT_START, encoding="utf-8")
 
 
@@ -216,7 +232,7 @@ def write_underlay(layout: Layout, environ: Mapping[str, str]) -> None:
     places = {
         "@PREFIX@": layout.venv,
         "@PYTHON@": layout.python,
-        "@ENVIRONMENT@": layout.root / "src" / "rosbeat" / "environment.py",
+        "@ENVIRONMENT@": layout.settings,
         "@COMPLETIONS@": layout.completions,
     }
     for template in underlay_templates():

@@ -1,7 +1,8 @@
-"""Where things are in a checkout."""
+"""Where things are in a checkout, or in an installed wheel."""
 
 from __future__ import annotations
 
+import shlex
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,13 +15,17 @@ WORKSPACE = "ROS2_and_RL_Tutorials"
 
 @dataclass(frozen=True)
 class Layout:
-    """The paths of one checkout.
+    """The paths of one checkout, or of what a wheel brings for learners (`rosbeat new`).
 
     Attributes:
-        root: The checkout.
+        root: The checkout; of a wheel, the folder `course` in the package `rosbeat`.
+        prefix: The environment that the wheel is installed in; in a checkout, it is `.venv`.
+        own: The learner's own folder, which is not in the wheel.
     """
 
     root: Path
+    prefix: Path | None = None
+    own: Path | None = None
 
     @property
     def environment(self) -> Path:
@@ -30,7 +35,7 @@ class Layout:
     @property
     def venv(self) -> Path:
         """Return the virtual environment."""
-        return self.root / ".venv"
+        return self.prefix or self.root / ".venv"
 
     @property
     def python(self) -> Path:
@@ -71,12 +76,18 @@ class Layout:
     @property
     def learner(self) -> Path:
         """Return the learner's own folder; in a release, its pages are the learner's own."""
-        return self.shipped if self.is_release else self.root / "my_course"
+        return self.own or (self.shipped if self.is_release else self.root / "my_course")
 
     @property
     def notes(self) -> Path:
         """Return the hidden folder in the learner's own that holds progress and the lab's log."""
         return self.learner / ".rosbeat"
+
+    @property
+    def settings(self) -> Path:
+        """Return the module that sets what nodes need in the environment."""
+        package = self.root.parent if self.prefix else self.root / "src" / "rosbeat"
+        return package / "environment.py"
 
     @property
     def own_packages(self) -> tuple[Path, ...]:
@@ -87,6 +98,12 @@ class Layout:
     def completions(self) -> Path:
         """Return the folder in which bash finds how to complete the environment's commands."""
         return self.venv / "share" / "bash-completion" / "completions"
+
+    def update_command(self, page: str) -> str:
+        """Return what to type for the new version of a page that somebody has worked in."""
+        if self.prefix:
+            return f"rosbeat new {shlex.quote(str(self.learner))} --update {page}"
+        return f"./environment/course update {page}"
 
     def lock(self, name: str) -> Path:
         """Return the locked versions of a level, or another lock (`bootstrap`, `build`)."""

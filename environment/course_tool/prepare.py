@@ -155,7 +155,7 @@ def exclusive(folder: Path) -> Iterator[None]:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             say(
-                "Another ./environment/course is at work in this checkout; "
+                "Another command of the course is at work in this folder; "
                 "waiting until it is done ..."
             )
             fcntl.flock(descriptor, fcntl.LOCK_EX)

@@ -79,7 +79,7 @@ def inside(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
 
 def with_ros(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
     """Return an environment completed with what nodes need, for programs that are not Python."""
-    path = layout.root / "src" / "rosbeat" / "environment.py"
+    path = layout.settings
     spec = importlib.util.spec_from_file_location("rosbeat_environment", path)
     if spec is None or spec.loader is None:  # only for a file name without .py
         raise ImportError(str(path))

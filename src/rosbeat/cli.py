@@ -43,6 +43,25 @@ class Command:
     run: Callable[[argparse.Namespace], int]
 
 
+def _new_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="a new name, as my_course")
+    parser.add_argument(
+        "--update",
+        action="append",
+        default=[],
+        metavar="PAGE",
+        help="take the new version of a page that you have worked in, with your answers in it",
+    )
+
+
+def _new(options: argparse.Namespace) -> int:
+    from rosbeat import new_command
+
+    new_command.lay_out(options.folder, options.update)
+    print(new_command.next_steps(options.folder))
+    return 0
+
+
 def _page_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("pages", nargs="*", metavar="PAGE", help="03, a name, a file; default: all")
     parser.add_argument("--root", type=Path, default=None, help="the checkout (default: found)")
@@ -161,6 +180,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("collect", "say who has handed in what", grading.collect_arguments, _collect),
     Command("grade", "judge what a class has handed in", grading.grade_arguments, _grade),
     Command("progress", "show how far you are with the course", _progress_arguments, _progress),
+    Command("new", "make a folder with the course's pages", _new_arguments, _new),
 )
 
 

@@ -68,13 +68,15 @@ def discovery_profile() -> str:
 
 
 def learners_folder() -> str:
-    """Return the learner's own folder in this checkout; an empty text if none was made yet.
+    """Return the learner's own folder; an empty text if none was made yet.
 
-    `./environment/course lab` makes it (`environment/course_tool/folder.py`). In a release, the
-    pages in `notebooks` are the learner's own.
+    `./environment/course lab` makes it in the checkout (`environment/course_tool/folder.py`); in a
+    release, the pages in `notebooks` are the learner's own. `rosbeat new` makes it anywhere: then
+    it is the nearest one around the folder that this process works in.
     """
     name = "notebooks" if _in_checkout(".rosbeat-release.json") else "my_course"
-    return os.path.dirname(_in_checkout(name, ".rosbeat"))
+    made = os.path.dirname(_in_checkout(name, ".rosbeat"))
+    return made or ("" if _in_checkout("notebooks") else _around_here())
 
 
 def defaults(prefix: str | None = None) -> dict[str, str]:
@@ -151,9 +153,25 @@ def shell_lines(prefix: str, environ: MutableMapping[str, str] | None = None) ->
     return "\n".join(f"export {name}={_quoted(value)}" for name, value in changes)
 
 
+def _around_here() -> str:
+    """Return the folder above this process's, or that one, that `rosbeat new` has made."""
+    try:
+        folder = os.getcwd()
+    except OSError:  # it was removed
+        return ""
+    while not os.path.exists(os.path.join(folder, ".rosbeat", "shipped")):
+        folder, below = os.path.dirname(folder), folder
+        if folder == below:
+            return ""
+    return folder
+
+
 def _files() -> dict[str, str]:
-    """Return the settings that are files of the checkout, as far as they are there, and theirs."""
-    files = {_PROFILE: discovery_profile(), _COLCON: _in_checkout("environment", "colcon.yaml")}
+    """Return the settings that are files of the course, as far as they are there, and theirs."""
+    settings = ("environment", "colcon.yaml")
+    in_wheel = os.path.join(os.path.dirname(os.path.realpath(__file__)), "course", *settings)
+    colcon = _in_checkout(*settings) or (in_wheel if os.path.exists(in_wheel) else "")
+    files = {_PROFILE: discovery_profile(), _COLCON: colcon}
     found = {name: path for name, path in files.items() if path}
     return {**found, _FROM_PROFILE: "1"} if _PROFILE in found else found
 

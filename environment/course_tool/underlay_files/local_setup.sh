@@ -1,4 +1,4 @@
-# Made by ./environment/course. Activates the ROS in this folder, as /opt/ros/jazzy/setup.sh does
+# Made by the course rosbeat. Activates the ROS in this folder, as /opt/ros/jazzy/setup.sh does
 # for an installed one: `source .venv/setup.bash`, or setup.sh in another shell.
 #
 # PYTHONPATH and LD_LIBRARY_PATH stay as they are: the Python of this folder knows its own packages

@@ -1,2 +1,2 @@
-# Made by ./environment/course: local_setup.sh, which zsh reads as well.
+# Made by the course rosbeat: local_setup.sh, which zsh reads as well.
 . @PREFIX@/local_setup.sh

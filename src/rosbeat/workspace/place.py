@@ -2,7 +2,8 @@
 
 It is a folder `ROS2_and_RL_Tutorials` in the learner's own folder `my_course`, beside the pages, so
 that JupyterLab's file browser shows it. Where `./environment/course lab` has not made that folder
-yet, it is in the checkout itself. The variable `ROSBEAT_WORKSPACE_IN` names another folder for it
+yet, it is in the checkout itself. `rosbeat new`, which needs no checkout, makes the learner's own
+folder under any name. The variable `ROSBEAT_WORKSPACE_IN` names another folder for it
 to lie in. While pages are built or tested, `ROSBEAT_STEADY_HOME` names a folder that takes the
 place of both the checkout and the user's home: such a run starts with an empty workspace of its
 own, and what it prints names no machine and no person.
@@ -51,10 +52,7 @@ def workspace_parent() -> Path:
     chosen = os.environ.get(SETTING, "")
     if chosen:
         return Path(chosen).expanduser().resolve()
-    root = course_root()
-    if root is None:
-        return Path.cwd()
-    return Path(learners_folder() or root)
+    return Path(learners_folder() or course_root() or Path.cwd())
 
 
 def is_a_solution(page: Path) -> bool:
@@ -63,8 +61,7 @@ def is_a_solution(page: Path) -> bool:
     Args:
         page: The file of the page; it need not exist.
     """
-    root = course_root()
-    places = [root, Path(learners_folder() or root)] if root else []
+    places = [Path(one) for one in (course_root(), learners_folder()) if one]
     return page.resolve().parent in [place / "solutions" for place in places]
 
 
