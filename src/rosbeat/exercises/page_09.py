@@ -561,7 +561,7 @@ def _places(draw: Draw) -> Places:
             (
                 *(number(12.0, 9.0, 19.0), high + 2.5, high, high, high + _JUST, low),
                 *(low - _JUST, number(22.0, 20.5, 25.5), number(27.5, 26.5, 29.5)),
-                *(number(15.5, 9.0, 19.0), -12.5, number(7.5, 6.0, 8.5)),
+                *(number(15.5, 9.0, 19.0), -44.5, number(7.5, 6.0, 8.5)),
             )
         ),
         low,
