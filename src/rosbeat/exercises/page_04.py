@@ -34,9 +34,7 @@ _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 Readings = Sequence[float]
 
 
-def _feed(
-    answer: Answer, readings: Sequence[float | None], period: float = 1.0
-) -> Observation:
+def _feed(answer: Answer, readings: Sequence[float | None], period: float = 1.0) -> Observation:
     sensor = feeder("sensor", _TEMPERATURE, readings, period=period)
     return observe(answer, period * len(readings) + 1, others=[sensor])
 
