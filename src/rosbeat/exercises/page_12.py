@@ -941,7 +941,8 @@ class _Heating:
         """
         if not self._goal.is_good or self._goal.is_canceled or self._goal.is_reached:
             return None
-        heard = [value for at, value in self._room if self._goal.at < at <= (self.end or 0)]
+        read = [one for one in self._room if self._goal.at < one[0] <= (self.end or 0)]
+        heard = [value for _, value in read]
         if self._degrees != heard:
             return Diagnosis(
                 "result-wrong",
@@ -949,14 +950,21 @@ class _Heating:
                 f"result holds {self._degrees[:8]}.",
                 "Every reading since the goal was accepted belongs in the list, also the first.",
             )
-        told = {len(one.data["sequence"]) for one in self._feedback}
-        silent = [value for count, value in enumerate(heard, 1) if count not in told]
-        if silent:
-            return Diagnosis(
-                "feedback-missing",
-                f"There was no feedback after the reading of {silent[0]}.",
-                "After each reading comes a feedback, also after the first and the last one.",
-            )
+        told = [(one.time, len(one.data["sequence"])) for one in self._feedback]
+        for count, (at, value) in enumerate(read, 1):
+            found = [time for time, length in told if length == count and at <= time < at + 1]
+            if not found:
+                return Diagnosis(
+                    "feedback-missing",
+                    f"There was no feedback after the reading of {value}, at {at:g} s.",
+                    "After each reading comes a feedback, also after the first and the last one.",
+                )
+            if len(found) > 1:
+                return Diagnosis(
+                    "wrong-rate",
+                    f"After the reading of {value} there were {len(found)} feedbacks.",
+                    "One feedback after each reading is enough. Which lines publish one?",
+                )
         return None
 
     def _feedback_text(self) -> str:
