@@ -72,7 +72,7 @@ def _judge_manifest(seen: Workspace) -> Verdict:
 
 
 def _open_texts(manifest: Manifest) -> list[str]:
-    """Return which texts are none yet: empty, a TODO, a blank, only signs, or the tag's own words."""
+    """Return which texts are none yet: empty, a TODO, a blank, signs, or the tag's own words."""
     texts = {"description": manifest.description, "licence": manifest.license}
     return [
         name

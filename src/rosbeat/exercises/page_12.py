@@ -224,7 +224,7 @@ def draw_parameters(draw: Draw) -> _Requests:
             ),
         )
         # Limits may be below 0, far up, and close together.
-        groups += (
+        extremes = (
             (({"low": -12.25}, (-11.0, -13.0)), ({"high": -12.0}, (-12.125, -11.0, -13.0))),
             (({"high": 60.25}, (61.0, 59.0)), ({"low": 60.0}, (60.125, 61.0, 59.0))),
         )
@@ -243,7 +243,7 @@ def draw_parameters(draw: Draw) -> _Requests:
                 )
             ),
             ({"low": low}, (21.0, 23.0, 25.0)),
-            *chain(*draw.shuffled(groups)),
+            *chain(*draw.shuffled((*groups, *extremes))),
         )
 
     return draw.until(
@@ -951,8 +951,8 @@ class _Heating:
                 "Every reading since the goal was accepted belongs in the list, also the first.",
             )
         told = [(one.time, len(one.data["sequence"])) for one in self._feedback]
-        for count, (at, value) in enumerate(read, 1):
-            found = [time for time, length in told if length == count and at <= time < at + 1]
+        for size, (at, value) in enumerate(read, 1):
+            found = [time for time, length in told if length == size and at <= time < at + 1]
             if not found:
                 return Diagnosis(
                     "feedback-missing",

@@ -120,7 +120,7 @@ def observe_vent(answer: Answer, seed: int = PAGE, numbers: Mapping[str, float] 
     """
     from rosbeat.ros.scenario import SetParameters
 
-    def observe_day(day: Day, step: Any) -> Observation:
+    def observe_day(day: Day, step: Any) -> Observation:  # noqa: ANN401 - a step
         sensor = station(SENSORS[0], "temperature", day.temperature)
         return observe(answer, day.seconds, others=[sensor], steps=[step])
 
@@ -413,9 +413,10 @@ def _judge_vent(trials: Trials, days: Weather) -> Diagnosis | None:
 
 def _judge_vent_alone(trials: Trials, seed: int) -> Verdict:
     seen, days = trials.plain, Weather(matching_rubric(trials.numbers).numbers, seed)
-    early = next(filter(None, map(before_judging, trials.runs.values())), None)
-    if early:
-        return early
+    for run in trials.runs.values():
+        early = before_judging(run)
+        if early:
+            return early
     count = len(_said(seen, "/vent"))
     return (
         diagnose_unheard(seen, Wire("/temperature", _FLOAT))
