@@ -935,10 +935,7 @@ class _Heating:
         return [one for one in found if not one or one != self._degrees[: len(one)]]
 
     def left_out(self) -> Diagnosis | None:
-        """Name a reading on the way to the target that is not in the result, or not reported.
-
-        The step that asks for both is exact; the one after it is about the cancel.
-        """
+        """Name a reading on the way to the target that is not in the result, or not reported."""
         if not self._goal.is_good or self._goal.is_canceled or self._goal.is_reached:
             return None
         read = [one for one in self._room if self._goal.at < one[0] <= (self.end or 0)]
@@ -991,11 +988,8 @@ def _judge_decisions(seen: Observation, fed: Heating) -> Verdict:
 
 
 def _judge_heating(seen: Observation, fed: Heating) -> Verdict:
-    works = [_Heating(seen, goal, fed.start) for goal in fed.goals]
-    return (
-        _wrong_heating(seen, fed)
-        or next(filter(None, (work.left_out() for work in works)), None)
-        or passed(f"Heated to {fed.goals[0].order}, with a report each second.")
+    return _wrong_heating(seen, fed) or passed(
+        f"Heated to {fed.goals[0].order}, with a report each second."
     )
 
 
@@ -1014,6 +1008,9 @@ def _wrong_heating(seen: Observation, fed: Heating) -> Diagnosis | None:
         or _wrong_work(seen, fed, [Work.DECISION])
         or diagnose_unpublished(seen, _HEATER, hint=_SWITCH)
         or _wrong_work(seen, fed, list(Work))
+        or next(
+            filter(None, (_Heating(seen, one, fed.start).left_out() for one in fed.goals)), None
+        )
     )
 
 
