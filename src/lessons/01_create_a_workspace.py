@@ -134,8 +134,8 @@ viz.diagram("01")
 # %% [markdown]
 # ## Try it: a folder in a folder
 #
-# The first line goes back to the workspace. From there, create the folder `resources/sounds/alarm` with a single
-# command. Replace the blank `____` with what's missing, and run both cells.
+# The first line goes back to the workspace. From there, create the folder `resources/sounds/alarm`. A single command
+# is enough. Replace the blank `____` with what's missing, and run both cells.
 
 # %% terminal="one" exercise="01a"
 # cd "$ROS2_WORKSPACE"
@@ -151,7 +151,8 @@ check("01a", workspace.folder())
 # %% [markdown]
 # ## Try it: from here to there
 #
-# The first line takes terminal `two` to `resources/images`. From there, go to `src` with one `cd` and a relative path.
+# The first line takes terminal `two` to `resources/images`. From there, go to `src` with a relative path. One `cd` is
+# enough.
 
 # %% terminal="two" exercise="01b"
 # cd "$ROS2_WORKSPACE/resources/images"

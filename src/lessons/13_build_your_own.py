@@ -150,7 +150,8 @@ predict("70-90", len(ros.messages("temperature")))
 #   later. `declare_parameter` sets the name and the default, and `get_parameter(...).value` returns the value;
 # - `LATCHED` is a QoS profile that keeps the last message for late-joining subscribers that ask for it (page 08).
 #
-# Write the rest of the callback.
+# Write the rest of the callback. Keep both details: a limit that is set later counts from the next reading on, and
+# a late-joining subscriber gets the last command.
 
 # %%
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -35,6 +35,11 @@ from rosbeat.workspace.packages import Package
 _FIRST, _FIRST_NEEDS = "sensor_simulator", ("rclpy", "std_msgs")
 _MANIFEST = "src/sensor_simulator/package.xml"
 _TODO = re.compile(r"\W*todo\W*$|\W*todo\s*:", re.IGNORECASE)
+#: Texts that say no more than the tag around them, such as those of the manifest as it is made.
+_EMPTY = re.compile(
+    r"(todo|the|a|an|my|your|package|license|licence|description|declaration|tbd|fixme|none|\W)*",
+    re.IGNORECASE,
+)
 #: ROS Enhancement Proposal 140 and 149: two of the tags of a package.xml, in formats 2 and 3.
 _FORMATS = ("2", "3")
 #: As catkin_pkg has it, which reads manifests for colcon.
@@ -67,15 +72,12 @@ def _judge_manifest(seen: Workspace) -> Verdict:
 
 
 def _open_texts(manifest: Manifest) -> list[str]:
-    """Return which texts are none yet: empty, a TODO, a blank, or only signs."""
+    """Return which texts are none yet: empty, a TODO, a blank, signs, or the tag's own words."""
     texts = {"description": manifest.description, "licence": manifest.license}
     return [
         name
         for name, text in texts.items()
-        if _TODO.match(text)
-        or text.lower() == "none"
-        or BLANK in text
-        or not any(sign.isalnum() for sign in text)
+        if _TODO.match(text) or BLANK in text or _EMPTY.fullmatch(text)
     ]
 
 

@@ -34,9 +34,9 @@ _TEMPERATURE = Wire("/temperature", "std_msgs/msg/Float32")
 Readings = Sequence[float]
 
 
-def _feed(answer: Answer, readings: Sequence[float | None]) -> Observation:
-    sensor = feeder("sensor", _TEMPERATURE, readings)
-    return observe(answer, len(readings) + 1, others=[sensor])
+def _feed(answer: Answer, readings: Sequence[float | None], period: float = 1.0) -> Observation:
+    sensor = feeder("sensor", _TEMPERATURE, readings, period=period)
+    return observe(answer, period * len(readings) + 1, others=[sensor])
 
 
 def _each(rule: Callable[[float], str]) -> Model:
@@ -292,6 +292,7 @@ def _says_fine(texts: Track, due: Track) -> bool:
 _MEAN, _STATUS = Wire("/mean", "std_msgs/msg/Float32"), Wire("/status", "std_msgs/msg/String")
 _BOTH = (_MEAN.topic, _STATUS.topic)
 _OF_THE_MEAN = "Find the status from the reading itself, and not from the mean."
+_ALSO = "This step also publishes the status: the mean of the step before stays."
 _NO_STATUS = f"Does the callback come to the line that publishes? {_OF_THE_MEAN}"
 
 
@@ -305,13 +306,15 @@ def _judge_means(observation: Observation, seconds: Seconds) -> Verdict:
 
 
 def _judge_hysteresis(observation: Observation, seconds: Seconds) -> Verdict:
-    """Judge the statuses alone: whatever is on /mean was judged in the step before."""
+    """Judge the statuses first, which are new in this step, and then the means."""
     return (
         diagnose_unheard(observation, _TEMPERATURE)
         or diagnose_unpublished(observation, _STATUS, _BOTH, _NO_STATUS)
         or diagnose_words(observation, _STATUS, STATUSES)
         or _wrong_statuses(track(observation, _STATUS), seconds, each=True)
-        or passed(f"{len(_heard(seconds))} readings, and the right status for each.")
+        or diagnose_unpublished(observation, _MEAN, _BOTH, _ALSO)
+        or _wrong_means(track(observation, _MEAN), seconds)
+        or passed(f"{len(_heard(seconds))} readings, and the right mean and status for each.")
     )
 
 
@@ -332,13 +335,16 @@ def _judge_changes(observation: Observation, seconds: Seconds) -> Verdict:
 
 #: How many readings count.
 _WIDTH = 5
-#: What comes in each second from 1 s on; None where no reading comes.
+#: Seconds from one reading to the next. No answer may rely on one reading a second.
+_SPACING = 0.5
+#: The readings, one after the other; None where none comes.
 Seconds = Sequence[float | None]
 
 
-def _heard(seconds: Seconds) -> dict[int, float]:
-    """Return the readings, by the second in which each comes."""
-    return {second: value for second, value in enumerate(seconds, 1) if value is not None}
+def _heard(seconds: Seconds) -> dict[float, float]:
+    """Return the readings, by the time in seconds at which each comes."""
+    found = enumerate(seconds, 1)
+    return {place * _SPACING: value for place, value in found if value is not None}
 
 
 def _means(width: int = _WIDTH, begin: Readings = (), divisor: int = 0, late: int = 0) -> Model:
@@ -491,7 +497,7 @@ def _on_the_wrong_side(each: bool) -> Iterator[tuple[str, str, Model]]:
 
 def _mean_each_second(seconds: Seconds) -> Seconds:
     means = _means()(seconds)
-    return [means.get(second, (None,))[0] for second in range(1, len(seconds) + 1)]
+    return [means.get(place * _SPACING, (None,))[0] for place in range(1, len(seconds) + 1)]
 
 
 def _of_the_mean(seconds: Seconds, model: Model) -> Track:
@@ -532,10 +538,14 @@ STATUS_SUSPECTS = suspects(
 
 
 def draw_hysteresis(draw: Draw) -> Seconds:
-    """Draw readings at every border of a status, jumps across, and seconds without a reading."""
+    """Draw readings at every border of a status, jumps across, and moments without a reading.
+
+    The first one shows with which status a node begins, and in one place the mean is below 0.
+    """
     far = draw.number
     return draw.until(
         lambda: (
+            25.5,
             far(22.0, 21.5, 24.5),
             *chain.from_iterable(
                 draw.shuffled(
@@ -545,6 +555,7 @@ def draw_hysteresis(draw: Draw) -> Seconds:
                         (far(41.0, 27.0, 50.0), far(-3.5, -9.0, 19.0)),
                         (far(30.0, 27.0, 50.0), far(23.0, 22.0, 24.5), 0.0, 0.0, 23.5),
                         (far(19.0, -9.0, 19.5), far(25.5, 22.0, 25.5)),
+                        (*(far(-20.0, -40.0, -15.0), -18.5, -19.25, -17.75), 24.0),
                         (far(27.0, 26.5, 50.0), far(20.5, 20.5, 24.5)),
                         # So often that the mean stays the same.
                         (22.5,) * 6,
@@ -633,7 +644,7 @@ EXERCISES = (
     ),
     Exercise(
         "04c",
-        _feed,
+        partial(_feed, period=_SPACING),
         _judge_means,
         "the mean of five readings",
         1,
@@ -649,7 +660,7 @@ EXERCISES = (
     ),
     Exercise(
         "04d",
-        _feed,
+        partial(_feed, period=_SPACING),
         _judge_hysteresis,
         "a status with two limits",
         2,
@@ -665,7 +676,7 @@ EXERCISES = (
     ),
     Exercise(
         "04e",
-        _feed,
+        partial(_feed, period=_SPACING),
         _judge_changes,
         "a calm monitor",
         1,

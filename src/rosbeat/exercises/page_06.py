@@ -30,12 +30,14 @@ class CodeChange:
     Attributes:
         package: The package, or None.
         source: The texts in the file, comments and docstrings left out.
+        logged: Those that the file logs.
         other: Those in the sensor's file.
         copies: Those in the copies of the monitor's file that colcon has installed.
     """
 
     package: Package | None = None
     source: tuple[str, ...] = ()
+    logged: tuple[str, ...] = ()
     other: tuple[str, ...] = ()
     copies: tuple[str, ...] = ()
 
@@ -56,15 +58,52 @@ def look_at_change(answer: Answer) -> CodeChange:
     modules = root / package.folder / _PACKAGE
     installed = sorted(root.glob(f"install/**/site-packages/{_PACKAGE}/{_MONITOR}"))
     copies = tuple(text for path in installed for text in _texts(path))
-    return CodeChange(package, _texts(modules / _MONITOR), _texts(modules / _SENSOR), copies)
+    monitor = modules / _MONITOR
+    return CodeChange(package, _texts(monitor), _logged(monitor), _texts(modules / _SENSOR), copies)
+
+
+def _nodes(path: Path) -> list[ast.AST]:
+    """Return the syntax tree of a file of Python, node by node; none if it cannot be read."""
+    try:
+        return [*ast.walk(parse(path.read_bytes()))]
+    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return []
+
+
+#: Methods of a logger whose lines a terminal shows.
+_LOGS = ("info", "warn", "warning", "error", "fatal")
+
+
+def _logged(path: Path) -> tuple[str, ...]:
+    """Return the texts that a file logs, as they are or by the name of a variable."""
+    nodes = _nodes(path)
+    named: dict[str, list[str]] = {}
+    for node in nodes:
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value:
+            for target in node.targets if isinstance(node, ast.Assign) else [node.target]:
+                named.setdefault(_name(target), []).extend(_strings(node.value))
+    found: list[str] = []
+    for node in nodes:
+        if isinstance(node, ast.Call) and _name(node.func) in _LOGS:
+            inner = [one for part in node.args for one in ast.walk(part)]
+            found += [
+                text for part in inner for text in (*_strings(part), *named.get(_name(part), ()))
+            ]
+    return tuple(dict.fromkeys(found))
+
+
+def _name(node: ast.AST) -> str:
+    """Return the last part of a name, such as `info` of `self.get_logger().info`."""
+    return str(getattr(node, "attr", getattr(node, "id", "")))
+
+
+def _strings(node: ast.AST) -> list[str]:
+    return [node.value] if isinstance(node, ast.Constant) and isinstance(node.value, str) else []
 
 
 def _texts(path: Path) -> tuple[str, ...]:
     """Return the texts that are written in a file of Python; none if it cannot be read."""
-    try:
-        nodes = [*ast.walk(parse(path.read_bytes()))]
-    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
-        return ()
+    nodes = _nodes(path)
     docstrings = {id(one.value) for one in nodes if isinstance(one, ast.Expr)}
     constants = (
         one for one in nodes if isinstance(one, ast.Constant) and id(one) not in docstrings
@@ -79,6 +118,11 @@ def _judge_change(seen: CodeChange) -> Verdict:
         flaw = seen.package.flaws[0]
         found = diagnose_flaw(flaw)
         return Diagnosis(found.mistake, found.evidence, FLAW_HINTS[flaw.kind])
+    if _NEW in seen.source and _NEW not in seen.logged:
+        hint = "It was logged with self.get_logger().info(...). Only the words change."
+        return Diagnosis(
+            "nothing-logged", f"The file in src says {_NEW!r}, and logs it nowhere.", hint
+        )
     if _NEW in seen.source and _OLD not in seen.source:
         return passed(f"The file in src says {_NEW!r}{_about_copies(seen)}.")
     return _diagnose_change(seen)

@@ -313,14 +313,14 @@ _JUST = 1 / 256
 
 
 def draw_tuning(draw: Draw) -> Tuning:
-    """Draw readings, at each limit and beside it, and limits, of which two are no whole numbers."""
+    """Draw readings, at each limit and beside it, and limits, of which two have two decimals."""
     return draw.until(
         partial(_tuning, draw), lambda fed: tells_apart(fed, _right, _SUSPECT_MONITORS)
     )
 
 
 def _tuning(draw: Draw) -> Tuning:
-    high, low = draw.one_of(24.5, 24.25, 24.75, 25.5), draw.one_of(21.5, 20.5, 20.75, 21.25, 22.5)
+    high, low = draw.one_of(24.25, 24.75, 25.25), draw.one_of(21.25, 20.25, 20.75, 22.25)
     lowest, highest = draw.whole(10, 5, 14), draw.whole(30, 29, 40)
     far, near = partial(draw.number, step=0.25), draw.number(23.0, 22.75, 24.0)
     parts = (
@@ -576,14 +576,15 @@ class Line(NamedTuple):
 
 #: One a second.
 Lines = Sequence[Line]
-# Texts hold `warning` and `error` where there is none; names and a text come twice.
+# Texts hold `warning` and `error` where there is none; names and a text come twice; a name has a
+# capital letter.
 _LINES = (
     Line(_INFO, "gardener", "The window is shut"),
     Line(_WARN, "lamp", "I do not know how bright it is"),
     Line(_DEBUG, "weather", "warning: only a test"),
     Line(_WARN, "lamp", "I do not know how bright it is"),
     Line(_INFO, "window", "No error, no WARN, nothing"),
-    Line(_ERROR, "soil_probe", "The cable is loose"),
+    Line(_ERROR, "Soil_probe", "The cable is loose"),
     Line(_FATAL, "pump", "No water"),
     Line(_DEBUG, "lamp", "12 readings"),
     Line(_WARN, "greenhouse.fan", "It is getting loud"),

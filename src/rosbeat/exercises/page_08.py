@@ -82,8 +82,12 @@ def _suspects_by_policy(
 # 08a, the current mode: displays come at different times and log what they hear.
 
 _MODE, _COMMAND = Wire("/mode", _STRING), Wire("/command", _STRING)
-#: Modes of which three are commanded, besides the first one.
-_MODES = ("drive", "stop", "dock", "charge", "explore", "follow", "lift", "park", "turn", "wait")
+#: Modes of which three are commanded, besides the first one. The text counts as it is, with
+#: its small and its capital letters.
+_MODES = (
+    *("driveOn", "stopNow", "dockA", "chargeB", "exploreAll"),
+    *("followMe", "liftUp", "parkC", "turnLeft", "waitHere"),
+)
 _ONE_STORED = QoS(depth=1, durability="TRANSIENT_LOCAL")
 _TEN_STORED = QoS(depth=10, durability="TRANSIENT_LOCAL")
 #: Names of displays, and what each asks for.
@@ -497,6 +501,8 @@ class Silences(NamedTuple):
 def draw_silences(draw: Draw) -> Silences:
     """Draw readings a second apart, or nearly two; a long silence, a short one, one to the end.
 
+    The first reading is late: what was not heard yet cannot fall silent.
+
     A silence begins at a full second or half of one: so a node that looks at the clock twice a
     second is in time.
     """
@@ -511,10 +517,10 @@ def _silences(draw: Draw) -> Silences:
 
     nearly = draw.shuffled((1.75, 1.25))
     gaps = (
-        *(*seconds(2), *nearly, 6.5 + draw.whole(1, 0, 7), *seconds(2)),
+        *(*seconds(2), *nearly, 6.5 + draw.whole(3, 2, 9), *seconds(2)),
         *(draw.one_of(2.5, 3.5), draw.one_of(7.0, 6.5, 7.5, 8.5, 9.5, 10.5)),
     )
-    *times, end = accumulate(gaps, initial=draw.number(1.0, 0.5, 12.0, 0.5))
+    *times, end = accumulate(gaps, initial=draw.number(5.0, 4.5, 12.0, 0.5))
     return Silences(tuple(times), end)
 
 

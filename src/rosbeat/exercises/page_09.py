@@ -54,16 +54,19 @@ Words = Iterable[tuple[float, str]]
 
 
 def draw_readings(draw: Draw) -> Readings:
-    """Draw readings: late at first, then with pauses too short to count, and two silences.
+    """Draw readings: the first one late, a silence after it, short pauses, and two more silences.
 
     A silence begins at a full second or half of one: so a node that counts seconds, or halves, is
-    in time with each seed or with none. And one that looks every three seconds only is late.
+    in time with each seed or with none. And one that looks every two or three seconds is late.
     """
     return draw.until(
         partial(_readings, draw),
         lambda fed: (
             tells_apart(fed, _watch(), SILENCE_SUSPECTS)
-            and any(0 < last % SILENCE < SILENCE - LATE for last in _before_silences(fed))
+            and all(
+                any(-(last + SILENCE) % period > LATE for last in _before_silences(fed))
+                for period in (2.0, 3.0)
+            )
         ),
     )
 
@@ -77,10 +80,11 @@ def _readings(draw: Draw) -> Readings:
         return (1.0,) * draw.whole(usual, 1, 5)
 
     gaps = (
-        *(*seconds(2), 2.75, *seconds(2), draw.number(8.0, 6.0, 14.0, 1.0)),
+        *(draw.one_of(7.0, 5.0, 8.0, 10.0), *seconds(2), 2.75, 1.25),
+        draw.number(8.0, 6.0, 14.0, 1.0),
         *(*seconds(1), 2.5, draw.number(7.5, 5.5, 13.5, 1.0), *seconds(1), 2.5),
     )
-    return tuple(accumulate(gaps, initial=draw.number(5.25, 5.25, 14.25, 1.0)))
+    return tuple(accumulate(gaps, initial=draw.number(6.5, 5.5, 14.5, 1.0)))
 
 
 def _run_with_silences(answer: Answer, readings: Readings) -> Observation:
@@ -561,7 +565,7 @@ def _places(draw: Draw) -> Places:
             (
                 *(number(12.0, 9.0, 19.0), high + 2.5, high, high, high + _JUST, low),
                 *(low - _JUST, number(22.0, 20.5, 25.5), number(27.5, 26.5, 29.5)),
-                *(number(15.5, 9.0, 19.0), -12.5, number(7.5, 6.0, 8.5)),
+                *(number(15.5, 9.0, 19.0), -44.5, number(7.5, 6.0, 8.5)),
             )
         ),
         low,

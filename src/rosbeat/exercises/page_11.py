@@ -493,6 +493,8 @@ _JUMPS = (
     (5.0, 5.25, 11.25, -10.0, -10.25, 0.0, 5.5),
     (22.0, 30.0, 30.0, 30.0, 24.5, 24.5, 24.5),
 )
+#: Two hangs, at 0 and below it.
+_FROST = (1.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.25, -2.5, -2.5, -2.5, -2.5, -2.5, -2.25)
 
 
 def _higher(values: Sequence[float], draw: Draw) -> Sequence[float]:
@@ -534,6 +536,7 @@ def draw_sick(draw: Draw) -> Sequence[Recording]:
                     bags.stuck(whole(32, 31, 34), whole(14, 11, 15)),
                 ),
             ),
+            Recording("a sensor that hangs in the frost", _column(_FROST, first=whole(1, 1, 9))),
         ),
         lambda recordings: tells_apart(recordings, *models()),
     )

@@ -158,8 +158,8 @@ def draw_service(draw: Draw) -> _Requests:
     """
 
     def asked() -> Iterable[_Asked]:
-        one, last = draw.number(24.0, 20.25, 25.5, 0.25), draw.whole(22, 13, 37) + 0.5
-        far, below = draw.number(60.0, 41.0, 90.0), draw.number(-5.0, -40.0, 9.0)
+        one, last = draw.number(24.0, 20.25, 25.5, 0.25), draw.whole(22, 13, 37) + 15 / 32
+        far, below = draw.number(60.0, 41.0, 90.0), draw.number(-20.0, -40.0, -11.0)
         groups = (
             (
                 ({"high": one}, (one + 1, one, one - 1)),
@@ -184,7 +184,7 @@ def draw_service(draw: Draw) -> _Requests:
                     )
                 ),
             ),
-            (({"high": last}, (last + 0.25, last - 0.25)),),
+            (({"high": last}, (last + 1 / 64, last - 1 / 64)),),
         )
         return (({}, (25.0, 26.5, 26.0)), *chain(*draw.shuffled(groups)))
 
@@ -215,10 +215,18 @@ def draw_parameters(draw: Draw) -> _Requests:
                         ),
                         ({"high": 5.5 + down}, (5.25 + down, 5.75 + down, 4.0 + down)),
                         ({"high": nan}, (5.25 + down, 5.75 + down)),
+                        ({"low": nan, "high": 9.0 + down}, (8.5 + down, 4.0 + down)),
+                        ({"low": 4.0 + down, "high": nan}, (4.5 + down, 8.5 + down)),
+                        ({"low": 7.0 + down, "high": 7.0 + down}, (6.0 + down, 8.5 + down)),
                         ({"high": 0.0}, (5.5 + down, 7.0 + down)),
                     )
                 ),
             ),
+        )
+        # Limits may be below 0, far up, and close together.
+        extremes = (
+            (({"low": -12.25}, (-11.0, -13.0)), ({"high": -12.0}, (-12.125, -11.0, -13.0))),
+            (({"high": 60.25}, (61.0, 59.0)), ({"low": 60.0}, (60.125, 61.0, 59.0))),
         )
         return (
             ({}, (25.0, 26.5, 19.5)),
@@ -231,10 +239,11 @@ def draw_parameters(draw: Draw) -> _Requests:
                     ({"high": 20.0}, (25.0, 22.0)),
                     ({"low": high + 0.5}, (high + 0.25, 22.0, 19.5)),
                     ({"low": high}, (23.0, 25.0)),
+                    ({"low": nan}, (22.0, 25.0, 19.5)),
                 )
             ),
             ({"low": low}, (21.0, 23.0, 25.0)),
-            *chain(*draw.shuffled(groups)),
+            *chain(*draw.shuffled((*groups, *extremes))),
         )
 
     return draw.until(
@@ -579,12 +588,14 @@ class Goal:
         at: When.
         order: The target.
         cancel_after: When it is canceled; None for never.
+        is_early: Whether it is sent while the work for the goal before it goes on.
     """
 
     number: int
     at: float
     order: int
     cancel_after: float | None = None
+    is_early: bool = False
 
     @property
     def is_good(self) -> bool:
@@ -621,7 +632,7 @@ def draw_heating(draw: Draw) -> Heating:
     """Draw goals: reached, canceled, out of reach or reached before they are sent, and one more.
 
     A goal is over at least a second before the next is sent, and one that is canceled is far from
-    its target then.
+    its target then. Only one that is rejected comes while the thermostat works for another one.
     """
     start = draw.whole(18, 16, 18)
     first = draw.whole(22, start + 3, 22)
@@ -634,7 +645,9 @@ def draw_heating(draw: Draw) -> Heating:
     cancels = (None, draw.one_of(2.0, 1.0), *[None] * 5)
     times = (0.5 + pause for pause in accumulate(pauses))
     sent = zip(count(1), times, (first, 26, *others, 26), cancels, strict=False)
-    goals = tuple(Goal(*one) for one in sent)
+    first_sent, *later = (Goal(*one) for one in sent)
+    early = Goal(0, first_sent.at + 1, draw.whole(40, 28, 120), is_early=True)
+    goals = _numbered((first_sent, early, *later))
     # A room that was cold at first takes longer in the end.
     return Heating(start, goals, goals[-1].at + 10.5 + draw.whole(0, 4, 5))
 
@@ -645,7 +658,7 @@ def draw_decisions(draw: Draw) -> Heating:
     The first one is far from both limits: a node that rejects everything is no matter of limits.
     """
     good = (26, 10, draw.whole(15, 11, 17), draw.whole(19, 11, 25), draw.whole(12, 11, 25))
-    bad = (27, 9, draw.whole(99, 28, 120), draw.whole(-3, -20, 0), draw.whole(5, 1, 8))
+    bad = (27, 9, draw.whole(99, 28, 120), draw.whole(-15, -26, -10), draw.whole(5, 0, 8))
     others = draw.shuffled([one for pair in zip(good, bad, strict=True) for one in pair])
     orders = (draw.whole(22, 18, 25), *others)
     goals = tuple(Goal(number, 0.5 + number, order) for number, order in enumerate(orders, 1))
@@ -655,9 +668,11 @@ def draw_decisions(draw: Draw) -> Heating:
 def draw_goals(draw: Draw) -> Heating:
     """Draw the goals of a thermostat that cannot be canceled yet."""
     fed = draw_heating(draw)
-    kept = (one for one in fed.goals if not one.is_canceled)
-    goals = tuple(replace(one, number=number) for number, one in enumerate(kept, 1))
-    return replace(fed, goals=goals)
+    return replace(fed, goals=_numbered(one for one in fed.goals if not one.is_canceled))
+
+
+def _numbered(goals: Iterable[Goal]) -> tuple[Goal, ...]:
+    return tuple(replace(one, number=number) for number, one in enumerate(goals, 1))
 
 
 _HEAT, _FIBONACCI = "/heat", "test_msgs/action/Fibonacci"
@@ -694,7 +709,7 @@ class Work(IntEnum):
 def right_thermostat(goal: Goal) -> Track:
     """Return what a right thermostat does about a goal."""
     if not goal.is_good:
-        return {Work.DECISION: ("rejected",), Work.HEATER: ("off",)}
+        return {Work.DECISION: ("rejected",), Work.HEATER: (... if goal.is_early else "off",)}
     return {
         Work.DECISION: ("accepted",),
         Work.SWITCHED_ON: ("yes",),
@@ -810,8 +825,8 @@ class _Heating:
     """Hold what a client got for one goal, and what the heater did.
 
     The tolerances are why this is no plain comparison with a simulated room: a result may begin
-    with the temperature before the heater was on, feedback may skip its last second, and a canceled
-    goal may end before or after the next reading.
+    with the temperature before the heater was on, feedback may skip its last second, a canceled
+    goal may end before or after the next reading, and a warm room need not be read at all.
     """
 
     def __init__(self, seen: Observation, goal: Goal, start: int) -> None:
@@ -834,10 +849,10 @@ class _Heating:
         if next((value for at, value in room if at > goal.at), start) < start:
             # The room lost a degree just before a node that reads first switched the heater on.
             self._right.append([start - 1, start, *self._wanted])
-        if goal.is_canceled:  # the last reading may have come just when the work ended
-            length = len(self._degrees)
-            read = [value for at, value in room if at <= (self.end or 0)]
-            self._right = [read[-length:], read[-length - 1 : -1]]
+        if goal.is_canceled or goal.is_reached:
+            # The last reading may have come just when the work ended.
+            read = [value for at, value in room if goal.at < at <= (self.end or 0)]
+            self._right = [read, read[:-1], [start, *read], [start, *read[:-1]]]
 
     def points(self) -> dict[Work, tuple[Any, str]]:
         """Return what was done at each point, and a sentence about it; `...` if it may be any."""
@@ -875,7 +890,7 @@ class _Heating:
                 f"{right[Work.STATUS][0]}.",
             ),
             Work.DEGREES: (
-                ... if free else self._read(),
+                self._read(),
                 f"The result of the goal {self._goal.order} holds {self._degrees[:8]}; it should "
                 f"hold {self._right[0][:8]}.",
             ),
@@ -896,11 +911,11 @@ class _Heating:
 
     def _read(self) -> str:
         found = self._degrees
-        if not found:
+        if not found and not self._goal.is_reached:
             return "none"
         if found in self._right:
             return "as read"
-        if self._goal.is_canceled:
+        if self._goal.is_canceled or self._goal.is_reached:
             return "others"
         # A heater that was not on for long enough cannot have got so far.
         if found[-1] < self._goal.order and (self.end or 0) < self._goal.at + len(self._wanted):
@@ -920,13 +935,11 @@ class _Heating:
         return [one for one in found if not one or one != self._degrees[: len(one)]]
 
     def left_out(self) -> Diagnosis | None:
-        """Name a reading on the way to the target that is not in the result, or not reported.
-
-        The step that asks for both is exact; the one after it is about the cancel.
-        """
+        """Name a reading on the way to the target that is not in the result, or not reported."""
         if not self._goal.is_good or self._goal.is_canceled or self._goal.is_reached:
             return None
-        heard = [value for at, value in self._room if self._goal.at < at <= (self.end or 0)]
+        read = [one for one in self._room if self._goal.at < one[0] <= (self.end or 0)]
+        heard = [value for _, value in read]
         if self._degrees != heard:
             return Diagnosis(
                 "result-wrong",
@@ -934,14 +947,21 @@ class _Heating:
                 f"result holds {self._degrees[:8]}.",
                 "Every reading since the goal was accepted belongs in the list, also the first.",
             )
-        told = {len(one.data["sequence"]) for one in self._feedback}
-        silent = [value for count, value in enumerate(heard, 1) if count not in told]
-        if silent:
-            return Diagnosis(
-                "feedback-missing",
-                f"There was no feedback after the reading of {silent[0]}.",
-                "After each reading comes a feedback, also after the first and the last one.",
-            )
+        told = [(one.time, len(one.data["sequence"])) for one in self._feedback]
+        for size, (at, value) in enumerate(read, 1):
+            found = [time for time, length in told if length == size and at <= time < at + 1]
+            if not found:
+                return Diagnosis(
+                    "feedback-missing",
+                    f"There was no feedback after the reading of {value}, at {at:g} s.",
+                    "After each reading comes a feedback, also after the first and the last one.",
+                )
+            if len(found) > 1:
+                return Diagnosis(
+                    "wrong-rate",
+                    f"After the reading of {value} there were {len(found)} feedbacks.",
+                    "One feedback after each reading is enough. Which lines publish one?",
+                )
         return None
 
     def _feedback_text(self) -> str:
@@ -968,11 +988,8 @@ def _judge_decisions(seen: Observation, fed: Heating) -> Verdict:
 
 
 def _judge_heating(seen: Observation, fed: Heating) -> Verdict:
-    works = [_Heating(seen, goal, fed.start) for goal in fed.goals]
-    return (
-        _wrong_heating(seen, fed)
-        or next(filter(None, (work.left_out() for work in works)), None)
-        or passed(f"Heated to {fed.goals[0].order}, with a report each second.")
+    return _wrong_heating(seen, fed) or passed(
+        f"Heated to {fed.goals[0].order}, with a report each second."
     )
 
 
@@ -991,6 +1008,9 @@ def _wrong_heating(seen: Observation, fed: Heating) -> Diagnosis | None:
         or _wrong_work(seen, fed, [Work.DECISION])
         or diagnose_unpublished(seen, _HEATER, hint=_SWITCH)
         or _wrong_work(seen, fed, list(Work))
+        or next(
+            filter(None, (_Heating(seen, one, fed.start).left_out() for one in fed.goals)), None
+        )
     )
 
 

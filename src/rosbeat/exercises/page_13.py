@@ -78,8 +78,11 @@ OUTPUTS = {
     "/report": _FLOAT,
 }
 INPUTS = ("/temperature", "/humidity")
-#: Displays that join late: the one of the vent, and the one of the pump.
-_LATE = ("late_vent_display", "late_pump_display")
+#: The parameters of the vent's node.
+_VENT = ("open_above", "close_below")
+#: Topics of actuators, and the display of each that joins late.
+_LATE_DISPLAYS = (("/vent", "late_vent_display"), ("/pump", "late_pump_display"))
+_LATE = tuple(name for _, name in _LATE_DISPLAYS)
 #: Faults after which another trial would say nothing new.
 _HOPELESS = ("DeadlinePassed", "NoSystemError", "SessionError")
 #: Slack for comparisons of times, in seconds.
@@ -108,16 +111,25 @@ class Trials:
 
 
 def observe_vent(answer: Answer, seed: int = PAGE, numbers: Mapping[str, float] = USUAL) -> Trials:
-    """Run a vent alone through the first part of the plain day.
+    """Run a vent alone through the first part of the plain day, and then with other limits.
 
     Args:
         answer: What should be a node class.
         seed: Of the weather.
         numbers: Those of the rubric, by name.
     """
-    day = Weather(numbers, seed).airing
-    sensor = station(SENSORS[0], "temperature", day.temperature)
-    return Trials(dict(numbers), {PLAIN: observe(answer, day.seconds, others=[sensor])})
+    from rosbeat.ros.scenario import SetParameters
+
+    def observe_day(day: Day, step: Any) -> Observation:  # noqa: ANN401 - a step
+        sensor = station(SENSORS[0], "temperature", day.temperature)
+        return observe(answer, day.seconds, others=[sensor], steps=[step])
+
+    days = Weather(numbers, seed)
+    limits = {name: value for name, value in other_limits(numbers, seed).items() if name in _VENT}
+    runs = {PLAIN: observe_day(days.airing, _late_display(days.airing, *_LATE_DISPLAYS[0]))}
+    if not runs[PLAIN].faults:
+        runs[OTHER] = observe_day(days.other, SetParameters(0.5, values=limits))
+    return Trials(dict(numbers), runs)
 
 
 def observe_greenhouse(
@@ -131,11 +143,7 @@ def observe_greenhouse(
         numbers: Those of the rubric, by name.
     """
     days = Weather(numbers, seed)
-    qos = QoS(durability="TRANSIENT_LOCAL", depth=1)
-    late = [
-        adding(days.plain.seconds - 1, listener(name, Wire(topic, _BOOL), qos))
-        for name, topic in zip(_LATE, ("vent", "pump"), strict=True)
-    ]
+    late = [_late_display(days.plain, *one) for one in _LATE_DISPLAYS]
     runs = {PLAIN: _observe_day(answer, days.plain, late)}
     if not _is_hopeless(runs[PLAIN]):
         endings = [
@@ -148,6 +156,12 @@ def observe_greenhouse(
         runs[DROUGHT] = _observe_day(answer, days.drought)
         runs[OTHER] = _observe_day(answer, days.other, parameters=other_limits(numbers, seed))
     return Trials(dict(numbers), runs)
+
+
+def _late_display(day: Day, topic: str, name: str) -> Any:  # noqa: ANN401 - a step
+    """Return a step that adds a display for the last second of a day."""
+    qos = QoS(durability="TRANSIENT_LOCAL", depth=1)
+    return adding(day.seconds - 1, listener(name, Wire(topic, _BOOL), qos))
 
 
 def _observe_day(
@@ -399,16 +413,30 @@ def _judge_vent(trials: Trials, days: Weather) -> Diagnosis | None:
 
 def _judge_vent_alone(trials: Trials, seed: int) -> Verdict:
     seen, days = trials.plain, Weather(matching_rubric(trials.numbers).numbers, seed)
-    early = before_judging(seen)
-    if early:
-        return early
+    for run in trials.runs.values():
+        early = before_judging(run)
+        if early:
+            return early
     count = len(_said(seen, "/vent"))
     return (
         diagnose_unheard(seen, Wire("/temperature", _FLOAT))
         or diagnose_unpublished(seen, Wire("/vent", _BOOL))
         or _wrong_vent(seen, days.airing, days.numbers)
         or _repeated(seen, "/vent")
+        or _limits_not_set(trials.runs[OTHER], days)
+        or _not_stored(seen, *_LATE_DISPLAYS[0])
         or passed(f"{len(days.airing.held)} temperatures, and {count} commands.")
+    )
+
+
+def _limits_not_set(seen: Observation, days: Weather) -> Diagnosis | None:
+    """Say that limits that were set while a vent ran have changed nothing."""
+    replies = [one.data for one in seen.replies if one.word == "parameters"]
+    if not all(one["successful"] for one in replies):
+        evidence = f"open_above and close_below were set, and refused: {replies[0]['reason']}."
+        return Diagnosis("limit-fixed", evidence, "Keep the lines that declare both, as floats.")
+    return _wrong_limits_of_vent(
+        seen, days, "The limits were set to other values half a second after the start."
     )
 
 
@@ -849,20 +877,24 @@ def _repeated(seen: Observation, topic: str) -> Diagnosis | None:
 def _judge_late_joining(trials: Trials, days: Weather) -> Diagnosis | None:
     """Judge R10: a late-joining subscription gets the last command at once."""
     seen = trials.plain
-    for topic, node in zip(("/vent", "/pump"), _LATE, strict=True):
-        quiet = _silent(seen, topic)
-        if quiet:
-            return quiet
-        wanted = str(_switch(seen, topic).at(seen.time))
-        if [line.text for line in seen.logs if line.name == node][-1:] != [wanted]:
-            (end, *_) = seen.graph.on(topic, "publisher")
-            evidence = (
-                f"A display that joined at the end did not hear that {topic} is {wanted}. "
-                f"{end.node} offers {end.qos.durability}, with a depth of {end.qos.depth}."
-            )
-            hint = "Which durability keeps the last message for late-joining subscriptions?"
-            return Diagnosis("first-messages-lost", evidence, hint)
-    return None
+    found = (
+        _silent(seen, topic) or _not_stored(seen, topic, name) for topic, name in _LATE_DISPLAYS
+    )
+    return next(filter(None, found), None)
+
+
+def _not_stored(seen: Observation, topic: str, display: str) -> Diagnosis | None:
+    """Say that a display that joined late did not get the last command on a topic."""
+    wanted = str(_switch(seen, topic).at(seen.time))
+    if [line.text for line in seen.logs if line.name == display][-1:] == [wanted]:
+        return None
+    (end, *_) = seen.graph.on(topic, "publisher")
+    evidence = (
+        f"A display that joined at the end did not hear that {topic} is {wanted}. "
+        f"{end.node} offers {end.qos.durability}, with a depth of {end.qos.depth}."
+    )
+    hint = "Which durability keeps the last message for late-joining subscriptions?"
+    return Diagnosis("first-messages-lost", evidence, hint)
 
 
 # R8, R9 and R11: the work is shared out.
@@ -963,19 +995,29 @@ def _kept_limits(trials: Trials, days: Weather) -> Diagnosis | None:
         return Diagnosis(
             "limit-fixed", evidence, "All three are floats: 28.0 is a float, but 28 isn't."
         )
-    vent, pump = _spans(seen, "/vent"), _spans(seen, "/pump")
+    vent = _wrong_limits_of_vent(
+        seen, days, "The vent was started with other values of open_above and close_below."
+    )
+    if vent or _begins_in_time(_spans(seen, "/pump"), marks["damp"], react):
+        return vent
+    evidence = "The pump was started with another value of dry_below, and went on with the old one."
+    return Diagnosis("limit-fixed", evidence, _ASK_FOR_IT)
+
+
+_ASK_FOR_IT = (
+    "A node declares a parameter with a default, and asks for its value where it needs it."
+)
+
+
+def _wrong_limits_of_vent(seen: Observation, days: Weather, lead: str) -> Diagnosis | None:
+    """Name a vent that does not use its other limits; `lead` says how it was told of them."""
+    vent, marks, react = _spans(seen, "/vent"), days.other.marks, days.numbers["react_seconds"]
     if len(vent) != 1 or not _begins_in_time(vent, marks["warm"], react):
-        evidence = "The vent was started with other values of open_above and close_below. It went"
-        evidence += " on with the old ones."
-    elif not marks["cool"] <= vent[0][1] <= marks["cool"] + react + _EPS:
+        return Diagnosis("limit-fixed", f"{lead} The vent went on with the old ones.", _ASK_FOR_IT)
+    if not marks["cool"] <= vent[0][1] <= marks["cool"] + react + _EPS:
         evidence = "With another value of close_below the vent did not close as it should."
-    elif not _begins_in_time(pump, marks["damp"], react):
-        evidence = "The pump was started with another value of dry_below, and went on with "
-        evidence += "the old one."
-    else:
-        return None
-    hint = "A node declares a parameter with a default, and asks for its value where it needs it."
-    return Diagnosis("limit-fixed", evidence, hint)
+        return Diagnosis("limit-fixed", evidence, _ASK_FOR_IT)
+    return None
 
 
 # From the requirements to an outcome.

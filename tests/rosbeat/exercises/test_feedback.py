@@ -63,7 +63,7 @@ TOLD = [
     ("04b", (" or msg.data < 20.0", ""), "No alert for a reading of 0. Low readings"),
     ("04b", (_SEND, f"[{_SEND} for _ in 'ab']"), "20 alerts for 10"),
     ("04b", ('"alert"', '"alerts"'), "The node publishes on /alerts"),
-    ("04c", ("[-5:]", "[-4:]"), "of the last five it is 24.001. The last readings were 22, 25.5"),
+    ("04c", ("[-5:]", "[-4:]"), "of the last five it is 23.900. The last readings were 25.5, 22"),
     ("04c", ("[-5:]", "[-4:]"), "It is the mean of the last 4 readings."),
     ("04d", ("value >= 25.0", "value >= 24.0"), "far enough back"),
     ("04d", ("String(data=self.status))", "String(data=self.status)) if msg.data else None"),
@@ -76,18 +76,18 @@ TOLD = [
     ("04b", (_SEND, f"{_SEND}\n            return\n        self.alerts."
              "publish(String(data='OK'))"), "'OK' was published on /alert for a reading of 22."),
     ("04b", ("msg.data < 20.0", "20.0"), "each side of `or` needs a comparison of its own"),
-    ("08a", ("!= self.mode", "!= 'idle'"), "At 2 s the node published 'drive' on /mode; nothing "
+    ("08a", ("!= self.mode", "!= 'idle'"), "At 2 s the node published 'driveOn' on /mode; nothing "
      "was due."),
     ("08a", ("depth=1,", "depth=3,"), "offers RELIABLE, TRANSIENT_LOCAL, a depth of 3"),
     ("08b", ("depth=16", "depth=15"), "1 of 40 readings are missing there; the node was away from "
      "5.5 s to 13.5 s."),
     ("08b", ('(Float32, "reading"', '(String, "reading"'),
      "On /reading, your node uses String and the other side Float32."),
-    ("08c", ("seconds=2", "seconds=3"), "Message 1 on /missed was 1, at 9 s; 1 was due, at 8 s. "
+    ("08c", ("seconds=2", "seconds=3"), "Message 1 on /missed was 1, at 13 s; 1 was due, at 12 s. "
      "Your subscription has a deadline of 3 s."),
     ("08c", ("data=self.count", "data=event.total_count"), "total_count is never reset"),
-    ("09a", ("timer(3.0", "timer(5.0"), "Lost was due, and the node said lost at 17 s."),
-    ("09a", ("timer(3.0", "timer(2.0"), "Nothing was due, and the node said lost at 9.25 s."),
+    ("09a", ("timer(3.0", "timer(5.0"), "Lost was due, and the node said lost at 11.5 s."),
+    ("09a", ("timer(3.0", "timer(2.0"), "Lost was due, and the node said lost at 8.5 s."),
     ("09a", ('self.statuses.publish(String(data="back"))', "pass"),
      "Back was due, and the node said nothing."),
     ("09b", ("create_timer(3.0", "create_timer(3.4"), "order 7 was done at 5.9 s"),

@@ -88,10 +88,13 @@ def test_a_goal_is_over_before_the_next_one_and_a_canceled_one_does_not_reach_it
     """The room loses a degree in five seconds, so a right thermostat may take a bit longer."""
     (fed,) = EXERCISES["12e"].inputs(seed)
     assert (fed.goals != HEATING.goals) == bool(seed)
-    first, canceled, *others = fed.goals
+    first, early, canceled, *others = fed.goals
     last, warm_until = others[-1], first.at + first.order - fed.start
     coldest = first.order - (last.at - warm_until) // 5
     assert 10 < coldest < first.order
+    assert early.is_early
+    assert not early.is_good
+    assert first.at < early.at < warm_until
     assert canceled.at - first.at > first.order - (fed.start - first.at // 5) + 2
     assert canceled.cancel_after + 1 < canceled.order - first.order
     assert all(later.at - one.at >= 2 for one, later in pairwise(others))
