@@ -11,10 +11,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import psutil
 import pytest
 
-from bank.class_of_learners import hand_in
 from rosbeat import cli
 from rosbeat.errors import CommandError, GradingError, StoppedError
 from rosbeat.grading import commands, options
@@ -27,7 +25,7 @@ from rosbeat.grading.commands import (
     note_options,
 )
 from rosbeat.grading.jobs import Evidence
-from rosbeat.grading.ledger import FILE, SEED_FILE
+from rosbeat.grading.ledger import FILE
 from rosbeat.grading.review import ReviewServer
 from small_course import PAGES, small_course
 
@@ -422,6 +420,7 @@ def test_whoever_stops_it_hears_what_is_kept(course, workers, typed, tmp_path, m
         with pytest.raises(StoppedError) as caught:
             typed()
     says(caught.value, "1 of 2 answers are judged and kept", "the same options")
+    assert not (tmp_path / "out/results.json").exists()
     said = typed().err
     assert "2 different answers, 1 of them judged already" in said
     assert len(workers.jobs) == 2
@@ -438,63 +437,6 @@ def test_a_class_of_120_is_not_observed_twice(course, workers, typed, tmp_path):
     typed()
     assert len(workers.jobs) == 120
     assert files_of(tmp_path / "out") == before
-
-
-# For real.
-
-
-def start(folder, out):
-    return subprocess.Popen(
-        [sys.executable, "-m", "rosbeat", "grade", str(folder), "--out", str(out),
-         "--lessons", "04", "--workers", "2"],
-        cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-
-
-def keys(out):
-    """Keys of the answers that have been judged, in order."""
-    try:
-        lines = (out / FILE).read_bytes().split(b"\n")[:-1]
-    except FileNotFoundError:
-        return []
-    return [json.loads(line)[1]["key"] for line in lines]
-
-
-@pytest.mark.ros
-def test_a_class_goes_on_where_it_was_killed(tmp_path, eventually):
-    hand_in(tmp_path / "class", 12)
-    killed, plain = tmp_path / "killed", tmp_path / "plain"
-    first = start(tmp_path / "class", killed)
-    eventually(lambda: len(keys(killed)) >= 6, 60)
-    workers = psutil.Process(first.pid).children(recursive=True)
-    os.kill(first.pid, signal.SIGKILL)
-    first.wait()
-    before = keys(killed)
-    assert not (killed / "results.json").exists()
-    eventually(lambda: not any(is_alive(one) for one in workers))
-    assert start(tmp_path / "class", killed).wait(100) == 0
-    plain.mkdir()
-    (plain / SEED_FILE).write_bytes((killed / SEED_FILE).read_bytes())
-    assert start(tmp_path / "class", plain).wait(100) == 0
-    after = keys(killed)
-    assert after[: len(before)] == before
-    assert len(before) < len(after) == len(set(after))
-    assert sorted(after) == sorted(keys(plain))
-    for name in ("results.json", "grades.csv", "class.html"):
-        assert (killed / name).read_bytes() == (plain / name).read_bytes()
-    found = {one["status"] for learner in results_of(plain) for one in learner["marks"]}
-    assert found >= {"passed", "failed"}
-
-
-def is_alive(process):
-    try:
-        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
-    except psutil.NoSuchProcess:
-        return False
-
-
-def results_of(out):
-    return json.loads((out / "results.json").read_text())["learners"]
 
 
 # Options of the last time, by themselves.
