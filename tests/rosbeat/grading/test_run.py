@@ -923,13 +923,13 @@ def graded_for_real():
     ids=["interrupted", "goes on"],
 )  # fmt: skip
 def test_the_clock_of_a_learner_runs_on(loop, how, raised, monkeypatch):
-    """Three endless answers, and the fourth has little time; see `hostile.brief_worker`."""
+    """Endless answers use up the time, and the second one has less; see `hostile.brief_worker`."""
     monkeypatch.setattr(module, "_MODULE", "hostile.brief_worker")
     monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
-    texts = [*(f"while True:\n    {loop.format(n)}" for n in range(4)), RIGHT]
+    idle = "__import__('time').sleep(0.0{})"  # the processors are for other tests
+    texts = [*(f"while True:\n    {loop.format(idle.format(n))}" for n in (1, 2)), RIGHT]
     with Pool(1) as pool:
         found = dict(pool.observe([[(n, answer(text)) for n, text in enumerate(texts)]]))
-    assert [found[n].how for n in range(5)] == [*([how] * 4), "ended"]
-    assert {found[n].raised for n in range(4)} == {raised}
-    assert found[4].raised == ""
-    assert found[3].seconds < found[0].seconds
+    assert [found[n].how for n in range(3)] == [how, how, "ended"]
+    assert [found[n].raised for n in range(3)] == [raised, raised, ""]
+    assert found[1].seconds < found[0].seconds
