@@ -44,7 +44,7 @@ def shells():
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:
         yield process
-        process.stdin.close()
+        process.kill()
 
 
 @pytest.fixture
