@@ -1,6 +1,7 @@
 """Deadlines, lifespans and stored messages, in virtual time and as Fast DDS has them."""
 
 import threading
+from types import SimpleNamespace
 
 import pytest
 import rclpy
@@ -21,11 +22,7 @@ from nodes import Listener, Talker
 from rosbeat import Session
 from rosbeat.records import NANOSECONDS, QoS
 from rosbeat.records_json import digest
-from rosbeat.ros.qos_events import (
-    event_name,
-    limit_ns,
-    topic_of,
-)
+from rosbeat.ros.qos_events import event_name, limit_ns, topic_of, wait_for_stored
 from rosbeat.ros.scenario import Publish, observe
 from rosbeat.ros.test_nodes import feeder, profile
 
@@ -551,6 +548,28 @@ def test_what_was_taken_early_is_heard_in_real_time(ros, unacknowledged):
     unacknowledged.beat(4)
     assert ros.wait(10, until=lambda: len(nurse.heard) > 1)
     assert nurse.heard == [3, 4]
+
+
+class Tap:
+    """A publisher that has delivered when it was asked so many times."""
+
+    def __init__(self, asked_before_it_has=0, stores=True):
+        self.left, self.stores = asked_before_it_has, stores
+
+    def stores_for(self, qos):
+        assert qos is STORED
+        return self.stores
+
+    def has_delivered(self):
+        self.left -= 1
+        return self.left < 0
+
+
+def test_each_publisher_that_stores_something_is_waited_for():
+    taps = [Tap(3), Tap(5, stores=False), Tap(0), Tap(2)]
+    wait_for_stored(taps, SimpleNamespace(entity=SimpleNamespace(qos_profile=STORED)))
+    assert [tap.stores and tap.left < 0 for tap in taps] == [True, False, True, True]
+    assert taps[1].left == 5
 
 
 # What the middleware is given of a deadline and a lifespan, and what everybody else sees.
