@@ -370,7 +370,11 @@ TEXTS = (
         """)),
 )  # fmt: skip
 
-STYLES = (*MAGICS, *IMPORTS, *CLASSES, *TEXTS)
+NAMES = (
+    Style("names of C code", "import ctypes\nimport gc"),
+    Style("a display of all names", below="display(vars())"),
+)
+STYLES = (*MAGICS, *IMPORTS, *CLASSES, *TEXTS, *NAMES)
 
 
 # Answers that are built in an unusual way.

@@ -25,7 +25,7 @@ from rosbeat.grading.linux import REFUSED, number_of
 from rosbeat.grading.sandbox import Limits, Sandbox, View, become_able, python_folders
 
 #: Seconds of those that nothing but the deadline ends, and of all others on a busy machine.
-SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (2.0, 15.0))
+SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (1.0, 15.0))
 #: A folder that is shown, and one of which only one file is.
 SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat {one} Ü {os.getpid()}") for one in "ab")
 SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{os.getpid()}")

@@ -16,7 +16,7 @@ from rosbeat.records import Outcome
 from rosbeat.ros.scenario import observe
 
 #: Mistakes that a deadline finds out, and the seconds until then; a page has more patience.
-_ENDLESS, _PATIENCE = {"callback-blocks", "constructor-blocks"}, 2.0
+_ENDLESS, _PATIENCE = {"callback-blocks", "constructor-blocks"}, 1.0
 
 
 def namespace_of(exercise: str, text: str, name: str) -> dict[str, Any]:

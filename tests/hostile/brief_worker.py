@@ -8,7 +8,8 @@ from rosbeat.grading import worker
 
 def main(options):
     """Answer jobs, with other limits."""
-    worker.WALL, worker.LOST_AT_MOST, worker.PATIENCE = 5.0, 10.0, 0.6
+    worker.WALL, worker.LOST_AT_MOST = 3.5, 5.0
+    worker.HURRIED, worker.PATIENCE = 1 / 3, 0.8
     # To use up a whole gigabyte takes a busy machine seconds; an answer needs less than 50 MB.
     worker.Limits = partial(worker.Limits, memory=200 * 1_000_000)
     prepare = worker.prepare

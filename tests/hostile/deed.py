@@ -1,5 +1,6 @@
 """What one hostile submission is, and the answers that the attacks are wrapped around."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from textwrap import dedent, indent
 
@@ -40,14 +41,15 @@ class Upload:
 
     Attributes:
         name: What it tries.
-        files: Content by path in the learner's folder.
+        files: Content by path in the learner's folder, or what makes it if that takes long: every
+            process that collects tests would wait for it.
         status: What the mark of 03a has to be.
         words: What the remarks or the cause have to say.
         folder: The name of the learner's folder; made from `name` if empty.
     """
 
     name: str
-    files: dict[str, bytes]
+    files: Mapping[str, bytes | Callable[[], bytes]]
     status: str = "missing"
     words: str = ""
     folder: str = ""

@@ -83,7 +83,7 @@ def _files_of(deed, places):
 def _write(folder, files):
     os.makedirs(folder, exist_ok=True)
     for name, content in files.items():
-        (folder / name).write_bytes(content)
+        (folder / name).write_bytes(content() if callable(content) else content)
 
 
 __all__ = ["DEEDS", "FRIDGE", "HONEST", "UPLOADS", "Upload", "hand_in", "large", "placed"]

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 import rclpy
 from rcl_interfaces.msg import Log
-from rclpy.duration import Duration, Infinite
+from rclpy.duration import Duration
 from rclpy.event_handler import (
     PublisherEventCallbacks,
     QoSOfferedDeadlineMissedInfo,
@@ -22,15 +22,7 @@ from nodes import Listener, Talker
 from rosbeat import Session
 from rosbeat.records import NANOSECONDS, QoS
 from rosbeat.records_json import digest
-from rosbeat.ros.qos_events import (
-    STRETCH,
-    as_written,
-    event_name,
-    limit_ns,
-    make_stretched,
-    topic_of,
-    wait_for_stored,
-)
+from rosbeat.ros.qos_events import event_name, limit_ns, topic_of, wait_for_stored
 from rosbeat.ros.scenario import Publish, observe
 from rosbeat.ros.test_nodes import feeder, profile
 
@@ -583,67 +575,26 @@ def test_each_publisher_that_stores_something_is_waited_for():
 # What the middleware is given of a deadline and a lifespan, and what everybody else sees.
 
 
-class Made:
-    """An endpoint that remembers what the middleware was given."""
+@pytest.mark.parametrize("limit", [0.000_000_001, 0.001, 86400.0 * 365])
+def test_limits_read_as_written_wherever_the_profile_is_handed_over(ros, limit):
+    mine = quality(limit, limit)
 
-    def __init__(self, *args, **named):
-        self.args, self.qos_profile = args, named.get("qos_profile", args[-1] if args else None)
-        self.given = self.qos_profile.get_c_qos_profile().to_dict()
+    class Holder(Node):
+        def __init__(self):
+            super().__init__("holder")
+            self.ends = (
+                self.create_publisher(Int32, TOPIC, mine),
+                self.create_publisher(Int32, TOPIC, qos_profile=mine),
+                self.create_subscription(Int32, TOPIC, print, mine),
+                self.create_subscription(Int32, TOPIC, print, qos_profile=mine),
+            )
 
-
-def c_side(profile):
-    """What the middleware gets of a profile when an endpoint is made of it."""
-    told = make_stretched(Made, "publisher", (None, "x", profile), {}).given
-    return told["deadline"].nanoseconds, told["lifespan"].nanoseconds
-
-
-@pytest.mark.parametrize(
-    ("limit", "found"),
-    [(Duration(seconds=0.5), 500_000_000), (Duration(), 0), (Infinite, 0)],
-)
-def test_no_limit_is_zero(limit, found):
-    assert limit_ns(limit) == found
-
-
-def test_the_middleware_gets_three_years_more():
-    assert c_side(quality(0.5, 0.25)) == (STRETCH + 500_000_000, STRETCH + 250_000_000)
-
-
-def test_the_order_of_deadlines_is_kept_and_no_limit_stays_none():
-    limits = (0.000_000_001, 0.001, 1.0, 3600.0, 86400.0 * 365)
-    deadlines = [c_side(quality(limit))[0] for limit in limits]
-    assert deadlines == sorted(set(deadlines))
-    assert c_side(quality(0.5))[1] == c_side(quality(0.0, 1.0))[0] == 0
-    assert c_side(quality(10.0**9))[0] == 2 * STRETCH  # more than the middleware can count
-
-
-@pytest.mark.parametrize(("kind", "place"), [("publisher", 2), ("subscription", 3)])
-def test_the_profile_is_found_by_place_and_by_name(kind, place):
-    mine = quality(0.5)
-    args = (*([None] * place), mine)
-    for made in (
-        make_stretched(Made, kind, args, {}),
-        make_stretched(Made, kind, (), {"qos_profile": mine}),
-    ):
-        assert made.given["deadline"].nanoseconds == STRETCH + 500_000_000
-        assert made.qos_profile == mine == quality(0.5)
-
-
-@pytest.mark.parametrize(
-    ("kind", "args"),
-    [("publisher", (None, "x", 10)), ("publisher", (None, "x", quality())),
-     ("publisher", (None,)), ("timer", (1.0, quality(0.5), quality(0.5)))],
-)  # fmt: skip
-def test_what_needs_no_stretching_is_left_alone(kind, args):
-    given = []
-
-    def make(*args):
-        given.extend(args)
-        return SimpleNamespace(qos_profile=args[-1])
-
-    made = make_stretched(make, kind, args, {})
-    assert all(one is other for one, other in zip(given, args, strict=True))
-    assert made.qos_profile == args[-1]
+    node = ros.add(Holder)
+    assert [one.qos_profile for one in node.ends] == [mine] * 4 == [quality(limit, limit)] * 4
+    told = (*node.get_publishers_info_by_topic(TOPIC), *node.get_subscriptions_info_by_topic(TOPIC))
+    limits = {(limit_ns(one.qos_profile.deadline), limit_ns(one.qos_profile.lifespan))
+              for one in told}  # fmt: skip
+    assert limits == {(limit_ns(mine.deadline), limit_ns(mine.lifespan))}
 
 
 def test_a_profile_that_is_changed_afterwards_changes_nothing(ros):
@@ -673,14 +624,6 @@ def test_what_the_middleware_tells_a_node_is_what_was_written(ros):
     assert one.qos_profile.deadline == Duration(seconds=0.5)
     assert limit_ns(one.qos_profile.lifespan) == 0
     assert other.qos_profile.lifespan == Duration(seconds=2.0)
-
-
-def test_a_real_limit_below_three_years_is_not_touched():
-    class Info:
-        qos_profile = quality(86400.0 * 365)
-
-    (info,) = as_written([Info])
-    assert info.qos_profile.deadline == Duration(seconds=86400 * 365)
 
 
 def test_a_node_outside_of_a_session_is_not_stretched(ros, empty_domain):

@@ -72,13 +72,13 @@ class Busy(Node):
 
 
 def test_slow_calls_get_more_time_than_an_endless_one():
-    observation = observe(partial(Busy, 10, 0.45), 0.02, deadline=4)
+    observation = observe(partial(Busy, 10, 0.25), 0.02, deadline=2)
     assert observation.faults == ()
     assert len([one for one in observation.callbacks if one.name == "tick"]) == 20
 
 
 def test_what_is_slow_for_ever_is_not_said_to_be_endless():
-    fault = observe(partial(Busy, 10_000, 0.05), 10, deadline=2).faults[-1]
+    fault = observe(partial(Busy, 10_000, 0.05), 10, deadline=1).faults[-1]
     assert re.fullmatch(r"\d+ calls of callbacks took \d+ s", fault.text)
     assert fault.callback == "tick"
 
@@ -90,8 +90,8 @@ def test_an_endless_call_after_many_quick_ones_is_endless():
             while self.left < 0:
                 pass
 
-    fault = observe(partial(Late, 3, 0.1), 10, deadline=2).faults[-1]
-    assert (fault.callback, fault.text) == ("tick", "still running after 2 s")
+    fault = observe(partial(Late, 3, 0.1), 10, deadline=1).faults[-1]
+    assert (fault.callback, fault.text) == ("tick", "still running after 1 s")
 
 
 def test_a_feeder_publishes_one_value_a_second_and_then_falls_silent():

@@ -56,7 +56,7 @@ def test_a_cell_that_ends_the_kernel_or_never_ends_is_told(saved, capsys, monkey
     said = capsys.readouterr().out
     assert said.count("not checked. A cell above has ended the kernel") == 3
     monkeypatch.setattr(check_command, "SECONDS", 15.0)
-    path = saved(a="while True:\n    pass", b=answer_to("03b"))
+    path = saved(a="import time\nwhile True:\n    time.sleep(1)", b=answer_to("03b"))
     assert cli.main(["check", path]) == cli.FAILED
     said = capsys.readouterr().out
     assert "Exercise 03a: not checked. NameError" in said

@@ -1,31 +1,67 @@
 """Names that no cell has defined, as a page shows them after a restart of the kernel."""
 
+import json
 import subprocess
 import sys
 
 import pytest
 
-SHELL = """
+#: Each line of its input is a kernel's cells: a fork runs them, and the next line waits for it.
+SHELLS = """
+import json
+import os
 import sys
+
+import numpy
+import rclpy.node
+import std_msgs.msg
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-settings = Config()
-settings.InteractiveShell.colors = "NoColor" if sys.version_info < (3, 11) else "nocolor"
-settings.HistoryManager.enabled = False
-shell = InteractiveShell.instance(config=settings)
-for cell in sys.argv[1:]:
-    shell.run_cell(cell)
+for line in sys.stdin:
+    if os.fork():
+        _, status = os.wait()
+        print("\\0", status, flush=True)
+        continue
+    settings = Config()
+    settings.InteractiveShell.colors = "NoColor" if sys.version_info < (3, 11) else "nocolor"
+    settings.HistoryManager.enabled = False
+    shell = InteractiveShell.instance(config=settings)
+    for cell in json.loads(line):
+        shell.run_cell(cell)
+    sys.stdout.flush()
+    os._exit(0)
 """
 IMPORTS = "from rosbeat import Session, check"
 ABOVE = "hoose Run, Run All Above Selected Cell in the menu."
 
 
-def shown(*cells):
-    """What the cells of a new kernel show."""
-    done = subprocess.run([sys.executable, "-c", SHELL, *cells], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+@pytest.fixture(scope="module")
+def shells():
+    """A process that has imported what takes long, and nothing of rosbeat."""
+    command = [sys.executable, "-c", SHELLS]
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
+        yield process
+        process.kill()
+
+
+@pytest.fixture
+def shown(shells):
+    """Return what the cells of a new kernel show."""
+
+    def show(*cells):
+        shells.stdin.write(json.dumps(cells) + "\n")
+        shells.stdin.flush()
+        lines = []
+        while not (line := shells.stdout.readline()).startswith("\0"):
+            assert line, "the process that starts kernels has ended"
+            lines.append(line)
+        assert line == "\0 0\n", "".join(lines)
+        return "".join(lines)
+
+    return show
 
 
 @pytest.mark.parametrize("cell", [
@@ -33,7 +69,7 @@ def shown(*cells):
     "def make():\n    return HumiditySensor()\nmake()",
     "class Sensor:\n    kind = HumiditySensor",
 ])  # fmt: skip
-def test_a_name_of_an_earlier_cell_says_which_cells_to_run(cell):
+def test_a_name_of_an_earlier_cell_says_which_cells_to_run(cell, shown):
     told = shown(IMPORTS, cell)
     assert told.rstrip().endswith(
         "NameError: name 'HumiditySensor' is not defined\n"
@@ -44,7 +80,7 @@ def test_a_name_of_an_earlier_cell_says_which_cells_to_run(cell):
     assert told.count("NameError: name") == 1
 
 
-def test_a_misspelled_name_is_compared_with_the_names_of_the_page():
+def test_a_misspelled_name_is_compared_with_the_names_of_the_page(shown):
     assert f"What to try:   Did you mean `Session`? If not, c{ABOVE}" in shown(IMPORTS, "Sesion()")
 
 
@@ -60,7 +96,7 @@ def test_a_misspelled_name_is_compared_with_the_names_of_the_page():
     ("int('x')", "The cell stopped at the line that is marked"),
     ("import json\njson.loads('{')", "Compare that line with the page."),
 ])  # fmt: skip
-def test_other_errors_say_what_they_mean_and_what_to_try(cell, said):
+def test_other_errors_say_what_they_mean_and_what_to_try(cell, said, shown):
     told = shown(IMPORTS, cell)
     last = told.rstrip().splitlines()[-2:]
     assert [one[:17] for one in last] == ["  What it means: ", "  What to try:   "]
@@ -73,11 +109,11 @@ def test_other_errors_say_what_they_mean_and_what_to_try(cell, said):
     "import string\nexec('nothing', vars(string))",
     "get_ipython().run_line_magic('nothing', '')",
 ])  # fmt: skip
-def test_a_blank_and_what_other_code_does_are_as_they_were(cell):
+def test_a_blank_and_what_other_code_does_are_as_they_were(cell, shown):
     assert "What to try" not in shown(IMPORTS, cell)
 
 
-def test_a_broken_module_is_not_taken_for_the_cell(tmp_path):
+def test_a_broken_module_is_not_taken_for_the_cell(tmp_path, shown):
     (tmp_path / "broken.py").write_text("def f(:\n")
     told = shown(IMPORTS, f"import sys\nsys.path.insert(0, {str(tmp_path)!r})", "import broken")
     assert "none of its lines ran" not in told
@@ -85,18 +121,18 @@ def test_a_broken_module_is_not_taken_for_the_cell(tmp_path):
     assert "The cell stopped at the line that is marked" in told
 
 
-def test_an_error_that_is_raised_again_is_explained_once_each_time():
+def test_an_error_that_is_raised_again_is_explained_once_each_time(shown):
     told = shown(IMPORTS, "kept = ValueError('kept')", "raise kept  # one", "raise kept  # two")
     first, second = told.split("# one", 1)[1].split("# two", 1)
     assert first.count("What to try") == 1
     assert second.count("What to try") == 1
 
 
-def test_an_error_of_the_course_has_its_own_two_lines():
+def test_an_error_of_the_course_has_its_own_two_lines(shown):
     assert shown(IMPORTS, "check('99z')").count("What to try") == 1
 
 
-def test_a_handler_that_was_there_stays():
+def test_a_handler_that_was_there_stays(shown):
     mine = "def mine(shell, kind, error, trace, tb_offset=None):\n    print('mine:', error)"
     install = "get_ipython().set_custom_exc((NameError,), mine)"
     assert "mine: name 'nothing' is not defined" in shown(mine, install, IMPORTS, "nothing")

@@ -4,6 +4,7 @@ Whatever happens, the command is run once more, and `grades.csv` has the bytes o
 has disturbed. `--thorough` tries more moments and more kinds of damage.
 """
 
+import json
 import os
 import shutil
 import signal
@@ -38,6 +39,8 @@ class Class:
         self.plain = folder / "plain"
         self.grade(self.plain)
         self.judged = len(judged(self.plain))
+        learners = json.loads((self.plain / "results.json").read_text())["learners"]
+        assert {"passed", "failed"} <= {one["status"] for each in learners for one in each["marks"]}
 
     def start(self, out):
         """Begin to grade into a folder."""
@@ -79,6 +82,15 @@ def judged(out):
     with suppress(FileNotFoundError):
         return (out / FILE).read_bytes().splitlines(keepends=True)
     return []
+
+
+def keys(out):
+    """The keys of the answers that have been judged, in order; a line may be broken off."""
+    found = []
+    for line in judged(out):
+        with suppress(ValueError):
+            found.append(json.loads(line)[1]["key"])
+    return found
 
 
 # Killed.
@@ -164,7 +176,12 @@ def test_whatever_is_killed_the_grades_are_the_same(graded, seed):
     kinds = random.sample(list(KINDS), len(KINDS))
     out = graded.new(f"killed-{seed}")
     assert killed_in_turn(graded, out, kinds, random) == kinds
+    before = keys(out)
     graded.require_same(out)
+    after = keys(out)
+    assert after[: len(before)] == before
+    assert len(after) == len(set(after))
+    assert set(after) == set(keys(graded.plain))
 
 
 @pytest.mark.parametrize(

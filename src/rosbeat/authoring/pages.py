@@ -1,8 +1,8 @@
 """Build the two trees of pages by applying a list of transformations to each lesson.
 
-A transformation takes a page, changes it and returns it; the lists are in `notebook_page`,
-`solution_draft` and `solution_page`. Until the last step, cells carry working notes in their
-metadata: the line of the source, and the tree that they belong to.
+A transformation takes a page, changes it and returns it; the lists are in `notebook_page`
+and `solution_page`. Until the last step, cells carry working notes in their metadata: the line of
+the source, and the tree that they belong to.
 """
 
 from __future__ import annotations
@@ -66,25 +66,6 @@ def notebook_page(
         LessonError: An answer marker is wrong.
     """
     steps = [keep_cells_of("notebook"), rewrite(with_blanks), link_neighbours(lesson, lessons)]
-    return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
-
-
-def solution_draft(
-    lesson: Lesson,
-    points: Mapping[str, int] = NO_POINTS,
-    lessons: Sequence[Lesson] = (),
-) -> NotebookNode:
-    """Make the solution page without running it.
-
-    Args:
-        lesson: The lesson source.
-        points: What each exercise is worth, by its id.
-        lessons: All lessons of the course, in order.
-
-    Raises:
-        LessonError: An answer marker is wrong.
-    """
-    steps = [keep_cells_of("solution"), rewrite(with_answers), link_neighbours(lesson, lessons)]
     return _apply(lesson, [*steps, mark_for_nbgrader(points), keep_known_metadata])
 
 

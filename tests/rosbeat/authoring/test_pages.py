@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -16,12 +17,15 @@ from nbformat import v4
 
 from rosbeat.authoring import pages
 from rosbeat.authoring.lint import check_lessons
-from rosbeat.authoring.pages import notebook_page, solution_draft
+from rosbeat.authoring.pages import notebook_page, solution_page
 from rosbeat.authoring.source import Course, read_lesson
 from rosbeat.errors import LessonError
 
 GOLDEN = Course(Path(__file__).parents[2] / "golden")
 NAME = "00_hear_a_pulse.ipynb"
+
+#: The solution page of a lesson, without running it.
+solution_draft = partial(solution_page, folder=Path(), fresh=True, run=lambda page: page)
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +52,7 @@ def test_one_changed_sentence_is_one_changed_line_in_each_page(lesson, tmp_path)
     source = tmp_path / lesson.path.name
     source.write_text(lesson.path.read_text().replace(old, new))
     other = read_lesson(source)
-    for make in (pages.notebook_page, pages.solution_draft):
+    for make in (pages.notebook_page, solution_draft):
         before, after = (pages.to_bytes(make(x)).splitlines() for x in (lesson, other))
         changed = [pair for pair in zip(before, after, strict=True) if pair[0] != pair[1]]
         assert len(changed) == 1
@@ -244,7 +248,7 @@ def told(page):
 
 @pytest.mark.parametrize("make", [notebook_page, solution_draft])
 def test_answers_are_solutions_and_checks_give_the_points(checkout, make):
-    page = make(checkout.lesson(GRADED), {"00a": 4})
+    page = make(checkout.lesson(GRADED), points={"00a": 4})
     check = {**NOTHING, "grade": True, "locked": True}
     assert told(page) == [
         {**NOTHING, "solution": True, "grade_id": "00a"},

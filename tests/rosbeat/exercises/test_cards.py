@@ -60,12 +60,12 @@ def test_points_are_told_if_there_are_several_and_something_was_tried():
     assert "point" not in str(Shown(Outcome("03a", "not attempted", "", "", "", 0, 2)))
 
 
-@pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_known_mistake_is_named(mistake):
-    for view in views(failed("03a", "Nothing.", "Look.", mistake)):
-        assert "Mistake:" in view
-        assert MISTAKES[mistake].title.split("'")[0] in view
-        assert "recognize this mistake" not in view
+def test_a_known_mistake_is_named():
+    for mistake, known in MISTAKES.items():
+        for view in views(failed("03a", "Nothing.", "Look.", mistake)):
+            assert "Mistake:" in view
+            assert known.title.split("'")[0] in view
+            assert "recognize this mistake" not in view
 
 
 @pytest.mark.parametrize("mistake", ["new-to-me", "", "a-name-that-nobody-knows"])

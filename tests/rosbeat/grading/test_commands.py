@@ -11,23 +11,19 @@ import subprocess
 import sys
 from pathlib import Path
 
-import psutil
 import pytest
 
-from bank.class_of_learners import hand_in
 from rosbeat import cli
 from rosbeat.errors import CommandError, GradingError, StoppedError
 from rosbeat.grading import commands, options
 from rosbeat.grading.commands import (
     LAST_RUN,
     WAITS,
-    changes,
     choose_pages,
     find_checkout,
-    note_options,
 )
 from rosbeat.grading.jobs import Evidence
-from rosbeat.grading.ledger import FILE, SEED_FILE
+from rosbeat.grading.ledger import FILE
 from rosbeat.grading.review import ReviewServer
 from small_course import PAGES, small_course
 
@@ -357,11 +353,11 @@ def test_a_class_can_be_reviewed_when_it_is_graded(course, workers, typed, monke
 def test_an_option_that_was_left_out_is_noticed(course, workers, typed, tmp_path):
     points = tmp_path / "points.csv"
     points.write_text("exercise,points\n03a,7\n")
-    with_options = ("--due", "2001-01-01", "--points", points)
+    with_options = ("--due", "2001-01-01 18:00", "--points", points)
     assert "Other options" not in typed(*with_options).err
     assert "Other options" not in typed(*with_options).err
     (line,) = [one for one in typed().err.splitlines() if "Other options" in one]
-    assert f"Last time: --due 2001-01-01, --points {points}; now without" in line
+    assert f"Last time: --due '2001-01-01 18:00', --points {points}; now without" in line
     assert "now --lessons 03." in typed("--lessons", "3").err
     assert "Other options" not in typed("--lessons", "03").err
 
@@ -371,6 +367,32 @@ def test_a_run_that_is_refused_does_not_count_as_the_last_one(course, workers, t
     with pytest.raises(GradingError):
         typed("--points", "/no/such.csv")
     assert "Other options" not in typed("--due", "2001-01-01").err
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", "null", "7", "{}", '{"options": []}', "[" * 100_000, "\udcff"],
+    ids=range(9),
+)
+def test_options_of_the_last_time_that_cannot_be_read_stop_nothing(
+    course, workers, typed, tmp_path, text
+):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / LAST_RUN).write_text(text, errors="surrogateescape")
+    assert f"{LAST_RUN} cannot be read" in typed().err
+    assert "cannot be read" not in typed().err
+
+
+def test_what_somebody_has_put_among_them_cannot_reach_the_terminal(
+    course, workers, typed, tmp_path
+):
+    typed()
+    path = tmp_path / "out" / LAST_RUN
+    made = json.loads(path.read_text())
+    path.write_text(json.dumps(made | {"options": {"due": "\x1b[31m", "\x1b[32m": "x"}}))
+    said = typed().err
+    assert "Other options than last time! Last time: --" in said
+    assert "\x1b" not in said
 
 
 # What is no class, and no folder.
@@ -422,6 +444,7 @@ def test_whoever_stops_it_hears_what_is_kept(course, workers, typed, tmp_path, m
         with pytest.raises(StoppedError) as caught:
             typed()
     says(caught.value, "1 of 2 answers are judged and kept", "the same options")
+    assert not (tmp_path / "out/results.json").exists()
     said = typed().err
     assert "2 different answers, 1 of them judged already" in said
     assert len(workers.jobs) == 2
@@ -438,124 +461,6 @@ def test_a_class_of_120_is_not_observed_twice(course, workers, typed, tmp_path):
     typed()
     assert len(workers.jobs) == 120
     assert files_of(tmp_path / "out") == before
-
-
-# For real.
-
-
-def start(folder, out):
-    return subprocess.Popen(
-        [sys.executable, "-m", "rosbeat", "grade", str(folder), "--out", str(out),
-         "--lessons", "04", "--workers", "2"],
-        cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
-
-
-def keys(out):
-    """Keys of the answers that have been judged, in order."""
-    try:
-        lines = (out / FILE).read_bytes().split(b"\n")[:-1]
-    except FileNotFoundError:
-        return []
-    return [json.loads(line)[1]["key"] for line in lines]
-
-
-@pytest.mark.ros
-def test_a_class_goes_on_where_it_was_killed(tmp_path, eventually):
-    hand_in(tmp_path / "class", 12)
-    killed, plain = tmp_path / "killed", tmp_path / "plain"
-    first = start(tmp_path / "class", killed)
-    eventually(lambda: len(keys(killed)) >= 6, 60)
-    workers = psutil.Process(first.pid).children(recursive=True)
-    os.kill(first.pid, signal.SIGKILL)
-    first.wait()
-    before = keys(killed)
-    assert not (killed / "results.json").exists()
-    eventually(lambda: not any(is_alive(one) for one in workers))
-    assert start(tmp_path / "class", killed).wait(100) == 0
-    plain.mkdir()
-    (plain / SEED_FILE).write_bytes((killed / SEED_FILE).read_bytes())
-    assert start(tmp_path / "class", plain).wait(100) == 0
-    after = keys(killed)
-    assert after[: len(before)] == before
-    assert len(before) < len(after) == len(set(after))
-    assert sorted(after) == sorted(keys(plain))
-    for name in ("results.json", "grades.csv", "class.html"):
-        assert (killed / name).read_bytes() == (plain / name).read_bytes()
-    found = {one["status"] for learner in results_of(plain) for one in learner["marks"]}
-    assert found >= {"passed", "failed"}
-
-
-def is_alive(process):
-    try:
-        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
-    except psutil.NoSuchProcess:
-        return False
-
-
-def results_of(out):
-    return json.loads((out / "results.json").read_text())["learners"]
-
-
-# Options of the last time, by themselves.
-
-TYPED = {"due": "2026-11-30 18:00", "points": "my points.csv"}
-
-
-def test_the_first_time_there_is_nothing_to_compare(tmp_path):
-    assert changes(tmp_path, TYPED) == ""
-    assert not list(tmp_path.iterdir())
-
-
-def test_what_is_the_same_needs_no_word(tmp_path):
-    note_options(tmp_path / "new", TYPED)
-    assert changes(tmp_path / "new", dict(reversed(TYPED.items()))) == ""
-
-
-@pytest.mark.parametrize(
-    ("now", "said"),
-    [
-        ({}, "Last time: --due '2026-11-30 18:00', --points 'my points.csv'; now without. "),
-        ({"due": TYPED["due"]}, "Last time: --points 'my points.csv'; now without. "),
-        (TYPED | {"lessons": "03 04"}, "Last time: without them; now --lessons 03 04. "),
-        (
-            TYPED | {"due": "2026-12-01"},
-            "Last time: --due '2026-11-30 18:00'; now --due 2026-12-01.",
-        ),
-    ],
-)
-def test_what_differs_is_said_in_one_line(tmp_path, now, said):
-    note_options(tmp_path, TYPED)
-    line = changes(tmp_path, now)
-    assert said in line
-    assert "\n" not in line
-
-
-@pytest.mark.parametrize(
-    "text", ["", "{", "[]", "null", "7", "{}", '{"options": []}', "[" * 100_000, "\udcff"]
-)
-def test_a_file_that_is_none_of_ours_stops_nothing(tmp_path, text):
-    (tmp_path / LAST_RUN).write_text(text, errors="surrogateescape")
-    said = changes(tmp_path, TYPED)
-    assert f"{LAST_RUN} cannot be read" in said
-    assert (tmp_path / LAST_RUN).read_text(errors="surrogateescape") == text
-
-
-def test_a_folder_in_its_place_stops_nothing(tmp_path):
-    (tmp_path / LAST_RUN).mkdir()
-    assert "cannot be read" in changes(tmp_path, TYPED)
-
-
-def test_what_somebody_has_put_into_the_file_cannot_reach_the_terminal(tmp_path):
-    note_options(tmp_path, {"due": "\x1b[31m", "\x1b[32m": "x"})
-    assert "\x1b" not in changes(tmp_path, {})
-
-
-def test_an_equal_file_is_not_touched(tmp_path):
-    note_options(tmp_path, TYPED)
-    before = os.stat(tmp_path / LAST_RUN).st_mtime_ns
-    note_options(tmp_path, TYPED)
-    assert os.stat(tmp_path / LAST_RUN).st_mtime_ns == before
 
 
 # Exit codes, and what waits for a person.

@@ -1,7 +1,6 @@
 """A class from what was handed in to its gradebook, and the workers that observe its answers."""
 
 import gc
-import json
 import os
 import signal
 import subprocess
@@ -21,12 +20,10 @@ from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import to_json
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading import run as module
-from rosbeat.grading import worker as worker_module
 from rosbeat.grading.jobs import FORGED, LOST, Evidence, Job, read_evidence, read_job, to_line
 from rosbeat.grading.judging import judge, untouched
 from rosbeat.grading.ledger import Ledger
 from rosbeat.grading.run import Plan, Pool, Worker, all_answers, cause_of, files_before, grade
-from rosbeat.grading.sandbox import Ending
 from rosbeat.grading.submissions import collect
 from rosbeat.grading.weights import Points
 from rosbeat.grading.worker import LOST_AT_MOST, environment, limits_of, view_of_answers
@@ -600,62 +597,6 @@ def test_the_sandbox_has_no_answers_in_it_and_nothing_of_this_environment(monkey
         assert given["PATH"] == "/usr/bin:/bin"
 
 
-SEAL = "5ea1"
-
-
-def told(result, how="ended", output=b""):
-    return worker_module._read(Ending(how, 0, result, output, 0.12345), SEAL)
-
-
-def sealed(**said):
-    return (SEAL + json.dumps(said)).encode()
-
-
-def test_what_bears_the_seal_is_believed():
-    seen = told(sealed(seen="{}"), output=b"hello\xff")
-    assert (seen.how, seen.seen) == ("ended", "{}")
-    assert seen.output.startswith("hello")
-    assert seen.seconds == pytest.approx(0.123)
-
-
-@pytest.mark.parametrize(
-    "result",
-    [b'{"seen": "{}"}', b"5ea1", b"5ea1[]", b"5ea1{", b"5ea", b"x5ea1{}", b"\xff\0",
-     sealed(seen="{}") + sealed(seen="x"), b"x" + sealed(seen="{}"),
-     b"5ea1" + b"[" * 100_000],
-    ids=range(10),
-)  # fmt: skip
-def test_anything_else_is_forged(result):
-    seen = told(result)
-    assert (seen.how, seen.seen) == (FORGED, "")
-
-
-def test_nothing_is_nothing():
-    assert (told(b"").how, told(b"", "deadline").how) == ("ended", "deadline")
-
-
-def test_fields_of_other_types_are_left_out():
-    seen = told(sealed(seen=5, raised=["x"], text={}, line="7", code=None))
-    assert (seen.seen, seen.raised, seen.text, seen.line, seen.code) == ("", "", "", 0, "")
-    read_evidence(to_line(seen))
-
-
-def test_no_more_is_believed_than_the_course_writes():
-    long = "x" * 100_000
-    seen = told(sealed(seen=long, raised=long, text=long, code=long))
-    assert seen.seen == long  # how long it may be is decided where it is read
-    assert {len(one) for one in (seen.raised, seen.text, seen.code)} == {2_000}
-
-
-@pytest.mark.parametrize(("line", "wanted"), [(7, 7), (True, 0), (10**30, 0), (1.5, 0)])
-def test_a_line_is_the_number_of_a_line(line, wanted):
-    assert told(sealed(raised="x", line=line)).line == wanted
-
-
-def test_output_is_cut():
-    assert len(told(b"", output=b"x" * 64_000).output) == 2_000
-
-
 OF_REHEARSAL = Fault(0, "/rehearsal", "__init__", "RCLError", "no type support", 5, "")
 HEARD = LogRecord(1_000_000_000, "INFO", "rehearsal", "21.0", "hear", 12)
 
@@ -885,35 +826,6 @@ def test_two_pages_of_one_learner_start_from_their_own_workspace():
 
 @pytest.mark.ros
 @pytest.mark.parametrize(
-    "above",
-    ["import os\nimport signal", "%%time", "!pip list", "%matplotlib inline", "import gc, ctypes",
-     "display(vars())", "get_ipython().run_line_magic('matplotlib', 'inline')"],
-)  # fmt: skip
-def test_right_answers_in_unusual_styles_pass(graded_for_real, above):
-    assert graded_for_real(f"{above}\n{RIGHT}") == "passed"
-
-
-@pytest.fixture(scope="module")
-def graded_for_real():
-    """Grade one answer to 03a on its page, with the workers that are there already."""
-    from bank.graded import course
-    from rosbeat.grading.answers import answers_on
-
-    with Pool(1) as pool:
-
-        def run(text):
-            page_03 = course()["03"]
-            place = next(one.id for one in page_03.wanted if one.exercise == "03a")
-            cells = [replace(one, source=text) if one.id == place else one for one in page_03.cells]
-            found = answers_on(page_03, cells)[0]
-            ((_, evidence),) = pool.observe([[("a", found.job)]])
-            return judge(EXERCISES["03a"], evidence).status
-
-        yield run
-
-
-@pytest.mark.ros
-@pytest.mark.parametrize(
     ("loop", "how", "raised"),
     [
         ("{}", "ended", "KeyboardInterrupt"),  # as a learner ends it
@@ -923,13 +835,13 @@ def graded_for_real():
     ids=["interrupted", "goes on"],
 )  # fmt: skip
 def test_the_clock_of_a_learner_runs_on(loop, how, raised, monkeypatch):
-    """Three endless answers, and the fourth has little time; see `hostile.brief_worker`."""
+    """Endless answers use up the time, and the second one has less; see `hostile.brief_worker`."""
     monkeypatch.setattr(module, "_MODULE", "hostile.brief_worker")
     monkeypatch.setenv("PYTHONPATH", str(TESTS), prepend=os.pathsep)
-    texts = [*(f"while True:\n    {loop.format(n)}" for n in range(4)), RIGHT]
+    idle = "__import__('time').sleep(0.0{})"  # the processors are for other tests
+    texts = [*(f"while True:\n    {loop.format(idle.format(n))}" for n in (1, 2)), RIGHT]
     with Pool(1) as pool:
         found = dict(pool.observe([[(n, answer(text)) for n, text in enumerate(texts)]]))
-    assert [found[n].how for n in range(5)] == [*([how] * 4), "ended"]
-    assert {found[n].raised for n in range(4)} == {raised}
-    assert found[4].raised == ""
-    assert found[3].seconds < found[0].seconds
+    assert [found[n].how for n in range(3)] == [how, how, "ended"]
+    assert [found[n].raised for n in range(3)] == [raised, raised, ""]
+    assert found[1].seconds < found[0].seconds
