@@ -45,6 +45,7 @@ PART_OF = {
     "new_command": "cli",
     "__main__": "cli",
     "domains": "environment",
+    "local_server": "grading",
     "page_errors": "page_session",
     "testing": "page_session",
     "pytest_plugin": "page_session",

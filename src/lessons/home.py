@@ -14,6 +14,9 @@
 #
 # The cell below shows the whole course, and how far you are. Click it and press `Shift` + `Enter`. After that, the
 # list stays up to date while you work on the pages.
+#
+# In a class, you can let your instructor see which exercises the class is stuck on. Checks share nothing until you
+# turn that on; `rosbeat share`, typed in a terminal, explains what it means.
 
 # %%
 from rosbeat import progress

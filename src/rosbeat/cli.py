@@ -126,6 +126,13 @@ def _progress(options: argparse.Namespace) -> int:
     return 0
 
 
+def _share_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("state", nargs="?", choices=("on", "off"), help="default: say what is shared")
+    add("--name", default="", metavar="NAME", help="what the class may call you (default: no name)")
+    add("--class", dest="folder", type=Path, metavar="FOLDER", help="the folder of the class")
+
+
 def _explain_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("topic", metavar="TOPIC", help="its name, such as temperature")
     parser.add_argument("--domain-id", type=int, help="the ROS domain (default: this terminal's)")
@@ -142,6 +149,28 @@ def _explain(options: argparse.Namespace) -> int:
         return INTERRUPTED  # whoever stops it knows that
     print(found)
     return 0 if found.is_well else FAILED
+
+
+def _share(options: argparse.Namespace) -> int:
+    from rosbeat.exercises import share
+
+    if options.state == "on":
+        print(share.turn_on(options.name, options.folder))
+    elif options.name or options.folder:
+        raise CommandError(
+            "--name and --class go with `rosbeat share on`.",
+            "Nothing was changed.",
+            "Type  rosbeat share on  before them.",
+        )
+    else:
+        print(share.turn_off() if options.state == "off" else share.state())
+    return 0
+
+
+def _class(options: argparse.Namespace) -> int:
+    from rosbeat.grading import class_page
+
+    return class_page.run(options)
 
 
 def _release(options: argparse.Namespace) -> int:
@@ -179,6 +208,8 @@ COMMANDS: tuple[Command, ...] = (
     ),
     Command("collect", "say who has handed in what", grading.collect_arguments, _collect),
     Command("grade", "judge what a class has handed in", grading.grade_arguments, _grade),
+    Command("class", "show where a class is stuck, live", grading.class_arguments, _class),
+    Command("share", "let your class see where you are", _share_arguments, _share),
     Command("progress", "show how far you are with the course", _progress_arguments, _progress),
     Command("new", "make a folder with the course's pages", _new_arguments, _new),
 )

@@ -2,6 +2,8 @@
 
 import linecache
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
@@ -16,7 +18,7 @@ from rosbeat.records import Outcome
 from rosbeat.ros.scenario import observe
 
 #: Mistakes that a deadline finds out, and the seconds until then; a page has more patience.
-_ENDLESS, _PATIENCE = {"callback-blocks", "constructor-blocks"}, 1.0
+ENDLESS, _PATIENCE = {"callback-blocks", "constructor-blocks"}, 1.0
 
 
 def namespace_of(exercise: str, text: str, name: str) -> dict[str, Any]:
@@ -65,8 +67,23 @@ def told(answer: Answer, workspace: Path, seed: int = PAGE, *, patient: bool = F
     """
     if answer.exercise in workspaces.EXERCISES:
         return workspaces.outcome_of(answer, workspace)
+    with _hurried(answer, patient):
+        return outcome_of(answer.exercise, answer.text, answer.subject, seed)
+
+
+def observed(answer: Answer) -> Any:
+    """Return what is seen of an answer that is a cell, fed with the page's inputs."""
+    with _hurried(answer), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        space = namespace_of(answer.exercise, answer.text, f"<cell of {answer.exercise}>")
+        return EXERCISES[answer.exercise].observed(eval(answer.subject, space))
+
+
+@contextmanager
+def _hurried(answer: Answer, patient: bool = False) -> Iterator[None]:
+    """Wait for an answer that does not end only as long as is needed to tell."""
     usual = observe.__kwdefaults__
     assert usual is not None
-    hurried = not patient and _ENDLESS & set(answer.mistakes)
+    hurried = not patient and ENDLESS & set(answer.mistakes)
     with patch.dict(usual, deadline=_PATIENCE if hurried else usual["deadline"]):
-        return outcome_of(answer.exercise, answer.text, answer.subject, seed)
+        yield

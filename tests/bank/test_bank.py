@@ -5,9 +5,10 @@ from collections import Counter
 
 import pytest
 
+from bank import examples
 from bank.pages import NODE_EXERCISES
 from bank.reading import answers, hidden, parse
-from bank.running import told
+from bank.running import ENDLESS, told
 from rosbeat.diagnosis.mistakes import MISTAKES, UNKNOWN
 from rosbeat.exercises.registry import EXERCISES
 
@@ -30,6 +31,19 @@ def assert_told(answer, workspace):
     assert {part.id for part in found.parts if not part.met} == answer.misses
     if answer.status == "passed":
         assert found.points == found.out_of - len(answer.misses)
+    assert is_shown_as(answer, found), "run: PYTHONPATH=tests .venv/bin/python -m bank.examples"
+
+
+def is_shown_as(answer, found):
+    """Return whether `rosbeat class` says the same of this answer, if it is among its examples.
+
+    Where an endless answer was depends on the machine, and the words of an error on Python.
+    """
+    said = examples.shown().get((answer.exercise, examples.digest(answer), found.mistake))
+    if said is None or found.mistake in ENDLESS:
+        return True
+    seen, hint = examples.words(found)
+    return said[1] == hint and ("Error" in seen or said[0] == seen)
 
 
 def leaks(exercise, hint):
@@ -82,6 +96,13 @@ def test_optional_requirements_are_met_by_some_right_answers_and_missed_by_other
     missed = {one.misses for one in ANSWERS if (one.exercise, one.status) == ("13b", "passed")}
     assert {frozenset(), frozenset({"R10", "R11"})} <= missed
     assert frozenset().union(*missed) == {"R10", "R11"}
+
+
+def test_most_mistakes_of_the_bank_can_be_shown_to_a_class():
+    there_are = examples.candidates()
+    shown = {(exercise, name) for exercise, _, name in examples.shown()}
+    assert shown <= set(there_are)
+    assert len(shown) >= 0.95 * len(there_are)
 
 
 def test_single_mistakes_have_names():

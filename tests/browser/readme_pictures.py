@@ -1,9 +1,10 @@
-"""Make the pictures of the README: a page, and the panel while it moves.
+"""Make the pictures of the README and the documents: a page, the panel while it moves, a class.
 
     ./environment/course shell -c "python tests/browser/readme_pictures.py"
 
-It writes `docs/images/page.png` and `docs/images/panel.gif`, and needs a Chromium, as the tests of
-this folder do (`ROSBEAT_BROWSER` may name one). Run it after the look of a page has changed.
+It writes `page.png`, `panel.gif` and `class.png` in `docs/images`, and needs a Chromium, as the
+tests of this folder do (`ROSBEAT_BROWSER` may name one). Run it after the look of a page has
+changed.
 """
 
 import shutil
@@ -23,6 +24,7 @@ from playwright.sync_api import sync_playwright  # noqa: E402
 
 from browser.lab import lab_server  # noqa: E402
 from browser.notebook import PATIENCE, Notebook, browser_path, write_notebook  # noqa: E402
+from sharing import class_folder, learner, record, served  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 WINDOW = {"width": 1120, "height": 960}
@@ -63,8 +65,17 @@ class Monitor(Node):
 OPEN = "ros = Session()\nros.add(Monitor)\nros.add(Sensor)\nros.start()\nros.panel()"
 
 
+#: How often each of 30 learners has made a mistake in an exercise of page 04, in turns.
+MISTAKES = {
+    "04a": ("callback-called", "callback-called", "name-error"),
+    "04b": ("boundary", "alert-too-many", "boundary", "boundary"),
+    "04c": ("wrong-window",),
+    "04d": ("no-hysteresis", "no-hysteresis", "wrong-state"),
+}
+
+
 def main():
-    """Make both pictures."""
+    """Make the pictures."""
     with tempfile.TemporaryDirectory() as name, sync_playwright() as tools:
         folder = Path(name)
         root = folder / "pages"
@@ -76,7 +87,26 @@ def main():
             tab.set_default_timeout(PATIENCE)
             picture_of_a_page(tab, lab)
             picture_of_the_panel(tab, lab)
+        picture_of_a_class(browser, folder / "class")
         browser.close()
+
+
+def picture_of_a_class(browser, folder):
+    """Make the picture of the page that `rosbeat class` shows."""
+    folder.mkdir()
+    for number in range(30):
+        at = min(number // 6, 3)
+        before = [record(one, "passed") for one in list(MISTAKES)[:at]]
+        exercise, made = list(MISTAKES.items())[at]
+        wrong = [record(exercise, mistake=made[number % len(made)])] * (1 + number % 4)
+        learner(folder, number, *before, *wrong, *[record(exercise, "passed")] * (number % 3 == 0))
+    tab = browser.new_page(viewport={"width": 1280, "height": 720})
+    with served(class_folder(folder)) as server:
+        tab.goto(server.url)
+        tab.get_by_text("Updated at").wait_for()
+        tab.evaluate("document.getElementById('clock').remove()")
+        tab.screenshot(path=IMAGES / "class.png", full_page=True)
+    tab.close()
 
 
 def picture_of_a_page(tab, lab):

@@ -19,6 +19,7 @@ from rosbeat.exercises.progress import progress_file
 from rosbeat.exercises.registry import EXERCISES as EXERCISES
 from rosbeat.exercises.registry import find, which_exercise
 from rosbeat.exercises.scenarios import Answer
+from rosbeat.exercises.share import share
 from rosbeat.records import Outcome
 from rosbeat.workspace import graded_runs
 from rosbeat.workspace.waiting import counting
@@ -102,6 +103,7 @@ def _judge(
             seen = found.observed(answer)
             verdict, picture = found.judged(seen), found.picture(seen)
     standing = progress_file().change(found.id, lambda before: before.after(verdict))
+    share(verdict)
     return (_with_hints(verdict, standing.hints) if found.tells_hints else verdict), picture
 
 

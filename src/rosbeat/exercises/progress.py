@@ -132,6 +132,9 @@ class ProgressFile:
         tell: Gets one line if something is wrong with the file.
     """
 
+    #: Whether checks here are those of a learner's own page.
+    counts = True
+
     def __init__(self, folder: Path, tell: Callable[[str], None] = print) -> None:
         self.path = folder / NAME
         self._tell = tell
@@ -214,6 +217,8 @@ class ProgressFile:
 
 class _ReadOnlyFile(ProgressFile):
     """Leave the file as it is: how far a page that does not count is, only its kernel remembers."""
+
+    counts = False
 
     def __init__(self, folder: Path) -> None:
         super().__init__(folder)

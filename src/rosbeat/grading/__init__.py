@@ -11,5 +11,7 @@ point of each command, and `options` parses its arguments.
 - Marks: `marks`, `weights`, `manual` (points given by hand), `results`, `tables` (CSV), `groups`.
 - Reports: `report`, `feedback`, `traces`, `rendering` with `templates/`, `writing`, and `review`
   (the page on which an instructor marks by eye).
-- For the class: `release` creates the folder that learners get.
+- For the class: `release` creates the folder that learners get. `class_folder` reads what learners
+  share while they work (`exercises.share` writes it), `class_board` counts it, and `class_page`
+  serves it to the instructor. `examples.json` is made by `tests/bank/examples.py`.
 """

@@ -59,6 +59,16 @@ def check_arguments(parser: argparse.ArgumentParser) -> None:
     add("--json", action="store_true", help="the same as JSON, for programs")
 
 
+def class_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what is typed after `rosbeat class`."""
+    add = parser.add_argument
+    folder = "where learners share (default: what ROSBEAT_CLASS names)"
+    add("folder", nargs="?", type=Path, metavar="FOLDER", help=folder)
+    add("--port", type=_from(0), default=0, metavar="N", help="on this computer (default: any)")
+    add("--no-browser", action="store_true", help="print the address only")
+    add("--forget", action="store_true", help="delete what learners have shared, and end")
+
+
 def _from(least: int) -> Callable[[str], int]:
     """Return what reads a whole number and refuses one that is too small."""
 

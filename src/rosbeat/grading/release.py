@@ -233,8 +233,11 @@ _FILES = (
 )
 _CLUTTER = {"__pycache__", ".ipynb_checkpoints", ".mypy_cache", ".ruff_cache", ".DS_Store"}
 _CLUTTER_ENDINGS = (".pyc", ".pyo", ".part", ".swp", "~")
-#: Where answers are, within the folders above.
-_ANSWERS = ("src/rosbeat/exercises/solved/", "src/rosbeat/workspace/finished/")
+#: Where answers are, right ones and wrong ones, within the folders above.
+_ANSWERS = (
+    *("src/rosbeat/exercises/solved/", "src/rosbeat/workspace/finished/"),
+    "src/rosbeat/grading/examples.json",
+)
 #: Of these, what pages need that begin where earlier ones end, and the first of these pages.
 _TO_BEGIN_WITH = tuple(
     f"src/rosbeat/workspace/finished/{one}"

@@ -17,6 +17,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from rosbeat.diagnosis.markup import in_html
 from rosbeat.exercises.cards import LOOKS, clipped
 from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import PAGES
@@ -163,6 +164,11 @@ def prose(text: str) -> Markup:
     return html('<p class="said" dir="auto">{}</p>', text)
 
 
+def with_code(text: str) -> Markup:
+    """Return a sentence as HTML; what stands between backquotes is code."""
+    return Markup(in_html(visible(text)))
+
+
 def points_of(points: float, out_of: float) -> str:
     """Return points in words, such as `1.5 of 2 points`."""
     return f"{number(points)} of {number(out_of)} point{'' if out_of == 1 else 's'}"
@@ -198,7 +204,7 @@ def _environment() -> Environment:
         auto_reload=False,
     )
     made.filters.update(most=most, program=program, name=name, paragraph=paragraph, prose=prose,
-                        number=number)  # fmt: skip
+                        code=with_code, number=number)  # fmt: skip
     made.globals.update(count=count, in_words=in_words, look_of=look_of, points_of=points_of,
                         page_title=page_title, so_far=so_far, segments_of=segments_of,
                         STATUSES=STATUSES)  # fmt: skip

@@ -2,20 +2,15 @@
 
 Similar answers are grouped, with their code, their behaviour, and the verdict. Points and comments
 for a whole group are written to manual.csv, which remains the instructor's own file: lines about
-other answers stay unchanged, and the original file is saved once next to it.
-
-Only programs on this computer can reach the server, and only with the token in its address: it
-listens on the loopback interface, rejects requests for another host (DNS rebinding) and posts from
-other pages, and the page may load nothing from elsewhere.
+other answers stay unchanged, and the original file is saved once next to it. Who can reach the page
+is in `local_server`.
 """
 
 from __future__ import annotations
 
 import csv
-import hmac
 import io
 import os
-import secrets
 import sys
 import threading
 import webbrowser
@@ -24,10 +19,9 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from http import HTTPStatus
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any, cast
-from urllib.parse import parse_qs, quote, urlsplit
+from urllib.parse import parse_qs, quote
 
 from rosbeat.errors import GradingError
 from rosbeat.exercises.registry import EXERCISES
@@ -42,12 +36,11 @@ from rosbeat.grading.results import previous_results, summary
 from rosbeat.grading.roster import Lookup, UnusableError
 from rosbeat.grading.traces import picture
 from rosbeat.grading.writing import write_whole
+from rosbeat.local_server import LocalHandler, LocalServer, new_nonce
 
 _COLUMNS = ("learner", "name", "exercise", "points", "comment")
 #: Bytes that a browser may send: a comment, and the ids of a large class.
 _MOST_SENT = 1 << 20
-#: Seconds that a browser may take for it.
-_PATIENCE = 30
 
 
 def review(out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> None:
@@ -289,7 +282,7 @@ def _shared(review: Review, root: str, nonce: str) -> dict[str, Any]:
 # The server.
 
 
-class ReviewServer(ThreadingHTTPServer):
+class ReviewServer(LocalServer):
     """Serve a review on the loopback interface, at an address that nobody can guess.
 
     Args:
@@ -299,60 +292,37 @@ class ReviewServer(ThreadingHTTPServer):
         GradingError: If no address on this computer is free.
     """
 
-    daemon_threads = True
-
     def __init__(self, review: Review) -> None:
         try:
-            super().__init__(("127.0.0.1", 0), _Handler)
+            super().__init__(_Handler)
         except OSError as error:
             raise GradingError(
                 f"The review cannot be served: {error.strerror or error}.",
                 "It needs a port on the loopback interface; results are written all the same.",
                 "Try it again without other servers, or mark in manual.csv.",
             ) from error
-        self.review, self.token = review, secrets.token_urlsafe(32)
-        self.hosts = {f"{name}:{self.server_port}" for name in ("127.0.0.1", "localhost")}
-
-    @property
-    def root(self) -> str:
-        """Return the path of the overview."""
-        return f"/{self.token}/"
-
-    @property
-    def url(self) -> str:
-        """Return the address of the overview."""
-        return f"http://127.0.0.1:{self.server_port}{self.root}"
+        self.review = review
 
 
-class _Handler(BaseHTTPRequestHandler):
-    server_version, sys_version = "rosbeat", ""
-    timeout = _PATIENCE
-
-    def log_message(self, format: str, *args: object) -> None:
-        """Print nothing: the address is secret."""
-
+class _Handler(LocalHandler):
     @property
     def _server(self) -> ReviewServer:
         return cast(ReviewServer, self.server)
 
-    def do_GET(self) -> None:
+    def get(self, path: str) -> None:
         """Send a page."""
-        path = self._path()
-        if path is None:
-            return
-        review, nonce = self._server.review, secrets.token_urlsafe(16)
+        review, nonce = self._server.review, new_nonce()
         if path == "":
-            self._send(overview(review, self._server.root, nonce), nonce)
+            self.send_page(overview(review, self._server.root, nonce), nonce)
         elif (place := self._place(path)) is not None:
-            self._send(group_page(review, self._server.root, nonce, place), nonce)
+            self.send_page(group_page(review, self._server.root, nonce, place), nonce)
         else:
-            self._refuse(HTTPStatus.NOT_FOUND)
+            self.refuse(HTTPStatus.NOT_FOUND)
 
-    def do_POST(self) -> None:
+    def post(self, path: str) -> None:
         """Take points and comments, or write all results."""
-        path = self._path()
-        form = self._form() if path is not None else None
-        if path is None or form is None:
+        form = self._form()
+        if form is None:
             return
         try:
             if path == "regrade":
@@ -361,7 +331,7 @@ class _Handler(BaseHTTPRequestHandler):
             elif (place := self._place(path)) is not None:
                 self._give(place, form)
             else:
-                self._refuse(HTTPStatus.NOT_FOUND)
+                self.refuse(HTTPStatus.NOT_FOUND)
         except GradingError as error:
             self._server.review.said = str(error)
             self._go("")
@@ -374,25 +344,12 @@ class _Handler(BaseHTTPRequestHandler):
         try:
             review.give(review.groups[place], given)
         except UnusableError as error:
-            nonce = secrets.token_urlsafe(16)
+            nonce = new_nonce()
             page = group_page(review, root, nonce, place, f"{error} {error.to_try}", given)
-            self._send(page, nonce, HTTPStatus.UNPROCESSABLE_ENTITY)
+            self.send_page(page, nonce, HTTPStatus.UNPROCESSABLE_ENTITY)
             return
         step = int("next" in form and place + 1 < len(review.groups))
         self._go(f"group/{place + step}")
-
-    def _path(self) -> str | None:
-        """Return the path behind the token; None if the request was refused."""
-        host, origin = self.headers.get("Host", ""), self.headers.get("Origin")
-        elsewhere = origin is not None and origin not in {f"http://{host}"}
-        if host not in self._server.hosts or elsewhere:
-            self._refuse(HTTPStatus.FORBIDDEN)
-            return None
-        token, _, path = urlsplit(self.path).path.removeprefix("/").partition("/")
-        if not hmac.compare_digest(token.encode(), self._server.token.encode()):
-            self._refuse(HTTPStatus.NOT_FOUND)
-            return None
-        return path
 
     def _place(self, path: str) -> int | None:
         word, _, place = path.partition("/")
@@ -403,40 +360,15 @@ class _Handler(BaseHTTPRequestHandler):
     def _form(self) -> dict[str, list[str]] | None:
         length = self.headers.get("Content-Length", "")
         if not (length.isdecimal() and int(length) <= _MOST_SENT):
-            self._refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
+            self.refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE)
             return None
         text = self.rfile.read(int(length)).decode("utf-8", "replace")
         return parse_qs(text, keep_blank_values=True)
-
-    def _send(self, page: str, nonce: str, status: HTTPStatus = HTTPStatus.OK) -> None:
-        data = page.encode("utf-8", "backslashreplace")
-        policy = (
-            f"default-src 'none'; style-src 'nonce-{nonce}'; script-src 'nonce-{nonce}'; "
-            "form-action 'self'; base-uri 'none'; frame-ancestors 'none'"
-        )
-        self.send_response(status)
-        for name, value in (
-            ("Content-Type", "text/html; charset=utf-8"),
-            ("Content-Length", str(len(data))),
-            ("Content-Security-Policy", policy),
-            ("Cache-Control", "no-store"),
-            # Without a referrer, a form of this page would say `Origin: null`, as a forger's does.
-            ("Referrer-Policy", "same-origin"),
-            ("X-Content-Type-Options", "nosniff"),
-        ):
-            self.send_header(name, value)
-        self.end_headers()
-        self.wfile.write(data)
 
     def _go(self, path: str) -> None:
         """Send the browser to a page, so that loading it again posts nothing."""
         known = path == "" or self._place(path) is not None
         self.send_response(HTTPStatus.SEE_OTHER)
         self.send_header("Location", self._server.root + (quote(path) if known else ""))
-        self.send_header("Content-Length", "0")
-        self.end_headers()
-
-    def _refuse(self, status: HTTPStatus) -> None:
-        self.send_response(status)
         self.send_header("Content-Length", "0")
         self.end_headers()

@@ -1,0 +1,283 @@
+"""Count where a class is: by exercise, and by the mistakes of the last ten minutes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import msgspec
+
+from rosbeat.diagnosis.mistakes import MISTAKES
+from rosbeat.exercises.exercise import FAILED, PASSED
+from rosbeat.exercises.registry import EXERCISES, PAGES, Page
+from rosbeat.grading.class_folder import Learner, Reading, Record
+from rosbeat.grading.traces import Picture, picture
+from rosbeat.records_json import to_json
+
+#: Seconds within which a mistake counts, checks after which a learner is stuck, mistakes shown.
+WINDOW, STUCK, SHOWN = 10 * 60, 3, 3
+
+
+# Counts.
+
+
+@dataclass(frozen=True)
+class Tally:
+    """Hold how many learners are where with one exercise.
+
+    Attributes:
+        exercise: The exercise's id.
+        title: What it is about.
+        passed: Learners of whom a check said `passed`.
+        trying: Learners with fewer failed checks than `STUCK`, and no passed one.
+        stuck: Learners with as many or more, and no passed one.
+        names: Names of those who are stuck and share one.
+    """
+
+    exercise: str
+    title: str
+    passed: int
+    trying: int
+    stuck: int
+    names: tuple[str, ...] = ()
+
+    @property
+    def learners(self) -> int:
+        """Return how many learners have checked an answer."""
+        return self.passed + self.trying + self.stuck
+
+    @property
+    def is_hard(self) -> bool:
+        """Return whether several learners are stuck, and at least a fifth of those who tried."""
+        return self.stuck > 1 and self.stuck * 5 >= self.learners
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """Hold the tallies of a page.
+
+    Attributes:
+        page: The page.
+        tallies: One for each of its exercises that somebody has checked.
+        is_now: Whether somebody has checked one within the last `WINDOW` seconds.
+    """
+
+    page: Page
+    tallies: tuple[Tally, ...]
+    is_now: bool
+
+
+@dataclass(frozen=True)
+class Common:
+    """Hold a mistake that several learners have made in the last minutes.
+
+    Attributes:
+        mistake: Its id.
+        title: What it is, with a capital.
+        learners: How many learners have made it.
+        since: How many of them have passed the exercise since.
+        places: The exercises in which it was made, the most frequent first, and by how many.
+        names: Names of those who have not passed since and share one.
+    """
+
+    mistake: str
+    title: str
+    learners: int
+    since: int
+    places: tuple[tuple[str, int], ...]
+    names: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Board:
+    """Hold what an instructor sees.
+
+    Attributes:
+        learners: How many learners share.
+        active: How many of them have checked an answer in the last `WINDOW` seconds.
+        lessons: The pages on which somebody has checked an answer, those of the last minutes first.
+        untouched: The other pages.
+        common: The most common mistakes of the last minutes.
+        nameless: Learners whose last check failed in a way that has no name, in these minutes.
+        notices: What is wrong with the folder.
+    """
+
+    learners: int
+    active: int
+    lessons: tuple[Lesson, ...]
+    untouched: tuple[Page, ...]
+    common: tuple[Common, ...]
+    nameless: int
+    notices: tuple[str, ...]
+
+    @property
+    def hardest(self) -> Tally | None:
+        """Return the exercise of the current pages on which most learners are stuck, if any is."""
+        current = [one for lesson in self.lessons if lesson.is_now for one in lesson.tallies]
+        most = max(current, key=lambda one: one.stuck, default=None)
+        return most if most and most.stuck else None
+
+
+def board_of(reading: Reading) -> Board:
+    """Count what was read from the folder of a class."""
+    since = reading.time - WINDOW
+    lessons = tuple(
+        Lesson(page, tallies, _is_now(page, reading.learners, since))
+        for page in PAGES
+        if (tallies := _tallies(page, reading.learners))
+    )
+    touched = {one.page for one in lessons}
+    return Board(
+        learners=len(reading.learners),
+        active=sum(who.records[-1].time > since for who in reading.learners if who.records),
+        lessons=tuple(sorted(lessons, key=lambda one: not one.is_now)),
+        untouched=tuple(page for page in PAGES if page not in touched),
+        common=_common(reading.learners, since),
+        nameless=sum(_is_nameless(who, since) for who in reading.learners),
+        notices=reading.notices,
+    )
+
+
+def _tallies(page: Page, learners: Sequence[Learner]) -> tuple[Tally, ...]:
+    found = []
+    for exercise in page.exercises:
+        where = Counter[str]()
+        names = []
+        for who in learners:
+            state = _state(who.by_exercise.get(exercise.id, ()))
+            where[state] += 1
+            names += [who.name] if state == "stuck" and who.name else []
+        counts = (where["passed"], where["trying"], where["stuck"])
+        if any(counts):
+            found.append(Tally(exercise.id, exercise.title, *counts, tuple(sorted(names))))
+    return tuple(found)
+
+
+def _state(records: Iterable[Record]) -> str:
+    """Return where a learner is with an exercise: whoever has passed once has passed."""
+    statuses = [one.status for one in records]
+    if PASSED in statuses:
+        return "passed"
+    return "" if not statuses else "stuck" if len(statuses) >= STUCK else "trying"
+
+
+def _is_now(page: Page, learners: Sequence[Learner], since: float) -> bool:
+    return any(
+        who.by_exercise[one.id][-1].time > since
+        for who in learners
+        for one in page.exercises
+        if one.id in who.by_exercise
+    )
+
+
+def _common(learners: Sequence[Learner], since: float) -> tuple[Common, ...]:
+    made: dict[str, list[tuple[Learner, set[str]]]] = {}
+    for who in learners:
+        places: dict[str, set[str]] = {}
+        for one in who.records:
+            if one.time > since and one.status == FAILED and one.mistake in MISTAKES:
+                places.setdefault(one.mistake, set()).add(one.exercise)
+        for name, where in places.items():
+            made.setdefault(name, []).append((who, where))
+    # Equally frequent ones stay in the order of the catalogue, so that they don't change places.
+    ranked = sorted((name for name in MISTAKES if name in made), key=lambda name: -len(made[name]))
+    return tuple(_counted(name, made[name]) for name in ranked[:SHOWN])
+
+
+def _counted(name: str, made: list[tuple[Learner, set[str]]]) -> Common:
+    where = Counter(exercise for _, places in made for exercise in sorted(places))
+    still = [who for who, places in made if places - _passed(who)]
+    return Common(
+        name,
+        MISTAKES[name].heading,
+        len(made),
+        len(made) - len(still),
+        tuple(sorted(where.items(), key=lambda one: (-one[1], one[0]))),
+        tuple(sorted(who.name for who in still if who.name)),
+    )
+
+
+def _passed(who: Learner) -> set[str]:
+    return {one.exercise for one in who.records if one.status == PASSED}
+
+
+def _is_nameless(who: Learner, since: float) -> bool:
+    last = who.records[-1] if who.records else None
+    return (
+        last is not None
+        and last.time > since
+        and last.status == FAILED
+        and last.mistake not in MISTAKES
+    )
+
+
+# What to show and to say about a mistake.
+
+
+@dataclass(frozen=True)
+class Advice:
+    """Hold what an instructor can show and say about a mistake in an exercise.
+
+    Attributes:
+        exercise: The exercise.
+        title: What the exercise is about.
+        seen: What the check says of an answer with this mistake; empty if the course has none.
+        hint: The hint that it gives; empty likewise.
+        first_hint: The exercise's own first hint.
+        drawn: What such an answer does, beside the published solution; None for no picture.
+        diagram: The name of a diagram of the course instead; may be empty.
+    """
+
+    exercise: str
+    title: str
+    seen: str = ""
+    hint: str = ""
+    first_hint: str = ""
+    drawn: Picture | None = None
+    diagram: str = ""
+
+
+#: Diagrams of the course, for exercises whose answers are folders, files and terminals.
+DIAGRAMS = {
+    **dict.fromkeys(("01a", "01b", "02a"), "workspace"),
+    **dict.fromkeys(("02b", "06a", "06b"), "overlay"),
+    **dict.fromkeys(("05a", "05b"), "entry point"),
+}
+
+
+@cache
+def advice(mistake: str, exercise: str) -> Advice:
+    """Return what there is to show and to say about a mistake.
+
+    Args:
+        mistake: Its id.
+        exercise: The id of the exercise in which it was made.
+    """
+    found = EXERCISES[exercise]
+    here = _examples().get(exercise, {})
+    known = here.get(mistake, {})
+    own, right = known.get("trace"), here.get("", {}).get("trace")
+    return Advice(
+        exercise,
+        found.title,
+        known.get("seen", ""),
+        known.get("hint", ""),
+        next(iter(found.hints), ""),
+        picture(to_json(own), to_json(right)) if own else None,
+        "" if own else DIAGRAMS.get(exercise, ""),
+    )
+
+
+@cache
+def _examples() -> dict[str, dict[str, dict[str, Any]]]:
+    """Return what wrong answers do, by exercise and mistake: `tests/bank/examples.py` made it.
+
+    A release for learners has none.
+    """
+    file = files("rosbeat.grading") / "examples.json"
+    text = file.read_bytes() if file.is_file() else b"{}"
+    return msgspec.json.decode(text, type=dict[str, dict[str, dict[str, Any]]])
