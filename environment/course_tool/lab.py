@@ -47,6 +47,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     # Started in the background of a script, it would hand an ignored Ctrl+C on to every terminal.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     log = layout.notes / "lab.log"
+    shown = str(log.relative_to(layout.learner.parent))
     # The token is in it, which lets whoever has it run commands.
     with os.fdopen(os.open(log, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as messages:
         server = subprocess.Popen(
@@ -63,7 +64,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
         info = _when_open(server, Path(runtime))
         if info:
             say(f"The course is open at  {address(layout, info, options)}")
-            say(f"Ctrl+C stops it. JupyterLab's messages go to {log.relative_to(layout.root)}")
+            say(f"Ctrl+C stops it. JupyterLab's messages go to {shown}")
         code = server.wait()
     except KeyboardInterrupt:
         with suppress(OSError):  # nobody reads it if the terminal was closed
@@ -78,7 +79,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     if code == 0:
         say("JupyterLab was shut down." if info else log.read_text(errors="replace").rstrip())
         return 0
-    raise stopped(log.read_text(errors="replace"), bool(info), str(log.relative_to(layout.root)))
+    raise stopped(log.read_text(errors="replace"), bool(info), shown)
 
 
 def prepare_image(layout: Layout, arguments: Sequence[str]) -> int:

@@ -68,11 +68,15 @@ def discovery_profile() -> str:
 
 
 def learners_folder() -> str:
-    """Return the learner's own folder in this checkout; an empty text if none was made yet.
+    """Return the learner's own folder; an empty text if none was made yet.
 
-    `./environment/course lab` makes it (`environment/course_tool/folder.py`). In a release, the
-    pages in `notebooks` are the learner's own.
+    `./environment/course lab` makes it in the checkout (`environment/course_tool/folder.py`). In a
+    release, the pages in `notebooks` are the learner's own. Where many learners share a checkout,
+    `ROSBEAT_MY_COURSE` names the folder of each.
     """
+    chosen = os.path.expanduser(os.environ.get("ROSBEAT_MY_COURSE", ""))
+    if chosen:
+        return os.path.abspath(chosen) if os.path.exists(os.path.join(chosen, ".rosbeat")) else ""
     name = "notebooks" if _in_checkout(".rosbeat-release.json") else "my_course"
     return os.path.dirname(_in_checkout(name, ".rosbeat"))
 
