@@ -38,6 +38,23 @@ def hub(layout: Layout, options: Sequence[str]) -> NoReturn:
     os.execve(program, [program, *own, *options], environ)
 
 
+def bring_fonts(layout: Layout) -> None:
+    """Copy the list of the machine's fonts into a learner's home, where Matplotlib looks for it."""
+    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "matplotlib"
+    home.mkdir(parents=True, exist_ok=True)
+    for path in _fonts(layout).glob("fontlist-*.json"):
+        if not (home / path.name).exists():
+            shutil.copyfile(path, home / path.name)
+
+
+def _shared(layout: Layout) -> Path:
+    return layout.venv / "share" / "rosbeat-hub"
+
+
+def _fonts(layout: Layout) -> Path:
+    return _shared(layout) / "matplotlib"
+
+
 def _fingerprint(layout: Layout) -> str:
     locks = [layout.lock("hub"), *(layout.hub / name for name in _PROXY)]
     return hashlib.sha256(b"\0".join(path.read_bytes() for path in locks)).hexdigest()
@@ -57,7 +74,7 @@ def _install(layout: Layout, environ: Mapping[str, str]) -> None:
 
     Learners cannot write there, so Python would compile the same files at each start.
     """
-    proxy = layout.venv / "share" / "rosbeat-hub"
+    proxy = _shared(layout)
     proxy.mkdir(parents=True, exist_ok=True)
     for name in _PROXY:
         shutil.copy(layout.hub / name, proxy)
@@ -70,15 +87,18 @@ def _install(layout: Layout, environ: Mapping[str, str]) -> None:
         "--prefix",
         proxy,
     ]
+    # Matplotlib lists the machine's fonts before its first picture, for seconds and once per home.
+    fonts = ["-c", "import matplotlib.font_manager"]
     compiling: list[str | Path] = [layout.python, "-m", "compileall", "-qq", "-j", "0", *compiled]
     steps: dict[str, list[str | Path]] = {
         "JupyterHub, which hub.lock lists": installing.lock_command(layout, "hub"),
         "its proxy": npm,
         "compiled files": compiling,
+        "a list of fonts": [layout.python, *fonts],
     }
     for what, command in steps.items():
         say(f"  installing {what}")
-        result = running.quiet(command, environ)
+        result = running.quiet(command, {**environ, "MPLCONFIGDIR": str(_fonts(layout))})
         # Some packages bring files for other Pythons, which this one cannot compile.
         if not result.ok and command is not compiling:
             raise installer_stopped(result.text, layout.venv)

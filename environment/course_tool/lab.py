@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from course_tool import commands, folder, prepare, running
+from course_tool.hub import bring_fonts
 from course_tool.layout import Layout
 from course_tool.problems import Problem, say
 
@@ -91,15 +92,17 @@ def prepare_image(layout: Layout, arguments: Sequence[str]) -> int:
 def serve(layout: Layout, arguments: Sequence[str]) -> NoReturn:
     """Become a program that opens JupyterLab, with the course's options behind its own.
 
-    Binder starts every JupyterLab itself, with options of its own: the address and the token.
+    Binder and JupyterHub start every JupyterLab themselves, with options of their own.
     """
     if not arguments:
         raise Problem(
             "The command that opens JupyterLab is missing.",
-            "Only .binder/start uses this: Binder gives it the command.",
+            "Binder and JupyterHub use this: they give it the command.",
             "Open the course:  ./environment/course lab",
         )
     environ = _ready(layout)
+    if layout.is_shared:
+        bring_fonts(layout)
     os.chdir(layout.learner)
     command = [*arguments, *lab_options(layout, (), root_user=os.geteuid() == 0)]
     os.execvpe(command[0], command, environ)
