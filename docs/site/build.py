@@ -27,8 +27,8 @@ DOCUMENTS = {
     "Help": ("docs/glossary.md", "docs/troubleshooting.md", "environment/README.md"),
     "Your own nodes": ("docs/testing.md",),
     "For instructors": (
-        "docs/instructors.md", "docs/teaching.md", "docs/nbgrader.md", "docs/sandbox.md",
-        "docs/mistakes.md",
+        "docs/instructors.md", "docs/teaching.md", "docs/jupyterhub.md", "docs/nbgrader.md",
+        "docs/sandbox.md", "docs/mistakes.md",
     ),
     "For contributors": (
         "docs/CONTRIBUTING.md", "docs/CODE_OF_CONDUCT.md", "docs/SECURITY.md",

@@ -31,7 +31,7 @@ def hub(tmp_path_factory):
     log = tmp_path_factory.mktemp("hub") / "hub.log"
     with (
         installation() as course,
-        users(LEARNERS) as (group, members),
+        users(LEARNERS, course.parent / "homes") as (group, members),
         running_hub(course, group, members, log) as made,
     ):
         yield made

@@ -73,13 +73,14 @@ def installation():
                 (course / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(ROOT / name, course / name)
         command = [course / "environment" / "course", "hub", "--version"]
-        subprocess.run(command, env=_environ(), check=True, timeout=_INSTALLING, umask=0o022)
+        subprocess.run(command, env=environ(), check=True, timeout=_INSTALLING, umask=0o022)
         yield course
     finally:
         shutil.rmtree(folder)
 
 
-def _environ():
+def environ():
+    """The environment of this process without what tests, Python and ROS have put into it."""
     kept = {
         name: value
         for name, value in os.environ.items()
@@ -120,14 +121,21 @@ class User:
 
 
 @contextmanager
-def users(count):
-    """Users of the system, in a group of their own; in the end nothing is left of them."""
+def users(count, homes):
+    """Users of the system, in a group of their own; in the end nothing is left of them.
+
+    Args:
+        count: How many.
+        homes: The folder for their homes.
+    """
+    homes.mkdir(exist_ok=True)
     group = f"rbh{secrets.token_hex(3)}"
     made = [User(f"{group}-{number:02}", secrets.token_hex(8)) for number in range(count)]
     _run("groupadd", group)
     try:
         for one in made:
-            _run("useradd", "--create-home", "--shell", "/bin/bash", "--groups", group, one.name)
+            _run("useradd", "--create-home", "--base-dir", str(homes), "--shell", "/bin/bash",
+                 "--groups", group, one.name)  # fmt: skip
         lines = "".join(f"{one.name}:{one.password}\n" for one in made)
         subprocess.run(["chpasswd"], input=lines, text=True, check=True, timeout=_ENDING)
         yield group, made
@@ -184,8 +192,8 @@ def running_hub(course, group, members, log):
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         address = f"http://127.0.0.1:{probe.getsockname()[1]}"
-    environ = {
-        **_environ(),
+    settings = {
+        **environ(),
         "RUNTIME_DIRECTORY": str(run),
         "STATE_DIRECTORY": str(state),
         "ROSBEAT_TEST_CONFIG": str(course / "environment" / "jupyterhub" / "jupyterhub_config.py"),
@@ -195,7 +203,7 @@ def running_hub(course, group, members, log):
     command = [course / "environment" / "course", "hub", "-f", CONFIG]
     with log.open("wb") as messages:
         process = subprocess.Popen(
-            command, env=environ, stdout=messages, stderr=subprocess.STDOUT, umask=0o022
+            command, env=settings, stdout=messages, stderr=subprocess.STDOUT, umask=0o022
         )
         try:
             _wait_for(address, process, log)

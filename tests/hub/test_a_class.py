@@ -1,5 +1,6 @@
 """Twenty learners work at once, each as if alone."""
 
+import csv
 import stat
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
@@ -8,7 +9,7 @@ import nbformat
 import pytest
 
 from hub.learner import as_compared
-from hub.machine import ROOT
+from hub.machine import ROOT, environ
 
 PAGE = "00_hear_the_heartbeat.ipynb"
 pytestmark = pytest.mark.timeout(1800)
@@ -53,11 +54,23 @@ def test_all_run_the_first_page_and_see_what_it_stores(hub, learners):
     assert all('"00a"' in path.read_text() for path in done)
 
 
-def test_each_has_ros2_in_a_terminal(learners):
-    for learner in learners[:3]:
+def test_the_homes_are_graded_as_they_are(hub, learners, tmp_path):
+    homes = hub.users[0].home.parent
+    command = f"rosbeat grade {homes} --lessons 00 --out {tmp_path}"
+    course = [hub.course / "environment" / "course", "shell", "-c", command]
+    subprocess.run(course, env=environ(), check=True, timeout=900)
+    with (tmp_path / "grades.csv").open(encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    assert {row["learner"] for row in rows} == {user.name for user in hub.users}
+    assert {row["status"] for row in rows} == {"passed"}
+
+
+def test_each_has_ros2_in_a_terminal(hub, learners):
+    for user, learner in list(zip(hub.users, learners, strict=True))[:3]:
         with learner.terminal() as terminal:
             assert "/rosout" in terminal.run("ros2 topic list")
-            assert f"/home/{learner.name}/my_course/ROS2" in terminal.run("echo $ROS2_WORKSPACE")
+            workspace = str(user.home / "my_course" / "ROS2_and_RL_Tutorials")
+            assert workspace in terminal.run("echo $ROS2_WORKSPACE")
 
 
 def test_homes_are_closed_and_hold_no_installation(hub, learners):
