@@ -59,7 +59,7 @@ def test_the_homes_are_graded_as_they_are(hub, learners, tmp_path):
     command = f"rosbeat grade {homes} --lessons 00 --out {tmp_path}"
     course = [hub.course / "environment" / "course", "shell", "-c", command]
     subprocess.run(course, env=environ(), check=True, timeout=900)
-    with (tmp_path / "grades.csv").open(encoding="utf-8") as table:
+    with (tmp_path / "grades.csv").open(encoding="utf-8-sig") as table:
         rows = list(csv.DictReader(table))
     assert {row["learner"] for row in rows} == {user.name for user in hub.users}
     assert {row["status"] for row in rows} == {"passed"}
