@@ -29,7 +29,7 @@ _BETWEEN_CELLS, _SHARE = 10.0, 0.7
 _FIRST_MESSAGE = """
 from rclpy.node import Node
 from std_msgs.msg import Float32
-from rosbeat import *
+from rosbeat import Session
 class Talker(Node):
     def __init__(self):
         super().__init__("talker")
