@@ -67,19 +67,19 @@ class Learner:
     def start_server(self):
         """Start one's server, and wait until it answers."""
         self.hub("POST", f"users/{self.name}/server").raise_for_status()
-        deadline = time.monotonic() + LONG_PATIENCE
-        while time.monotonic() < deadline:
-            servers = self.hub("GET", f"users/{self.name}").json()["servers"]
-            if servers.get("", {}).get("ready"):
-                return
-            if not servers:
-                raise RuntimeError(f"the server of {self.name} did not start")
-            time.sleep(0.2)
-        raise TimeoutError(f"the server of {self.name} is not ready")
+        self._wait_for(lambda servers: servers.get("", {}).get("ready"))
 
     def stop_server(self):
-        """Stop one's server."""
-        self.hub("DELETE", f"users/{self.name}/server")
+        """Stop one's server, and wait until it has ended: another one starts only then."""
+        self.hub("DELETE", f"users/{self.name}/server").raise_for_status()
+        self._wait_for(lambda servers: not servers)
+
+    def _wait_for(self, is_so):
+        deadline = time.monotonic() + LONG_PATIENCE
+        while not is_so(servers := self.hub("GET", f"users/{self.name}").json()["servers"]):
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"{self.name}: {servers}")
+            time.sleep(0.2)
 
     def page(self, name):
         """A notebook in one's folder."""
