@@ -27,7 +27,8 @@ DOCUMENTS = {
     "Help": ("docs/glossary.md", "docs/troubleshooting.md", "environment/README.md"),
     "Your own nodes": ("docs/testing.md",),
     "For instructors": (
-        "docs/course_design.md", "docs/instructors.md", "docs/teaching.md", "docs/nbgrader.md",
+        "docs/course_design.md", "docs/instructors.md", "docs/teaching.md", "docs/jupyterhub.md",
+        "docs/nbgrader.md",
         "docs/sandbox.md", "docs/mistakes.md",
     ),
     "For contributors": (

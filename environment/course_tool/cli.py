@@ -11,6 +11,7 @@ from pathlib import Path
 
 from course_tool import commands, folder, testing
 from course_tool.doctor import doctor
+from course_tool.hub import hub
 from course_tool.lab import lab, prepare_image, serve
 from course_tool.layout import Layout, of_this_checkout
 from course_tool.problems import Problem, complain, disk_full, not_writable, of_another_user, say
@@ -28,9 +29,10 @@ Usage:  ./environment/course COMMAND [OPTIONS]
            with other arguments, pytest alone runs with them
   bench    measure the course on this machine
   site     build the course as a site (dist/site); --open shows it in the browser
+  hub      run JupyterHub for a class on this machine: docs/jupyterhub.md
   lock     for maintainers: remake the locked versions (lock --upgrade takes newer ones)
 
-lab, test, shell, bench and site first make .venv, or refresh it when the course has changed.
+lab, test, shell, bench, site and hub first make .venv, or refresh it when the course has changed.
 ROSBEAT_PYTHON=/path/to/python3.12 chooses the Python. ROS_DOMAIN_ID=42 chooses the ROS domain.
 """
 
@@ -105,6 +107,7 @@ _COMMANDS: dict[str, Callable[[Layout, Sequence[str]], int]] = {
     "test": testing.test,
     "bench": commands.bench,
     "site": commands.site,
+    "hub": hub,
     "lock": commands.lock,
     "variables": commands.variables,
     "prepare": prepare_image,

@@ -84,7 +84,7 @@ def site(layout: Layout, arguments: Sequence[str]) -> int:
 def lock(layout: Layout, options: Sequence[str]) -> int:
     """Remake every lock; versions stay unless `--upgrade` is among the options."""
     environ = prepare.ready(layout, "course")
-    for name in ("bootstrap", "build", "course", "test", "site"):
+    for name in ("bootstrap", "build", "course", "test", "site", "hub"):
         say(f"  {name}.in -> {name}.lock")
         command = compile_command(layout, name, options)
         result = running.stream(
@@ -97,8 +97,8 @@ def lock(layout: Layout, options: Sequence[str]) -> int:
 
 def compile_command(layout: Layout, name: str, options: Sequence[str]) -> list[str | Path]:
     """Return the command that makes one lock, valid for every Python of the course."""
-    # The tests run on the very versions that learners get.
-    same_versions = ["--constraint", "course.lock"] if name == "test" else []
+    # The tests run on the very versions that learners get, and the hub shares their `.venv`.
+    same_versions = ["--constraint", "course.lock"] if name in ("test", "hub") else []
     return [
         *(layout.uv, "pip", "compile", "--universal", "--generate-hashes", "--quiet"),
         *("--python-version", "3.10", "--no-emit-index-url", "--no-emit-find-links"),

@@ -5,8 +5,9 @@ solutions to look at. In its hidden folder `.rosbeat`, beside the progress, `shi
 page as it was when it was copied. This tells which pages somebody has worked in, and which answers
 still fit a new version of a page.
 
-In a release (`rosbeat release`), the folder of the pages is the learner's own as it stands.
-`rosbeat new` makes the same folder, in a place of the learner's, from the pages in a wheel.
+In a release (`rosbeat release`), the folder of the pages is the learner's own as it stands. Where
+many learners share one checkout, `ROSBEAT_MY_COURSE` names the folder of each. `rosbeat new` makes
+the same folder, in a place of the learner's, from the pages in a wheel.
 """
 
 from __future__ import annotations
@@ -80,7 +81,7 @@ def make(layout: Layout) -> None:
     is_new = not layout.notes.is_dir()
     layout.notes.mkdir(parents=True, exist_ok=True)
     with exclusive(layout.learner):
-        if not os.environ.get(SETTING):
+        if not layout.is_shared and not os.environ.get(SETTING):
             _adopt(layout)
         _write_once(layout.notes / ".gitignore", b"*\n")
         # colcon is to build in the workspace, and to find nothing anywhere else.
@@ -122,7 +123,8 @@ def _copy_once(layout: Layout, page: Path) -> None:
     if base.exists():
         return
     found, original = page.read_bytes(), _of_git(layout, page)
-    is_work, target = _was_run(found), layout.learner / page.name
+    is_work = _was_run(found) and not layout.is_shared
+    target = layout.learner / page.name
     if is_work and target.exists() and target.read_bytes() != found:
         target = _free_name(target, "from-notebooks")
     _write_once(target, found if is_work else as_opened(found))

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from course_tool import commands, folder, prepare, running
+from course_tool.hub import bring_fonts
 from course_tool.layout import Layout
 from course_tool.problems import Problem, say
 
@@ -47,6 +48,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     # Started in the background of a script, it would hand an ignored Ctrl+C on to every terminal.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     log = layout.notes / "lab.log"
+    shown = str(log.relative_to(layout.learner.parent))
     # The token is in it, which lets whoever has it run commands.
     with os.fdopen(os.open(log, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as messages:
         server = subprocess.Popen(
@@ -63,7 +65,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
         info = _when_open(server, Path(runtime))
         if info:
             say(f"The course is open at  {address(layout, info, options)}")
-            say(f"Ctrl+C stops it. JupyterLab's messages go to {log.relative_to(layout.root)}")
+            say(f"Ctrl+C stops it. JupyterLab's messages go to {shown}")
         code = server.wait()
     except KeyboardInterrupt:
         with suppress(OSError):  # nobody reads it if the terminal was closed
@@ -78,7 +80,7 @@ def lab(layout: Layout, options: Sequence[str]) -> int:
     if code == 0:
         say("JupyterLab was shut down." if info else log.read_text(errors="replace").rstrip())
         return 0
-    raise stopped(log.read_text(errors="replace"), bool(info), str(log.relative_to(layout.root)))
+    raise stopped(log.read_text(errors="replace"), bool(info), shown)
 
 
 def prepare_image(layout: Layout, arguments: Sequence[str]) -> int:
@@ -90,15 +92,17 @@ def prepare_image(layout: Layout, arguments: Sequence[str]) -> int:
 def serve(layout: Layout, arguments: Sequence[str]) -> NoReturn:
     """Become a program that opens JupyterLab, with the course's options behind its own.
 
-    Binder starts every JupyterLab itself, with options of its own: the address and the token.
+    Binder and JupyterHub start every JupyterLab themselves, with options of their own.
     """
     if not arguments:
         raise Problem(
             "The command that opens JupyterLab is missing.",
-            "Only .binder/start uses this: Binder gives it the command.",
+            "Binder and JupyterHub use this: they give it the command.",
             "Open the course:  ./environment/course lab",
         )
     environ = _ready(layout)
+    if layout.is_shared:
+        bring_fonts(layout)
     os.chdir(layout.learner)
     command = [*arguments, *lab_options(layout, (), root_user=os.geteuid() == 0)]
     os.execvpe(command[0], command, environ)

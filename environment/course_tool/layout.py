@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import sys
 from dataclasses import dataclass
@@ -11,6 +12,8 @@ LEVELS = ("course", "test")
 """What an environment is for; each level contains the one before it."""
 WORKSPACE = "ROS2_and_RL_Tutorials"
 """The name of the learner's workspace."""
+LEARNERS_FOLDER = "ROSBEAT_MY_COURSE"
+"""The variable that names a learner's own folder where many share one checkout, as on a hub."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,11 @@ class Layout:
     def environment(self) -> Path:
         """Return the folder of the launcher and the locks."""
         return self.root / "environment"
+
+    @property
+    def hub(self) -> Path:
+        """Return the folder of what JupyterHub is configured with."""
+        return self.environment / "jupyterhub"
 
     @property
     def venv(self) -> Path:
@@ -65,8 +73,16 @@ class Layout:
 
     @property
     def is_release(self) -> bool:
-        """Tell whether this is what an instructor gives to a class (`rosbeat release`)."""
-        return (self.root / ".rosbeat-release.json").is_file()
+        """Tell whether this is what an instructor gives to a class (`rosbeat release`).
+
+        Where many share it, each learner has a folder with copies of its pages.
+        """
+        return (self.root / ".rosbeat-release.json").is_file() and not self.is_shared
+
+    @property
+    def is_shared(self) -> bool:
+        """Tell whether this learner's folder is outside the checkout, which many share."""
+        return bool(os.environ.get(LEARNERS_FOLDER))
 
     @property
     def shipped(self) -> Path:
@@ -76,7 +92,11 @@ class Layout:
     @property
     def learner(self) -> Path:
         """Return the learner's own folder; in a release, its pages are the learner's own."""
-        return self.own or (self.shipped if self.is_release else self.root / "my_course")
+        if self.own:
+            return self.own
+        if self.is_shared:
+            return Path(os.environ[LEARNERS_FOLDER]).expanduser().absolute()
+        return self.shipped if self.is_release else self.root / "my_course"
 
     @property
     def notes(self) -> Path:

@@ -71,9 +71,13 @@ def learners_folder() -> str:
     """Return the learner's own folder; an empty text if none was made yet.
 
     `./environment/course lab` makes it in the checkout (`environment/course_tool/folder.py`); in a
-    release, the pages in `notebooks` are the learner's own. `rosbeat new` makes it anywhere: then
-    it is the nearest one around the folder that this process works in.
+    release, the pages in `notebooks` are the learner's own. Where many learners share a checkout,
+    `ROSBEAT_MY_COURSE` names the folder of each. `rosbeat new` makes it anywhere: then it is the
+    nearest one around the folder that this process works in.
     """
+    chosen = os.path.expanduser(os.environ.get("ROSBEAT_MY_COURSE", ""))
+    if chosen:
+        return os.path.abspath(chosen) if os.path.exists(os.path.join(chosen, ".rosbeat")) else ""
     name = "notebooks" if _in_checkout(".rosbeat-release.json") else "my_course"
     made = os.path.dirname(_in_checkout(name, ".rosbeat"))
     return made or ("" if _in_checkout("notebooks") else _around_here())

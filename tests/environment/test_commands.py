@@ -42,7 +42,7 @@ def test_a_slip_is_understood(typed, meant, capsys):
 def test_an_unknown_word_gets_the_list(capsys):
     assert cli.main(["xyzzy"]) == 1
     err = capsys.readouterr().err
-    assert "lab, reset, update, shell, doctor, test, bench, site, lock and help" in err
+    assert "lab, reset, update, shell, doctor, test, bench, site, hub, lock and help" in err
     assert "variables" not in err
 
 
@@ -246,4 +246,5 @@ def test_every_lock_is_remade(layout, monkeypatch):
     monkeypatch.setattr(prepare, "ready", lambda layout, level: {})
     monkeypatch.setattr(running, "stream", stream)
     assert commands.lock(layout, []) == 0
-    assert ran == ["bootstrap.lock", "build.lock", "course.lock", "test.lock", "site.lock"]
+    names = ("bootstrap", "build", "course", "test", "site", "hub")
+    assert ran == [f"{name}.lock" for name in names]

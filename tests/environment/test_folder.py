@@ -616,3 +616,56 @@ def test_an_answer_that_was_split_into_two_cells_is_not_carried_in_half():
     after, fit, others = folder.carried(mine, shipped, shipped)
     found = [one["source"] for one in json.loads(after)["cells"]]
     assert (found, fit, others) == ([BLANK, "mine"], ["03b"], ["03a"])
+
+
+# Many learners share one checkout, which they cannot write.
+
+
+@pytest.fixture
+def shared(committed, tmp_path, monkeypatch):
+    """A learner's folder outside of the checkout; the test fails if the checkout changes."""
+    home = tmp_path / "home"
+    home.mkdir()
+    monkeypatch.setenv("ROSBEAT_MY_COURSE", str(home / "my_course"))
+    before = all_files(committed.root)
+    yield committed
+    assert all_files(committed.root) == before
+
+
+def all_files(place):
+    return {path: path.read_bytes() for path in place.rglob("*") if path.is_file()}
+
+
+def test_many_share_a_checkout_and_each_has_a_folder(shared, tmp_path, capsys):
+    folder.make(shared)
+    own = tmp_path / "home" / "my_course"
+    found = ["00_hear.ipynb", NAME, "COLCON_IGNORE", "docs", "home.ipynb", "solutions"]
+    assert listed(own) == found
+    assert capsys.readouterr().out == "Your own pages are in the folder my_course.\n"
+
+
+def test_nothing_of_a_shared_checkout_moves_into_a_learners_folder(
+    committed, tmp_path, monkeypatch
+):
+    """Neither a workspace there, nor a page that somebody ran, nor the pages of a release."""
+    (committed.root / "ROS2_and_RL_Tutorials" / "src").mkdir(parents=True)
+    (committed.root / "notebooks" / NAME).write_bytes(WORKED)
+    (committed.root / ".rosbeat-release.json").touch()
+    before = all_files(committed.root)
+    monkeypatch.setenv("ROSBEAT_MY_COURSE", str(tmp_path / "my_course"))
+    folder.make(committed)
+    assert all_files(committed.root) == before
+    assert not (tmp_path / "my_course" / "ROS2_and_RL_Tutorials").exists()
+    assert (tmp_path / "my_course" / NAME).exists()
+
+
+def test_reset_and_update_work_in_a_learners_folder(shared, tmp_path, capsys):
+    folder.make(shared)
+    mine = tmp_path / "home" / "my_course" / NAME
+    mine.write_bytes(WORKED)
+    assert folder.update(shared, []) == 0
+    assert mine.read_bytes() == WORKED
+    assert folder.reset(shared, ["03"]) == 0
+    assert sources(mine) == ["import rosbeat", BLANK, "____"]
+    kept = "yours is kept as my_course/03_write-kept-1.ipynb"
+    assert kept in capsys.readouterr().out

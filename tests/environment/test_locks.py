@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 FOLDER = Path(__file__).resolve().parents[2] / "environment"
-NAMES = ("bootstrap", "build", "course", "test")
+NAMES = ("bootstrap", "build", "course", "test", "hub")
 
 
 def text_of(name):
@@ -51,6 +51,15 @@ def test_tests_run_on_the_versions_that_learners_get():
     packages = {name for name, _ in learners}
     different = {p for p in packages if versions(learners, p) != versions(tests, p)}
     assert different == set()
+
+
+def test_a_hub_leaves_the_versions_that_learners_have():
+    """Its packages go into the same `.venv`."""
+    learners, hub = pins("course"), pins("hub")
+    known = {name for name, _ in learners}
+    shared = {(name, version) for (name, _), version in hub.items() if name in known}
+    assert len(shared) > 10
+    assert shared <= {(name, version) for (name, _), version in learners.items()}
 
 
 @pytest.mark.parametrize("name", NAMES)

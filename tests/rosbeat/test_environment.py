@@ -183,6 +183,16 @@ def test_the_workspace_is_in_the_learners_folder_once_that_is_made(tmp_path):
     assert module.defaults(PREFIX)["ROS2_WORKSPACE"] == f"{own}/ROS2_and_RL_Tutorials"
 
 
+def test_a_learner_who_shares_the_checkout_has_a_folder_of_their_own(tmp_path, monkeypatch):
+    module = installed_in(tmp_path / "src")
+    own = tmp_path / "home" / "my_course"
+    monkeypatch.setenv("ROSBEAT_MY_COURSE", str(own))
+    (tmp_path / "my_course" / ".rosbeat").mkdir(parents=True)
+    assert module.learners_folder() == ""
+    (own / ".rosbeat").mkdir(parents=True)
+    assert module.learners_folder() == str(own)
+
+
 def test_the_workspace_of_a_release_is_beside_its_pages(tmp_path):
     module = installed_in(tmp_path / "src")
     (tmp_path / ".rosbeat-release.json").touch()

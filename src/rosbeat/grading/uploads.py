@@ -1,5 +1,7 @@
 """Read uploads: the files of a folder, of a zip file, and of zip files inside them.
 
+A folder of homes, as on a hub, is an upload, too: each learner's pages are in `my_course`.
+
 Learners' files are untrusted until they are parsed. Nothing is unpacked to disk, and no link is
 followed. An unreadable file stays in the list with the reason. Every limit applies to one file or
 one learner, so a bad entry affects nobody else.
@@ -13,7 +15,7 @@ import re
 import stat
 import zipfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from functools import partial
@@ -34,9 +36,14 @@ MOST_DEPTH, MOST_ENTRIES = 40, 20_000
 OTHER_ARCHIVES = (".rar", ".7z", ".tar", ".gz", ".tgz", ".bz2", ".xz", ".zst")
 #: Files and folders that computers add by themselves.
 _CLUTTER = {"__MACOSX", ".DS_Store", "Thumbs.db", "desktop.ini", "__pycache__"}
+#: What the course makes in the home of a learner on a hub, and the names of the pages that it puts
+#: there. A name that the learner chose could look like one that Moodle made for somebody else.
+_LEARNERS_FOLDER, _NOTES = "my_course", ".rosbeat"
+_PAGE_IN_PLACE = re.compile(r"\d\d_[a-z_]+\.ipynb")
 _DRIVE = re.compile(r"[A-Za-z]:")
 EMPTY_FOLDER = "The folder is empty."
 _LINK = "It is a link or not an ordinary file, so it was not followed."
+_NO_COURSE = "Nobody has opened the course in this home."
 _DEEP = f"It lies in more than {MOST_DEPTH} folders, one in another, so it was not looked at."
 #: What each entry in the directory of a zip file begins with.
 _ENTRY = b"PK\1\2"
@@ -185,6 +192,11 @@ def opened(file: File, allowed: Allowance, level: int = 0) -> Iterator[File]:
 
 
 def _files_of_folder(root: Path) -> Iterator[File]:
+    homes = [Path(one.path) for one in os.scandir(root) if one.is_dir(follow_symlinks=False)]
+    if any(_course_folder(home) is None for home in homes):
+        for home in homes:
+            yield from _files_of_home(home)
+        return
     failed: list[OSError] = []
     for place, folders, names in os.walk(root, onerror=failed.append):
         above = Path(place).relative_to(root).parts
@@ -197,22 +209,74 @@ def _files_of_folder(root: Path) -> Iterator[File]:
         names = [name for name in names if not _is_clutter(name)]
         if above and not folders and not names and not links:
             yield File((*above, ""), problem=EMPTY_FOLDER)
-        yield from (_file(Path(place, name), (*above, name)) for name in names)
+        yield from (_file(root, (*above, name)) for name in names)
     for error in failed:
         parts = Path(error.filename).relative_to(root).parts
-        yield File((*parts, ""), problem=f"The folder cannot be read: {error.strerror}.")
+        yield File((*parts, ""), problem=_unopened(error))
 
 
-def _file(path: Path, parts: tuple[str, ...]) -> File:
-    found = path.lstat()
+def _files_of_home(home: Path) -> Iterator[File]:
+    """Yield a learner's pages, and no copies, solutions and other files of theirs."""
+    problem = _course_folder(home)
+    if problem == _NO_COURSE:
+        yield File((home.name,), problem=problem)
+        return
+    try:
+        names = [] if problem else sorted(os.listdir(home / _LEARNERS_FOLDER))
+    except OSError as error:
+        problem = _unopened(error)
+    if problem:
+        yield File((home.name, ""), problem=problem)
+        return
+    pages = [name for name in names if _PAGE_IN_PLACE.fullmatch(name)]
+    for name in pages:
+        found = _file(home, (_LEARNERS_FOLDER, name))
+        yield replace(found, parts=(home.name, name))
+    if not pages:
+        yield File((home.name, ""), problem=EMPTY_FOLDER)
+
+
+def _course_folder(home: Path) -> str | None:
+    """Return why the folder that the course makes in a home cannot be used; None if it can be."""
+    for folder in (home / _LEARNERS_FOLDER, home / _LEARNERS_FOLDER / _NOTES):
+        try:
+            mode = folder.lstat().st_mode
+        except FileNotFoundError:
+            return _NO_COURSE
+        except OSError as error:
+            return _unopened(error)
+        if not stat.S_ISDIR(mode):
+            return _LINK
+    return None
+
+
+def _unopened(error: OSError) -> str:
+    return f"The folder cannot be read: {error.strerror}."
+
+
+def _file(root: Path, parts: tuple[str, ...]) -> File:
+    found = root.joinpath(*parts).lstat()
     if not stat.S_ISREG(found.st_mode):
         return File(parts, problem=_LINK)
-    return File(parts, found.st_size, found.st_mtime, partial(_read, path))
+    return File(parts, found.st_size, found.st_mtime, partial(_read, root, parts))
 
 
-def _read(path: Path) -> bytes:
-    with path.open("rb") as file:
-        return file.read(MOST_BYTES + 1)
+def _read(root: Path, parts: tuple[str, ...]) -> bytes:
+    """Return the bytes of a file, even if a learner puts a link in its path meanwhile.
+
+    Raises:
+        OSError: If there is a link, or it cannot be read.
+    """
+    with ExitStack() as opened:
+        place = os.open(root, os.O_PATH)
+        opened.callback(os.close, place)
+        for name in parts[:-1]:
+            place = os.open(name, os.O_PATH | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=place)
+            opened.callback(os.close, place)
+        # It may have become a pipe, which would keep whoever opens it.
+        file = os.open(parts[-1], os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK, dir_fd=place)
+        with open(file, "rb") as content:
+            return content.read(MOST_BYTES + 1)
 
 
 # Zip files.

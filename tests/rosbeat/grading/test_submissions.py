@@ -1,5 +1,6 @@
 """Who handed in what, in all the forms in which it may come, whole and broken."""
 
+import errno
 import io
 import json
 import os
@@ -7,6 +8,7 @@ import stat
 import struct
 import zipfile
 from datetime import datetime
+from pathlib import Path
 
 import pytest
 
@@ -84,6 +86,92 @@ def test_each_form_gives_the_same_class(files, learners, packed, handed_in, page
     found = collect(source, pages)
     assert summary(found) == {one: ["03", "04"] for one in learners}
     assert found.remarks == ()
+
+
+# The homes of a hub.
+
+
+def home(learner, files=BOTH):
+    """What the course makes in a learner's home, and what Jupyter and the learner add."""
+    own = {f"{learner}/my_course/{name}": text for name, text in files.items()}
+    return {
+        **own,
+        f"{learner}/my_course/.rosbeat/before/03_write.ipynb": MORE_03,
+        f"{learner}/my_course/solutions/03_write.ipynb": MORE_03,
+        f"{learner}/my_course/03_write-Copy1.ipynb": MORE_03,
+        f"{learner}/my_course/00_x_4711_assignsubmission_file_03.ipynb": MORE_03,
+        f"{learner}/03_write.ipynb": MORE_03,
+        f"{learner}/.bashrc": "",
+    }
+
+
+@pytest.mark.parametrize("learners", [("ana",), ("ana", "ben")])
+def test_the_homes_of_a_hub_are_a_class(handed_in, pages, learners):
+    source = handed_in({path: text for one in learners for path, text in home(one).items()})
+    found = collect(source, pages)
+    assert summary(found) == {one: ["03", "04"] for one in learners}
+    assert [page.path for page in only(found, "ana").pages] == [f"ana/{name}" for name in BOTH]
+    assert found.remarks == only(found, "ana").remarks == ()
+
+
+def test_a_home_in_which_nobody_opened_the_course_is_no_learners(handed_in, pages):
+    found = collect(handed_in({**home("ana"), "admin/notes.txt": "", "admin/03.ipynb": "x"}), pages)
+    assert summary(found) == {"ana": ["03", "04"]}
+    (remark,) = found.remarks
+    assert (remark.path, remark.text) == ("admin", "Nobody has opened the course in this home.")
+
+
+def test_a_home_without_pages_is_a_learners(handed_in, pages):
+    found = collect(handed_in({**home("ana"), **home("ben", {})}), pages)
+    assert summary(found) == {"ana": ["03", "04"], "ben": []}
+    assert abouts(found, "ben") == ["empty"]
+
+
+@pytest.mark.parametrize("place", ["my_course/03_write.ipynb", "my_course", "my_course/.rosbeat"])
+def test_no_link_leads_out_of_a_home(handed_in, pages, place):
+    source = handed_in({**home("ana"), **home("eve")})
+    (source / "eve" / place).rename(source / "eve" / "own")
+    (source / "eve" / place).symlink_to(source / "ana" / place)
+    found = collect(source, pages)
+    assert not [one for one in only(found, "eve").pages if "03" in one.page and one.notebook.cells]
+    assert ["It is a link" in one.text for one in only(found, "eve").remarks] == [True]
+
+
+@pytest.mark.parametrize("place", ["03_write.ipynb", ""])
+def test_a_link_that_a_learner_puts_in_place_meanwhile_is_not_followed(handed_in, place):
+    source = handed_in({**home("ana"), **home("eve", {"03_write.ipynb": BLANK})})
+    with uploads.open_upload(source) as files:
+        (page,) = [one for one in files if one.parts[:1] == ("eve",)]
+        moved = source / "eve" / "my_course" / place
+        moved.rename(source / "eve" / "own")
+        moved.symlink_to(source / "ana" / "my_course" / place)
+        with pytest.raises(OSError, match=r"symbolic links|Not a directory"):
+            page.read()
+
+
+def test_a_pipe_that_a_learner_puts_in_place_keeps_nobody(handed_in):
+    source = handed_in({**home("eve", {"03_write.ipynb": BLANK})})
+    with uploads.open_upload(source) as (page,):
+        (source / "eve" / "my_course" / "03_write.ipynb").unlink()
+        os.mkfifo(source / "eve" / "my_course" / "03_write.ipynb")
+        assert page.read() == b""
+
+
+def test_a_home_that_cannot_be_read_is_said(handed_in, pages, monkeypatch):
+    """Root can read all of them, and may run this test: the refusal is made up."""
+    source = handed_in({**home("ana"), **home("ben")})
+    lstat = Path.lstat
+
+    def refusing(path):
+        if path.is_relative_to(source / "ben"):
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return lstat(path)
+
+    monkeypatch.setattr(Path, "lstat", refusing)
+    found = collect(source, pages)
+    assert summary(found) == {"ana": ["03", "04"], "ben": []}
+    (unread,) = only(found, "ben").unread
+    assert unread.text == "The folder cannot be read: Permission denied."
 
 
 @pytest.mark.parametrize(
