@@ -44,6 +44,7 @@ PART_OF = {
     "explain_command": "cli",
     "__main__": "cli",
     "domains": "environment",
+    "jupyter_lease": "environment",
     "page_errors": "page_session",
     "testing": "page_session",
     "pytest_plugin": "page_session",

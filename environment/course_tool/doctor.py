@@ -345,7 +345,7 @@ def judge(facts: Mapping[str, Any], environ: Mapping[str, str], venv: str) -> li
         _origin(facts["rclpy"], facts["rclpy_file"], venv),
         Finding("ok", "message heard", f"after {facts['milliseconds']:.0f} ms"),
         Finding("ok", "middleware", facts["rmw"]),
-        _domain(seen.get("ROS_DOMAIN_ID"), environ.get("ROS_DOMAIN_ID")),
+        _domain(seen.get("ROS_DOMAIN_ID"), environ),
         _reach(seen.get("ROS_AUTOMATIC_DISCOVERY_RANGE") or "SUBNET"),
         profile(seen, environ),
         _field_checks(facts["field_checks"], environ.get("ROS_PYTHON_CHECK_FIELDS")),
@@ -358,10 +358,10 @@ def _origin(version: str, file: str, venv: str) -> Finding:
     return Finding("problem", "rclpy", f"comes from {file}", "unset PYTHONPATH in this terminal")
 
 
-def _domain(seen: str | None, set_by_user: str | None) -> Finding:
+def _domain(seen: str | None, environ: Mapping[str, str]) -> Finding:
     if seen is None:
         return Finding("problem", "domain id", "is not set: nodes meet everybody's in 0", _REPAIR)
-    if set_by_user:
+    if environ.get("ROS_DOMAIN_ID", "") not in ("", environ.get("ROSBEAT_DOMAIN_ID")):
         return Finding("ok", "domain id", f"{seen}, from ROS_DOMAIN_ID in your environment")
     return Finding("ok", "domain id", f"{seen}, the course's choice for you and this checkout")
 

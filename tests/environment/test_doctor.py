@@ -155,6 +155,8 @@ def test_a_ros_that_is_as_it_should_be():
 def test_who_chose_the_domain():
     ours = by_subject(doctor.judge(FACTS, {}, "/c/.venv"))["domain id"]
     yours = by_subject(doctor.judge(FACTS, {"ROS_DOMAIN_ID": "12"}, "/c/.venv"))["domain id"]
+    terminal = {"ROS_DOMAIN_ID": "12", "ROSBEAT_DOMAIN_ID": "12"}
+    assert by_subject(doctor.judge(FACTS, terminal, "/c/.venv"))["domain id"] == ours
     assert "the course's choice" in ours.text
     assert "ROS_DOMAIN_ID in your environment" in yours.text
 

@@ -55,7 +55,7 @@ def test_the_values():
     assert values["ROS_DISTRO"] == "jazzy"
 
 
-@pytest.mark.parametrize("name", sorted(environment.defaults(PREFIX)))
+@pytest.mark.parametrize("name", sorted({*environment.defaults(PREFIX)} - {environment.CHOSEN}))
 def test_what_somebody_set_stays(name):
     environ = {name: "7"}
     set_now = environment.apply(environ, PREFIX)
@@ -70,6 +70,15 @@ def test_an_empty_value_is_no_decision():
     environ = {"ROS_DOMAIN_ID": ""}
     environment.apply(environ, PREFIX)
     assert environ["ROS_DOMAIN_ID"] == str(environment.domain_id(PREFIX))
+
+
+def test_a_domain_that_the_course_chose_is_told_from_a_persons():
+    for environ in ({}, {"ROSBEAT_DOMAIN_ID": "7"}):
+        environment.apply(environ, PREFIX)
+        assert environ["ROSBEAT_DOMAIN_ID"] == environ["ROS_DOMAIN_ID"]
+    environ = {"ROS_DOMAIN_ID": "7"}
+    environment.apply(environ, PREFIX)
+    assert "ROSBEAT_DOMAIN_ID" not in environ
 
 
 def test_a_workspace_keeps_its_place_before_ours():
@@ -218,13 +227,13 @@ def test_a_shell_gets_the_same_values(tmp_path):
 
 
 def test_a_domain_is_stable_and_shared_ones_are_from_1_to_50():
-    ids = {environment.domain_id(f"/home/{n}/.venv", "1000") for n in range(2000)}
+    ids = {environment.usual_domain_id(f"/home/{n}/.venv", "1000") for n in range(2000)}
     assert ids == set(range(1, 51))
-    assert environment.domain_id(PREFIX, "1000") == environment.domain_id(PREFIX, "1000")
+    assert len({environment.usual_domain_id(PREFIX, "1000") for _ in range(2)}) == 1
 
 
 def test_users_and_checkouts_rarely_meet():
-    users = [environment.domain_id(PREFIX, str(uid)) for uid in range(1000, 1050)]
+    users = [environment.usual_domain_id(PREFIX, str(uid)) for uid in range(1000, 1050)]
     assert len(set(users)) > 25
 
 
@@ -239,7 +248,7 @@ def test_a_domain_follows_the_real_place(tmp_path):
 def test_a_system_without_user_numbers(monkeypatch):
     monkeypatch.delattr(os, "getuid")
     monkeypatch.setenv("USERNAME", "ada")
-    assert environment.domain_id(PREFIX) == environment.domain_id(PREFIX, "ada")
+    assert environment.domain_id(PREFIX) == environment.usual_domain_id(PREFIX, "ada")
 
 
 def test_it_works_on_this_process_by_default(monkeypatch):
