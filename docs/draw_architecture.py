@@ -46,6 +46,7 @@ PART_OF = {
     "__main__": "cli",
     "domains": "environment",
     "local_server": "grading",
+    "jupyter_lease": "environment",
     "page_errors": "page_session",
     "testing": "page_session",
     "pytest_plugin": "page_session",

@@ -23,8 +23,9 @@ PACKAGE = ROOT / "src" / "rosbeat"
 MAY_IMPORT = {
     "errors": set(),
     "environment": set(),
-    "domains": {"errors"},
+    "domains": {"errors", "environment"},
     "local_server": set(),
+    "jupyter_lease": {"errors", "domains"},
     "records": {"errors"},
     "records_json": {"errors", "records"},
     "diagnosis": {"records", "errors"},
@@ -57,11 +58,11 @@ MAY_IMPORT = {
         *("errors", "records", "records_json", "environment", "ros", "viz"),
         *("exercises", "workspace", "diagnosis", "rosbeat", "local_server"),
     },
-    "authoring": {"errors", "domains"},
+    "authoring": {"errors", "domains", "environment"},
     # The package itself hands out names of other rooms.
     "rosbeat": {
         *("environment", "viz", "page_errors", "page_views", "page_session", "exercises"),
-        *("workspace", "bags", "clinic"),
+        *("workspace", "bags", "clinic", "jupyter_lease"),
     },
 }
 #: `cli` may import everything, and nobody may import `cli`.
@@ -76,6 +77,7 @@ THIRD_PARTY = {
     "environment": set(),
     "domains": set(),
     "local_server": set(),
+    "jupyter_lease": set(),
     "workspace": {"IPython", "ptyprocess", "ament_index_python", "pygments"},
     "authoring": {"jupytext", "nbformat", "nbclient", "jupyter_client"},
     "viz": {"matplotlib"},

@@ -19,6 +19,7 @@ _SHELL = ["bash", "--rcfile", str(Path(__file__).with_name("shellrc.bash"))]
 def shell(layout: Layout, arguments: Sequence[str]) -> NoReturn:
     """Become a bash with the environment active; arguments are bash's own (`-c "command"`)."""
     environ = surroundings.with_ros(prepare.ready(layout, "course"), layout)
+    surroundings.lease_domain(environ, layout)
     command = ["bash", *arguments] if arguments else interactive_shell()
     os.execvpe("bash", command, for_shells(environ, layout))
 

@@ -25,7 +25,6 @@ from course_tool.surroundings import Surroundings
 _LAB = "./environment/course lab"
 _REPAIR = f"remove .venv/rosbeat-stamp.json; {_LAB}  then repairs .venv"
 _COURSE_WAS_MADE = 1_767_225_600  # 2026-01-01; a clock before it breaks every https connection
-_ENOUGH_SHARED_MEMORY = 64 * 10**6
 _COMMANDS = {"ros2": "pkg prefix rclpy", "colcon": "version-check --help", "rosbeat": "--help"}
 _PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
 _OUR_PROFILE = os.path.join("ros2_command", "data", "fastdds.xml")
@@ -66,7 +65,6 @@ def look(layout: Layout, clean: Surroundings) -> list[Finding]:
         course_files(layout, clean.environ),
         Finding("ok", "Python", f"{platform.python_version()} ({sys.executable})"),
         disk(shutil.disk_usage(layout.root).free, layout.stamp.exists()),
-        shared_memory(Path("/dev/shm")),
         clock(time.time()),
         another_ros(clean),
         sandbox(_can_isolate()),
@@ -154,19 +152,6 @@ def disk(free: int, installed: bool) -> Finding:
         return Finding("ok", "disk", text)
     cure = f"free some space: {needed / prepare.GIGABYTE:.1f} GB are needed"
     return Finding("problem", "disk", text, cure)
-
-
-def shared_memory(folder: Path) -> Finding:
-    """Look whether ROS can use shared memory; without it, messages go over the loopback."""
-    subject = "shared memory"
-    if not os.access(folder, os.W_OK):
-        text = f"{folder} cannot be written to"
-        return Finding("problem", subject, text, "in a container: --ipc=host")
-    free = shutil.disk_usage(folder).free
-    if free < _ENOUGH_SHARED_MEMORY:
-        text = f"only {free / 10**6:.0f} MB free in {folder}"
-        return Finding("problem", subject, text, f"rm {folder}/fastrtps_* when no node runs")
-    return Finding("ok", subject, f"{folder} can be written to")
 
 
 def clock(now: float) -> Finding:
@@ -345,7 +330,7 @@ def judge(facts: Mapping[str, Any], environ: Mapping[str, str], venv: str) -> li
         _origin(facts["rclpy"], facts["rclpy_file"], venv),
         Finding("ok", "message heard", f"after {facts['milliseconds']:.0f} ms"),
         Finding("ok", "middleware", facts["rmw"]),
-        _domain(seen.get("ROS_DOMAIN_ID"), environ.get("ROS_DOMAIN_ID")),
+        _domain(seen.get("ROS_DOMAIN_ID"), environ),
         _reach(seen.get("ROS_AUTOMATIC_DISCOVERY_RANGE") or "SUBNET"),
         profile(seen, environ),
         _field_checks(facts["field_checks"], environ.get("ROS_PYTHON_CHECK_FIELDS")),
@@ -358,10 +343,10 @@ def _origin(version: str, file: str, venv: str) -> Finding:
     return Finding("problem", "rclpy", f"comes from {file}", "unset PYTHONPATH in this terminal")
 
 
-def _domain(seen: str | None, set_by_user: str | None) -> Finding:
+def _domain(seen: str | None, environ: Mapping[str, str]) -> Finding:
     if seen is None:
         return Finding("problem", "domain id", "is not set: nodes meet everybody's in 0", _REPAIR)
-    if set_by_user:
+    if environ.get("ROS_DOMAIN_ID", "") not in ("", environ.get("ROSBEAT_DOMAIN_ID")):
         return Finding("ok", "domain id", f"{seen}, from ROS_DOMAIN_ID in your environment")
     return Finding("ok", "domain id", f"{seen}, the course's choice for you and this checkout")
 

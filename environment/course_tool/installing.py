@@ -50,6 +50,7 @@ _LAB_FILES: dict[str, dict[str, object]] = {
     "etc/jupyter/jupyter_server_config.d/zz_course.json": {
         "ServerApp": {
             "jpserver_extensions": {
+                "rosbeat.jupyter_lease": True,
                 "notebook": False,
                 "nbgrader.server_extensions.formgrader": False,
                 "nbgrader.server_extensions.validate_assignment": False,

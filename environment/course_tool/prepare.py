@@ -40,7 +40,7 @@ REFRESH = 0.3 * GIGABYTE
 
 _OLDEST_GLIBC = (2, 28)
 #: To be raised when this tool lays out an environment in another way.
-_REVISION = "3"
+_REVISION = "4"
 # Without `site`, so that nothing installed in the environment has a say.
 _WHO = "import sys; print('%d.%d' % sys.version_info[:2], sys.base_prefix)"
 #: Folders within the course that come about as it is used.

@@ -6,12 +6,17 @@ processes get the user's environment without the entries that lead into the othe
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import os
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
 
 from course_tool.layout import Layout
+from course_tool.problems import say
 
 _LISTS = (
     "AMENT_PREFIX_PATH",
@@ -88,6 +93,32 @@ def with_ros(environ: Mapping[str, str], layout: Layout) -> dict[str, str]:
     complete = dict(environ)
     module.apply(complete, str(layout.venv))
     return complete
+
+
+def lease_domain(environ: dict[str, str], layout: Layout) -> None:
+    """Lease the ROS domain of this user's terminals, and set it in an environment.
+
+    It is held by this process, by the program that it becomes, and by what that one starts.
+    """
+    domains, errors = (_of_rosbeat(layout, name) for name in ("domains", "errors"))
+    try:
+        lease = domains.lease_terminal_domain(environ, str(layout.venv))
+    except errors.DomainsExhaustedError as error:
+        say(str(error))
+        return
+    if lease is not None:
+        lease.keep_across_exec()
+
+
+def _of_rosbeat(layout: Layout, name: str) -> Any:  # noqa: ANN401 - a module
+    """Import a module of the helper package, which is not installed for this Python.
+
+    What the package does when it is itself imported is left out: it would be for this Python.
+    """
+    package = ModuleType("rosbeat")
+    package.__path__ = [str(layout.root / "src" / "rosbeat")]
+    sys.modules.setdefault("rosbeat", package)
+    return importlib.import_module(f"rosbeat.{name}")
 
 
 def other_roots(environ: Mapping[str, str], layout: Layout) -> list[str]:

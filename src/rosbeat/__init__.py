@@ -42,6 +42,8 @@ if os.environ.get("NBGRADER_EXECUTION"):
     import_module("rosbeat.workspace.graded_runs").settle_in()
 # Without loading IPython where there is none.
 if (_ipython := sys.modules.get("IPython")) and (_shell := _ipython.get_ipython()):
+    if not os.environ.get("NBGRADER_EXECUTION"):
+        import_module("rosbeat.jupyter_lease").hold_domain()
     import_module("rosbeat.page_errors").register(_shell)
     import_module("rosbeat.exercises.cells").register(_shell)
     import_module("rosbeat.page_views").register(_shell)

@@ -21,37 +21,92 @@ if TYPE_CHECKING:  # `typing` itself would cost more than everything below toget
     from collections.abc import Mapping, MutableMapping
 
 __all__ = [
+    "CHOSEN",
+    "DOMAIN",
     "SHARED_DOMAINS",
     "apply",
     "defaults",
     "discovery_profile",
     "domain_id",
     "learners_folder",
+    "leased_domains",
     "other_ros",
     "shell_lines",
+    "usual_domain_id",
+    "who",
 ]
 
 SHARED_DOMAINS = range(1, 51)
-"""Domain ids for people and their checkouts; `rosbeat.domains` says what the others are for."""
+"""Usual domain ids of users and checkouts; `rosbeat.domains` says what the others are for."""
+
+DOMAIN = "ROS_DOMAIN_ID"
+CHOSEN = "ROSBEAT_DOMAIN_ID"
+"""Holds the domain id that the course has chosen. Another ROS_DOMAIN_ID is somebody's decision."""
 
 _PATH = "AMENT_PREFIX_PATH"
 _PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 #: Makes ROS take from that file how much memory a topic gets; see there.
 _FROM_PROFILE = "RMW_FASTRTPS_USE_QOS_FROM_XML"
+#: Goes with the profile: no shared memory, whose files every user of the machine can read, and
+#: which stay when a process is killed. Named in the profile itself, UDP would be used twice.
+_TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 _COLCON = "COLCON_DEFAULTS_FILE"
 _INSTALLATION = ("RMW_IMPLEMENTATION", "ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION")
 
 
-def domain_id(prefix: str | None = None, user: str | None = None) -> int:
-    """Return the domain id of a user in a checkout: always the same, and rarely a neighbour's.
+def domain_id(prefix: str | None = None) -> int:
+    """Return the domain id of this user in a checkout.
+
+    It is the id that was last leased for them on this machine (`rosbeat.domains`), or else the
+    usual one.
+
+    Args:
+        prefix: The installation, by default that of the running Python.
+    """
+    try:
+        file = os.open(leased_domains(), os.O_RDONLY)
+        try:
+            _, found, rest = os.read(file, 65536).partition(who(prefix).encode() + b" ")
+        finally:
+            os.close(file)
+        if found:
+            return int(rest.split(None, 1)[0])
+    except (OSError, ValueError, IndexError, AttributeError):
+        pass  # no lease yet, or a file or a system that cannot tell of one
+    return usual_domain_id(prefix)
+
+
+def usual_domain_id(prefix: str | None = None, user: str | None = None) -> int:
+    """Return a domain id that is always the same for a user and a checkout, but not theirs alone.
 
     Args:
         prefix: The installation, by default that of the running Python.
         user: Who runs it, by default the current user.
     """
+    return SHARED_DOMAINS[_checksum(prefix, user) % 50]
+
+
+def leased_domains() -> str:
+    """Return the file that names this user's leased ids.
+
+    Each line has what `who` returns, and an id.
+    """
+    return os.path.join(os.path.expanduser("~"), ".cache", "rosbeat", "domains")
+
+
+def who(prefix: str | None = None) -> str:
+    """Return words that name this user, a checkout, and the machine or container they are on.
+
+    Several machines may have one home, and a container may have its own network.
+    """
+    network = os.stat("/proc/self/ns/net").st_ino
+    return f"{_checksum(prefix):08x} {os.uname().nodename} {network}"
+
+
+def _checksum(prefix: str | None, user: str | None = None) -> int:
     place = os.path.realpath(prefix or sys.prefix)
     text = f"{user or _user()}\n{place}"
-    return SHARED_DOMAINS[binascii.crc32(text.encode("utf-8", "surrogateescape")) % 50]
+    return binascii.crc32(text.encode("utf-8", "surrogateescape"))
 
 
 def discovery_profile() -> str:
@@ -89,6 +144,14 @@ def defaults(prefix: str | None = None) -> dict[str, str]:
     Args:
         prefix: The installation that brings ROS, by default that of the running Python.
     """
+    return _settings(prefix) | _domain(prefix)
+
+
+def _domain(prefix: str | None) -> dict[str, str]:
+    return dict.fromkeys((DOMAIN, CHOSEN), str(domain_id(prefix)))
+
+
+def _settings(prefix: str | None) -> dict[str, str]:
     return {
         _PATH: prefix or sys.prefix,
         "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
@@ -102,7 +165,6 @@ def defaults(prefix: str | None = None) -> dict[str, str]:
         "ROS_DISTRO": "jazzy",
         "ROS_VERSION": "2",
         "ROS_PYTHON_VERSION": "3",
-        "ROS_DOMAIN_ID": str(domain_id(prefix)),
         **_files(),
         **_workspace(),
         **_plain_python(prefix or sys.prefix),
@@ -138,10 +200,12 @@ def apply(
     settled = _settled(target, prefix)
     missing = {
         name: value
-        for name, value in defaults(prefix).items()
+        for name, value in _settings(prefix).items()
         if not target.get(name) and name not in settled
     }
     missing.update(_longer_path(target, prefix or sys.prefix))
+    if not target.get(DOMAIN):
+        missing.update(_domain(prefix))
     target.update(missing)
     return missing
 
@@ -177,7 +241,7 @@ def _files() -> dict[str, str]:
     colcon = _in_checkout(*settings) or (in_wheel if os.path.exists(in_wheel) else "")
     files = {_PROFILE: discovery_profile(), _COLCON: colcon}
     found = {name: path for name, path in files.items() if path}
-    return {**found, _FROM_PROFILE: "1"} if _PROFILE in found else found
+    return {**found, _FROM_PROFILE: "1", _TRANSPORTS: "UDPv4"} if _PROFILE in found else found
 
 
 def _workspace() -> dict[str, str]:
@@ -210,9 +274,9 @@ def _settled(environ: Mapping[str, str], prefix: str | None) -> list[str]:
     home = environ.get("COLCON_HOME") or os.path.join(os.path.expanduser("~"), ".colcon")
     settled = list(_INSTALLATION) if other_ros(environ, prefix) else []
     if environ.get("FASTDDS_DEFAULT_PROFILES_FILE"):
-        settled += [_PROFILE, _FROM_PROFILE]
+        settled += [_PROFILE, _FROM_PROFILE, _TRANSPORTS]
     elif environ.get(_PROFILE, "") not in ("", discovery_profile()):
-        settled.append(_FROM_PROFILE)
+        settled += [_FROM_PROFILE, _TRANSPORTS]
     if os.path.exists(os.path.join(home, "defaults.yaml")):
         settled.append(_COLCON)
     return settled

@@ -11,7 +11,7 @@
     │   ├── UnknownTopicError       nobody published on that topic
     │   ├── EndlessChainError       callbacks cause each other for ever without time passing
     │   ├── DeadlockError           callbacks wait for ever
-    │   ├── DomainsExhaustedError   no ROS domain id is left for programs of a check or build
+    │   ├── DomainsExhaustedError   no ROS domain id is left for a check or for terminals
     │   ├── NoSessionError          a node was made on a page with no session open
     │   └── ClosedSessionError      the session has ended
     ├── PictureError                a picture cannot be drawn from what it was given
@@ -103,7 +103,7 @@ class EndlessChainError(SessionError):
 
 
 class DomainsExhaustedError(SessionError):
-    """Signal that every ROS domain id for checks and builds is in use on this machine."""
+    """Signal that every ROS domain id for checks, or for terminals, is in use on this machine."""
 
 
 class NoSessionError(SessionError):

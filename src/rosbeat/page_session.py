@@ -40,7 +40,7 @@ class Session(session.Session):
     Args:
         seed: Seed of the random numbers that the nodes draw with Python's `random` or NumPy's
             global generator. The same seed gives the same run.
-        domain_id: The ROS domain to join, 0 to 101; the session then also discovers the nodes of
+        domain_id: The ROS domain to join, 0 to 214; the session then also discovers the nodes of
             other processes in that domain. By default a session is private: no other session or
             terminal can reach it.
 

@@ -24,6 +24,7 @@ import panel
 import scaling
 import sessions
 import simulation
+import terminals
 import throughput
 from measuring import Row, table
 
@@ -36,6 +37,7 @@ BENCHMARKS = {
     "panel": panel.measure,
     "scaling": scaling.measure,
     "commands": commands.measure,
+    "terminals": terminals.measure,
     "endings": endings.measure,
     "checks": checks.measure,
     "grading": partial(grading.measure, 30),

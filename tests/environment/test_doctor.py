@@ -89,13 +89,6 @@ def test_disk():
     assert doctor.disk(10**9, installed=True).state == "ok"
 
 
-def test_shared_memory(tmp_path, monkeypatch):
-    assert doctor.shared_memory(tmp_path).state == "ok"
-    assert doctor.shared_memory(tmp_path / "gone").state == "problem"
-    monkeypatch.setattr(doctor, "_ENOUGH_SHARED_MEMORY", 10**18)
-    assert "fastrtps_*" in doctor.shared_memory(tmp_path).cure
-
-
 def test_a_clock_that_fell_back():
     assert doctor.clock(0.0).state == "problem"
     assert doctor.clock(1.8e9).state == "ok"
@@ -155,6 +148,8 @@ def test_a_ros_that_is_as_it_should_be():
 def test_who_chose_the_domain():
     ours = by_subject(doctor.judge(FACTS, {}, "/c/.venv"))["domain id"]
     yours = by_subject(doctor.judge(FACTS, {"ROS_DOMAIN_ID": "12"}, "/c/.venv"))["domain id"]
+    terminal = {"ROS_DOMAIN_ID": "12", "ROSBEAT_DOMAIN_ID": "12"}
+    assert by_subject(doctor.judge(FACTS, terminal, "/c/.venv"))["domain id"] == ours
     assert "the course's choice" in ours.text
     assert "ROS_DOMAIN_ID in your environment" in yours.text
 

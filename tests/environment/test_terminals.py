@@ -167,7 +167,11 @@ async def typed_in_lab(server, text, until):
 
 
 @pytest.mark.timeout(300)  # a whole JupyterLab has to start
-def test_a_terminal_of_jupyterlab_is_the_courses_shell(server):
+def test_a_terminal_of_jupyterlab_is_the_courses_shell(server, tmp_path):
     asking = typed_in_lab(server, ASK.replace("\n", "\r"), r"<[^\n]*> <jazzy> <[^\n]*>")
     shown = asyncio.run(asyncio.wait_for(asking, 100))
     assert ours().strip() in shown
+    asking = typed_in_lab(server, 'echo "<$ROS_DOMAIN_ID=$ROSBEAT_DOMAIN_ID>"\r', r"<\d+=\d+>")
+    shown = asyncio.run(asyncio.wait_for(asking, 100))
+    *_, leased = (tmp_path / ".cache" / "rosbeat" / "domains").read_text().split()
+    assert f"<{leased}={leased}>" in shown

@@ -16,10 +16,10 @@ from std_srvs.srv import Trigger
 from nodes import SECOND, Doer, Listener, Server, Talker, Ticker
 from other_process import other_process
 from rosbeat import Session
-from rosbeat.domains import lease_domain
+from rosbeat.domains import lease_domain, participants, udp_ports
 from rosbeat.errors import DurationError, SessionError, UnknownTopicError
 from rosbeat.records import QoS
-from rosbeat.ros.graph import count_participants, domains_in_use, udp_ports
+from rosbeat.ros.graph import count_participants, domains_in_use
 from rosbeat.viz import graph as picture
 
 pytestmark = pytest.mark.ros
@@ -287,11 +287,11 @@ def test_nodes_of_one_name_count_each(empty_domain, eventually):
 HEAD = "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout"
 
 
-def table(*sockets):
-    """What the system says of sockets, each a port and a number."""
+def table(*sockets, user=1000):
+    """What the system says of a user's sockets, each a port and a number."""
     rows = [
-        f"  {n}: 00000000:{port:04X} 00000000:0000 07 00000000:00000000 00:00000000 00000000 0 0 "
-        f"{inode} 2 0000000000000000 0"
+        f"  {n}: 00000000:{port:04X} 00000000:0000 07 00000000:00000000 00:00000000 00000000 "
+        f"{user} 0 {inode} 2 0000000000000000 0"
         for n, (port, inode) in enumerate(sockets)
     ]
     return "\n".join([HEAD, *rows])
@@ -304,17 +304,20 @@ def both(domain, number=0, inode=1):
 
 def test_a_participant_holds_two_ports():
     ports = udp_ports(table(*both(7), *both(7, 1), *both(8)))
-    assert [count_participants(domain, ports) for domain in (6, 7, 8)] == [0, 2, 1]
+    assert [participants(domain, ports) for domain in (6, 7, 8)] == [[], [1000, 1000], [1000]]
 
 
 def test_one_port_alone_is_somebody_elses():
     for alone in (*both(7), (7400 + 250 * 7, 1)):
-        assert count_participants(7, udp_ports(table(alone))) == 0
+        assert not participants(7, udp_ports(table(alone)))
+    one, other = both(7)
+    two_users = table(one) + "\n" + table(other, user=1001)
+    assert not participants(7, udp_ports(two_users))
 
 
 def test_the_process_itself_does_not_count():
     ports = udp_ports(table(*both(7, inode=41), *both(8, inode=42)), ["41"])
-    assert [count_participants(domain, ports) for domain in (7, 8)] == [0, 1]
+    assert [participants(domain, ports) for domain in (7, 8)] == [[], [1000]]
 
 
 def test_nothing_is_known_without_a_table():

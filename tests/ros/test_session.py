@@ -256,7 +256,7 @@ def test_time_ends_after_292_years(ros, says):
 
 @pytest.mark.parametrize(
     "options",
-    [{"seed": -1}, {"seed": 1.5}, {"seed": "7"}, {"seed": True}, {"domain_id": 102},
+    [{"seed": -1}, {"seed": 1.5}, {"seed": "7"}, {"seed": True}, {"domain_id": 215},
      {"domain_id": -1}, {"domain_id": "5"}],
 )  # fmt: skip
 def test_options_are_checked(options, says):

@@ -33,11 +33,16 @@ def test_names():
 
 
 def test_participants_are_counted_by_their_ports():
-    rows = ["  sl  local_address rem_address", " 1: 00000000:75D0 00000000:0000",
-            " 2: 00000000:75D1 00000000:0000", " 3: 00000000:75D2 00000000:0000",
-            " 4: 0100007F:75D2 00000000:0000", " 5: 00000000:1CF2 00000000:0000"]  # fmt: skip
-    assert count_participants(91, "\n".join(rows)) == 2
-    assert count_participants(0, "\n".join(rows)) == 1
+    def row(port, user, address="00000000"):
+        return f" 1: {address}:{port:04X} 00000000:0000 07 0:0 00:0 0 {user} 0 21 2 0 0"
+
+    first = 7400 + 250 * 91 + 10
+    rows = [row(first, 1), row(first + 1, 1), row(first + 2, 2), row(first + 2, 2, "0100007F"),
+            row(first + 3, 2), row(7410, 1), row(7411, 1)]  # fmt: skip
+    others = [row(first + 4, 1), row(first + 5, 2), row(first + 6, 1)]  # of no participant
+    head = "  sl  local_address rem_address"
+    text = "\n".join([head, *rows, *others])
+    assert [count_participants(domain, text) for domain in (91, 0, 5)] == [2, 1, 0]
     assert count_participants(5, "") == 0
 
 

@@ -14,6 +14,7 @@ MODULE = Path(environment.__file__)
 PREFIX = "/home/ada/course/.venv"
 PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 FROM_PROFILE = "RMW_FASTRTPS_USE_QOS_FROM_XML"
+TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 
 
 @pytest.fixture(autouse=True)
@@ -55,7 +56,7 @@ def test_the_values():
     assert values["ROS_DISTRO"] == "jazzy"
 
 
-@pytest.mark.parametrize("name", sorted(environment.defaults(PREFIX)))
+@pytest.mark.parametrize("name", sorted({*environment.defaults(PREFIX)} - {environment.CHOSEN}))
 def test_what_somebody_set_stays(name):
     environ = {name: "7"}
     set_now = environment.apply(environ, PREFIX)
@@ -70,6 +71,15 @@ def test_an_empty_value_is_no_decision():
     environ = {"ROS_DOMAIN_ID": ""}
     environment.apply(environ, PREFIX)
     assert environ["ROS_DOMAIN_ID"] == str(environment.domain_id(PREFIX))
+
+
+def test_a_domain_that_the_course_chose_is_told_from_a_persons():
+    for environ in ({}, {"ROSBEAT_DOMAIN_ID": "7"}):
+        environment.apply(environ, PREFIX)
+        assert environ["ROSBEAT_DOMAIN_ID"] == environ["ROS_DOMAIN_ID"]
+    environ = {"ROS_DOMAIN_ID": "7"}
+    environment.apply(environ, PREFIX)
+    assert "ROSBEAT_DOMAIN_ID" not in environ
 
 
 def test_a_workspace_keeps_its_place_before_ours():
@@ -108,8 +118,7 @@ def test_every_node_finds_the_others_quickly():
 def test_a_profile_under_fast_dds_newer_name_counts_too():
     environ = {"FASTDDS_DEFAULT_PROFILES_FILE": "/home/ada/fastdds.xml"}
     environment.apply(environ, PREFIX)
-    assert PROFILE not in environ
-    assert FROM_PROFILE not in environ
+    assert {PROFILE, FROM_PROFILE, TRANSPORTS}.isdisjoint(environ)
 
 
 @pytest.mark.parametrize(
@@ -124,6 +133,15 @@ def test_a_profile_under_fast_dds_newer_name_counts_too():
 def test_memory_is_taken_from_no_profile_but_the_courses(environ, wanted):
     environment.apply(environ, PREFIX)
     assert environ.get(FROM_PROFILE) == wanted
+
+
+@pytest.mark.parametrize(
+    ("environ", "wanted"),
+    [({}, "UDPv4"), ({PROFILE: "/home/ada/fastdds.xml"}, None), ({TRANSPORTS: "SHM"}, "SHM")],
+)
+def test_shared_memory_is_left_out_unless_somebody_chooses_it(environ, wanted):
+    environment.apply(environ, PREFIX)
+    assert environ.get(TRANSPORTS) == wanted
 
 
 def installed_in(folder):
@@ -152,6 +170,7 @@ def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
     assert set(environment.defaults(PREFIX)) - set(module.defaults(PREFIX)) == {
         PROFILE,
         FROM_PROFILE,
+        TRANSPORTS,
         "COLCON_DEFAULTS_FILE",
         "ROS2_WORKSPACE",
     }
@@ -228,13 +247,13 @@ def test_a_shell_gets_the_same_values(tmp_path):
 
 
 def test_a_domain_is_stable_and_shared_ones_are_from_1_to_50():
-    ids = {environment.domain_id(f"/home/{n}/.venv", "1000") for n in range(2000)}
+    ids = {environment.usual_domain_id(f"/home/{n}/.venv", "1000") for n in range(2000)}
     assert ids == set(range(1, 51))
-    assert environment.domain_id(PREFIX, "1000") == environment.domain_id(PREFIX, "1000")
+    assert len({environment.usual_domain_id(PREFIX, "1000") for _ in range(2)}) == 1
 
 
 def test_users_and_checkouts_rarely_meet():
-    users = [environment.domain_id(PREFIX, str(uid)) for uid in range(1000, 1050)]
+    users = [environment.usual_domain_id(PREFIX, str(uid)) for uid in range(1000, 1050)]
     assert len(set(users)) > 25
 
 
@@ -249,7 +268,7 @@ def test_a_domain_follows_the_real_place(tmp_path):
 def test_a_system_without_user_numbers(monkeypatch):
     monkeypatch.delattr(os, "getuid")
     monkeypatch.setenv("USERNAME", "ada")
-    assert environment.domain_id(PREFIX) == environment.domain_id(PREFIX, "ada")
+    assert environment.domain_id(PREFIX) == environment.usual_domain_id(PREFIX, "ada")
 
 
 def test_it_works_on_this_process_by_default(monkeypatch):

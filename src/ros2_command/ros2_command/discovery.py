@@ -45,8 +45,9 @@ def only_this_machine() -> bool:
 def count_participants(domain: int, tables: str | None = None) -> int:
     """Count the ROS processes on this machine, before any of them has answered.
 
-    Each participant of DDS listens on a UDP port that follows from the domain and from its number
-    on the machine: 7400 + 250 * domain + 10 + 2 * number (RTPS specification, section 9.6.1).
+    Each participant of DDS listens on two UDP ports that follow from the domain and from its number
+    on the machine: 7400 + 250 * domain + 10 + 2 * number, and the next one (RTPS specification,
+    section 9.6.1). One of them alone, or each with another user, is a socket of another program.
 
     Args:
         domain: The domain's id.
@@ -57,11 +58,14 @@ def count_participants(domain: int, tables: str | None = None) -> int:
     """
     text = _read_tables() if tables is None else tables
     fields = [line.split() for line in text.splitlines()]
-    ports = {
-        int(row[1].rpartition(":")[2], 16) for row in fields if row[:1] and row[0][:1].isdigit()
+    ports = {  # each with the number of the user
+        (int(row[1].rpartition(":")[2], 16), row[7])
+        for row in fields
+        if len(row) > 7 and row[0][0].isdigit()
     }
-    base = 7400 + 250 * domain
-    return len(ports & set(range(base + 10, base + 250, 2)))
+    first = 7400 + 250 * domain + 10
+    numbers = range(first, first + 240, 2)
+    return sum(port in numbers and (port + 1, user) in ports for port, user in ports)
 
 
 def _read_tables() -> str:

@@ -26,6 +26,7 @@ from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernel
 from nbformat import NotebookNode
 
 from rosbeat.domains import lease_domain
+from rosbeat.environment import CHOSEN, DOMAIN
 from rosbeat.errors import LessonError
 
 KERNEL_NAME = "python3"
@@ -46,7 +47,10 @@ _FAILURES = (CellExecutionError, CellTimeoutError, DeadKernelError, RuntimeError
 _LONGEST_FOLDER = 90
 # pytest's variable makes ipykernel leave file descriptor 2 alone, and what C code logs is lost;
 # the others would change what a page prints from one person's terminal to the next.
-_DROPPED = ("PYTEST_CURRENT_TEST", "PYTHONSTARTUP", "PYTHONINSPECT", "FORCE_COLOR", "COLUMNS")
+_DROPPED = (
+    *("PYTEST_CURRENT_TEST", "PYTHONSTARTUP", "PYTHONINSPECT", "FORCE_COLOR", "COLUMNS"),
+    CHOSEN,  # the page's domain is no default of the course, which a kernel may change
+)
 
 
 class OwnInterpreter(KernelSpecManager):
@@ -128,7 +132,7 @@ def _environment(folder: Path, domain_id: int, page: str) -> dict[str, str]:
     environment["IPYTHONDIR"] = str(folder / "ipython")
     (folder / "home").mkdir()
     environment[STEADY_HOME] = str(folder / "home")
-    environment["ROS_DOMAIN_ID"] = str(domain_id)
+    environment[DOMAIN] = str(domain_id)
     return environment
 
 

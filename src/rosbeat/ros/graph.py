@@ -6,7 +6,7 @@ import os
 import time
 from array import array
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Coroutine, Iterable, Iterator
+from collections.abc import Callable, Coroutine, Iterable, Iterator
 from contextlib import suppress
 from enum import Enum
 from functools import partial
@@ -23,7 +23,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
-from rosbeat.domains import SESSION_DOMAINS
+from rosbeat.domains import LAST_DOMAIN, SESSION_DOMAINS, participants, udp_ports
 from rosbeat.errors import SessionError
 from rosbeat.records import (
     INFRASTRUCTURE_TOPICS,
@@ -270,42 +270,21 @@ def _services(observer: GraphObserver, nodes: Iterable[str]) -> Iterator[Endpoin
 
 
 # Which ROS domains have participants on this machine, by the ports that are bound.
-#
-# Each participant of DDS listens on two UDP ports that follow from the domain and from its number
-# on the machine: 7400 + 250 * domain + 10 + 2 * number for discovery, and the next one for data
-# (RTPS specification, section 9.6.1). So they can be counted before any of them has answered.
 
 
-def count_participants(domain_id: int, ports: Collection[int] | None = None) -> int:
+def count_participants(domain_id: int) -> int:
     """Return how many participants of this machine are in a domain, by the ports that are bound."""
-    bound = udp_ports(_socket_table()) if ports is None else ports
-    first = 7400 + 250 * domain_id + 10
-    # Both ports: another program may have bound one of them by chance.
-    return sum(one in bound and one + 1 in bound for one in range(first, first + 240, 2))
+    return len(participants(domain_id, udp_ports()))
 
 
 def domains_in_use() -> list[int]:
-    """Return the domains in which another process of this machine takes part, ascending."""
-    ports = udp_ports(_socket_table(), _own_sockets())
-    # From 102 on Linux hands out the ports by itself, up to those of private sessions.
-    numbers = (*range(102), *SESSION_DOMAINS)
-    return [number for number in numbers if count_participants(number, ports)]
+    """Return the domains in which another process of this user takes part, ascending.
 
-
-def udp_ports(table: str, ignored: Collection[str] = ()) -> set[int]:
-    """Return the ports in Linux's table of UDP sockets, but for sockets of these inodes."""
-    rows = [line.split() for line in table.splitlines()]
-    # Column 1 is the local address with its port, column 9 the inode.
-    sockets = [row for row in rows if len(row) > 9 and row[0][0].isdigit()]
-    return {int(row[1].rpartition(":")[2], 16) for row in sockets if row[9] not in ignored}
-
-
-def _socket_table() -> str:
-    text = ""
-    for name in ("/proc/net/udp", "/proc/net/udp6"):
-        with suppress(OSError):
-            text += Path(name).read_text(encoding="ascii")
-    return text
+    On a server, somebody else's nodes are nobody's business.
+    """
+    bound, user = udp_ports(ignored=_own_sockets()), os.geteuid()
+    numbers = (*range(LAST_DOMAIN + 1), *SESSION_DOMAINS)
+    return [number for number in numbers if user in participants(number, bound)]
 
 
 def _own_sockets() -> set[str]:

@@ -10,6 +10,7 @@ from weakref import finalize
 
 from rclpy.node import Node
 
+from rosbeat.domains import LAST_DOMAIN
 from rosbeat.errors import SessionError, called_as
 from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros import spinning
@@ -53,7 +54,7 @@ class Session:
     def __init__(self, *, seed: int = 0, domain_id: int | None = None) -> None:
         check_whole("seed", seed, 0, 2**63)
         if domain_id is not None:
-            check_whole("domain_id", domain_id, 0, 101)
+            check_whole("domain_id", domain_id, 0, LAST_DOMAIN)
         self._seed = seed
         self._world = World(seed, domain_id)
         # Also runs at interpreter exit, before the middleware is torn down.
