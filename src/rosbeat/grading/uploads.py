@@ -15,7 +15,7 @@ import re
 import stat
 import zipfile
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from functools import partial
@@ -192,7 +192,9 @@ def opened(file: File, allowed: Allowance, level: int = 0) -> Iterator[File]:
 
 
 def _files_of_folder(root: Path) -> Iterator[File]:
-    homes = [Path(one.path) for one in os.scandir(root) if one.is_dir(follow_symlinks=False)]
+    homes = []
+    with suppress(OSError), os.scandir(root) as found:  # what cannot be read is said below
+        homes = [Path(one.path) for one in found if one.is_dir(follow_symlinks=False)]
     if any(_course_folder(home) is None for home in homes):
         for home in homes:
             yield from _files_of_home(home)
