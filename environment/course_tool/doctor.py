@@ -25,6 +25,7 @@ from course_tool.surroundings import Surroundings
 _LAB = "./environment/course lab"
 _REPAIR = f"remove .venv/rosbeat-stamp.json; {_LAB}  then repairs .venv"
 _COURSE_WAS_MADE = 1_767_225_600  # 2026-01-01; a clock before it breaks every https connection
+_ENOUGH_SHARED_MEMORY = 64 * 10**6
 _COMMANDS = {"ros2": "pkg prefix rclpy", "colcon": "version-check --help", "rosbeat": "--help"}
 _PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
 _OUR_PROFILE = os.path.join("ros2_command", "data", "fastdds.xml")
@@ -65,6 +66,7 @@ def look(layout: Layout, clean: Surroundings) -> list[Finding]:
         course_files(layout, clean.environ),
         Finding("ok", "Python", f"{platform.python_version()} ({sys.executable})"),
         disk(shutil.disk_usage(layout.root).free, layout.stamp.exists()),
+        shared_memory(Path("/dev/shm")),
         clock(time.time()),
         another_ros(clean),
         sandbox(_can_isolate()),
@@ -152,6 +154,19 @@ def disk(free: int, installed: bool) -> Finding:
         return Finding("ok", "disk", text)
     cure = f"free some space: {needed / prepare.GIGABYTE:.1f} GB are needed"
     return Finding("problem", "disk", text, cure)
+
+
+def shared_memory(folder: Path) -> Finding:
+    """Look whether ROS can use shared memory; without it, messages go over the loopback."""
+    subject = "shared memory"
+    if not os.access(folder, os.W_OK):
+        text = f"{folder} cannot be written to"
+        return Finding("problem", subject, text, "in a container: --ipc=host")
+    free = shutil.disk_usage(folder).free
+    if free < _ENOUGH_SHARED_MEMORY:
+        text = f"only {free / 10**6:.0f} MB free in {folder}"
+        return Finding("problem", subject, text, f"rm {folder}/fastrtps_* when no node runs")
+    return Finding("ok", subject, f"{folder} can be written to")
 
 
 def clock(now: float) -> Finding:

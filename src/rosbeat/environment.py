@@ -47,9 +47,6 @@ _PATH = "AMENT_PREFIX_PATH"
 _PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 #: Makes ROS take from that file how much memory a topic gets; see there.
 _FROM_PROFILE = "RMW_FASTRTPS_USE_QOS_FROM_XML"
-#: Goes with the profile: no shared memory, whose files every user of the machine can read, and
-#: which stay when a process is killed. Named in the profile itself, UDP would be used twice.
-_TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 _COLCON = "COLCON_DEFAULTS_FILE"
 _INSTALLATION = ("RMW_IMPLEMENTATION", "ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION")
 
@@ -241,7 +238,7 @@ def _files() -> dict[str, str]:
     colcon = _in_checkout(*settings) or (in_wheel if os.path.exists(in_wheel) else "")
     files = {_PROFILE: discovery_profile(), _COLCON: colcon}
     found = {name: path for name, path in files.items() if path}
-    return {**found, _FROM_PROFILE: "1", _TRANSPORTS: "UDPv4"} if _PROFILE in found else found
+    return {**found, _FROM_PROFILE: "1"} if _PROFILE in found else found
 
 
 def _workspace() -> dict[str, str]:
@@ -274,9 +271,9 @@ def _settled(environ: Mapping[str, str], prefix: str | None) -> list[str]:
     home = environ.get("COLCON_HOME") or os.path.join(os.path.expanduser("~"), ".colcon")
     settled = list(_INSTALLATION) if other_ros(environ, prefix) else []
     if environ.get("FASTDDS_DEFAULT_PROFILES_FILE"):
-        settled += [_PROFILE, _FROM_PROFILE, _TRANSPORTS]
+        settled += [_PROFILE, _FROM_PROFILE]
     elif environ.get(_PROFILE, "") not in ("", discovery_profile()):
-        settled += [_FROM_PROFILE, _TRANSPORTS]
+        settled.append(_FROM_PROFILE)
     if os.path.exists(os.path.join(home, "defaults.yaml")):
         settled.append(_COLCON)
     return settled

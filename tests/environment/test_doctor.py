@@ -89,6 +89,13 @@ def test_disk():
     assert doctor.disk(10**9, installed=True).state == "ok"
 
 
+def test_shared_memory(tmp_path, monkeypatch):
+    assert doctor.shared_memory(tmp_path).state == "ok"
+    assert doctor.shared_memory(tmp_path / "gone").state == "problem"
+    monkeypatch.setattr(doctor, "_ENOUGH_SHARED_MEMORY", 10**18)
+    assert "fastrtps_*" in doctor.shared_memory(tmp_path).cure
+
+
 def test_a_clock_that_fell_back():
     assert doctor.clock(0.0).state == "problem"
     assert doctor.clock(1.8e9).state == "ok"

@@ -14,7 +14,6 @@ MODULE = Path(environment.__file__)
 PREFIX = "/home/ada/course/.venv"
 PROFILE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 FROM_PROFILE = "RMW_FASTRTPS_USE_QOS_FROM_XML"
-TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 
 
 @pytest.fixture(autouse=True)
@@ -118,7 +117,8 @@ def test_every_node_finds_the_others_quickly():
 def test_a_profile_under_fast_dds_newer_name_counts_too():
     environ = {"FASTDDS_DEFAULT_PROFILES_FILE": "/home/ada/fastdds.xml"}
     environment.apply(environ, PREFIX)
-    assert {PROFILE, FROM_PROFILE, TRANSPORTS}.isdisjoint(environ)
+    assert PROFILE not in environ
+    assert FROM_PROFILE not in environ
 
 
 @pytest.mark.parametrize(
@@ -133,15 +133,6 @@ def test_a_profile_under_fast_dds_newer_name_counts_too():
 def test_memory_is_taken_from_no_profile_but_the_courses(environ, wanted):
     environment.apply(environ, PREFIX)
     assert environ.get(FROM_PROFILE) == wanted
-
-
-@pytest.mark.parametrize(
-    ("environ", "wanted"),
-    [({}, "UDPv4"), ({PROFILE: "/home/ada/fastdds.xml"}, None), ({TRANSPORTS: "SHM"}, "SHM")],
-)
-def test_shared_memory_is_left_out_unless_somebody_chooses_it(environ, wanted):
-    environment.apply(environ, PREFIX)
-    assert environ.get(TRANSPORTS) == wanted
 
 
 def installed_in(folder):
@@ -170,7 +161,6 @@ def test_without_a_checkout_around_it_no_file_is_named(tmp_path):
     assert set(environment.defaults(PREFIX)) - set(module.defaults(PREFIX)) == {
         PROFILE,
         FROM_PROFILE,
-        TRANSPORTS,
         "COLCON_DEFAULTS_FILE",
         "ROS2_WORKSPACE",
     }
