@@ -102,7 +102,7 @@ def test_most_mistakes_of_the_bank_can_be_shown_to_a_class():
     there_are = examples.candidates()
     shown = {(exercise, name) for exercise, _, name in examples.shown()}
     assert shown <= set(there_are)
-    assert len(shown) >= 0.95 * len(there_are)
+    assert len(shown) >= 0.9 * len(there_are)  # of two names for one mistake, a check says one
 
 
 def test_single_mistakes_have_names():
