@@ -141,7 +141,7 @@ def _user(folder: Path, number: int) -> User:
 
 @contextmanager
 def _programs(user: User, setup: Path) -> Iterator[None]:
-    """Run both programs of a user, under names of their own, and end them with Ctrl+C."""
+    """Run both programs of a user, under names of their own; end them afterwards."""
     runs = [
         f"ros2 run sensor_simulator {name} --ros-args -r __node:={name}_{user.number} &"
         for name in PROGRAMS
@@ -168,7 +168,9 @@ def _end(shell: subprocess.Popen[bytes]) -> None:
     family = [psutil.Process(shell.pid), *psutil.Process(shell.pid).children(recursive=True)]
     for one in family:
         one.terminate()
-    psutil.wait_procs(family, DEADLINE)
+    _, alive = psutil.wait_procs(family, 5)
+    for one in alive:
+        one.kill()
     shell.wait()
 
 
