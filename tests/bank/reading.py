@@ -200,3 +200,9 @@ def answers() -> tuple[Answer, ...]:
 def held_out() -> tuple[Answer, ...]:
     """Return the answers by people who had the pages only; see `held_out/README.md`."""
     return tuple(one for folder in sorted(_HERE.glob("held_out*")) for one in read(folder))
+
+
+@cache
+def third_set() -> tuple[Answer, ...]:
+    """Return a third set of such answers, which only a thorough run tries."""
+    return read(_HERE / "third_set")

@@ -294,6 +294,10 @@ _BOTH = (_MEAN.topic, _STATUS.topic)
 _OF_THE_MEAN = "Find the status from the reading itself, and not from the mean."
 _ALSO = "This step also publishes the status: the mean of the step before stays."
 _NO_STATUS = f"Does the callback come to the line that publishes? {_OF_THE_MEAN}"
+_NO_CHANGE = (
+    "Does the callback come to the line that publishes? Compare the new status with the old one "
+    "before you store it."
+)
 
 
 def _judge_means(observation: Observation, seconds: Seconds) -> Verdict:
@@ -323,7 +327,7 @@ def _judge_changes(observation: Observation, seconds: Seconds) -> Verdict:
         diagnose_unheard(observation, _TEMPERATURE)
         or diagnose_unpublished(observation, _MEAN, _BOTH)
         or _wrong_means(track(observation, _MEAN), seconds)
-        or diagnose_unpublished(observation, _STATUS, _BOTH, _NO_STATUS)
+        or diagnose_unpublished(observation, _STATUS, _BOTH, _NO_CHANGE)
         or diagnose_words(observation, _STATUS, STATUSES)
         or _wrong_statuses(track(observation, _STATUS), seconds)
         or passed(
@@ -473,9 +477,8 @@ def _statuses(
 
 
 _NOTHING_KEEPS = (
-    "The limits may be right, but the status isn't kept from one reading "
-    "to the next. A local variable is gone when the callback returns: "
-    "store the new status in self."
+    "Between its two limits, a status stays as it was. Do you keep it in self? A local variable is "
+    "gone when the callback returns. And does High end below 25, and Low above 21?"
 )
 _ONLY_CHANGES = "Compare the new status with the old one, and publish only a change."
 #: A reading at a limit, and the limit of a node that counts it to the wrong side.
@@ -522,6 +525,23 @@ def _hysteresis_suspects(each: bool) -> Iterator[tuple[str, str, Model]]:
     yield "wrong-state", _OF_THE_MEAN, partial(_of_the_mean, model=says())
 
 
+def _first_of_each(said: Track) -> Track:
+    """Return only the first time that each status is said; it begins as Normal."""
+    known: list[Sequence[str]] = [("Normal",)]
+    found = {}
+    for at, one in sorted(said.items()):
+        if one not in known:
+            found[at] = one
+            known.append(one)
+    return found
+
+
+def _one_late(said: Track) -> Track:
+    """Return the status before each change in its place."""
+    times = sorted(said)
+    return dict(zip(times, [("Normal",), *(said[at] for at in times[:-1])], strict=True))
+
+
 #: Of a node that publishes a status for each reading.
 EACH_SUSPECTS = suspects(
     ("no-hysteresis", _NOTHING_KEEPS, _statuses(keeps=False, compares=False)),
@@ -534,7 +554,13 @@ STATUS_SUSPECTS = suspects(
     ("status-repeated", _NOTHING_KEEPS, _statuses(keeps=False)),
     ("no-hysteresis", _NOTHING_KEEPS, _statuses(keeps=False, compares=False)),
     *_hysteresis_suspects(each=False),
-)
+    ("change-missing", "The return to Normal is a change, too, and has to be published.",
+     lambda seconds: {at: one for at, one in _statuses()(seconds).items() if one != ("Normal",)}),
+    ("change-missing", "Compare with the status just before, and not with all earlier ones.",
+     lambda seconds: _first_of_each(_statuses()(seconds))),
+    ("wrong-state", "At a change, the status before it is published. Which of the two is new?",
+     lambda seconds: _one_late(_statuses()(seconds))),
+)  # fmt: skip
 
 
 def draw_hysteresis(draw: Draw) -> Seconds:

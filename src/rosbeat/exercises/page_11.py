@@ -725,6 +725,13 @@ def _missed_nan(values: Sequence[float]) -> tuple[str, str]:
     """Return why a test does not catch a watchdog that keeps NaN."""
     if not any(map(isnan, values)):
         return "test-lacks-case", "Only a list that contains `math.nan` can catch this watchdog."
+    first = next((at for at, one in enumerate(values) if not isnan(one)), len(values))
+    if not any(map(isnan, values[first:])):
+        hint = (
+            "There is no number before your NaN. With what would a correct watchdog compare the "
+            "reading after it?"
+        )
+        return "test-no-effect", hint
     hint = (
         "After NaN, this watchdog can't compare the next reading with anything. What should that "
         "reading be, so that a correct watchdog reports it?"
