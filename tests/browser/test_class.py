@@ -112,13 +112,16 @@ def counted(exercise):
 
 
 def test_hostile_names_are_text_and_hidden_until_somebody_asks(tab):
-    name = tab.get_by_text("<script>alert(1)</script>").first
-    assert not name.is_visible()
+    shown = tab.get_by_text("<script>alert(1)</script>").locator("visible=true")
+    assert shown.count() == 0
     tab.get_by_role("button", name="Show names").click()
-    name.wait_for()
+    for number in range(1, 4):  # it is with one of the three mistakes
+        if not shown.count():
+            tab.keyboard.press(str(number))
+    shown.first.wait_for()
     assert tab.evaluate("document.querySelectorAll('main script, main [onload]').length") == 0
     tab.get_by_role("button", name="Show names").click()
-    assert not name.is_visible()
+    assert shown.count() == 0
 
 
 @pytest.mark.parametrize("size", SIZES)
