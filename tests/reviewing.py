@@ -1,7 +1,5 @@
 """A class to review, and its review served in this process."""
 
-import threading
-from contextlib import contextmanager
 from dataclasses import replace
 
 from graded_classes import mark, observation
@@ -10,6 +8,7 @@ from rosbeat.grading.marks import Gradebook, Graded, Solution
 from rosbeat.grading.results import write_results
 from rosbeat.grading.review import Review, ReviewServer
 from rosbeat.grading.traces import trace_of
+from serving import serving
 
 #: Answers that differ in layout, in names, and in what they do.
 SOLUTION = """\
@@ -46,7 +45,6 @@ def a_class_to_review(learners=4):
     return Gradebook("1", tuple(made), (), solutions)
 
 
-@contextmanager
 def served(out, judged):
     """Serve the review of a class whose results have been written."""
 
@@ -55,12 +53,4 @@ def served(out, judged):
 
     write(apply_manual(judged, read_manual(out / "manual.csv")))
     write_template(out / "manual.csv", judged)
-    with ReviewServer(Review(out, judged, write)) as server:
-        # Asked to stop, it notices at once; half a second later would be soon enough for a person.
-        thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.005})
-        thread.start()
-        try:
-            yield server
-        finally:
-            server.shutdown()
-            thread.join()
+    return serving(ReviewServer(Review(out, judged, write)))

@@ -1,11 +1,10 @@
 """Learners who share, simulated: files as `check` writes them, and the page that counts them."""
 
 import json
-import threading
-from contextlib import contextmanager
 
 from rosbeat.grading.class_folder import ClassFolder
 from rosbeat.grading.class_page import ClassServer
+from serving import serving
 
 NOW = 1_800_000_000
 PASSED, FAILED = "passed", "failed"
@@ -45,14 +44,6 @@ def class_folder(path, clock=None, owner=by_file):
     return ClassFolder(path, clock or Clock(), owner)
 
 
-@contextmanager
 def served(folder):
     """Serve the page of a class in this process."""
-    with ClassServer(folder) as server:
-        thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.005})
-        thread.start()
-        try:
-            yield server
-        finally:
-            server.shutdown()
-            thread.join()
+    return serving(ClassServer(folder))

@@ -116,7 +116,8 @@ def append(agreed: Consent, outcome: Outcome, now: float) -> None:
         "time": int(now),
         **({"name": agreed.name} if agreed.name else {}),
     }
-    line = f"{json.dumps(said)}\n".encode()
+    # As it is: escaped, a name in another script would be longer than a reader takes.
+    line = f"{json.dumps(said, ensure_ascii=False)}\n".encode()
     with _own_file(agreed.file) as number:
         present = os.pread(number, 2 * LARGEST, 0)
         kept = _kept(present, now)

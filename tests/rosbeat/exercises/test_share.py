@@ -15,6 +15,7 @@ from rosbeat import check, cli
 from rosbeat.exercises import share as sharing
 from rosbeat.exercises.exercise import failed, not_attempted
 from rosbeat.exercises.share import DAY, FILE_NAME, LARGEST, append, consent, share
+from rosbeat.grading.class_folder import ClassFolder
 from rosbeat.records import Outcome
 
 NOW = 1_800_000_000
@@ -119,6 +120,14 @@ def test_a_name_is_written_only_if_the_learner_says_so(shares, place):
     # What was written without a name can't be found beside what has one.
     assert agreed.id != shares.id
     assert [one.name for one in place.iterdir()] == [f"{agreed.id}.jsonl"]
+
+
+def test_the_longest_name_is_read_in_any_script(shares, place):
+    cli.main(["share", "on", "--name", "\N{ROBOT FACE}" * 60])
+    written(consent())
+    assert [one.name for one in ClassFolder(place, lambda: NOW).read().learners] == [
+        "\N{ROBOT FACE}" * 40
+    ]
 
 
 def test_whoever_turns_it_on_twice_stays_who_they_are(shares):
