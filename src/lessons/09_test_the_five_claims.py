@@ -161,9 +161,9 @@ predict("yes", workspace.terminal("monitor").busy)
 # - `lost`, once in each silence, when no reading has come for 3 seconds;
 # - `back`, once after each silence, when a reading comes again.
 #
-# Either may come up to a second late, so a silence of 3 to 4 seconds may go unreported. Before the first reading, the node publishes nothing. Measure time with the
-# node's own clock, `self.get_clock().now().nanoseconds`, or with timers. A timer's `reset()` starts its period
-# again, and `cancel()` stops the timer.
+# Either may come up to a second late, so a silence of 3 to 4 seconds may go unreported. Before the first reading,
+# the node publishes nothing. Measure time with the node's own clock, `self.get_clock().now().nanoseconds`, or with
+# timers. A timer's `reset()` starts its period again, and `cancel()` stops the timer.
 
 # %% exercise="09a"
 class Watchman(Node):

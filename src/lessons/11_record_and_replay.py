@@ -307,8 +307,8 @@ check("11b", Watchdog)
 # | B | it keeps NaN as the last number, so it compares the next reading with NaN |
 # | C | once it has reported `stuck`, it does so again at each further equal reading |
 #
-# A list of readings is a test. A watchdog fails the test if it publishes anything other than a correct one does. Write a
-# list of at most 12 readings, one a second, that all three watchdogs fail. For NaN, write `math.nan`.
+# A list of readings is a test. A watchdog fails the test if it publishes anything other than a correct one does.
+# Write a list of at most 12 readings, one a second, that all three watchdogs fail. For NaN, write `math.nan`.
 
 # %% exercise="11c"
 def readings():

@@ -347,7 +347,8 @@ check("12c", DecidingThermostat)
 # In the second step, the thermostat heats. After `True` on `heater`, the room gets one degree warmer every second,
 # until the heater receives `False`. `await self.reading` returns the next temperature, an integer. After each
 # reading, publish feedback with all temperatures read since the goal was accepted. When the target is reached, turn
-# the heater off. In a room that is warm enough already, that's after one reading, or at once. The last two lines report success, and return the same temperatures as the result.
+# the heater off. In a room that is warm enough already, that's after one reading, or at once. The last two lines
+# report success, and return the same temperatures as the result.
 
 # %% exercise="12d"
 class HeatingThermostat(Node):
