@@ -29,17 +29,17 @@ from rclpy.node import Node
 from std_msgs.msg import Float32, String
 
 from rosbeat import Session, check, hint, progress, quiz, viz
-from rosbeat.scenarios.stranger import greenhouse
+from rosbeat.ros.test_nodes import add_greenhouse
 
 viz.diagram("07")
 
 # %%
 ros = Session(domain_id=int(os.environ["ROS_DOMAIN_ID"]))
-greenhouse(ros)
+add_greenhouse(ros)
 ros.start()
 
 # %% [markdown]
-# The session joins the domain of your terminals. `greenhouse` adds its nodes to the session, and `start` runs them
+# The session joins the domain of your terminals. `add_greenhouse` adds its nodes to the session, and `start` runs them
 # in real time. From now on, your terminals see these nodes like any others.
 #
 # ## Which nodes are running?

@@ -1,1 +1,1 @@
-"""Keep the import line of page 07; everything else about exercises is in `rosbeat.exercises`."""
+"""Keep an old import line of page 07; everything about exercises is in `rosbeat.exercises`."""

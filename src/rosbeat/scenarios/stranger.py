@@ -1,18 +1,24 @@
-"""A system that the learner did not write, put into a session."""
+"""Keep the old import of page 07, for pages begun before `add_greenhouse` had its name."""
 
 from __future__ import annotations
 
-from typing import Any
+import warnings
+from typing import TYPE_CHECKING
 
-from rosbeat.ros import test_nodes
+from rosbeat.ros.test_nodes import add_greenhouse
+
+if TYPE_CHECKING:
+    from rosbeat.ros.session import Session
 
 __all__ = ["greenhouse"]
 
 
-def greenhouse(session: Any) -> None:  # noqa: ANN401 - a Session, which is not imported here
-    """Put the five nodes of the greenhouse into a session.
+def greenhouse(session: Session) -> None:
+    """Put the nodes of the greenhouse into a session, by the old name.
 
     Args:
         session: The session.
     """
-    test_nodes.add_greenhouse(session)
+    words = "greenhouse is now called add_greenhouse, in rosbeat.ros.test_nodes."
+    warnings.warn(words, DeprecationWarning, stacklevel=2)
+    add_greenhouse(session)

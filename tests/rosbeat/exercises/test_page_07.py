@@ -13,7 +13,7 @@ from rosbeat.exercises.page_07 import Greenhouse, judge_findings
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.exercises.scenarios import Report
 from rosbeat.records import Endpoint, GraphSnapshot, LogRecord, Observation, QoS, Sample
-from rosbeat.scenarios.stranger import greenhouse
+from rosbeat.ros.test_nodes import add_greenhouse
 
 LATER = """
 class Watcher(Node):
@@ -95,7 +95,16 @@ def test_a_watcher_hears_each_line_and_nothing_else(seed):
 @pytest.mark.ros
 def test_the_greenhouse_moves_into_any_session():
     with Session() as ros:
-        greenhouse(ros)
+        add_greenhouse(ros)
+        assert len(ros.nodes) == 5
+
+
+def test_the_old_name_of_the_greenhouse_still_works_and_says_the_new_one():
+    from rosbeat.scenarios.stranger import greenhouse
+
+    with Session(seed=0) as ros:
+        with pytest.warns(DeprecationWarning, match="add_greenhouse"):
+            greenhouse(ros)
         assert len(ros.nodes) == 5
 
 
