@@ -12,6 +12,7 @@ from IPython.core.error import UsageError
 from IPython.core.magic import no_var_expand
 
 from rosbeat.workspace.terminals.registry import Terminals, terminals_of
+from rosbeat.workspace.terminals.terminal import Watching
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
@@ -73,7 +74,7 @@ def _type(terminals: Terminals, options: _Options, cell: str) -> None:
         raise UsageError("The cell has no commands: write them below `%%terminal NAME`.")
     terminal = terminals.get(options.name)
     act = terminal.answer if options.action == "answer" else terminal.type
-    act(cell, **options.watching())  # type: ignore[arg-type] # the names fit
+    act(cell, **options.watching)
 
 
 def _look(terminals: Terminals, options: _Options) -> None:
@@ -84,9 +85,11 @@ def _look(terminals: Terminals, options: _Options) -> None:
             f"{options.name}` with commands below it opens that terminal."
         )
     if options.action:
-        getattr(terminal, options.action)(**options.ending())
+        timeout = options.watching.get("timeout")
+        ending = {} if timeout is None else {"timeout": timeout}
+        getattr(terminal, options.action)(**ending)
     else:
-        terminal.look(**options.watching())  # type: ignore[arg-type] # the names fit
+        terminal.look(**options.watching)
 
 
 def _names(terminals: Terminals) -> str:
@@ -112,32 +115,13 @@ class _Options:
 
     Attributes:
         name: The terminal; empty to list all of them.
-        until: The text to watch for.
-        lines: In how many lines it has to come.
-        seconds: How long to watch.
-        timeout: Seconds after which to give up.
         action: `answer`, `ctrl_c`, `ctrl_d`, `kill`, `close` or nothing.
+        watching: How long to watch a command.
     """
 
     name: str
-    until: str | None
-    lines: int
-    seconds: float | None
-    timeout: float | None
     action: str
-
-    def watching(self) -> dict[str, object]:
-        """Return the keyword arguments of `Terminal.type` and its relatives."""
-        return {
-            "until": self.until,
-            "lines": self.lines,
-            "seconds": self.seconds,
-            "timeout": self.timeout,
-        }
-
-    def ending(self) -> dict[str, float]:
-        """Return the keyword arguments of `Terminal.ctrl_c` and its relatives."""
-        return {} if self.timeout is None else {"timeout": self.timeout}
+    watching: Watching
 
 
 class _Parser(argparse.ArgumentParser):
@@ -162,7 +146,13 @@ def _parse(line: str, in_cell: bool) -> _Options:
         raise _unknown(unknown[0])
     action = given.action or ""
     _require_sense(given, action, in_cell)
-    return _Options(given.name, given.until, given.lines, given.seconds, given.timeout, action)
+    watching: Watching = {
+        "until": given.until,
+        "lines": given.lines,
+        "seconds": given.seconds,
+        "timeout": given.timeout,
+    }
+    return _Options(given.name, action, watching)
 
 
 def _words(line: str) -> list[str]:

@@ -33,9 +33,10 @@ _SCRIPTS, _FINDER = "console_scripts", "find_packages"
 _ABOUT = ("version", "description", "license")
 # An empty list of console scripts, with nothing but comments in it.
 _EMPTY_LIST = re.compile(
-    rb"""(?m)(?P<head>^[^#\r\n]*(?P<quote>['"])console_scripts(?P=quote)[ \t]*:[ \t]*\[)"""
-    rb"(?P<inside>(?:\s|\#[^\r\n]*)*)\]"
+    r"""(?m)^(?P<head>[^#\n]*['"]console_scripts['"]\s*:\s*\[)(?P<inside>(?:\s|#[^\n]*)*)\]"""
 )
+# All that an expression may be made of to be read without running anything.
+_LITERAL = (ast.Constant, ast.List, ast.Tuple, ast.Dict, ast.BinOp, ast.Add, ast.Load)
 # What the script prints goes to the standard error, and its arguments to the standard output.
 _RECORDER = """
 import json, os, runpy, sys
@@ -85,9 +86,9 @@ def read_setup(path: Path) -> SetupScript:
         return SetupScript(problem=str(error) or type(error).__name__)
     calls = [one for one in ast.walk(tree) if isinstance(one, ast.Call) and _ends(one, "setup")]
     given = _given(tree, calls[0], path) if calls else None
-    return (
-        _script(given, _Source(source, tree, calls[0])) if given else SetupScript(problem=NO_CALL)
-    )
+    if given is None:
+        return SetupScript(problem=NO_CALL)
+    return _script(given, source, tree, calls[0])
 
 
 def _ends(call: ast.Call, name: str) -> bool:
@@ -111,22 +112,20 @@ def _given(tree: ast.Module, call: ast.Call, path: Path) -> _Given | None:
         return _Given(literal.values, literal.excluded, complete=False)
 
 
-# Literals. None stands for whatever is none.
+# Literals.
 
 
 def _literal(tree: ast.Module, call: ast.Call) -> _Given:
     names = _constants(tree)
     values: dict[str, Any] = {}
     excluded: tuple[str, ...] = ()
-    complete = not call.args
     for keyword in call.keywords:
-        name, value = keyword.arg, _value(keyword.value, names)
-        if name == "packages" and isinstance(keyword.value, ast.Call):
+        value = _value(keyword.value, names)
+        if keyword.arg == "packages" and isinstance(keyword.value, ast.Call):
             value, excluded = _patterns(keyword.value, names) or (None, ())
-        complete = complete and name is not None and _is_known(value)
-        if name and value is not None:
-            values[name] = value
-    return _Given(values, excluded, complete)
+        if keyword.arg and value is not None:
+            values[keyword.arg] = value
+    return _Given(values, excluded, complete=not call.args and len(values) == len(call.keywords))
 
 
 def _constants(tree: ast.Module) -> dict[str, str]:
@@ -146,26 +145,16 @@ def _constants(tree: ast.Module) -> dict[str, str]:
     }
 
 
-def _value(node: ast.expr | None, names: Mapping[str, str]) -> Any:  # noqa: ANN401 - plain data
-    if isinstance(node, ast.Constant):
-        return node.value
-    if isinstance(node, ast.Name):
-        return names.get(node.id)
-    if isinstance(node, ast.List | ast.Tuple):
-        return [_value(one, names) for one in node.elts]
-    if isinstance(node, ast.Dict):
-        keys = [_value(key, names) for key in node.keys]
-        return dict(zip(map(str, keys), [_value(one, names) for one in node.values], strict=True))
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
-        both = [_value(one, names) for one in (node.left, node.right)]
-        return "".join(both) if all(isinstance(one, str) for one in both) else None
-    return None
-
-
-def _is_known(value: object) -> bool:
-    if isinstance(value, dict):
-        return all(map(_is_known, value.values()))
-    return all(map(_is_known, value)) if isinstance(value, list) else value is not None
+def _value(node: ast.expr, names: Mapping[str, str]) -> Any:  # noqa: ANN401 - plain data
+    """Return the value of an expression of literals, `+` and names of strings; None of others."""
+    parts = ast.walk(node)
+    if not all(isinstance(one, _LITERAL) or getattr(one, "id", None) in names for one in parts):
+        return None
+    try:
+        # There is nothing in it to call, and only the strings that were found to name.
+        return eval(compile(ast.Expression(node), "setup.py", "eval"), {}, dict(names))
+    except TypeError:  # such as a number and a string
+        return None
 
 
 def _patterns(
@@ -180,7 +169,7 @@ def _patterns(
 
 def _texts(value: object) -> tuple[str, ...] | None:
     """Return the strings of a list; None if it is anything else."""
-    if not isinstance(value, list):
+    if not isinstance(value, list | tuple):
         return None
     return tuple(value) if all(isinstance(one, str) for one in value) else None
 
@@ -188,30 +177,16 @@ def _texts(value: object) -> tuple[str, ...] | None:
 # From arguments to a record.
 
 
-@dataclass(frozen=True)
-class _Source:
-    """Find texts in a build script.
-
-    Attributes:
-        text: All of it.
-        tree: Its syntax tree.
-        call: The call of `setup`.
-    """
-
-    text: str
-    tree: ast.Module
-    call: ast.Call
-
-    def entry(self, text: str) -> EntryPoint:
-        """Return an entry point with its place; a calculated one is where `setup` is called."""
-        texts = [one for one in ast.walk(self.tree)
-                 if isinstance(one, ast.Constant) and isinstance(one.value, str)]  # fmt: skip
-        for node in texts:
-            if node.value == text:
-                segment = ast.get_source_segment(self.text, node) or ""
-                return entry_point(text, node.lineno, _count_strings(segment))
-        lines = (node.lineno for node in texts if text in str(node.value))
-        return entry_point(text, next(lines, self.call.lineno))
+def _placed(text: str, source: str, tree: ast.Module, call: ast.Call) -> EntryPoint:
+    """Return an entry point with its place; a calculated one is where `setup` is called."""
+    texts = [one for one in ast.walk(tree)
+             if isinstance(one, ast.Constant) and isinstance(one.value, str)]  # fmt: skip
+    for node in texts:
+        if node.value == text:
+            segment = ast.get_source_segment(source, node) or ""
+            return entry_point(text, node.lineno, _count_strings(segment))
+    lines = (node.lineno for node in texts if text in str(node.value))
+    return entry_point(text, next(lines, call.lineno))
 
 
 def _count_strings(expression: str) -> int:
@@ -220,7 +195,7 @@ def _count_strings(expression: str) -> int:
     return sum(token.type == tokenize.STRING for token in tokens)
 
 
-def _script(given: _Given, source: _Source) -> SetupScript:
+def _script(given: _Given, source: str, tree: ast.Module, call: ast.Call) -> SetupScript:
     values = given.values
     groups = _groups(values.get("entry_points", {}))
     programs = [
@@ -232,24 +207,19 @@ def _script(given: _Given, source: _Source) -> SetupScript:
     name = values.get("name")
     return SetupScript(
         package_name=name if isinstance(name, str) else "",
-        entry_points=tuple(source.entry(one) for one in programs if isinstance(one, str)),
+        entry_points=tuple(
+            _placed(one, source, tree, call) for one in programs if isinstance(one, str)
+        ),
         incomplete=not (given.complete and known),
         keywords=tuple(sorted(values)),
         groups=tuple(sorted(groups or ())),
-        packages=None if hidden else _packages(values),
+        # Without any, setuptools finds none itself: it refuses where there are two folders, and
+        # every ROS package has `resource` beside its code.
+        packages=None if hidden else _texts(values.get("packages", [])),
         excluded=given.excluded,
         about=tuple((key, text) for key, text in about.items() if isinstance(text, str) and text),
         left_out=_left_out(values) if given.complete else (),
     )
-
-
-def _packages(values: Mapping[str, Any]) -> tuple[str, ...] | None:
-    """Return the packages that are installed; without any, setuptools does not find them itself.
-
-    It refuses where it finds two folders, and every ROS package has `resource` beside its code.
-    """
-    packages = values.get("packages", [])
-    return tuple(packages) if isinstance(packages, tuple) else _texts(packages)
 
 
 def _groups(value: object) -> Mapping[str, Any] | None:
@@ -304,31 +274,19 @@ def _installed(pairs: Any) -> Iterator[str]:  # noqa: ANN401 - whatever a learne
 # Editing.
 
 
-def with_entry_points(path: Path, scripts: list[str]) -> bytes | None:
+def with_entry_points(text: str, scripts: list[str]) -> str | None:
     """Return a build script with entry points in its empty list of console scripts.
 
     Args:
-        path: The `setup.py`; its encoding and its line ends stay.
+        text: The `setup.py`.
         scripts: Entry points, such as `talk = my_package.talk:main`.
 
     Returns:
-        None if it has no such list.
+        None if it has no such list, or two.
     """
-    data = path.read_bytes()
-    found = _EMPTY_LIST.search(data)
-    if not found or len(_EMPTY_LIST.findall(data)) > 1:
+    if len(_EMPTY_LIST.findall(text)) != 1:
         return None
-    end = b"\r\n" if b"\r\n" in data else b"\n"
-    items = b"".join(b" " * 12 + f"'{one}',".encode() + end for one in scripts)
-    before = found["inside"].rstrip(b" \t\r\n")
-    return b"".join(
-        (
-            data[: found.start()],
-            found["head"],
-            before,
-            end,
-            items,
-            b" " * 8,
-            data[found.end() - 1 :],
-        )
+    items = "".join(f"            '{one}',\n" for one in scripts)
+    return _EMPTY_LIST.sub(
+        lambda found: f"{found['head']}{found['inside'].rstrip()}\n{items}        ]", text
     )

@@ -56,15 +56,6 @@ def test_the_finished_one(root, package):
     assert first.text in finished("setup.py").splitlines()[first.line - 1]
 
 
-def test_an_empty_folder(root):
-    found = read_package(root / "src", root)
-    assert found.name == "src"
-    assert "No such file" in found.manifest.problem
-    assert "No such file" in found.setup.problem
-    assert [found.has_marker, found.has_init, found.scripts_are_found] == [False] * 3
-    assert found.modules == found.tests == found.flaws == ()
-
-
 def test_what_is_missing_or_broken(root, package):
     (package / "setup.cfg").write_text("[install\nnonsense")
     (package / "resource" / PACKAGE).unlink()
@@ -147,7 +138,7 @@ TWICE = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name
           for given in ("{'console_scripts': names()}", "{**more}", "{}, **more", "names",
                         "['a = b:c']")),
         (scripts("*others,", "'b = p.b:main',"),
-         lambda setup: (parts(setup), setup.incomplete), ([("b", "p.b", "main", False)], True)),
+         lambda setup: (setup.entry_points, setup.incomplete), ((), True)),
         # Data files are missing only if all of them are known.
         *((imported(f"name='p', data_files={files}"), lambda setup: setup.left_out, missing)
           for files, missing in (("[]", ("resource/p", "package.xml")), ("unknown()", ()),
@@ -233,13 +224,6 @@ def test_entry_points_in_setup_cfg(root, package, setup_of):
     assert found.scripts_are_found
 
 
-def test_packages_that_setup_cfg_names(package, setup_of):
-    script = "from setuptools import setup\nsetup()\n"
-    assert not setup_of(script).installs(PACKAGE)
-    (package / "setup.cfg").write_text("[options]\npackages = find:\n")
-    assert setup_of(script).installs(PACKAGE)
-
-
 # What is wrong with an entry point.
 
 
@@ -312,11 +296,6 @@ def test_built_with_links(root, package, installed):
     found = read_package(package, root).installed
     assert found.linked
     assert found.changed == ()
-
-
-def test_without_the_right_to_run_it_is_no_executable(root, package, installed):
-    (installed / "lib" / PACKAGE / NODES[0]).chmod(0o644)
-    assert read_package(package, root).installed.executables == (NODES[1],)
 
 
 def test_the_workspace_that_the_terminal_knows(root, package, monkeypatch, tmp_path):
