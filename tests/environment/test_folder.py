@@ -3,9 +3,7 @@
 import errno
 import json
 import os
-import shlex
 import subprocess
-from pathlib import Path
 
 import pytest
 
@@ -142,21 +140,6 @@ def test_notes_on_the_home_page_stay_and_are_kept_beside_a_newer_one(course, cap
     assert not (course.learner / "home-kept-2.ipynb").exists()
 
 
-def test_notes_on_a_home_page_of_an_earlier_version_of_the_course_are_kept(course):
-    course.learner.mkdir()
-    notes = page(cell("progress()"), cell("my notes"))
-    (course.learner / "home.ipynb").write_bytes(notes)
-    folder.make(course)
-    assert (course.learner / "home-kept-1.ipynb").read_bytes() == notes
-
-
-def test_a_home_page_that_cannot_be_read_is_kept(course):
-    course.learner.mkdir()
-    (course.learner / "home.ipynb").write_text("not a page")
-    folder.make(course)
-    assert (course.learner / "home-kept-1.ipynb").read_text() == "not a page"
-
-
 @pytest.mark.parametrize("is_link", [True, False])
 def test_something_else_has_the_name_of_the_folder(course, is_link, capsys):
     if is_link:
@@ -178,94 +161,6 @@ def test_a_page_that_is_added_to_the_course_comes_too(course):
 
 
 # What earlier versions left in the checkout.
-
-
-def test_the_workspace_and_the_progress_move_in(course, capsys):
-    source = course.root / "ROS2_and_RL_Tutorials" / "src" / "node.py"
-    source.parent.mkdir(parents=True)
-    source.write_text("mine")
-    for name in ("build/.built_by", "install/.colcon_install_layout", "log/mine"):
-        path = course.root / "ROS2_and_RL_Tutorials" / name
-        path.parent.mkdir()
-        path.touch()
-    (course.root / ".rosbeat").mkdir()
-    (course.root / ".rosbeat" / "progress.json").write_text("far")
-    folder.make(course)
-    assert (course.learner / "ROS2_and_RL_Tutorials" / "src" / "node.py").read_text() == "mine"
-    assert (course.notes / "progress.json").read_text() == "far"
-    assert not (course.root / "ROS2_and_RL_Tutorials").exists()
-    assert sorted(listed(course.learner / "ROS2_and_RL_Tutorials")) == ["log", "src"]
-    assert "colcon build makes it anew" in capsys.readouterr().out
-
-
-def left_behind(course):
-    """A workspace with something built in it, where an earlier version of the course had it."""
-    workspace = course.root / "ROS2_and_RL_Tutorials"
-    (workspace / "src").mkdir(parents=True)
-    (workspace / "build").mkdir()
-    (workspace / "build" / ".built_by").touch()
-    return workspace
-
-
-def test_a_workspace_on_another_disk_is_for_the_learner_to_move(course, monkeypatch, capsys):
-    source, rename = left_behind(course), Path.rename
-
-    def refuses(path, target):
-        if path == source:
-            raise OSError(errno.EXDEV, "Invalid cross-device link", str(path))
-        return rename(path, target)
-
-    monkeypatch.setattr(Path, "rename", refuses)
-    assert cli.main(["update"]) == 1
-    err = capsys.readouterr().err
-    assert "ROS2_and_RL_Tutorials is on another disk than my_course" in err
-    monkeypatch.undo()
-    (line,) = [one for one in err.splitlines() if one.split()[:1] == ["mv"]]
-    subprocess.run(shlex.split(line), check=True)
-    folder.make(course)
-    assert listed(course.learner / "ROS2_and_RL_Tutorials") == ["src"]
-
-
-def test_an_interrupted_move_leaves_nothing_that_was_built(course, monkeypatch):
-    source = left_behind(course)
-
-    def interrupted(path, target):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(Path, "rename", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        folder.make(course)
-    assert listed(source) == ["src"]
-    monkeypatch.undo()
-    monkeypatch.delenv("ROSBEAT_WORKSPACE_IN", raising=False)
-    folder.make(course)
-    assert listed(course.learner / "ROS2_and_RL_Tutorials") == ["src"]
-
-
-def test_a_link_to_a_workspace_stays(course, tmp_path):
-    (tmp_path / "elsewhere").mkdir()
-    link = course.root / "ROS2_and_RL_Tutorials"
-    link.symlink_to(tmp_path / "elsewhere")
-    folder.make(course)
-    assert link.is_symlink()
-    assert not (course.learner / link.name).exists()
-
-
-def test_nothing_that_is_there_is_replaced_by_what_moves_in(course):
-    folder.make(course)
-    for place, text in ((course.root, "old"), (course.learner, "new")):
-        (place / ".rosbeat").mkdir(exist_ok=True)
-        (place / ".rosbeat" / "progress.json").write_text(text)
-    folder.make(course)
-    assert (course.notes / "progress.json").read_text() == "new"
-    assert (course.root / ".rosbeat" / "progress.json").read_text() == "old"
-
-
-def test_a_workspace_that_is_elsewhere_on_purpose_stays(course, monkeypatch):
-    monkeypatch.setenv("ROSBEAT_WORKSPACE_IN", str(course.root))
-    (course.root / "ROS2_and_RL_Tutorials").mkdir()
-    folder.make(course)
-    assert (course.root / "ROS2_and_RL_Tutorials").is_dir()
 
 
 def test_answers_in_the_courses_own_pages_move_and_these_are_as_shipped(committed, capsys):
@@ -296,12 +191,6 @@ def test_a_committed_page_that_somebody_worked_in_is_not_the_shipped_one(committ
     (committed.shipped / NAME).write_bytes(SHIPPED)
     assert cli.main(["reset", "03"]) == 0
     assert sources(committed.learner / NAME)[1] == BLANK
-
-
-def test_work_in_the_courses_own_page_is_no_new_version_if_nobody_knows_the_page(course):
-    folder.make(course)
-    (course.shipped / NAME).write_bytes(WORKED)
-    assert not folder.is_newer(course, course.shipped / NAME)
 
 
 def test_without_git_reset_brings_back_what_the_learner_got(course):
@@ -442,12 +331,10 @@ def test_a_read_only_file_that_is_not_the_courses_stays(course):
 
 def test_in_a_release_the_pages_are_the_learners_own(course):
     (course.root / ".rosbeat-release.json").touch()
-    (course.root / "ROS2_and_RL_Tutorials").mkdir()
     folder.make(course)
     assert course.learner == course.shipped
-    assert listed(course.shipped) == [
-        *("00_hear.ipynb", NAME, "COLCON_IGNORE", "ROS2_and_RL_Tutorials", "docs", "home.ipynb")
-    ]
+    found = ["00_hear.ipynb", NAME, "COLCON_IGNORE", "docs", "home.ipynb"]
+    assert listed(course.shipped) == found
     assert not (course.root / "my_course").exists()
 
 
@@ -470,27 +357,12 @@ def test_reset_brings_a_page_back_and_keeps_the_old_one(course, name, capsys):
     assert "yours is kept as my_course/03_write-kept-1.ipynb" in capsys.readouterr().out
 
 
-def test_reset_takes_a_free_name_each_time(course):
-    for _ in range(2):
-        folder.make(course)
-        (course.learner / NAME).write_bytes(WORKED)
-        folder.reset(course, ["03"])
-    assert (course.learner / "03_write-kept-2.ipynb").exists()
-
-
 def test_reset_of_a_page_that_was_only_run_keeps_nothing(course):
     folder.make(course)
     run = page(cell("import rosbeat", execution_count=4), cell(BLANK, "03a"), cell("____", "03b"))
     (course.learner / NAME).write_bytes(run)
     folder.reset(course, ["03"])
     assert "kept" not in str(listed(course.learner))
-
-
-def test_reset_of_a_page_that_is_gone(course):
-    folder.make(course)
-    (course.learner / NAME).unlink()
-    folder.reset(course, ["03"])
-    assert (course.learner / NAME).exists()
 
 
 def test_reset_gives_the_committed_page_if_somebody_works_in_the_courses_own(committed):
@@ -584,13 +456,6 @@ def test_update_by_name_carries_over_the_answers_that_fit(course, capsys):
     assert (course.learner / "03_write-kept-1.ipynb").read_bytes() == WORKED
     said = "your answers to 03a are in it; 03b changed, so your answer is only in the old one"
     assert said in capsys.readouterr().out
-    assert not folder.is_newer(course, course.shipped / NAME)
-
-
-def test_a_page_that_equals_the_new_version_is_up_to_date(course):
-    folder.make(course)
-    (course.learner / NAME).write_bytes(NEW)
-    (course.shipped / NAME).write_bytes(NEW)
     assert not folder.is_newer(course, course.shipped / NAME)
 
 

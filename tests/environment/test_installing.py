@@ -180,44 +180,36 @@ def test_jupyterlab_stays_without_what_tests_bring_along(made):
 # What a person told pip.
 
 
-def test_the_usual_index_needs_no_word():
-    assert pip_settings("global.index-url='https://pypi.org/simple'\n", {}) == {}
+INDEX = "UV_DEFAULT_INDEX"
+CLOSER = """\
+:env:.index-url='https://three.example'
+global.index-url='https://one.example'
+install.index-url='https://two.example'
+"""
+OTHERS = """\
+global.cert='/etc/my certs.pem'
+global.proxy='http://proxy.example:3128'
+global.trusted-host='\\none.example\\ntwo.example'
+"""
 
 
-def test_an_index_of_ones_own_is_passed_on():
-    found = pip_settings("global.index-url='https://mirror.example/simple'\n", {})
-    assert found == {"UV_DEFAULT_INDEX": "https://mirror.example/simple"}
-
-
-def test_the_closer_setting_counts():
-    listing = (
-        ":env:.index-url='https://three.example'\n"
-        "global.index-url='https://one.example'\n"
-        "install.index-url='https://two.example'\n"
-    )
-    assert pip_settings(listing, {}) == {"UV_DEFAULT_INDEX": "https://three.example"}
-
-
-def test_what_was_said_to_uv_itself_stays():
-    listing = "global.index-url='https://mirror.example'\nglobal.proxy='http://p:1'\n"
-    assert pip_settings(listing, {"UV_INDEX_URL": "https://x", "HTTPS_PROXY": "http://q:2"}) == {}
-
-
-def test_certificates_proxies_and_trusted_hosts():
-    listing = (
-        "global.cert='/etc/my certs.pem'\n"
-        "global.proxy='http://proxy.example:3128'\n"
-        "global.trusted-host='\\none.example\\ntwo.example'\n"
-    )
-    assert pip_settings(listing, {}) == {
-        "SSL_CERT_FILE": "/etc/my certs.pem",
-        "ALL_PROXY": "http://proxy.example:3128",
-        "UV_INSECURE_HOST": "one.example two.example",
-    }
-
-
-def test_other_lines_are_passed_over():
-    assert pip_settings("global.timeout='60'\nWARNING: nonsense\n:env:.quiet='1'\n", {}) == {}
+@pytest.mark.parametrize(
+    ("listing", "environ", "found"),
+    [
+        ("global.index-url='https://pypi.org/simple'\n", {}, {}),
+        ("global.index-url='https://my.example/simple'\n", {}, {INDEX: "https://my.example/simple"}),
+        (CLOSER, {}, {INDEX: "https://three.example"}),
+        # What was said to uv itself stays.
+        ("global.index-url='https://x'\nglobal.proxy='http://p:1'\n",
+         {"UV_INDEX_URL": "https://x", "HTTPS_PROXY": "http://q:2"}, {}),
+        (OTHERS, {}, {"SSL_CERT_FILE": "/etc/my certs.pem",
+                      "ALL_PROXY": "http://proxy.example:3128",
+                      "UV_INSECURE_HOST": "one.example two.example"}),
+        ("global.timeout='60'\nWARNING: nonsense\n:env:.quiet='1'\n", {}, {}),
+    ],
+)  # fmt: skip
+def test_what_a_person_told_pip_is_told_to_uv(listing, environ, found):
+    assert pip_settings(listing, environ) == found
 
 
 # What installers say when they stop.
@@ -246,6 +238,7 @@ HASH = [
     "ERROR: THESE PACKAGES DO NOT MATCH THE HASHES FROM THE REQUIREMENTS FILE.",
 ]
 PERMISSION = ["error: failed to create directory `/home/ada/.cache/uv`: Permission denied"]
+PLATFORM = ["  x Because numpy has no wheels with a matching platform tag (e.g., `manylinux_2_17`)"]
 BUILD = ["  x Failed to build `rosbeat @ file:///home/ada/course`\n  The build backend returned"]
 
 
@@ -257,6 +250,7 @@ def kinds():
         (HASH, "not the one the course was locked to"),
         (PERMISSION, "may not write"),
         (BUILD, "could not be built"),
+        (PLATFORM, "does not come ready-made for this Linux"),
     ):
         yield from ((text, words) for text in texts)
 

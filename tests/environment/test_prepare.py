@@ -82,15 +82,6 @@ def test_an_interrupted_one_has_no_stamp(made, work, monkeypatch):
     assert not made.stamp.exists()
 
 
-def test_a_disk_that_filled_leaves_no_stamp(made, work, monkeypatch):
-    prepare.write_stamp(made, "course")
-    made.lock("course").write_text("newer\n")
-    monkeypatch.setattr(installing, "fill", fails(Problem("disk", "", "")))
-    with pytest.raises(Problem):
-        prepare.ready(made, "course")
-    assert not made.stamp.exists()
-
-
 def test_offline_the_old_environment_is_not_lost(made, work, monkeypatch):
     prepare.write_stamp(made, "course")
     before = made.stamp.read_text()
@@ -125,36 +116,6 @@ def test_the_first_time_is_announced(layout, made, work, capsys):
 HERE = "{}.{}".format(*sys.version_info[:2])
 
 
-@pytest.mark.parametrize("version", ["2.28", "2.36", "2.41", "3.0"])
-def test_new_enough_c_libraries(version):
-    prepare.check_libc(version)
-
-
-@pytest.mark.parametrize(
-    ("version", "words"), [("2.27", "glibc 2.27"), ("", "another C library than glibc")]
-)
-def test_unfit_c_libraries(version, words):
-    with pytest.raises(Problem) as caught:
-        prepare.check_libc(version)
-    assert words in caught.value.happened
-    assert caught.value.cure.startswith("./environment/container\n")
-
-
-def test_this_machine_is_read(monkeypatch):
-    monkeypatch.setattr("os.confstr", lambda name: "glibc 2.36")
-    assert prepare.glibc_version() == "2.36"
-
-
-@pytest.mark.parametrize("answer", [None, ValueError("unrecognized configuration name")])
-def test_a_machine_without_glibc_is_read(monkeypatch, answer):
-    def confstr(name):
-        if answer is not None:
-            raise answer
-
-    monkeypatch.setattr("os.confstr", confstr)
-    assert prepare.glibc_version() == ""
-
-
 @pytest.mark.parametrize("missing", ["venv", "ensurepip"])
 def test_an_incomplete_python_gets_the_right_apt_line(layout, monkeypatch, missing):
     find = importlib.util.find_spec
@@ -164,11 +125,6 @@ def test_an_incomplete_python_gets_the_right_apt_line(layout, monkeypatch, missi
     with pytest.raises(Problem) as caught:
         prepare.make_or_keep(layout, ENV)
     assert f"sudo apt install python{HERE}-venv" in caught.value.cure
-
-
-def test_a_folder_of_ones_own(tmp_path):
-    prepare.check_writable(tmp_path)
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
@@ -187,10 +143,6 @@ def test_a_folder_that_cannot_be_written_to(monkeypatch, tmp_path, number, words
     with pytest.raises(Problem) as caught:
         prepare.check_writable(tmp_path)
     assert words in caught.value.happened
-
-
-def test_a_disk_with_room(tmp_path):
-    prepare.check_space(tmp_path, 1)
 
 
 def test_a_full_disk_is_said_before_it_is_filled(monkeypatch, tmp_path):
@@ -221,13 +173,6 @@ sys.stdin.readline()
 """
 
 
-def test_alone_nothing_is_said(tmp_path, capsys):
-    with prepare.exclusive(tmp_path):
-        pass
-    assert capsys.readouterr().out == ""
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_second_command_waits_and_says_so(tmp_path, monkeypatch):
     said = []
     with subprocess.Popen(
@@ -247,15 +192,6 @@ def test_a_second_command_waits_and_says_so(tmp_path, monkeypatch):
         with prepare.exclusive(tmp_path):
             pass
     assert "waiting" in said[0]
-
-
-def test_a_file_system_without_locks_is_no_obstacle(tmp_path, monkeypatch):
-    def refuse(descriptor, how):
-        raise OSError(9, "Bad file descriptor")
-
-    monkeypatch.setattr("fcntl.flock", refuse)
-    with prepare.exclusive(tmp_path):
-        pass
 
 
 # The virtual environment.
@@ -286,12 +222,6 @@ def runs(monkeypatch):
 
 def answers(layout, text):
     layout.python.write_text(f"#!/bin/sh\n{text}\n")
-
-
-def test_a_finished_one_is_kept(finished, runs):
-    prepare.make_or_keep(finished, ENV)
-    assert runs == []
-    assert finished.venv.is_dir()
 
 
 def test_none_is_made(layout, runs, capsys):
@@ -364,16 +294,6 @@ def test_what_pythons_own_module_says_is_understood(layout, monkeypatch, text, w
 # The stamp.
 
 
-def test_a_fresh_stamp_satisfies(made):
-    prepare.write_stamp(made, "course")
-    assert prepare.is_satisfied(made, "course")
-
-
-def test_no_stamp_is_a_half_made_environment(made):
-    assert prepare.stamped_level(made) is None
-    assert not prepare.is_satisfied(made, "course")
-
-
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"level": "gold", "fingerprint": "x"}'])
 def test_a_stamp_that_cannot_be_read_is_none(made, text):
     made.stamp.write_text(text)
@@ -413,12 +333,6 @@ def test_moving_makes_it_stale(made, tmp_path):
     there = tmp_path / "elsewhere"
     shutil.move(made.root, there)
     assert not prepare.is_satisfied(Layout(there), "course")
-
-
-def test_a_python_that_is_gone_makes_it_stale(made):
-    prepare.write_stamp(made, "course")
-    made.python.unlink()
-    assert not prepare.is_satisfied(made, "course")
 
 
 def test_an_environment_for_tests_serves_learners_too(made):
