@@ -6,13 +6,12 @@ import argparse
 import re
 import shlex
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from IPython.core.error import UsageError
 from IPython.core.magic import no_var_expand
 
 from rosbeat.workspace.terminals.registry import Terminals, terminals_of
-from rosbeat.workspace.terminals.terminal import Watching
 
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
@@ -116,12 +115,12 @@ class _Options:
     Attributes:
         name: The terminal; empty to list all of them.
         action: `answer`, `ctrl_c`, `ctrl_d`, `kill`, `close` or nothing.
-        watching: How long to watch a command.
+        watching: The fields of `terminals.terminal.Watching`.
     """
 
     name: str
     action: str
-    watching: Watching
+    watching: dict[str, Any]
 
 
 class _Parser(argparse.ArgumentParser):
@@ -146,7 +145,7 @@ def _parse(line: str, in_cell: bool) -> _Options:
         raise _unknown(unknown[0])
     action = given.action or ""
     _require_sense(given, action, in_cell)
-    watching: Watching = {
+    watching = {
         "until": given.until,
         "lines": given.lines,
         "seconds": given.seconds,

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypedDict
+from typing import Any
 
 from rosbeat.errors import TerminalError
 from rosbeat.records import LogRecord
@@ -19,9 +19,6 @@ from rosbeat.workspace.terminals.output import Display, Line, Show, log_records,
 from rosbeat.workspace.terminals.reaper import end_marked
 from rosbeat.workspace.terminals.shell import BUSY, ENDED, READY, UNFINISHED, Shell
 from rosbeat.workspace.waiting import LONG, Note
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack
 
 # How watching a command ends: it has ended; the text has come; the time that was asked for is over;
 # patience is; the program waits for an answer.
@@ -40,25 +37,17 @@ _LINES_TO_EXPLAIN, _LONGEST_TO_EXPLAIN = 2000, 1000
 _TOUCHES_PROMPT = re.compile(r"PS[12]|PROMPT_COMMAND|\b(exec|source|eval|unset)\b|(^|[;&|\s])\.\s")
 
 
-class Watching(TypedDict, total=False):
-    """Hold the options of whoever watches a command.
+@dataclass(frozen=True)
+class Watching:
+    """Hold how a command is watched.
 
     Attributes:
         until: Watch only until this text appears; None to wait for the end of the command.
-        lines: In how many lines the text has to appear; one by default.
+        lines: In how many lines the text has to appear.
         seconds: How long to watch; None for as long as it takes.
         timeout: Seconds after which to give up; None for 60, or 300 for colcon.
+        until_quiet: Whether a program that has fallen silent is enough.
     """
-
-    until: str | None
-    lines: int
-    seconds: float | None
-    timeout: float | None
-
-
-@dataclass(frozen=True)
-class _Goal:
-    """Hold what is waited for: a `Watching`, or the silence of a program that was answered."""
 
     until: str | None = None
     lines: int = 1
@@ -131,13 +120,14 @@ class Terminal:
         """Return the folder in which its next command runs."""
         return self._shell.folder
 
-    def type(self, text: str, *, show: Show = colours.show, **watching: Unpack[Watching]) -> None:
+    def type(self, text: str, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - fields of Watching
         """Type commands, line by line, and show what they print until the last one has ended.
 
         Args:
             text: One command or more, as in a cell.
             show: Takes each line that is shown.
-            **watching: How to watch the last command, which goes on running if that ends first.
+            **watching: The fields of `Watching`, by which the last command is watched; it goes on
+                running if that ends first.
 
         Raises:
             TerminalError: If the terminal has ended, is busy, is given an unfinished command, or
@@ -159,9 +149,9 @@ class Terminal:
         self._make_way(text, show)
         self._cell = text
         with self._told():
-            self._type_lines(typed, _Goal(**watching), show)
+            self._type_lines(typed, Watching(**watching), show)
 
-    def answer(self, text: str, *, show: Show = colours.show, **watching: Unpack[Watching]) -> None:
+    def answer(self, text: str, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - as type
         """Type into the program that runs, and show what it says until it falls silent.
 
         The arguments are those of `type`.
@@ -176,7 +166,7 @@ class Terminal:
                 "`--answer` types into a running program, but here bash is waiting for a command.",
                 "To type a command, leave out `--answer`.",
             )
-        goal = _Goal(**watching)
+        goal = Watching(**watching)
         if goal.until is None and goal.seconds is None:
             goal = replace(goal, until_quiet=True)
         typed = refusals.lines_of(text)
@@ -184,7 +174,7 @@ class Terminal:
         with self._told():
             self._answer_lines(typed, goal, show)
 
-    def look(self, *, show: Show = colours.show, **watching: Unpack[Watching]) -> None:
+    def look(self, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - as type
         """Show what came since the last look, and watch on if there is something to wait for.
 
         The arguments are those of `type`.
@@ -192,7 +182,7 @@ class Terminal:
         Raises:
             TerminalError: If `until` does not appear in time.
         """
-        goal = _Goal(**watching)
+        goal = Watching(**watching)
         if goal.until is None and goal.seconds is None:
             goal = replace(goal, seconds=0.0)
         with self._told():
@@ -272,7 +262,7 @@ class Terminal:
         say(show, f"`{refusals.short(self.command)}` of this cell still runs, and is stopped first")
         self.ctrl_c(timeout=_STOPS_WITHIN, show=lambda _: None)
 
-    def _type_lines(self, lines: list[str], goal: _Goal, show: Show) -> None:
+    def _type_lines(self, lines: list[str], goal: Watching, show: Show) -> None:
         display = Display(show)
         for number, line in enumerate(lines, 1):
             begins = self._shell.state == READY
@@ -300,7 +290,7 @@ class Terminal:
         outside = refusals.build_outside(line, self._shell.folder, workspace(), here)
         return outside or refusals.full_screen(line)
 
-    def _type_line(self, line: str, goal: _Goal, display: Display) -> int:
+    def _type_line(self, line: str, goal: Watching, display: Display) -> int:
         place = self._shell.end
         if self._shell.state == READY:
             self.command, self._begin, self._folder = line, place, self._shell.folder
@@ -311,13 +301,13 @@ class Terminal:
         self._shell.enter(line, before + line)
         return self._follow(goal, display, place)
 
-    def _answer_lines(self, lines: list[str], goal: _Goal, show: Show) -> None:
+    def _answer_lines(self, lines: list[str], goal: Watching, show: Show) -> None:
         display = Display(show)
         for number, line in enumerate(lines, 1):
             is_last = number == len(lines)
             place = self._shell.end
             self._shell.answer(line)
-            ending = self._follow(goal if is_last else _Goal(until_quiet=True), display, place)
+            ending = self._follow(goal if is_last else Watching(until_quiet=True), display, place)
             if ending == _FINISHED or is_last:
                 self._conclude(ending, goal, show, looking=ending == _QUIET)
                 self._say_rest(lines[number:], show)
@@ -325,14 +315,14 @@ class Terminal:
 
     # Following.
 
-    def _follow(self, goal: _Goal, display: Display, place: int) -> int:
+    def _follow(self, goal: Watching, display: Display, place: int) -> int:
         """Show what comes until the goal is reached; return how that ended."""
         ending = self._watch(goal, display.add, place)
         if self._shell.state != UNFINISHED or ending != _FINISHED:
             display.end()
         return ending
 
-    def _watch(self, goal: _Goal, see: Callable[[Line], None], place: int) -> int:
+    def _watch(self, goal: Watching, see: Callable[[Line], None], place: int) -> int:
         allowed = self._patience(goal) if goal.seconds is None else goal.seconds
         self._place = place
         note = Note()
@@ -342,7 +332,7 @@ class Terminal:
             note.clear()
 
     def _watch_until(
-        self, goal: _Goal, see: Callable[[Line], None], deadline: float, note: Note
+        self, goal: Watching, see: Callable[[Line], None], deadline: float, note: Note
     ) -> int:
         found, may_repair = 0, self._touches_prompt()
         spoke = time.monotonic()
@@ -375,7 +365,7 @@ class Terminal:
             elif goal.until_quiet:
                 return _QUIET
 
-    def _waits_for(self, goal: _Goal, seconds: float) -> str:
+    def _waits_for(self, goal: Watching, seconds: float) -> str:
         """Say why nothing comes: what is waited for, and how to end that."""
         command, silent = refusals.short(self.command), f"nothing came for {seconds:.0f} s"
         if self._shell.waits_for_input():
@@ -390,7 +380,7 @@ class Terminal:
             goal_is = f"for {goal.seconds:g} s"
         return f"`{command}` runs ({silent}); this cell watches {goal_is}."
 
-    def _conclude(self, ending: int, goal: _Goal, show: Show, looking: bool = False) -> None:
+    def _conclude(self, ending: int, goal: Watching, show: Show, looking: bool = False) -> None:
         """Say how the command ended, or that it did not."""
         if ending == _FINISHED:
             self._finish(show)
@@ -460,8 +450,8 @@ class Terminal:
         self._finish(show, always=True)
         return self._shell.code
 
-    def _next_look(self, deadline: float) -> _Goal:
-        return _Goal(timeout=min(_AGAIN_AFTER, deadline - time.monotonic()))
+    def _next_look(self, deadline: float) -> Watching:
+        return Watching(timeout=min(_AGAIN_AFTER, deadline - time.monotonic()))
 
     # Words.
 
@@ -488,7 +478,7 @@ class Terminal:
             f"{end}.",
         )
 
-    def _not_seen(self, goal: _Goal, when: str) -> TerminalError:
+    def _not_seen(self, goal: Watching, when: str) -> TerminalError:
         often = f" in {goal.lines} lines" if goal.lines > 1 else ""
         last = "".join(f"\n    {line}" for line in self._printed()[-_LAST_LINES:]) or " none."
         return TerminalError(
@@ -525,7 +515,7 @@ class Terminal:
     def _touches_prompt(self) -> bool:
         return bool(_TOUCHES_PROMPT.search(self.command))
 
-    def _patience(self, goal: _Goal) -> float:
+    def _patience(self, goal: Watching) -> float:
         if goal.timeout is not None:
             return goal.timeout
         return _BUILD_PATIENCE if self.command.split()[:1] == ["colcon"] else _PATIENCE
