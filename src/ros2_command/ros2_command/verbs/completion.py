@@ -164,4 +164,4 @@ _SOURCES: dict[str, Callable[[list[str]], list[str]]] = {
 }
 
 
-VERBS = {"": Verb(_add_arguments, _main)}
+VERBS = {"": Verb(_main, _add_arguments)}
