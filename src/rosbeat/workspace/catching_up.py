@@ -173,32 +173,39 @@ def package(root: Path) -> str:
 
 
 def _check_place(folder: Path, root: Path) -> None:
-    """Say what is wrong with a package that is half made, or lies elsewhere."""
-    others = [
-        one
-        for one in find_packages(root)
-        if one != folder and read_package(one, root).name == PACKAGE
-    ]
-    nested = folder / PACKAGE
-    if (nested / "package.xml").is_file():
-        others.append(nested)
+    """Say what is wrong with a package that is half made, of another kind, or lies elsewhere."""
+    found = [one for one in find_packages(root) if one != folder]
+    others = [one for one in found if read_package(one, root).name == PACKAGE]
+    if (folder / PACKAGE / "package.xml").is_file():
+        others.append(folder / PACKAGE)
     if others:
-        place = others[0].relative_to(root)
-        raise InTheWay(_elsewhere(place.as_posix(), folder.exists()))
-    if folder.is_dir() and not (folder / "package.xml").is_file():
-        raise InTheWay(_half_made(folder))
-    if folder.exists() and not folder.is_dir():
+        place = others[0].relative_to(root).as_posix()
+        if folder.exists():
+            raise InTheWay(
+                f"there is a second package {PACKAGE} in {place}, and colcon builds neither of "
+                "them. Keep the one in src, and move the other one out of the workspace."
+            )
+        raise InTheWay(
+            f"the package {PACKAGE} is in {place}, but it belongs in src. In the workspace, move "
+            f"it with `mv {place} src/`."
+        )
+    if not folder.exists():
+        return
+    if not folder.is_dir():
         raise InTheWay(
             f"src/{PACKAGE} is a file, but the package needs a folder of that name. "
             "Rename the file."
         )
-    _check_kind(folder, root)
-
-
-def _check_kind(folder: Path, root: Path) -> None:
-    """Say so if the package is not one for Python, or its manifest cannot be read."""
-    if not folder.is_dir():
-        return
+    if not any(folder.iterdir()):
+        raise InTheWay(
+            f"the folder src/{PACKAGE} already exists and is empty, so `ros2 pkg create` would "
+            f"fail. Remove the folder with `rmdir src/{PACKAGE}`, then run this cell again."
+        )
+    if not (folder / "package.xml").is_file():
+        raise InTheWay(
+            f"the folder src/{PACKAGE} has no package.xml, so it is not a package. Rename the "
+            "folder, then run this cell again and move your files to the new package."
+        )
     manifest = read_package(folder, root).manifest
     if manifest.problem:
         raise InTheWay(f"src/{PACKAGE}/package.xml cannot be read: {manifest.problem}.")
@@ -208,30 +215,6 @@ def _check_kind(folder: Path, root: Path) -> None:
             "created without `--build-type ament_python`. Move it out of the workspace with `mv "
             f"src/{PACKAGE} ~/{PACKAGE}-old`, then create it again with the whole command."
         )
-
-
-def _elsewhere(place: str, twice: bool) -> str:
-    if twice:
-        return (
-            f"there is a second package {PACKAGE} in {place}, and colcon builds neither of them. "
-            "Keep the one in src, and move the other one out of the workspace."
-        )
-    return (
-        f"the package {PACKAGE} is in {place}, but it belongs in src. In the workspace, move it "
-        f"with `mv {place} src/`."
-    )
-
-
-def _half_made(folder: Path) -> str:
-    if any(folder.iterdir()):
-        return (
-            f"the folder src/{PACKAGE} has no package.xml, so it is not a package. Rename the "
-            "folder, then run this cell again and move your files to the new package."
-        )
-    return (
-        f"the folder src/{PACKAGE} already exists and is empty, so `ros2 pkg create` would fail. "
-        f"Remove the folder with `rmdir src/{PACKAGE}`, then run this cell again."
-    )
 
 
 def _fill_in(folder: Path) -> None:

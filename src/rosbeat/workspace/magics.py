@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 import shlex
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from IPython.core.error import UsageError
 from IPython.core.magic import no_var_expand
@@ -58,37 +57,26 @@ def run(shell: InteractiveShell, line: str, cell: str | None) -> None:
         TerminalError: If the terminal cannot do it.
         KeyboardInterrupt: If the cell is interrupted.
     """
-    options = _parse(line, cell is not None)
+    given = _parse(line, cell is not None)
+    watching = {name: getattr(given, name) for name in ("until", "lines", "seconds", "timeout")}
     terminals = terminals_of(shell)
     if cell is not None:
-        _type(terminals, options, cell)
-    elif options.name:
-        _look(terminals, options)
-    else:
+        if not cell.strip():
+            raise UsageError("The cell has no commands: write them below `%%terminal NAME`.")
+        terminal = terminals.get(given.name)
+        (terminal.answer if given.action else terminal.type)(cell, **watching)
+    elif not given.name:
         _list(terminals)
-
-
-def _type(terminals: Terminals, options: _Options, cell: str) -> None:
-    if not cell.strip():
-        raise UsageError("The cell has no commands: write them below `%%terminal NAME`.")
-    terminal = terminals.get(options.name)
-    act = terminal.answer if options.action == "answer" else terminal.type
-    act(cell, **options.watching)
-
-
-def _look(terminals: Terminals, options: _Options) -> None:
-    terminal = terminals.find(options.name)
-    if terminal is None:
+    elif (found := terminals.find(given.name)) is None:
         raise UsageError(
-            f"There is no terminal `{options.name}`. {_names(terminals)} `%%terminal "
-            f"{options.name}` with commands below it opens that terminal."
+            f"There is no terminal `{given.name}`. {_names(terminals)} `%%terminal {given.name}` "
+            "with commands below it opens that terminal."
         )
-    if options.action:
-        timeout = options.watching.get("timeout")
-        ending = {} if timeout is None else {"timeout": timeout}
-        getattr(terminal, options.action)(**ending)
+    elif given.action:
+        ending = {} if given.timeout is None else {"timeout": given.timeout}
+        getattr(found, given.action)(**ending)
     else:
-        terminal.look(**options.watching)
+        found.look(**watching)
 
 
 def _names(terminals: Terminals) -> str:
@@ -108,21 +96,6 @@ def _list(terminals: Terminals) -> None:
 # Options.
 
 
-@dataclass(frozen=True)
-class _Options:
-    """Hold what was asked for.
-
-    Attributes:
-        name: The terminal; empty to list all of them.
-        action: `answer`, `ctrl_c`, `ctrl_d`, `kill`, `close` or nothing.
-        watching: The fields of `terminals.terminal.Watching`.
-    """
-
-    name: str
-    action: str
-    watching: dict[str, Any]
-
-
 class _Parser(argparse.ArgumentParser):
     """Raise errors in the words of the pages, and never end the kernel."""
 
@@ -130,11 +103,11 @@ class _Parser(argparse.ArgumentParser):
         raise UsageError(f"{message[:1].upper()}{message[1:]}.\n{_USAGE}")
 
 
-def _parse(line: str, in_cell: bool) -> _Options:
-    """Return what stands behind the magic's name.
+def _parse(line: str, in_cell: bool) -> argparse.Namespace:
+    """Return the options of a line.
 
     Args:
-        line: The text.
+        line: What stands behind the magic's name.
         in_cell: Whether it is `%%terminal`.
 
     Raises:
@@ -143,15 +116,8 @@ def _parse(line: str, in_cell: bool) -> _Options:
     given, unknown = _parser().parse_known_args(_words(line))
     if unknown:
         raise _unknown(unknown[0])
-    action = given.action or ""
-    _require_sense(given, action, in_cell)
-    watching = {
-        "until": given.until,
-        "lines": given.lines,
-        "seconds": given.seconds,
-        "timeout": given.timeout,
-    }
-    return _Options(given.name, action, watching)
+    _require_sense(given, given.action or "", in_cell)
+    return given
 
 
 def _words(line: str) -> list[str]:
