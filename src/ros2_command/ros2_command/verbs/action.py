@@ -11,12 +11,12 @@ from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
 from ros2_command.lookup import (
     Entries,
-    action_class,
     full_type,
     pick,
     show_entries,
     show_types,
     suggestion,
+    type_class,
     wait_for_server,
 )
 from ros2_command.message_text import Style, to_yaml
@@ -82,7 +82,7 @@ def _send_goal(args: Namespace) -> int:
     from rclpy.action import ActionClient
 
     check_name("action", args.action_name)
-    kind = action_class(args.action_type)
+    kind = type_class(args.action_type, "action")
     goal = kind.Goal()
     stampers = fill(goal, read_yaml(value_text(args.goal, args.stdin)))
     with open_graph() as graph:

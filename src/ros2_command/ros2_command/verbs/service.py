@@ -14,8 +14,8 @@ from ros2_command.lookup import (
     full_type,
     of_type,
     pick,
-    service_class,
     show_entries,
+    type_class,
     visible,
     wait_for_server,
 )
@@ -80,7 +80,7 @@ def _call(args: Namespace) -> None:
     if args.rate is not None and not args.rate > 0:
         raise CommandError("rate must be greater than zero")
     check_name("service", args.service_name)
-    kind = service_class(args.service_type)
+    kind = type_class(args.service_type, "srv")
     request = kind.Request()
     stampers = fill(request, read_yaml(value_text(args.values, args.stdin)))
     with open_graph() as graph:
@@ -123,7 +123,7 @@ def _echo(args: Namespace) -> None:
         if args.service_type is None:
             name, types = pick(args.service_name, services, complaint)
             args.service_type = types[0]
-        kind = service_class(args.service_type).Event
+        kind = type_class(args.service_type, "srv").Event
         topic, style = f"{name}/_service_event", style_of(args)
         if topic not in dict(graph.topics()):
             print(

@@ -13,13 +13,13 @@ from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
 from ros2_command.lookup import (
     Entries,
-    message_class,
     of_type,
     pick,
     show_entries,
     show_types,
     suggestion,
     topic_class,
+    type_class,
     visible,
 )
 from ros2_command.message_text import (
@@ -357,7 +357,7 @@ def _pub(args: Namespace) -> None:
     check_name("topic", args.topic_name)
     if args.node_name is not None:
         check_node_name(args.node_name)
-    kind = message_class(args.message_type)
+    kind = type_class(args.message_type, "msg")
     values = read_yaml(value_text(args.values, args.stdin))
     if not isinstance(values, dict):
         raise CommandError("The passed value needs to be a dictionary in YAML format")
