@@ -215,19 +215,15 @@ def locate(typed: str, root: Path | None = None) -> tuple[PurePosixPath, Path]:
     target = (base / relative).resolve()
     if not target.is_relative_to(base) or target == base:
         raise _outside(typed)
-    _refuse_reserved(relative, target.relative_to(base).parts[0])
-    return relative, target
-
-
-def _refuse_reserved(relative: PurePosixPath, real: str) -> None:
-    """Refuse a folder that is not the learner's, also behind a link of another name."""
-    for first in (relative.parts[0], real):
+    # A folder that is not the learner's, also behind a link of another name.
+    for first in (relative.parts[0], target.relative_to(base).parts[0]):
         if first in RESERVED:
             raise WorkspaceError(
                 f"{relative} cannot be saved: {first} is not a folder for your files.",
                 "The folders build, install, log and kept belong to colcon and to this course.",
                 "Save into src, docs, scripts or resources.",
             )
+    return relative, target
 
 
 def _relative(typed: str) -> PurePosixPath:

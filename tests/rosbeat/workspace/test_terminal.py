@@ -170,14 +170,6 @@ def test_ctrl_c_reaches_a_loop_between_two_programs(terminal):
         assert terminal.ctrl_c(show=str) == 130
 
 
-def test_ctrl_c_is_not_pressed_again_while_the_prompt_is_on_its_way(terminal):
-    slow = "PROMPT_COMMAND='SECONDS=0; while [ $SECONDS -lt 2 ]; do :; done'"
-    terminal.type(f"{slow}; (trap 'exit 0' INT; {TICK})", until="tick 2", show=str)
-    assert terminal.ctrl_c(show=str) == 0
-    terminal.type("true", show=str)
-    assert terminal.exit_code == 0
-
-
 SLOW_TO_LEAVE = """import signal, sys, time
 def leave(*_):
     signal.signal(signal.SIGINT, signal.SIG_DFL)

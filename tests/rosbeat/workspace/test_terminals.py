@@ -83,15 +83,6 @@ def test_nothing_is_left_open(home):
     assert files() <= before
 
 
-def test_two_names_are_two_terminals(terminals):
-    one, two = terminals.get("one"), terminals.get("two")
-    one.type("cd /usr; X=1", show=str)
-    two.type("echo [$X]; pwd", show=str)
-    assert two.text.splitlines()[1:] == ["[]", "/home/you"]
-    assert terminals.get("one") is one
-    assert [terminal.name for terminal in terminals] == ["one", "two"]
-
-
 def test_closing_one_ends_what_runs_in_it(terminal):
     assert terminal.state == "waits at ~$"
     terminal.type("sleep 100", seconds=0, show=str)
@@ -160,16 +151,6 @@ def test_what_is_marked_is_ended_whether_it_listens_or_not(mark, start, follower
     reaper.end_marked(mark, grace=0.1)
     assert leader.wait(10) == -signal.SIGKILL
     assert reaper.marked(mark) == []
-
-
-def test_the_watcher_ends_what_is_marked_when_its_pipe_closes(mark, start, eventually):
-    process = start(SLEEP)
-    command = [sys.executable, "-I", "-S", reaper.__file__, mark, str(os.getpid())]
-    watcher = subprocess.Popen(command, stdin=subprocess.PIPE)
-    assert process.poll() is None
-    watcher.stdin.close()
-    assert watcher.wait(20) == 0
-    assert process.wait(10) == -signal.SIGKILL
 
 
 # The environment.
