@@ -6,7 +6,6 @@ The stamp, written last, says that all of this was done, and from what.
 
 from __future__ import annotations
 
-import errno
 import fcntl
 import hashlib
 import importlib.util
@@ -28,7 +27,6 @@ from course_tool.problems import (
     Untouched,
     disk_full,
     installer_stopped,
-    not_writable,
     say,
     venv_module_missing,
 )
@@ -99,14 +97,14 @@ def _heading(layout: Layout) -> str:
 
 
 def check_writable(folder: Path) -> None:
-    """Refuse a checkout in which nothing can be made."""
-    try:
-        with tempfile.TemporaryFile(dir=folder):
-            return
-    except OSError as error:
-        if error.errno == errno.ENOSPC:
-            raise disk_full(str(folder)) from None
-        raise not_writable(folder, error.strerror or str(error)) from None
+    """Refuse a checkout in which nothing can be made.
+
+    Raises:
+        OSError: With the reason, of which `course_tool.cli` makes a problem.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryFile(dir=folder):
+        pass
 
 
 def check_space(folder: Path, needed: float) -> None:
@@ -182,13 +180,10 @@ def why_unusable(layout: Layout, environ: Mapping[str, str]) -> str | None:
 
 def _remove(venv: Path) -> None:
     """Remove `.venv`; of a link, only the link."""
-    try:
-        if venv.is_symlink() or venv.is_file():
-            venv.unlink()
-        else:
-            shutil.rmtree(venv)
-    except OSError as error:
-        raise not_writable(venv, error.strerror or str(error)) from None
+    if venv.is_symlink() or venv.is_file():
+        venv.unlink()
+    else:
+        shutil.rmtree(venv)
 
 
 # The stamp.

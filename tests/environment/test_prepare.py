@@ -1,12 +1,10 @@
 """`.venv`: what must hold before, how it is made and kept, its stamp, and a first ROS message."""
 
-import errno
 import importlib.util
 import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from contextlib import nullcontext
 from types import SimpleNamespace
 
@@ -115,24 +113,6 @@ def test_an_incomplete_python_gets_the_right_apt_line(layout, monkeypatch, missi
     with pytest.raises(Problem) as caught:
         prepare.make_or_keep(layout, ENV)
     assert f"sudo apt install python{HERE}-venv" in caught.value.cure
-
-
-@pytest.mark.parametrize(
-    ("number", "words"),
-    [
-        (errno.EACCES, "Nothing can be written"),
-        (errno.EROFS, "Nothing can be written"),
-        (errno.ENOSPC, "not enough room on the disk"),
-    ],
-)
-def test_a_folder_that_cannot_be_written_to(monkeypatch, tmp_path, number, words):
-    def refuse(dir):
-        raise OSError(number, "no")
-
-    monkeypatch.setattr(tempfile, "TemporaryFile", refuse)
-    with pytest.raises(Problem) as caught:
-        prepare.check_writable(tmp_path)
-    assert words in caught.value.happened
 
 
 def test_a_full_disk_is_said_before_it_is_filled(monkeypatch, tmp_path):
@@ -246,15 +226,6 @@ def test_of_a_link_only_the_link_is_removed(layout, tmp_path, runs):
     prepare.make_or_keep(layout, ENV)
     assert (tmp_path / "precious").is_dir()
     assert not os.path.lexists(layout.venv)
-
-
-def test_one_that_cannot_be_removed(made, monkeypatch):
-    def refuse(folder):
-        raise PermissionError(13, "Permission denied")
-
-    monkeypatch.setattr(shutil, "rmtree", refuse)
-    with pytest.raises(Problem, match="Nothing can be written"):
-        prepare.make_or_keep(made, ENV)
 
 
 @pytest.mark.parametrize(

@@ -35,8 +35,6 @@ _ABOUT = ("version", "description", "license")
 _EMPTY_LIST = re.compile(
     r"""(?m)^(?P<head>[^#\n]*['"]console_scripts['"]\s*:\s*\[)(?P<inside>(?:\s|#[^\n]*)*)\]"""
 )
-# All that an expression may be made of to be read without running anything.
-_LITERAL = (ast.Constant, ast.List, ast.Tuple, ast.Dict, ast.BinOp, ast.Add, ast.Load)
 # What the script prints goes to the standard error, and its arguments to the standard output.
 _RECORDER = """
 import json, os, runpy, sys
@@ -112,7 +110,7 @@ def _given(tree: ast.Module, call: ast.Call, path: Path) -> _Given | None:
         return _Given(literal.values, literal.excluded, complete=False)
 
 
-# Literals.
+# Literals. None stands for whatever is none.
 
 
 def _literal(tree: ast.Module, call: ast.Call) -> _Given:
@@ -125,7 +123,8 @@ def _literal(tree: ast.Module, call: ast.Call) -> _Given:
             value, excluded = _patterns(keyword.value, names) or (None, ())
         if keyword.arg and value is not None:
             values[keyword.arg] = value
-    return _Given(values, excluded, complete=not call.args and len(values) == len(call.keywords))
+    known = len(values) == len(call.keywords) and all(map(_is_known, values.values()))
+    return _Given(values, excluded, complete=known and not call.args)
 
 
 def _constants(tree: ast.Module) -> dict[str, str]:
@@ -145,16 +144,26 @@ def _constants(tree: ast.Module) -> dict[str, str]:
     }
 
 
-def _value(node: ast.expr, names: Mapping[str, str]) -> Any:  # noqa: ANN401 - plain data
-    """Return the value of an expression of literals, `+` and names of strings; None of others."""
-    parts = ast.walk(node)
-    if not all(isinstance(one, _LITERAL) or getattr(one, "id", None) in names for one in parts):
-        return None
-    try:
-        # There is nothing in it to call, and only the strings that were found to name.
-        return eval(compile(ast.Expression(node), "setup.py", "eval"), {}, dict(names))
-    except TypeError:  # such as a number and a string
-        return None
+def _value(node: ast.expr | None, names: Mapping[str, str]) -> Any:  # noqa: ANN401 - plain data
+    if isinstance(node, ast.Constant):
+        return node.value
+    if isinstance(node, ast.Name):
+        return names.get(node.id)
+    if isinstance(node, ast.List | ast.Tuple):
+        return [_value(one, names) for one in node.elts]
+    if isinstance(node, ast.Dict):
+        keys = [_value(key, names) for key in node.keys]
+        return dict(zip(map(str, keys), [_value(one, names) for one in node.values], strict=True))
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        both = [_value(one, names) for one in (node.left, node.right)]
+        return "".join(both) if all(isinstance(one, str) for one in both) else None
+    return None
+
+
+def _is_known(value: object) -> bool:
+    if isinstance(value, dict):
+        return all(map(_is_known, value.values()))
+    return all(map(_is_known, value)) if isinstance(value, list) else value is not None
 
 
 def _patterns(

@@ -138,7 +138,7 @@ TWICE = HEAD.replace("setup(name", "if True:\n    package_name = 'q'\nsetup(name
           for given in ("{'console_scripts': names()}", "{**more}", "{}, **more", "names",
                         "['a = b:c']")),
         (scripts("*others,", "'b = p.b:main',"),
-         lambda setup: (setup.entry_points, setup.incomplete), ((), True)),
+         lambda setup: (parts(setup), setup.incomplete), ([("b", "p.b", "main", False)], True)),
         # Data files are missing only if all of them are known.
         *((imported(f"name='p', data_files={files}"), lambda setup: setup.left_out, missing)
           for files, missing in (("[]", ("resource/p", "package.xml")), ("unknown()", ()),
