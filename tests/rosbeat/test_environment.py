@@ -230,12 +230,6 @@ def test_a_domain_follows_the_real_place(tmp_path):
     )
 
 
-def test_a_system_without_user_numbers(monkeypatch):
-    monkeypatch.delattr(os, "getuid")
-    monkeypatch.setenv("USERNAME", "ada")
-    assert environment.domain_id(PREFIX) == environment.usual_domain_id(PREFIX, "ada")
-
-
 def test_it_needs_nothing_of_rosbeat_and_nothing_slow():
     code = f"""
 import sys
