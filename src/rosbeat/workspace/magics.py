@@ -172,38 +172,28 @@ def _require_sense(given: argparse.Namespace, action: str, in_cell: bool) -> Non
     Raises:
         UsageError: Then.
     """
-    if not given.name and (in_cell or action or given.until or given.seconds is not None):
-        raise UsageError(
-            f"The terminal's name is missing. Give it one, as in `terminal sensor`.\n{_USAGE}"
-        )
-    if given.name and not _NAME.fullmatch(given.name):
-        raise UsageError(f"`{given.name}` is not a valid name: use letters, digits, `-` and `_`.")
-    if in_cell and action not in ("", "answer"):
-        option = action.replace("_", "-")
-        raise UsageError(
-            f"`--{option}` works only in a line of its own: `%terminal {given.name} --{option}`."
-        )
-    if not in_cell and action == "answer":
-        raise UsageError("`--answer` types the rest of the cell, so it needs `%%terminal`.")
-    _require_one_purpose(given, action)
-    if given.until == "":
-        raise UsageError("`--until` needs a text to wait for.")
-    if given.lines > 1 and given.until is None:
-        raise UsageError("`--lines` counts lines with a text: it needs `--until TEXT`.")
-
-
-def _require_one_purpose(given: argparse.Namespace, action: str) -> None:
-    """Refuse to watch a program in the same line in which it is ended.
-
-    Raises:
-        UsageError: Then.
-    """
-    if action in ("", "answer"):
-        return
-    useless = {"until": given.until, "for": given.seconds}
+    name, option = given.name, f"--{action.replace('_', '-')}"
+    is_end = action not in ("", "answer")
+    # A program is not watched in the same line in which it is ended.
+    watching = {"until": given.until, "for": given.seconds}
     if action == "close":
-        useless["timeout"] = given.timeout
-    for option, value in useless.items():
-        if value is not None:
-            word = action.replace("_", "-")
-            raise UsageError(f"`--{option}` cannot be combined with `--{word}`.\n{_USAGE}")
+        watching["timeout"] = given.timeout
+    useless = [one for one, value in watching.items() if is_end and value is not None]
+    asked = in_cell or action or given.until or given.seconds is not None
+    refusals = (
+        (not name and asked,
+         f"The terminal's name is missing. Give it one, as in `terminal sensor`.\n{_USAGE}"),
+        (name and not _NAME.fullmatch(name),
+         f"`{name}` is not a valid name: use letters, digits, `-` and `_`."),
+        (in_cell and is_end,
+         f"`{option}` works only in a line of its own: `%terminal {name} {option}`."),
+        (action == "answer" and not in_cell,
+         "`--answer` types the rest of the cell, so it needs `%%terminal`."),
+        (useless, f"`--{''.join(useless[:1])}` cannot be combined with `{option}`.\n{_USAGE}"),
+        (given.until == "", "`--until` needs a text to wait for."),
+        (given.lines > 1 and given.until is None,
+         "`--lines` counts lines with a text: it needs `--until TEXT`."),
+    )  # fmt: skip
+    for holds, said in refusals:
+        if holds:
+            raise UsageError(said)
