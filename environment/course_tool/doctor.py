@@ -85,49 +85,34 @@ def look(layout: Layout, clean: Surroundings) -> list[Finding]:
 
 
 def course_files(layout: Layout, environ: Mapping[str, str]) -> Finding:
-    """Look whether files of the course are missing or changed: by git, or by what was installed."""
+    """Look whether files of the course are missing or changed: by git."""
     subject = "course files"
-    gone, changed, back = _by_git(layout, environ) or _by_record(layout)
+    listed = _by_git(layout, environ)
+    if listed is None:
+        return Finding("note", subject, "nobody knows what they were: there is no git here")
     theirs = ("notebooks/", "solutions/") if layout.is_release else ()
-    gone = [one for one in gone if not one.startswith(theirs)]
-    changed = [one for one in changed if not one.startswith(theirs)]
+    gone, changed = ([one for one in names if not one.startswith(theirs)] for names in listed)
+    back = "git checkout HEAD -- "
     if gone:
         # Exactly these: others may be changed on purpose.
         many = "git ls-files -z --deleted | xargs -0 git checkout HEAD --"
-        cure = many if back.startswith("git") and len(gone) > 3 else back + shlex.join(gone[:3])
+        cure = many if len(gone) > 3 else back + shlex.join(gone)
         return Finding("problem", subject, f"missing: {_some(gone)}", f"in {layout.root}: {cure}")
     if changed:
         cure = f"copy what is yours; then, as they were: {back}{shlex.join(changed[:3])}"
         return Finding("note", subject, f"changed: {_some(changed)}", cure)
-    if not back:
-        return Finding("note", subject, "nobody knows what they were: there is no git here")
     return Finding("ok", subject, "all are there, and as they were")
 
 
-_Found = tuple[list[str], list[str], str]
-
-
-def _by_git(layout: Layout, environ: Mapping[str, str]) -> _Found | None:
-    """Return what is missing, what is changed, and how it comes back; None without git."""
+def _by_git(layout: Layout, environ: Mapping[str, str]) -> tuple[list[str], list[str]] | None:
+    """Return what is missing and what is changed; None without git."""
     command = ["git", "status", "--porcelain", "-z", "--untracked-files=no"]
     answer = running.quiet(command, environ, timeout=60, cwd=layout.root)
     if not answer.ok or not (layout.root / ".git").exists():
         return None
     listed = [line for line in answer.text.split("\0") if line[2:3] == " "]
     gone = [line[3:] for line in listed if "D" in line[:2]]
-    changed = [line[3:] for line in listed if "D" not in line[:2]]
-    return gone, changed, "git checkout HEAD -- "
-
-
-def _by_record(layout: Layout) -> _Found:
-    """Return the same, compared with the files that were there when `.venv` was made."""
-    before = prepare.recorded_files(layout)
-    if before is None:
-        return [], [], ""
-    now = prepare.files_of_course(layout)
-    gone = [name for name in before if name not in now]
-    changed = [name for name in before if name in now and now[name] != before[name]]
-    return gone, changed, "get the course once more, and copy from there: "
+    return gone, [line[3:] for line in listed if "D" not in line[:2]]
 
 
 def _some(names: Sequence[str]) -> str:

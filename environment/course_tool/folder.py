@@ -12,12 +12,10 @@ the same folder, in a place of the learner's, from the pages in a wheel.
 
 from __future__ import annotations
 
-import errno
 import json
 import os
 import platform
 import shlex
-import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -25,7 +23,7 @@ from typing import Any
 from uuid import uuid4
 
 from course_tool.installing import KERNEL
-from course_tool.layout import WORKSPACE, Layout
+from course_tool.layout import Layout
 from course_tool.prepare import check_writable, exclusive
 from course_tool.problems import Problem, say
 
@@ -38,8 +36,6 @@ SOLUTIONS = "solutions"
 #: The docs that pages link to, glossary and all; JupyterLab follows no link out of its folder.
 DOCS = "docs"
 _READ_ONLY = 0o444
-#: Files by which colcon marks what it has made, and makes again.
-_MADE_BY_COLCON = ("build/.built_by", "install/.colcon_install_layout")
 _RELOAD = """\
 If the page is open in JupyterLab: File, Reload Notebook from Disk, which drops unsaved changes."""
 _LOCKED = {"editable": False, "deletable": False}
@@ -76,13 +72,12 @@ def make(layout: Layout) -> None:
             f"{layout.learner.name} is not a folder: it is a file, or a link that leads nowhere.",
             "The course keeps your pages in a folder of this name. Nothing was changed.",
             "If it is a link, connect the disk that it leads to.\n"
-            f"Otherwise move it away:  {_mv(layout.learner, _free_name(layout.learner, 'before'))}",
+            "Otherwise move it away:  mv "
+            + shlex.join(map(str, (layout.learner, _free_name(layout.learner, "before")))),
         )
     is_new = not layout.notes.is_dir()
     layout.notes.mkdir(parents=True, exist_ok=True)
     with exclusive(layout.learner):
-        if not layout.is_shared and not os.environ.get(SETTING):
-            _adopt(layout)
         _write_once(layout.notes / ".gitignore", b"*\n")
         # colcon is to build in the workspace, and to find nothing anywhere else.
         _write_once(layout.learner / "COLCON_IGNORE", b"")
@@ -133,38 +128,6 @@ def _copy_once(layout: Layout, page: Path) -> None:
         _write(page, original)
     # Without git, nobody knows what a page was before somebody worked in it.
     _write(base, original or (b"" if is_work else found))
-
-
-def _adopt(layout: Layout) -> None:
-    """Move in the workspace and the progress from where they were in earlier versions."""
-    moves = [(layout.root / WORKSPACE, layout.learner / WORKSPACE)]
-    before = layout.root / ".rosbeat"
-    moves += [(one, layout.notes / one.name) for one in sorted(before.glob("progress*.json"))]
-    for source, target in moves:
-        if not source.exists() or source.is_symlink() or os.path.lexists(target):
-            continue
-        built = [source / one for one in _MADE_BY_COLCON if (source / one).exists()]
-        for mark in built:  # before the move, so that an interruption leaves nothing half done
-            if not mark.parent.is_symlink():
-                shutil.rmtree(mark.parent)
-        if built:
-            say("What was built in your workspace names its old place: colcon build makes it anew.")
-        try:
-            source.rename(target)
-        except OSError as error:
-            if error.errno not in (errno.EXDEV, errno.EBUSY):  # EBUSY: a disk is mounted there
-                raise
-            raise Problem(
-                f"{source.relative_to(layout.root)} is on another disk than {layout.learner.name}.",
-                "The course works with it in your own folder, and has not moved it.",
-                f"Move it, and run the same command again:\n{_mv(source, target)}\n"
-                f"Or leave it there:  export {SETTING}={shlex.quote(str(layout.root))}",
-            ) from None
-        say(f"Moved {source.relative_to(layout.root)} to {_shown(layout, target)}.")
-
-
-def _mv(source: Path, target: Path) -> str:
-    return f"mv {shlex.quote(str(source))} {shlex.quote(str(target))}"
 
 
 # The solutions, to look at.

@@ -32,45 +32,12 @@ _AT_START = (
 _HOOK = "zz_rosbeat_environment.pth"
 #: The name of the course's kernel, in the launcher and on pages.
 KERNEL = "ROS 2 (rosbeat)"
-#: What JupyterLab's file browser leaves out by itself.
-_HIDDEN = ("__pycache__", "*.pyc", "*.pyo", ".DS_Store", "*~")
-#: Files of JupyterLab in `.venv`. No question about news at the first start, no look-up of newer
-#: versions, room for the names of files. What tests bring along stays off, so that JupyterLab is as
-#: learners know it, and so does what they do not need: jupytext's kinds of pages, and kernels from
-#: elsewhere, which have no ROS.
-_LAB_FILES: dict[str, dict[str, object]] = {
-    "share/jupyter/lab/settings/overrides.json": {
-        "@jupyterlab/apputils-extension:notification": {
-            "checkForUpdates": False,
-            "fetchNews": "false",
-        },
-        "@jupyterlab/filebrowser-extension:browser": {"showLastModifiedColumn": False},
-    },
-    # "zz": of files that say different things, the last one in the alphabet counts.
-    "etc/jupyter/jupyter_server_config.d/zz_course.json": {
-        "ServerApp": {
-            "jpserver_extensions": {
-                "rosbeat.jupyter_lease": True,
-                "notebook": False,
-                "nbgrader.server_extensions.formgrader": False,
-                "nbgrader.server_extensions.validate_assignment": False,
-                "nbgrader.server_extensions.assignment_list": False,
-                "nbgrader.server_extensions.course_list": False,
-            }
-        }
-    },
-    "etc/jupyter/jupyter_server_config.json": {
-        "ContentsManager": {"hide_globs": [*_HIDDEN, "COLCON_IGNORE"]},
-        "KernelSpecManager": {"allowed_kernelspecs": ["python3"]},
-    },
-    "etc/jupyter/labconfig/page_config.json": {
-        "disabledExtensions": {
-            "@jupyter/nbgrader": True,
-            "@jupyter-notebook/lab-extension": True,
-            "jupyterlab-jupytext": True,
-        }
-    },
-}
+#: Files of JupyterLab, by their places in `.venv`. No question about news at the first start, no
+#: look-up of newer versions, room for the names of files. What tests bring along stays off, so that
+#: JupyterLab is as learners know it, and so does what they do not need: jupytext's kinds of pages,
+#: and kernels from elsewhere, which have no ROS. `zz_course.json`: of files that say different
+#: things, the last one in the alphabet counts.
+_LAB_FILES = Path(__file__).with_name("lab_files")
 _COMPLETIONS = {
     "ros2": ("ros2", "completion", "bash"),
     "colcon": ("register-python-argcomplete", "colcon"),
@@ -212,10 +179,10 @@ def write_start_hook(layout: Layout) -> None:
 
 def write_lab_defaults(layout: Layout) -> None:
     """Make a first JupyterLab open without asking anything, and without what is for tests only."""
-    for name, content in _LAB_FILES.items():
-        path = layout.venv / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    for path in _LAB_FILES.rglob("*.json"):
+        target = layout.venv / path.relative_to(_LAB_FILES)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, target)  # without the mode: the checkout may be read-only
     kernel = layout.venv / "share" / "jupyter" / "kernels" / "python3" / "kernel.json"
     if kernel.exists():  # its id stays python3, which every tool knows
         spec = json.loads(kernel.read_text(encoding="utf-8"))

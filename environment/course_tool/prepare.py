@@ -6,7 +6,6 @@ The stamp, written last, says that all of this was done, and from what.
 
 from __future__ import annotations
 
-import errno
 import fcntl
 import hashlib
 import importlib.util
@@ -22,13 +21,12 @@ from pathlib import Path
 from typing import Any
 
 from course_tool import installing, running, surroundings
-from course_tool.layout import LEVELS, WORKSPACE, Layout
+from course_tool.layout import LEVELS, Layout
 from course_tool.problems import (
     Problem,
     Untouched,
     disk_full,
     installer_stopped,
-    not_writable,
     say,
     venv_module_missing,
 )
@@ -38,13 +36,10 @@ FIRST_TIME = 1.5 * GIGABYTE
 """The environment and the installer's cache, when nothing is there yet."""
 REFRESH = 0.3 * GIGABYTE
 
-_OLDEST_GLIBC = (2, 28)
 #: To be raised when this tool lays out an environment in another way.
 _REVISION = "4"
 # Without `site`, so that nothing installed in the environment has a say.
 _WHO = "import sys; print('%d.%d' % sys.version_info[:2], sys.base_prefix)"
-#: Folders within the course that come about as it is used.
-_NOT_SHIPPED = {"__pycache__", ".ipynb_checkpoints", ".rosbeat", "kept", WORKSPACE}
 _ROS_DEADLINE = 60.0
 _WRONG_MIDDLEWARE = 102
 
@@ -57,7 +52,6 @@ def ready(layout: Layout, level: str) -> dict[str, str]:
     """
     clean = surroundings.cleaned(os.environ, layout)
     if not is_satisfied(layout, level):
-        check_libc(glibc_version())
         check_writable(layout.root)
         check_space(layout.root, REFRESH if layout.uv.exists() else FIRST_TIME)
         with exclusive(layout.environment):
@@ -102,37 +96,15 @@ def _heading(layout: Layout) -> str:
 # What must hold before anything is installed.
 
 
-def glibc_version() -> str:
-    """Return the version of the C library, or an empty string when it is not GNU's."""
-    try:
-        name = os.confstr("CS_GNU_LIBC_VERSION") or ""
-    except (ValueError, OSError):
-        return ""
-    return name.partition(" ")[2]
-
-
-def check_libc(version: str) -> None:
-    """Refuse a Linux that the ROS wheels were not built for."""
-    if version and tuple(int(part) for part in version.split(".")[:2]) >= _OLDEST_GLIBC:
-        return
-    raise Problem(
-        f"This Linux has {'glibc ' + version if version else 'another C library than glibc'}.",
-        "The ready-made ROS 2 needs glibc 2.28 or newer (Debian 10, Ubuntu 20.04 and later).",
-        "./environment/container\n"
-        "It opens the course in a container, with Docker or podman.\n"
-        "environment/README.md also has the way with conda.",
-    )
-
-
 def check_writable(folder: Path) -> None:
-    """Refuse a checkout in which nothing can be made."""
-    try:
-        with tempfile.TemporaryFile(dir=folder):
-            return
-    except OSError as error:
-        if error.errno == errno.ENOSPC:
-            raise disk_full(str(folder)) from None
-        raise not_writable(folder, error.strerror or str(error)) from None
+    """Refuse a checkout in which nothing can be made.
+
+    Raises:
+        OSError: With the reason, of which `course_tool.cli` makes a problem.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryFile(dir=folder):
+        pass
 
 
 def check_space(folder: Path, needed: float) -> None:
@@ -208,13 +180,10 @@ def why_unusable(layout: Layout, environ: Mapping[str, str]) -> str | None:
 
 def _remove(venv: Path) -> None:
     """Remove `.venv`; of a link, only the link."""
-    try:
-        if venv.is_symlink() or venv.is_file():
-            venv.unlink()
-        else:
-            shutil.rmtree(venv)
-    except OSError as error:
-        raise not_writable(venv, error.strerror or str(error)) from None
+    if venv.is_symlink() or venv.is_file():
+        venv.unlink()
+    else:
+        shutil.rmtree(venv)
 
 
 # The stamp.
@@ -261,34 +230,6 @@ def write_stamp(layout: Layout, level: str) -> None:
     stamp = {"level": level, "fingerprint": fingerprint(layout, level)}
     unfinished.write_text(json.dumps(stamp) + "\n", encoding="utf-8")
     unfinished.replace(layout.stamp)
-    _record_of(layout).write_text(json.dumps(files_of_course(layout)) + "\n", encoding="utf-8")
-
-
-# The course's own files, as they were when `.venv` was made: for a copy without git.
-
-
-def files_of_course(layout: Layout) -> dict[str, str]:
-    """Return a hash of each file of the course that a learner needs, by its path."""
-    found = {}
-    for name in ("environment", "src", "notebooks", "solutions"):
-        for path in sorted((layout.root / name).rglob("*")):
-            inside = path.relative_to(layout.root)
-            if path.is_file() and not _NOT_SHIPPED.intersection(inside.parts):
-                found[inside.as_posix()] = hashlib.sha256(path.read_bytes()).hexdigest()
-    return found
-
-
-def recorded_files(layout: Layout) -> dict[str, str] | None:
-    """Return what `files_of_course` said when `.venv` was made; None if nobody knows."""
-    try:
-        found: dict[str, str] = json.loads(_record_of(layout).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    return found
-
-
-def _record_of(layout: Layout) -> Path:
-    return layout.venv / "rosbeat-files.json"
 
 
 def _stamp(layout: Layout) -> dict[str, str]:

@@ -122,6 +122,15 @@ _NETWORK = (
 #: What to look for in an installer's output, in this order, and what it means.
 _KINDS = (
     (
+        Problem,
+        r"no wheels with a matching (platform|Python ABI) tag|not compatible with this platform",
+        "ROS 2 does not come ready-made for this Linux.",
+        "Its packages need glibc 2.28 or newer (Debian 10, Ubuntu 20.04 and later).",
+        "./environment/container\n"
+        "It opens the course in a container, with Docker or podman.\n"
+        "environment/README.md also has the way with conda.",
+    ),
+    (
         Untouched,
         r"CERTIFICATE_VERIFY_FAILED|invalid peer certificate|UnknownIssuer|SSLError",
         "The package index answered with a certificate that this machine does not trust.",

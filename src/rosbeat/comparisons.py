@@ -6,7 +6,7 @@ has none in the first is extra.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite, isnan, nan
 from typing import Any, Protocol, runtime_checkable
@@ -231,34 +231,21 @@ def _words(found: Comparison) -> str:
         same = f"the same {_count(counts[0], 'message')}" if counts[0] else "no messages"
         return f"{found.topic}: {one} and {other} have {same}."
     said = [f"{found.topic}: {_count(counts[0], 'message')} in {one}, {counts[1]} in {other}."]
-    said += _unpaired(found)
-    said += _values(found)
-    return " ".join([*said, *_first(found)])
-
-
-def _unpaired(found: Comparison) -> Iterator[str]:
-    one, other = found.names
     if found.missing:
-        yield f"{_are(len(found.missing))} missing in {other}."
+        said.append(f"{_are(len(found.missing))} missing in {other}.")
     if found.extra:
-        yield f"{_are(len(found.extra))} only in {other}, not in {one}."
-
-
-def _values(found: Comparison) -> Iterator[str]:
-    number = sum(one.kind == VALUE for one in found.differences)
-    if not number:
-        if found.pairs:
-            yield f"The {len(found.pairs)} that both have are the same."
-        return
-    verb = "differs" if number == 1 else "differ"
-    largest = found.largest
-    most = f", by {_number(largest.amount)} at most, at {_at(largest)}" if largest else ""
-    yield f"{number} of the {len(found.pairs)} that both have {verb}{most}."
-
-
-def _first(found: Comparison) -> Iterator[str]:
-    if len(found.differences) > 1 and found.first is not None:
-        yield f"The first difference is at {_at(found.first)}."
+        said.append(f"{_are(len(found.extra))} only in {other}, not in {one}.")
+    number = sum(difference.kind == VALUE for difference in found.differences)
+    if number:
+        verb = "differs" if number == 1 else "differ"
+        largest = found.largest
+        most = f", by {largest.amount:.4g} at most, at {_at(largest)}" if largest else ""
+        said.append(f"{number} of the {len(found.pairs)} that both have {verb}{most}.")
+    elif found.pairs:
+        said.append(f"The {len(found.pairs)} that both have are the same.")
+    if len(found.differences) > 1:
+        said.append(f"The first difference is at {_at(found.differences[0])}.")
+    return " ".join(said)
 
 
 def _are(number: int) -> str:
@@ -267,10 +254,6 @@ def _are(number: int) -> str:
 
 def _at(one: Difference) -> str:
     return f"{one.time_ns / NANOSECONDS:.9f}".rstrip("0").rstrip(".") + " s"
-
-
-def _number(value: float) -> str:
-    return f"{value:.4g}"
 
 
 def _count(number: int, noun: str) -> str:

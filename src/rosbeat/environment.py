@@ -68,7 +68,7 @@ def domain_id(prefix: str | None = None) -> int:
             os.close(file)
         if found:
             return int(rest.split(None, 1)[0])
-    except (OSError, ValueError, IndexError, AttributeError):
+    except (OSError, ValueError, IndexError):
         pass  # no lease yet, or a file or a system that cannot tell of one
     return usual_domain_id(prefix)
 
@@ -102,7 +102,7 @@ def who(prefix: str | None = None) -> str:
 
 def _checksum(prefix: str | None, user: str | None = None) -> int:
     place = os.path.realpath(prefix or sys.prefix)
-    text = f"{user or _user()}\n{place}"
+    text = f"{user or os.getuid()}\n{place}"
     return binascii.crc32(text.encode("utf-8", "surrogateescape"))
 
 
@@ -295,11 +295,6 @@ def _entries(environ: Mapping[str, str]) -> list[str]:
 def _has_rclpy(prefix: str) -> bool:
     index = os.path.join(prefix, "share", "ament_index", "resource_index", "packages", "rclpy")
     return os.path.exists(index)
-
-
-def _user() -> str:
-    getuid = getattr(os, "getuid", None)  # Windows has none
-    return str(getuid()) if getuid else os.environ.get("USERNAME", "")
 
 
 def _quoted(value: str) -> str:

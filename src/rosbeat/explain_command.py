@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -46,7 +45,7 @@ def explain_domain(
     except SessionError as error:
         raise CommandError(error.what, error.means, error.to_try) from None
     domain = _checked_domain(domain_id)
-    with _sigterm_as_interrupt(), _progress(f"Looking at {name} in ROS domain {domain} ..."):
+    with _progress(f"Looking at {name} in ROS domain {domain} ..."):
         world = World(0, domain)
         try:
             scene = inspect_topic(world, name, span)
@@ -66,16 +65,6 @@ def _checked_domain(given: int | None) -> int:
         f"It says which processes see each other, and is a whole number from 0 to {_LAST_DOMAIN}.",
         "Look at the number of the node's terminal: `echo $ROS_DOMAIN_ID`.",
     )
-
-
-@contextmanager
-def _sigterm_as_interrupt() -> Iterator[None]:
-    """Let SIGTERM do what Ctrl+C does: others would see a node that was killed for 20 s."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 @contextmanager

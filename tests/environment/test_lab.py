@@ -58,11 +58,6 @@ def test_it_opens_the_first_page_of_the_learners_folder(layout):
     ]  # fmt: skip
 
 
-def test_it_opens_another_folder_when_asked(layout):
-    option = "--ServerApp.root_dir=/elsewhere"
-    assert [one for one in options_of(layout, [option]) if "root_dir" in one] == [option]
-
-
 @pytest.mark.parametrize(
     "options", [["--ServerApp.root_dir=/elsewhere"], ["--notebook-dir", "/elsewhere"], ["/tmp"]]
 )
@@ -76,44 +71,41 @@ def test_another_folder_has_none_of_our_pages(layout, options, capsys):
     assert asked == "http://localhost:8888/lab/tree/mine.ipynb?token=abc"
 
 
+def setting(options, name):
+    """The value of the one option with a name in it."""
+    (found,) = (one for one in options if name in one)
+    return ast.literal_eval(found.split("=", 1)[1])
+
+
+def test_terminals_and_the_style_sheet_are_the_courses(layout, capsys):
+    options = options_of(layout, [], root_user=True)
+    assert setting(options, "terminado") == {"shell_command": commands.interactive_shell()}
+    (place,) = setting(options, "tornado_settings")["static_custom_path"]
+    assert os.path.isfile(os.path.join(place, "custom.css"))
+    assert options.count("--allow-root") == 1
+    assert not any("default_url" in option for option in options)
+    assert "There is no page" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("option", "name"),
+    [
+        ("--ServerApp.root_dir=/elsewhere", "root_dir"),
+        ("--ServerApp.terminado_settings={'shell_command': ['zsh']}", "terminado"),
+        ("--allow-root", "allow-root"),
+        ("03_write.ipynb", ".ipynb"),
+    ],
+)
+def test_what_a_person_asks_for_takes_the_place_of_the_courses(layout, option, name):
+    page(layout, "my_course/00_hear.ipynb")
+    options = options_of(layout, [option], root_user=True)
+    assert [one for one in options if name in one] == [option]
+
+
 def test_an_option_may_be_longer_than_a_file_name(layout):
     page(layout, "my_course/home.ipynb")
     options = options_of(layout, [f"--ServerApp.jpserver_extensions={'x' * 5000}"])
     assert "--LabApp.default_url=/lab/tree/home.ipynb" in options
-
-
-def test_it_opens_the_folder_when_there_is_no_page(layout, capsys):
-    assert not any("default_url" in option for option in options_of(layout, []))
-    assert "There is no page" in capsys.readouterr().out
-
-
-def test_it_opens_another_page_when_asked(layout):
-    page(layout, "my_course/00_hear.ipynb")
-    options = options_of(layout, ["03_write.ipynb"])
-    assert options[-1] == "03_write.ipynb"
-    assert not any("default_url" in option for option in options)
-
-
-def test_its_terminals_are_the_courses_shell(layout):
-    (setting,) = (one for one in options_of(layout, []) if "terminado" in one)
-    value = ast.literal_eval(setting.split("=", 1)[1])
-    assert value == {"shell_command": commands.interactive_shell()}
-
-
-def test_its_terminals_are_the_persons_choice(layout):
-    choice = "--ServerApp.terminado_settings={'shell_command': ['zsh']}"
-    assert [one for one in options_of(layout, [choice]) if "terminado" in one] == [choice]
-
-
-def test_it_allows_the_root_user_once(layout):
-    assert options_of(layout, [], root_user=True).count("--allow-root") == 1
-    assert options_of(layout, ["--allow-root"], root_user=True).count("--allow-root") == 1
-
-
-def test_its_style_sheet_is_there(layout):
-    (setting,) = (one for one in options_of(layout, []) if "tornado_settings" in one)
-    (place,) = ast.literal_eval(setting.split("=", 1)[1])["static_custom_path"]
-    assert os.path.isfile(os.path.join(place, "custom.css"))
 
 
 # From the start to the end.
@@ -167,7 +159,7 @@ def is_there(number):
     return True
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
 def test_two_lines_and_then_it_ends_as_one_asks(start, made, number):
     process = start(OPENS)
     lines = [process.stdout.readline() for _ in range(3)]
@@ -187,32 +179,12 @@ def test_two_lines_and_then_it_ends_as_one_asks(start, made, number):
     assert log.stat().st_mode & 0o777 == 0o600  # a real one has the token in it
 
 
-def test_nothing_is_left_when_its_terminal_is_closed(start, made):
-    process = start(OPENS)
-    lines = []
-    while not lines or "Ctrl+C" not in lines[-1]:
-        lines.append(process.stdout.readline())
-        assert lines[-1], "".join(lines) + process.stderr.read()
-    (info,) = (made.notes / "run").glob("jpserver-*.json")
-    process.stdout.close()
-    process.stderr.close()
-    process.send_signal(signal.SIGHUP)
-    process.wait(timeout=100)
-    assert not is_there(int(info.stem.partition("-")[2]))
-
-
 def test_an_option_that_is_wrong_is_said_in_three_parts(start):
     out, err = start('echo "[C] Bad config"; exit 1').communicate(timeout=100)
     assert "The course is open" not in out
     for words in ("What happened:       JupyterLab ended before it was open.", "What to try:"):
         assert words in err
     assert "    [C] Bad config" in err
-
-
-def test_help_is_shown(start):
-    process = start('echo "all the options"; exit 0')
-    assert process.communicate(timeout=100)[0].endswith("all the options\n")
-    assert process.returncode == 0
 
 
 def test_a_server_that_dies_later_is_told_too(start):
@@ -248,10 +220,3 @@ def test_the_program_that_binder_starts_gets_the_options_of_the_course(tool, env
     assert Path(folder).samefile(made.learner)
     assert options[0] == "--port=8888"
     assert options[1:] == lab.lab_options(made, (), root_user=os.geteuid() == 0)
-
-
-def test_without_a_program_there_is_nothing_to_serve(tool, environ):
-    command = [sys.executable, "-I", "-c", tool, "serve"]
-    done = subprocess.run(command, env=environ, capture_output=True, text=True, check=False)
-    assert done.returncode == 1
-    assert "What to try:         Open the course:  ./environment/course lab" in done.stderr

@@ -115,34 +115,35 @@ def test_every_python_of_the_course_fits(machine: Machine, version: tuple[int, i
     assert machine.course("lab").returncode == 0
 
 
-def test_too_old(machine: Machine):
-    machine.has("python3", (3, 8))
-    assert "too old: Python 3.8." in machine.refuses()
+OTHER = 'echo "other 3.11 (PyPy, not the ordinary 64-bit CPython)"'
 
 
-def test_too_new(machine: Machine):
-    machine.has("python3", (3, 14))
-    assert "too new: Python 3.14." in machine.refuses()
-
-
-def test_old_and_new_but_none_that_fits(machine: Machine):
-    machine.has("python3", (3, 14))
-    machine.has("python", (3, 9))
-    assert "None of the Pythons on this machine fits: Python 3.14, Python 3.9." in machine.refuses()
-
-
-def test_no_python_at_all(machine: Machine):
-    assert "There is no Python on this machine" in machine.refuses()
-
-
-def test_something_called_python_that_is_none(machine: Machine):
-    script(machine.bin / "python3", "exit 127")
-    assert "There is no Python on this machine" in machine.refuses()
-
-
-def test_another_kind_of_python(machine: Machine):
-    script(machine.bin / "python3", 'echo "other 3.11 (PyPy, not the ordinary 64-bit CPython)"')
-    assert "Python 3.11 (PyPy" in machine.refuses()
+@pytest.mark.parametrize(
+    ("prepare", "chosen", "words"),
+    [
+        (lambda one: one.has("python3", (3, 8)), "", "too old: Python 3.8."),
+        (lambda one: one.has("python3", (3, 14)), "", "too new: Python 3.14."),
+        (lambda one: (one.has("python3", (3, 14)), one.has("python", (3, 9))), "",
+         "None of the Pythons on this machine fits: Python 3.14, Python 3.9."),
+        (lambda one: None, "", "There is no Python on this machine"),
+        (lambda one: script(one.bin / "python3", "exit 127"), "", "There is no Python on this"),
+        (lambda one: script(one.bin / "python3", OTHER), "", "Python 3.11 (PyPy"),
+        # A choice that does not fit is not passed over.
+        (lambda one: one.has("mine", (3, 9)), "mine", "ROSBEAT_PYTHON names Python 3.9, which is"),
+        (lambda one: one.has("mine", (3, 14)), "mine", "names Python 3.14, which is too new."),
+        (lambda one: one.has("python3", (3, 12)), "nowhere", "does not run as a Python"),
+        # Other machines.
+        *((lambda one, kind=kind: one.is_a(*kind), "", f"This machine is {kind[0]} on {kind[1]}.")
+          for kind in (("Darwin", "arm64"), ("Linux", "aarch64"))),
+        (lambda one: one.is_a("Darwin", "arm64"), "", "to try:         ./environment/container\n"),
+        *((lambda one, name=name: one.is_a(name, "x86_64"), "", "wsl --install -d Ubuntu-24.04\n")
+          for name in ("MINGW64_NT-10.0", "MSYS_NT-10.0", "CYGWIN_NT-10.0")),
+    ],
+)  # fmt: skip
+def test_what_does_not_fit_is_said(machine: Machine, prepare, chosen: str, words: str):
+    prepare(machine)
+    environ = {"ROSBEAT_PYTHON": str(machine.bin / chosen)} if chosen else {}
+    assert words in machine.refuses(**environ)
 
 
 def test_an_unfit_python3_is_passed_over(machine: Machine):
@@ -162,48 +163,10 @@ def test_the_python_behind_venv_comes_first(machine: Machine, tmp_path: Path):
     assert machine.course("lab").stdout.startswith("python3.10 runs:")
 
 
-def test_a_venv_whose_python_is_gone_does_not_matter(machine: Machine):
-    machine.has("python3", (3, 13))
-    config = machine.root / ".venv" / "pyvenv.cfg"
-    config.parent.mkdir()
-    config.write_text("home = /nowhere/bin\nversion = 3.10.13\n")
-    assert machine.course("lab").stdout.startswith("python3 runs:")
-
-
 def test_rosbeat_python_comes_before_everything(machine: Machine, tmp_path: Path):
     machine.has("python3", (3, 13))
     chosen = machine.has("mine", (3, 11), tmp_path / "some where")
     assert machine.course("lab", ROSBEAT_PYTHON=str(chosen)).stdout.startswith("mine runs:")
-
-
-@pytest.mark.parametrize(
-    ("version", "word"), [((3, 9), "3.9, which is too old"), ((3, 14), "3.14, which is too new")]
-)
-def test_rosbeat_python_that_does_not_fit(machine: Machine, version: tuple[int, int], word: str):
-    machine.has("python3", (3, 12))
-    chosen = machine.has("mine", version)
-    assert f"ROSBEAT_PYTHON names Python {word}." in machine.refuses(ROSBEAT_PYTHON=str(chosen))
-
-
-def test_rosbeat_python_that_is_none(machine: Machine):
-    machine.has("python3", (3, 12))
-    assert "does not run as a Python" in machine.refuses(ROSBEAT_PYTHON="/nowhere/python3")
-
-
-@pytest.mark.parametrize(("system", "kind"), [("Darwin", "arm64"), ("Linux", "aarch64")])
-def test_other_machines_are_led_to_one_command(machine: Machine, system: str, kind: str):
-    machine.is_a(system, kind)
-    text = machine.refuses()
-    assert f"This machine is {system} on {kind}." in text
-    assert "What to try:         ./environment/container\n" in text
-
-
-@pytest.mark.parametrize("system", ["MINGW64_NT-10.0", "MSYS_NT-10.0", "CYGWIN_NT-10.0"])
-def test_windows_is_led_to_its_linux(machine: Machine, system: str):
-    machine.is_a(system, "x86_64")
-    text = machine.refuses()
-    assert "This is a Windows terminal." in text
-    assert "What to try:         wsl --install -d Ubuntu-24.04\n" in text
 
 
 def test_the_launcher_can_be_run_as_it_is():

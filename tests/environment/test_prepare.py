@@ -1,13 +1,10 @@
 """`.venv`: what must hold before, how it is made and kept, its stamp, and a first ROS message."""
 
-import errno
 import importlib.util
-import json
 import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from contextlib import nullcontext
 from types import SimpleNamespace
 
@@ -45,6 +42,7 @@ def test_everything_is_done_in_order_and_the_stamp_comes_last(made, work):
     environ = prepare.ready(made, "course")
     assert work == ["check", "venv", "course", "listen"]
     assert prepare.is_satisfied(made, "course")
+    assert not prepare.is_satisfied(made, "test")
     assert environ["VIRTUAL_ENV"] == str(made.venv)
 
 
@@ -82,15 +80,6 @@ def test_an_interrupted_one_has_no_stamp(made, work, monkeypatch):
     assert not made.stamp.exists()
 
 
-def test_a_disk_that_filled_leaves_no_stamp(made, work, monkeypatch):
-    prepare.write_stamp(made, "course")
-    made.lock("course").write_text("newer\n")
-    monkeypatch.setattr(installing, "fill", fails(Problem("disk", "", "")))
-    with pytest.raises(Problem):
-        prepare.ready(made, "course")
-    assert not made.stamp.exists()
-
-
 def test_offline_the_old_environment_is_not_lost(made, work, monkeypatch):
     prepare.write_stamp(made, "course")
     before = made.stamp.read_text()
@@ -100,16 +89,6 @@ def test_offline_the_old_environment_is_not_lost(made, work, monkeypatch):
         prepare.ready(made, "course")
     assert made.stamp.read_text() == before
     assert not prepare.is_satisfied(made, "course")
-
-
-def test_ros_that_is_not_heard_leaves_no_stamp(made, work, monkeypatch):
-    def ask_ros(layout, environ):
-        raise Problem("hears nothing", "", "")
-
-    monkeypatch.setattr(prepare, "ask_ros", ask_ros)
-    with pytest.raises(Problem, match="hears nothing"):
-        prepare.ready(made, "course")
-    assert not made.stamp.exists()
 
 
 def test_the_first_time_is_announced(layout, made, work, capsys):
@@ -125,36 +104,6 @@ def test_the_first_time_is_announced(layout, made, work, capsys):
 HERE = "{}.{}".format(*sys.version_info[:2])
 
 
-@pytest.mark.parametrize("version", ["2.28", "2.36", "2.41", "3.0"])
-def test_new_enough_c_libraries(version):
-    prepare.check_libc(version)
-
-
-@pytest.mark.parametrize(
-    ("version", "words"), [("2.27", "glibc 2.27"), ("", "another C library than glibc")]
-)
-def test_unfit_c_libraries(version, words):
-    with pytest.raises(Problem) as caught:
-        prepare.check_libc(version)
-    assert words in caught.value.happened
-    assert caught.value.cure.startswith("./environment/container\n")
-
-
-def test_this_machine_is_read(monkeypatch):
-    monkeypatch.setattr("os.confstr", lambda name: "glibc 2.36")
-    assert prepare.glibc_version() == "2.36"
-
-
-@pytest.mark.parametrize("answer", [None, ValueError("unrecognized configuration name")])
-def test_a_machine_without_glibc_is_read(monkeypatch, answer):
-    def confstr(name):
-        if answer is not None:
-            raise answer
-
-    monkeypatch.setattr("os.confstr", confstr)
-    assert prepare.glibc_version() == ""
-
-
 @pytest.mark.parametrize("missing", ["venv", "ensurepip"])
 def test_an_incomplete_python_gets_the_right_apt_line(layout, monkeypatch, missing):
     find = importlib.util.find_spec
@@ -166,48 +115,11 @@ def test_an_incomplete_python_gets_the_right_apt_line(layout, monkeypatch, missi
     assert f"sudo apt install python{HERE}-venv" in caught.value.cure
 
 
-def test_a_folder_of_ones_own(tmp_path):
-    prepare.check_writable(tmp_path)
-    assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    ("number", "words"),
-    [
-        (errno.EACCES, "Nothing can be written"),
-        (errno.EROFS, "Nothing can be written"),
-        (errno.ENOSPC, "not enough room on the disk"),
-    ],
-)
-def test_a_folder_that_cannot_be_written_to(monkeypatch, tmp_path, number, words):
-    def refuse(dir):
-        raise OSError(number, "no")
-
-    monkeypatch.setattr(tempfile, "TemporaryFile", refuse)
-    with pytest.raises(Problem) as caught:
-        prepare.check_writable(tmp_path)
-    assert words in caught.value.happened
-
-
-def test_a_disk_with_room(tmp_path):
-    prepare.check_space(tmp_path, 1)
-
-
 def test_a_full_disk_is_said_before_it_is_filled(monkeypatch, tmp_path):
     monkeypatch.setattr(shutil, "disk_usage", lambda folder: SimpleNamespace(free=400_000_000))
     with pytest.raises(Problem) as caught:
         prepare.check_space(tmp_path, prepare.FIRST_TIME)
     assert "0.4 GB free, 1.5 needed" in caught.value.happened
-
-
-def test_a_refresh_needs_less_room_than_a_first_start(made, work, monkeypatch):
-    asked = []
-    monkeypatch.setattr(prepare, "check_space", lambda folder, needed: asked.append(needed))
-    prepare.ready(made, "course")
-    made.uv.parent.mkdir(parents=True)
-    made.uv.touch()
-    prepare.ready(made, "test")
-    assert asked == [prepare.FIRST_TIME, prepare.REFRESH]
 
 
 # One command at a time.
@@ -219,13 +131,6 @@ fcntl.flock(descriptor, fcntl.LOCK_EX)
 print("held", flush=True)
 sys.stdin.readline()
 """
-
-
-def test_alone_nothing_is_said(tmp_path, capsys):
-    with prepare.exclusive(tmp_path):
-        pass
-    assert capsys.readouterr().out == ""
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_second_command_waits_and_says_so(tmp_path, monkeypatch):
@@ -247,15 +152,6 @@ def test_a_second_command_waits_and_says_so(tmp_path, monkeypatch):
         with prepare.exclusive(tmp_path):
             pass
     assert "waiting" in said[0]
-
-
-def test_a_file_system_without_locks_is_no_obstacle(tmp_path, monkeypatch):
-    def refuse(descriptor, how):
-        raise OSError(9, "Bad file descriptor")
-
-    monkeypatch.setattr("fcntl.flock", refuse)
-    with prepare.exclusive(tmp_path):
-        pass
 
 
 # The virtual environment.
@@ -286,12 +182,6 @@ def runs(monkeypatch):
 
 def answers(layout, text):
     layout.python.write_text(f"#!/bin/sh\n{text}\n")
-
-
-def test_a_finished_one_is_kept(finished, runs):
-    prepare.make_or_keep(finished, ENV)
-    assert runs == []
-    assert finished.venv.is_dir()
 
 
 def test_none_is_made(layout, runs, capsys):
@@ -338,15 +228,6 @@ def test_of_a_link_only_the_link_is_removed(layout, tmp_path, runs):
     assert not os.path.lexists(layout.venv)
 
 
-def test_one_that_cannot_be_removed(made, monkeypatch):
-    def refuse(folder):
-        raise PermissionError(13, "Permission denied")
-
-    monkeypatch.setattr(shutil, "rmtree", refuse)
-    with pytest.raises(Problem, match="Nothing can be written"):
-        prepare.make_or_keep(made, ENV)
-
-
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -362,16 +243,6 @@ def test_what_pythons_own_module_says_is_understood(layout, monkeypatch, text, w
 
 
 # The stamp.
-
-
-def test_a_fresh_stamp_satisfies(made):
-    prepare.write_stamp(made, "course")
-    assert prepare.is_satisfied(made, "course")
-
-
-def test_no_stamp_is_a_half_made_environment(made):
-    assert prepare.stamped_level(made) is None
-    assert not prepare.is_satisfied(made, "course")
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"level": "gold", "fingerprint": "x"}'])
@@ -395,51 +266,11 @@ def test_whatever_it_was_made_from_makes_it_stale(made, name):
     assert not prepare.is_satisfied(made, "course")
 
 
-def test_another_underlay_makes_it_stale(made, tmp_path, monkeypatch):
-    prepare.write_stamp(made, "course")
-    (tmp_path / "local_setup.sh").write_text("another version\n")
-    monkeypatch.setattr(installing, "underlay_templates", lambda: [tmp_path / "local_setup.sh"])
-    assert not prepare.is_satisfied(made, "course")
-
-
-def test_another_python_makes_it_stale(made, monkeypatch):
-    prepare.write_stamp(made, "course")
-    monkeypatch.setattr("sys.version_info", (3, 99, 0, "final", 0))
-    assert not prepare.is_satisfied(made, "course")
-
-
-def test_moving_makes_it_stale(made, tmp_path):
-    prepare.write_stamp(made, "course")
-    there = tmp_path / "elsewhere"
-    shutil.move(made.root, there)
-    assert not prepare.is_satisfied(Layout(there), "course")
-
-
-def test_a_python_that_is_gone_makes_it_stale(made):
-    prepare.write_stamp(made, "course")
-    made.python.unlink()
-    assert not prepare.is_satisfied(made, "course")
-
-
 def test_an_environment_for_tests_serves_learners_too(made):
     prepare.write_stamp(made, "test")
     made.lock("course").write_text("learners' lock alone says little here\n")
     assert prepare.is_satisfied(made, "course")
     assert prepare.is_satisfied(made, "test")
-
-
-def test_an_environment_for_learners_does_not_serve_tests(made):
-    prepare.write_stamp(made, "course")
-    assert not prepare.is_satisfied(made, "test")
-
-
-@pytest.mark.parametrize(
-    ("there", "wanted", "made_for"),
-    [("test", "course", "test"), ("course", "test", "test"), ("course", "course", "course")],
-)
-def test_nobody_loses_tools(made, there, wanted, made_for):
-    prepare.write_stamp(made, there)
-    assert prepare.at_least(made, wanted) == made_for
 
 
 # A first message.
@@ -448,11 +279,6 @@ def test_nobody_loses_tools(made, there, wanted, made_for):
 def answer(layout, monkeypatch, code, text):
     monkeypatch.setattr(running, "quiet", lambda command, env, timeout: running.Result(code, text))
     return prepare.ask_ros(layout, {})
-
-
-def test_facts_are_the_last_line(layout, monkeypatch):
-    text = "a warning\n" + json.dumps({"milliseconds": 200.0}) + "\n"
-    assert answer(layout, monkeypatch, 0, text) == {"milliseconds": 200.0}
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,32 @@ def test_an_ordinary_environment_stays_as_it_is(layout):
     assert clean.notes == ()
 
 
+@pytest.mark.parametrize(
+    ("environ", "kept"),
+    [
+        # Traces of another environment's Python go.
+        ({"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", "PYTHONHOME": "/usr"}, {}),
+        # A middleware that is not there would end every node at once.
+        ({"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"}, {}),
+        ({"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp"}, {"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp"}),
+        # A folder with a similar name is another folder.
+        ({"AMENT_PREFIX_PATH": "ROBOT", "PATH": "ROBOT-tools/bin"}, {"PATH": "ROBOT-tools/bin"}),
+    ],
+)
+def test_what_would_disturb_is_left_out(made, robot, environ, kept):
+    (made.venv / "lib" / "librmw_fastrtps_cpp.so").touch()
+    given, left = (
+        {name: value.replace("ROBOT", robot) for name, value in one.items()}
+        for one in (environ, kept)
+    )
+    clean = surroundings.cleaned(given, made)
+    assert clean.environ == left
+    is_replaced = "RMW_IMPLEMENTATION" in given and not left
+    assert ["is not part of this ROS" in note for note in clean.notes] == [True] * is_replaced or (
+        clean.other_ros
+    )
+
+
 def test_a_sourced_ros_is_left_out_and_the_rest_stays(layout):
     clean = surroundings.cleaned(
         {
@@ -67,29 +93,6 @@ def test_workspaces_of_the_course_stay(layout, robot):
     path = os.pathsep.join([own, robot, str(layout.venv)])
     clean = surroundings.cleaned({"AMENT_PREFIX_PATH": path}, layout)
     assert clean.environ["AMENT_PREFIX_PATH"] == os.pathsep.join([own, str(layout.venv)])
-
-
-def test_a_folder_with_a_similar_name_is_another_folder(layout, robot):
-    clean = surroundings.cleaned({"AMENT_PREFIX_PATH": robot, "PATH": f"{robot}-tools/bin"}, layout)
-    assert clean.environ == {"PATH": f"{robot}-tools/bin"}
-
-
-def test_traces_of_another_environments_python_go(layout):
-    environ = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", "PYTHONHOME": "/usr"}
-    assert surroundings.cleaned(environ, layout).environ == {}
-
-
-def test_a_middleware_that_is_not_there_is_replaced(made):
-    environ = {"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"}
-    clean = surroundings.cleaned(environ, made)
-    assert clean.environ == {}
-    assert "rmw_cyclonedds_cpp is not part of this ROS" in clean.notes[0]
-
-
-def test_a_middleware_that_is_there_stays(made):
-    (made.venv / "lib" / "librmw_fastrtps_cpp.so").touch()
-    environ = {"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp"}
-    assert surroundings.cleaned(environ, made).environ == environ
 
 
 def test_inside_the_venv_comes_first_once(layout):

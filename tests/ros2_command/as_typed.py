@@ -77,6 +77,14 @@ class Ros2:
                     os.killpg(process.pid, signal.SIGKILL)
 
 
+def interrupted(process):
+    """What a running command prints, out and error, after Ctrl+C, by which it has to end."""
+    process.send_signal(signal.SIGINT)
+    found = process.communicate(timeout=60)
+    assert process.returncode == 2
+    return found
+
+
 @contextmanager
 def demo_node(ros2, *words, file="demo_node.py"):
     """Run `demo_node.py`, or another file, in the environment of a command."""

@@ -9,7 +9,6 @@ from ros2_command.names import check_name, full_name, is_hidden, nearest
 from ros2_command.rates import Bandwidth, Delays, Rates
 from ros2_command.verbs.completion import candidates
 from ros2_command.verbs.doctor import Finding, report, summarize
-from ros2_command.verbs.node import section
 from ros2_command.verbs.param import flat, nested
 
 
@@ -79,14 +78,6 @@ def test_delays():
     text = "average delay: 0.200\n\tmin: 0.100s max: 0.300s std dev: 0.10000s window: 2"
     assert delays.report() == text
     assert delays.report() is None
-
-
-def test_a_section_of_a_node():
-    entries = [("/b", ["x/msg/B"]), ("/a", ["x/msg/A"]), ("/_c", ["x/msg/C"])]
-    assert (
-        section("Publishers", entries, False) == "  Publishers:\n    /a: x/msg/A\n    /b: x/msg/B"
-    )
-    assert section("Service Clients", [], False) == "  Service Clients:\n"
 
 
 def test_dots_in_names_of_parameters():

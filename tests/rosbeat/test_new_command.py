@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import zipfile
+from copy import copy
 from pathlib import Path
 
 import pytest
@@ -61,8 +62,22 @@ class Installed:
         return self.packages / "rosbeat" / "course" / "notebooks" / page
 
 
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory, wheel):
+    return Installed(tmp_path_factory.mktemp("shared"), wheel)
+
+
 @pytest.fixture
-def installed(tmp_path, wheel):
+def installed(tmp_path, shared):
+    """The environment that all share who do not change it, and a folder of the test's own."""
+    found = copy(shared)
+    found.folder = tmp_path
+    return found
+
+
+@pytest.fixture
+def fresh(tmp_path, wheel):
+    """An environment of the test's own."""
     return Installed(tmp_path, wheel)
 
 
@@ -124,11 +139,11 @@ def test_the_environment_becomes_an_underlay(installed):
     assert done.stdout == f"{installed.prefix}\n"
 
 
-def test_an_underlay_of_somebody_else_stays(installed):
-    (installed.prefix / "local_setup.bash").write_text("# conda's\n")
-    assert installed.new("mine").returncode == 0
-    assert (installed.prefix / "local_setup.bash").read_text() == "# conda's\n"
-    assert not (installed.prefix / "setup.bash").exists()
+def test_an_underlay_of_somebody_else_stays(fresh):
+    (fresh.prefix / "local_setup.bash").write_text("# conda's\n")
+    assert fresh.new("mine").returncode == 0
+    assert (fresh.prefix / "local_setup.bash").read_text() == "# conda's\n"
+    assert not (fresh.prefix / "setup.bash").exists()
 
 
 def test_a_second_time_it_keeps_all_work(installed):
@@ -144,19 +159,19 @@ def test_a_second_time_it_keeps_all_work(installed):
     assert (own / "notes.txt").read_text() == "mine"
 
 
-def test_new_versions_of_pages_come_with_a_new_version_of_the_package(installed):
-    own = installed.folder / "mine"
-    installed.new(own)
+def test_new_versions_of_pages_come_with_a_new_version_of_the_package(fresh):
+    own = fresh.folder / "mine"
+    fresh.new(own)
     change(own / PAGE, "03a", "my answer")
-    change(installed.shipped(PAGE), "03b", "newer")
-    change(installed.shipped("04_write_a_subscriber.ipynb"), "04a", "newer")
-    said = installed.new(own).stdout
+    change(fresh.shipped(PAGE), "03b", "newer")
+    change(fresh.shipped("04_write_a_subscriber.ipynb"), "04a", "newer")
+    said = fresh.new(own).stdout
     assert "updated  04_write_a_subscriber.ipynb" in said
     assert f"rosbeat new {own} --update 03" in said
     answers = [one["source"] for one in cells(own / PAGE)]
     assert "my answer" in answers
     assert "newer" not in answers
-    assert "your answers to 03a are in it" in installed.new(own, "--update", "03").stdout
+    assert "your answers to 03a are in it" in fresh.new(own, "--update", "03").stdout
     answers = [one["source"] for one in cells(own / PAGE)]
     assert {"my answer", "newer"} <= {text for text in answers if isinstance(text, str)}
 
@@ -172,24 +187,21 @@ def a_file(folder):
     return folder / "file"
 
 
-@pytest.mark.parametrize(
-    ("place", "what"),
-    [
-        (full, "is not empty, and `rosbeat new` has not made it."),
-        (a_file, "is not a folder: it is a file, or a link that leads nowhere."),
-        (lambda folder: a_file(folder) / "below", "Nothing can be written in"),
+def test_a_place_that_is_not_for_pages_is_refused_in_three_parts(fresh):
+    no_folder = "is not a folder: it is a file, or a link that leads nowhere."
+    for place, what in (
+        (full(fresh.folder), "is not empty, and `rosbeat new` has not made it."),
+        (a_file(fresh.folder), no_folder),
+        (a_file(fresh.folder) / "below", "Nothing can be written in"),
         # Nobody can make a folder there, the root user included.
-        (lambda folder: Path("/proc/my_course"), "Nothing can be written in"),
-    ],
-)
-def test_a_place_that_is_not_for_pages_is_refused_in_three_parts(installed, place, what):
-    folder = place(installed.folder)
-    done = installed.new(folder)
-    assert done.returncode == 1
-    assert what in done.stderr
-    assert len(re.findall(r"^  What (it means|to try):", done.stderr, re.MULTILINE)) == 2
-    assert not (folder / "home.ipynb").exists()
-    assert not (installed.prefix / "setup.bash").exists()
+        (Path("/proc/my_course"), "Nothing can be written in"),
+    ):
+        done = fresh.new(place)
+        assert done.returncode == 1
+        assert what in done.stderr
+        assert len(re.findall(r"^  What (it means|to try):", done.stderr, re.MULTILINE)) == 2
+        assert not (place / "home.ipynb").exists()
+    assert not (fresh.prefix / "setup.bash").exists()
 
 
 def test_a_page_that_does_not_exist_is_named(installed):
@@ -199,12 +211,12 @@ def test_a_page_that_does_not_exist_is_named(installed):
     assert "There is no page '33'." in done.stderr
 
 
-def test_without_ros_it_says_what_to_install(installed):
-    installed.ros.unlink()
-    done = installed.new("mine")
+def test_without_ros_it_says_what_to_install(fresh):
+    fresh.ros.unlink()
+    done = fresh.new("mine")
     assert done.returncode == 1
     assert 'pip install "rosbeat[ros]"' in done.stderr
-    assert not (installed.folder / "mine").exists()
+    assert not (fresh.folder / "mine").exists()
 
 
 def test_in_a_checkout_it_says_what_to_type(tmp_path, capsys):

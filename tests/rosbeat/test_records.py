@@ -88,33 +88,23 @@ def test_a_queue_has_room_for_one_at_least(depth):
 
 
 @given(times, times, st.integers(1, 12))
-def test_no_message_is_lost_or_made(arrivals, takes, depth):
+def test_the_laws_of_a_queue(arrivals, takes, depth):
     steps = queue_steps(arrivals, takes, depth)
     by_kind = {kind: [step.number for step in steps if step.kind == kind]
                for kind in ("arrived", "taken", "dropped")}  # fmt: skip
     waiting = steps[-1].length if steps else 0
+    # No message is lost or made, and the first in is the first out.
     assert by_kind["arrived"] == list(range(1, len(arrivals) + 1))
     assert len(arrivals) == len(by_kind["taken"]) + len(by_kind["dropped"]) + waiting
-
-
-@given(times, times, st.integers(1, 12))
-def test_first_in_is_first_out(arrivals, takes, depth):
-    gone = [step.number for step in queue_steps(arrivals, takes, depth) if step.kind != "arrived"]
+    gone = [step.number for step in steps if step.kind != "arrived"]
     assert gone == list(range(1, len(gone) + 1))
-
-
-@given(times, times, st.integers(1, 12))
-def test_the_length_follows_from_the_steps_and_never_exceeds_the_depth(arrivals, takes, depth):
+    # The length follows from the steps, and never exceeds the depth.
     length = 0
-    for step in queue_steps(arrivals, takes, depth):
+    for step in steps:
         length += 1 if step.kind == "arrived" else -1
         assert step.length == length
         assert 0 <= length <= depth
-
-
-@given(times, times, st.integers(1, 12))
-def test_steps_are_in_order_of_time_and_drops_only_happen_when_full(arrivals, takes, depth):
-    steps = queue_steps(arrivals, takes, depth)
+    # In the order of time; what is dropped makes room for what arrives.
     assert [step.time_ns for step in steps] == sorted(step.time_ns for step in steps)
     for drop, arrival in pairwise(steps):
         if drop.kind == "dropped":

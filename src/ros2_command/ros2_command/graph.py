@@ -11,7 +11,7 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
-from importlib.resources import as_file, files
+from importlib.resources import files
 from typing import Any, NoReturn
 
 from ros2_command.discovery import (
@@ -281,8 +281,8 @@ def open_graph(args: Namespace | None = None, name: str | None = None) -> Iterat
         signal.signal(number, _leave)
     # A shell without job control starts what stands before `&` with Ctrl+C ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    with _profile():
-        graph = _start(args, name or f"_ros2cli_{os.getpid()}")
+    _choose_profile()
+    graph = _start(args, name or f"_ros2cli_{os.getpid()}")
     try:
         yield graph
     finally:
@@ -326,15 +326,8 @@ def _check_domain() -> None:
         )
 
 
-@contextmanager
-def _profile() -> Iterator[None]:
+def _choose_profile() -> None:
     """Use the quick discovery profile, unless the user has one."""
-    if PROFILE_VARIABLE in os.environ or "FASTDDS_DEFAULT_PROFILES_FILE" in os.environ:
-        yield
-        return
-    with as_file(files("ros2_command") / "data" / "fastdds.xml") as path:
-        os.environ[PROFILE_VARIABLE] = str(path)
-        try:
-            yield
-        finally:
-            del os.environ[PROFILE_VARIABLE]
+    if "FASTDDS_DEFAULT_PROFILES_FILE" not in os.environ:
+        quick = str(files("ros2_command") / "data" / "fastdds.xml")
+        os.environ.setdefault(PROFILE_VARIABLE, quick)

@@ -26,6 +26,14 @@ _EXAMPLES = {
 }
 
 
+#: For each kind, its word, and what only its classes have.
+_KINDS = {
+    "msg": ("message", "get_fields_and_field_types"),
+    "srv": ("service", "Response"),
+    "action": ("action", "Goal"),
+}
+
+
 def pick(typed: str, entries: Entries, complaint: str) -> tuple[str, list[str]]:
     """Return the entry of a name, with or without its leading slash.
 
@@ -102,41 +110,22 @@ def full_type(name: str, kind: str) -> str:
     return f"{parts[0]}/{kind}/{parts[-1]}"
 
 
-def message_class(name: str) -> Untyped:
-    """Return the class of a message type.
+def type_class(name: str, kind: str) -> Untyped:
+    """Return the class of a message, service or action type.
+
+    Args:
+        name: `pkg/kind/Name`, or `pkg/Name`.
+        kind: `msg`, `srv` or `action`.
 
     Raises:
-        CommandError: If there is none of that name.
+        CommandError: If there is none of that name, or it is of another kind.
     """
-    found = find_type(name, "msg")
-    if not hasattr(found, "get_fields_and_field_types"):
-        raise CommandError("The passed message type is invalid", type_hint(name, "msg"))
-    return found
-
-
-def service_class(name: str) -> Untyped:
-    """Return the class of a service type.
-
-    Raises:
-        CommandError: If there is none of that name, or it is not a service's.
-    """
-    found = find_type(name, "srv")
-    if found is None:
-        raise CommandError("The passed service type is invalid", type_hint(name, "srv"))
-    if not hasattr(found, "Response"):
-        raise CommandError("The passed type is not a service", type_hint(name, "srv"))
-    return found
-
-
-def action_class(name: str) -> Untyped:
-    """Return the class of an action type.
-
-    Raises:
-        CommandError: If there is none of that name.
-    """
-    found = find_type(name, "action")
-    if not hasattr(found, "Goal"):
-        raise CommandError("The passed action type is invalid", type_hint(name, "action"))
+    word, mark = _KINDS[kind]
+    found = find_type(name, kind)
+    if found is not None and kind == "srv" and not hasattr(found, mark):
+        raise CommandError("The passed type is not a service", type_hint(name, kind))
+    if not hasattr(found, mark):
+        raise CommandError(f"The passed {word} type is invalid", type_hint(name, kind))
     return found
 
 
@@ -174,7 +163,7 @@ def topic_class(typed: str, type_name: str | None, graph: Graph) -> Untyped:
                 "Give the type that you want after the topic.",
             )
         type_name = types[0]
-    found = message_class(type_name)
+    found = type_class(type_name, "msg")
     full = full_type(type_name, "msg")
     if types and full not in types:
         raise CommandError(

@@ -1,14 +1,14 @@
-"""Hold the files of a new ament_python package, as text."""
+"""Fill in the files of a new ament_python package, which `data/package` holds."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 from importlib.resources import files
+from string import Template
 from xml.sax.saxutils import escape
 
-_LINTERS = ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest")
+_DATA = files("ros2_command") / "data"
 
 #: The licenses of which the full text is known, in the order in which they are offered.
 LICENSES = (
@@ -46,35 +46,24 @@ class NewPackage:
 
 def license_text(name: str) -> str | None:
     """Return the text of a license, or None if it is not one of `LICENSES`."""
-    if name not in LICENSES:
-        return None
-    return (files("ros2_command") / "data" / "licenses" / name).read_text(encoding="utf-8")
+    return (_DATA / "licenses" / name).read_text(encoding="utf-8") if name in LICENSES else None
+
+
+def _filled(file: str, /, **values: object) -> str:
+    """Return a file of `data/package` with values in the place of its names."""
+    template = (_DATA / "package" / f"{file}.in").read_text(encoding="utf-8")
+    return Template(template).substitute(values)
 
 
 def package_xml(new: NewPackage) -> str:
     """Return the manifest."""
-    schema = f"http://download.ros.org/schema/package_format{new.package_format}.xsd"
-    email = escape(new.email, {'"': "&quot;"})
-    depends = [f"  <depend>{escape(one)}</depend>" for one in new.dependencies]
-    lines = [
-        '<?xml version="1.0"?>',
-        f'<?xml-model href="{schema}" schematypens="http://www.w3.org/2001/XMLSchema"?>',
-        f'<package format="{new.package_format}">',
-        f"  <name>{escape(new.name)}</name>",
-        "  <version>0.0.0</version>",
-        f"  <description>{escape(new.description)}</description>",
-        f'  <maintainer email="{email}">{escape(new.maintainer)}</maintainer>',
-        f"  <license>{escape(new.license)}</license>",
-        "",
-        *([*depends, ""] if depends else []),
-        *(f"  <test_depend>{one}</test_depend>" for one in _LINTERS),
-        "",
-        "  <export>",
-        "    <build_type>ament_python</build_type>",
-        "  </export>",
-        "</package>",
-    ]
-    return "\n".join(lines) + "\n"
+    depends = "".join(f"  <depend>{escape(one)}</depend>\n" for one in new.dependencies)
+    return _filled(
+        "package.xml", format=new.package_format, name=escape(new.name),
+        description=escape(new.description), maintainer=escape(new.maintainer),
+        email=escape(new.email, {'"': "&quot;"}), license=escape(new.license),
+        depends=f"{depends}\n" if depends else "",
+    )  # fmt: skip
 
 
 def setup_py(new: NewPackage) -> str:
@@ -86,58 +75,20 @@ def setup_py(new: NewPackage) -> str:
     `tests_require`, which draws a warning from setuptools 72 and newer.
     """
     script = f"            '{new.node} = {new.name}.{new.node}:main'\n" if new.node else ""
-    return f"""from setuptools import find_packages, setup
-
-package_name = '{new.name}'
-
-setup(
-    name=package_name,
-    version='0.0.0',
-    packages=find_packages(exclude=['test']),
-    data_files=[
-        ('share/ament_index/resource_index/packages',
-            ['resource/' + package_name]),
-        ('share/' + package_name, ['package.xml']),
-    ],
-    install_requires=['setuptools'],
-    zip_safe=True,
-    maintainer={new.maintainer!r},
-    maintainer_email={new.email!r},
-    description={new.description!r},
-    license={new.license!r},
-    extras_require={{
-        'test': [
-            'pytest',
-        ],
-    }},
-    entry_points={{
-        'console_scripts': [
-{script}        ],
-    }},
-)
-"""
+    return _filled(
+        "setup.py", name=new.name, maintainer=repr(new.maintainer), email=repr(new.email),
+        description=repr(new.description), license=repr(new.license), scripts=script,
+    )  # fmt: skip
 
 
 def setup_cfg(new: NewPackage) -> str:
     """Return setup.cfg, which says where executables are installed."""
-    folder = f"$base/lib/{new.name}"
-    return f"[develop]\nscript_dir={folder}\n[install]\ninstall_scripts={folder}\n"
+    return _filled("setup.cfg", name=new.name)
 
 
 def node_py(new: NewPackage) -> str:
     """Return a program that says hello."""
-    return f"""def main():
-    print('Hi from {new.name}.')
-
-
-if __name__ == '__main__':
-    main()
-"""
-
-
-@cache
-def _notice() -> str:
-    return (files("ros2_command") / "data" / "test_notice.txt").read_text(encoding="utf-8")
+    return _filled("node.py", name=new.name)
 
 
 def linter_tests() -> dict[str, str]:
@@ -146,49 +97,5 @@ def linter_tests() -> dict[str, str]:
     The original imports the linters at the top. Without a full ROS 2 they may be missing, and
     ament_copyright is on no registry at all; an import that fails would end the whole test run.
     """
-    copyright_notice = _notice().format(year=2015)
-    return {
-        "test_copyright.py": f"""{copyright_notice}
-import pytest
-
-# PyPI does not have ament_copyright, a full ROS 2 has: without it this test is skipped.
-linter = pytest.importorskip('ament_copyright.main')
-
-
-# Remove the `skip` decorator once the source file(s) have a copyright header
-@pytest.mark.skip(reason='No copyright header has been placed in the generated source file.')
-@pytest.mark.copyright
-@pytest.mark.linter
-def test_copyright():
-    rc = linter.main(argv=['.', 'test'])
-    assert rc == 0, 'Found errors'
-""",
-        "test_flake8.py": f"""{_notice().format(year=2017)}
-import pytest
-
-# Not every installation from PyPI has ament_flake8: without it this test is skipped.
-linter = pytest.importorskip('ament_flake8.main')
-
-
-@pytest.mark.flake8
-@pytest.mark.linter
-def test_flake8():
-    rc, errors = linter.main_with_errors(argv=[])
-    assert rc == 0, \\
-        'Found %d code style errors / warnings:\\n' % len(errors) + \\
-        '\\n'.join(errors)
-""",
-        "test_pep257.py": f"""{copyright_notice}
-import pytest
-
-# Not every installation from PyPI has ament_pep257: without it this test is skipped.
-linter = pytest.importorskip('ament_pep257.main')
-
-
-@pytest.mark.linter
-@pytest.mark.pep257
-def test_pep257():
-    rc = linter.main(argv=['.', 'test'])
-    assert rc == 0, 'Found code style errors / warnings'
-""",
-    }
+    names = ("test_copyright.py", "test_flake8.py", "test_pep257.py")
+    return {name: _filled(name) for name in names}

@@ -9,7 +9,13 @@ from typing import Any, NoReturn
 
 from ros2_command.errors import CommandError
 from ros2_command.names import did_you_mean
-from ros2_command.registry import COMMANDS, LEFT_OUT, WHERE_TO_GET_THE_WHOLE, load
+from ros2_command.registry import (
+    COMMANDS,
+    LEFT_OUT,
+    WHERE_TO_GET_THE_WHOLE,
+    Argument,
+    load,
+)
 
 _CHOICE = re.compile(r"invalid choice: '?(?P<word>.*?)'? \(choose from (?P<names>.*)\)")
 
@@ -40,19 +46,22 @@ class LeftOut(argparse.Action):
         raise CommandError(f"'{parser.prog} {option_string}' is left out here: {self.const}")
 
 
-def leave_out(parser: argparse.ArgumentParser, reason: str, *options: str) -> None:
-    """Refuse options with a sentence.
+def leave_out(reason: str, *options: str) -> Argument:
+    """Return what refuses options with a sentence.
 
     Args:
-        parser: The verb's parser.
         reason: Why, and what to do instead.
-        options: Each option; its short form may follow after a comma.
+        *options: Each option; its short form may stand before a comma.
     """
-    for names in options:
-        extra: dict[str, Any] = {"action": LeftOut, "nargs": "*", "const": reason}
-        parser.add_argument(*names.split(","), **extra, help=argparse.SUPPRESS)
-    start = f"{parser.epilog}, " if parser.epilog else "Left out of this subset: "
-    parser.epilog = start + ", ".join(names.rpartition(",")[2] for names in options)
+
+    def refuse(parser: argparse.ArgumentParser) -> None:
+        for names in options:
+            extra: dict[str, Any] = {"action": LeftOut, "nargs": "*", "const": reason}
+            parser.add_argument(*names.split(","), **extra, help=argparse.SUPPRESS)
+        start = f"{parser.epilog}, " if parser.epilog else "Left out of this subset: "
+        parser.epilog = start + ", ".join(names.rpartition(",")[2] for names in options)
+
+    return refuse
 
 
 def words_of(argv: Sequence[str]) -> tuple[str | None, str | None]:

@@ -10,22 +10,51 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any
+
+#: Declares one argument, or several that go together, to the parser of a verb.
+Argument = Callable[[ArgumentParser], object]
 
 
-class Verb(NamedTuple):
+def argument(*names: str, **options: Any) -> Argument:  # noqa: ANN401 - as argparse has it
+    """Return what declares an argument; the options are those of `ArgumentParser.add_argument`."""
+    return lambda parser: parser.add_argument(*names, **options)
+
+
+def flag(*names: str, help: str) -> Argument:
+    """Return what declares an option without a value."""
+    return argument(*names, action="store_true", help=help)
+
+
+def one_of(*arguments: Argument) -> Argument:
+    """Return what declares arguments that exclude each other."""
+
+    def declare(parser: ArgumentParser) -> None:
+        group: Any = parser.add_mutually_exclusive_group()  # which takes arguments as a parser does
+        for one in arguments:
+            one(group)
+
+    return declare
+
+
+class Verb:
     """Say how a verb is parsed, and what it does.
 
     Each module of `ros2_command.verbs` has a mapping `VERBS` of these, by name; the key is "" where
     a command has no verbs.
 
-    Attributes:
-        add_arguments: Declares its arguments.
+    Args:
         main: Does it; an exit code, where there is one, is the command's.
+        *arguments: Its arguments, in the order of `--help`.
     """
 
-    add_arguments: Callable[[ArgumentParser], None]
-    main: Callable[[Namespace], int | None]
+    def __init__(self, main: Callable[[Namespace], int | None], *arguments: Argument) -> None:
+        self.main, self._arguments = main, arguments
+
+    def add_arguments(self, parser: ArgumentParser) -> None:
+        """Declare the arguments."""
+        for declare in self._arguments:
+            declare(parser)
 
 
 @dataclass(frozen=True)

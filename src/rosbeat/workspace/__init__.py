@@ -35,8 +35,8 @@ How it works, and why:
 - **Watching is not running.** `--until`, `--for` and the deadline end the watching, and so does
   an interrupt of the cell. Only `--ctrl-c`, `--kill` and `--close` end a program.
 - **Remarks of the course begin with `#`**: exit codes, what they mean, and which program still
-  runs. A cell with a blank `____` is not typed, and neither is `colcon build` outside of the
-  workspace, which would crawl whatever folder the terminal is in.
+  runs. A cell with a blank `____` is not typed, nor one that bash would not finish, nor
+  `colcon build` outside of the workspace, which would crawl whatever folder the terminal is in.
 - **Nothing outlives the kernel.** Each process of a terminal has the kernel's mark in its
   environment. A watcher (`reaper`) holds a pipe from the kernel; when that closes, for whatever
   reason, it ends every process with the mark, daemons too.

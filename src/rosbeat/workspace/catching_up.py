@@ -6,13 +6,13 @@ a learner has made; if that is in the way it raises `InTheWay`, which says what 
 
 from __future__ import annotations
 
-import errno
 import re
 import subprocess
 import sys
 import tempfile
 import textwrap
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -20,11 +20,11 @@ from pathlib import Path
 from rosbeat.errors import WorkspaceError, called_as
 from rosbeat.workspace.packages import find_packages, parse_manifest, read_package
 from rosbeat.workspace.place import workspace
-from rosbeat.workspace.saving import save, save_bytes, trouble
+from rosbeat.workspace.saving import save, trouble
 from rosbeat.workspace.setup_script import with_entry_points
 from rosbeat.workspace.terminals.environment import program_environment
 
-_PAGE = re.compile(r"(\d{1,2})(_\w*)?(\.ipynb)?")
+_PAGE = re.compile(r"\d\d?")
 PACKAGE = "sensor_simulator"
 FOLDERS = ("src", "docs", "scripts", "resources/images")
 NODES = ("temperature_publisher", "temperature_subscriber")
@@ -121,14 +121,13 @@ def _through(number: int, root: Path) -> Report:
 
 
 def _number(page: str) -> int:
-    found = _PAGE.fullmatch(str(page).strip())
-    if not found:
+    if not _PAGE.fullmatch(str(page)):
         raise WorkspaceError(
             f"There is no page {page!r}.",
             "`catch_up` creates the files of all pages before the given one.",
             'Give the number of the page:  workspace.catch_up("05")',
         )
-    return int(found[1])
+    return int(page)
 
 
 # The stages.
@@ -169,46 +168,44 @@ def package(root: Path) -> str:
         if code:
             raise InTheWay(f"`ros2 pkg create` failed: {_last_line(output)}")
         _fill_in(Path(name) / PACKAGE)
-        _put_in_place(Path(name) / PACKAGE, folder)
+        (Path(name) / PACKAGE).rename(folder)
     return f"the package {PACKAGE} (page 02)"
 
 
-def _put_in_place(made: Path, folder: Path) -> None:
-    try:
-        made.rename(folder)
-    except OSError as error:
-        if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
-            raise
-        raise InTheWay("another page has just created the package: run the cell again.") from None
-
-
 def _check_place(folder: Path, root: Path) -> None:
-    """Say what is wrong with a package that is half made, or lies elsewhere."""
-    others = [
-        one
-        for one in find_packages(root)
-        if one != folder and read_package(one, root).name == PACKAGE
-    ]
-    nested = folder / PACKAGE
-    if (nested / "package.xml").is_file():
-        others.append(nested)
+    """Say what is wrong with a package that is half made, of another kind, or lies elsewhere."""
+    found = [one for one in find_packages(root) if one != folder]
+    others = [one for one in found if read_package(one, root).name == PACKAGE]
+    if (folder / PACKAGE / "package.xml").is_file():
+        others.append(folder / PACKAGE)
     if others:
-        place = others[0].relative_to(root)
-        raise InTheWay(_elsewhere(place.as_posix(), folder.exists()))
-    if folder.is_dir() and not (folder / "package.xml").is_file():
-        raise InTheWay(_half_made(folder))
-    if folder.exists() and not folder.is_dir():
+        place = others[0].relative_to(root).as_posix()
+        if folder.exists():
+            raise InTheWay(
+                f"there is a second package {PACKAGE} in {place}, and colcon builds neither of "
+                "them. Keep the one in src, and move the other one out of the workspace."
+            )
+        raise InTheWay(
+            f"the package {PACKAGE} is in {place}, but it belongs in src. In the workspace, move "
+            f"it with `mv {place} src/`."
+        )
+    if not folder.exists():
+        return
+    if not folder.is_dir():
         raise InTheWay(
             f"src/{PACKAGE} is a file, but the package needs a folder of that name. "
             "Rename the file."
         )
-    _check_kind(folder, root)
-
-
-def _check_kind(folder: Path, root: Path) -> None:
-    """Say so if the package is not one for Python, or its manifest cannot be read."""
-    if not folder.is_dir():
-        return
+    if not any(folder.iterdir()):
+        raise InTheWay(
+            f"the folder src/{PACKAGE} already exists and is empty, so `ros2 pkg create` would "
+            f"fail. Remove the folder with `rmdir src/{PACKAGE}`, then run this cell again."
+        )
+    if not (folder / "package.xml").is_file():
+        raise InTheWay(
+            f"the folder src/{PACKAGE} has no package.xml, so it is not a package. Rename the "
+            "folder, then run this cell again and move your files to the new package."
+        )
     manifest = read_package(folder, root).manifest
     if manifest.problem:
         raise InTheWay(f"src/{PACKAGE}/package.xml cannot be read: {manifest.problem}.")
@@ -220,45 +217,15 @@ def _check_kind(folder: Path, root: Path) -> None:
         )
 
 
-def _elsewhere(place: str, twice: bool) -> str:
-    if twice:
-        return (
-            f"there is a second package {PACKAGE} in {place}, and colcon builds neither of them. "
-            "Keep the one in src, and move the other one out of the workspace."
-        )
-    return (
-        f"the package {PACKAGE} is in {place}, but it belongs in src. In the workspace, move it "
-        f"with `mv {place} src/`."
-    )
-
-
-def _half_made(folder: Path) -> str:
-    if any(folder.iterdir()):
-        return (
-            f"the folder src/{PACKAGE} has no package.xml, so it is not a package. Rename the "
-            "folder, then run this cell again and move your files to the new package."
-        )
-    return (
-        f"the folder src/{PACKAGE} already exists and is empty, so `ros2 pkg create` would fail. "
-        f"Remove the folder with `rmdir src/{PACKAGE}`, then run this cell again."
-    )
-
-
 def _fill_in(folder: Path) -> None:
     """Put description and license in place of the two TODOs."""
-    manifest = read_package(folder, folder.parent).manifest
-    wanted = _finished_manifest_texts()
+    made = read_package(folder, folder.parent).manifest
+    wanted = parse_manifest(finished("package.xml").encode())
     for name in ("package.xml", "setup.py"):
-        path = folder / name
-        text = path.read_text(encoding="utf-8")
-        for old, new in zip((manifest.description, manifest.license), wanted, strict=True):
-            text = text.replace(old, new)
-        path.write_text(text, encoding="utf-8")
-
-
-def _finished_manifest_texts() -> tuple[str, str]:
-    manifest = parse_manifest(finished("package.xml").encode())
-    return manifest.description, manifest.license
+        text = (folder / name).read_text(encoding="utf-8")
+        text = text.replace(made.description, wanted.description)
+        text = text.replace(made.license, wanted.license)
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 def node(name: str, page: str) -> Callable[[Path], str]:
@@ -290,13 +257,14 @@ def entry_points(root: Path) -> str:
         return ""
     after = None
     if not (setup.entry_points or setup.incomplete):
-        after = with_entry_points(root / path, _SCRIPTS)
+        with suppress(UnicodeDecodeError):
+            after = with_entry_points((root / path).read_text(encoding="utf-8"), _SCRIPTS)
     if after is None:
         raise InTheWay(
             f"{path} has no entry point for {_listed(missing)}. The file was not changed, "
             "because you wrote it; page 05 shows the line."
         )
-    save_bytes(path, after, root)
+    save(path, after, root)
     return "the entry points in setup.py (page 05)"
 
 
@@ -362,23 +330,15 @@ def run_command(command: Sequence[str], folder: Path, seconds: float) -> tuple[i
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         )  # fmt: skip
     except FileNotFoundError:
-        raise _not_installed(command[0]) from None
+        raise WorkspaceError(
+            f"The program {command[0]} is not installed in this Python environment.",
+            "This page needs a package, and that program creates or builds it.",
+            "Start the course with `./environment/course lab`, which installs missing programs.",
+        ) from None
     except subprocess.TimeoutExpired:
-        raise _too_slow(command, seconds) from None
+        raise WorkspaceError(
+            f"`{' '.join(command)}` did not finish within {seconds:g} seconds and was stopped.",
+            "Either the computer is very busy, or the program is waiting for something.",
+            "Run the cell again when the computer is less busy.",
+        ) from None
     return done.returncode, done.stdout.decode("utf-8", "replace")
-
-
-def _not_installed(program: str) -> WorkspaceError:
-    return WorkspaceError(
-        f"The program {program} is not installed in this Python environment.",
-        "This page needs a package, and that program creates or builds it.",
-        "Start the course with `./environment/course lab`, which installs missing programs.",
-    )
-
-
-def _too_slow(command: Sequence[str], seconds: float) -> WorkspaceError:
-    return WorkspaceError(
-        f"`{' '.join(command)}` did not finish within {seconds:g} seconds and was stopped.",
-        "Either the computer is very busy, or the program is waiting for something.",
-        "Run the cell again when the computer is less busy.",
-    )

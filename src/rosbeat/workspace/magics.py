@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import re
 import shlex
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NoReturn
 
 from IPython.core.error import UsageError
@@ -58,35 +57,26 @@ def run(shell: InteractiveShell, line: str, cell: str | None) -> None:
         TerminalError: If the terminal cannot do it.
         KeyboardInterrupt: If the cell is interrupted.
     """
-    options = _parse(line, cell is not None)
+    given = _parse(line, cell is not None)
+    watching = {name: getattr(given, name) for name in ("until", "lines", "seconds", "timeout")}
     terminals = terminals_of(shell)
     if cell is not None:
-        _type(terminals, options, cell)
-    elif options.name:
-        _look(terminals, options)
-    else:
+        if not cell.strip():
+            raise UsageError("The cell has no commands: write them below `%%terminal NAME`.")
+        terminal = terminals.get(given.name)
+        (terminal.answer if given.action else terminal.type)(cell, **watching)
+    elif not given.name:
         _list(terminals)
-
-
-def _type(terminals: Terminals, options: _Options, cell: str) -> None:
-    if not cell.strip():
-        raise UsageError("The cell has no commands: write them below `%%terminal NAME`.")
-    terminal = terminals.get(options.name)
-    act = terminal.answer if options.action == "answer" else terminal.type
-    act(cell, **options.watching())  # type: ignore[arg-type] # the names fit
-
-
-def _look(terminals: Terminals, options: _Options) -> None:
-    terminal = terminals.find(options.name)
-    if terminal is None:
+    elif (found := terminals.find(given.name)) is None:
         raise UsageError(
-            f"There is no terminal `{options.name}`. {_names(terminals)} `%%terminal "
-            f"{options.name}` with commands below it opens that terminal."
+            f"There is no terminal `{given.name}`. {_names(terminals)} `%%terminal {given.name}` "
+            "with commands below it opens that terminal."
         )
-    if options.action:
-        getattr(terminal, options.action)(**options.ending())
+    elif given.action:
+        ending = {} if given.timeout is None else {"timeout": given.timeout}
+        getattr(found, given.action)(**ending)
     else:
-        terminal.look(**options.watching())  # type: ignore[arg-type] # the names fit
+        found.look(**watching)
 
 
 def _names(terminals: Terminals) -> str:
@@ -106,40 +96,6 @@ def _list(terminals: Terminals) -> None:
 # Options.
 
 
-@dataclass(frozen=True)
-class _Options:
-    """Hold what was asked for.
-
-    Attributes:
-        name: The terminal; empty to list all of them.
-        until: The text to watch for.
-        lines: In how many lines it has to come.
-        seconds: How long to watch.
-        timeout: Seconds after which to give up.
-        action: `answer`, `ctrl_c`, `ctrl_d`, `kill`, `close` or nothing.
-    """
-
-    name: str
-    until: str | None
-    lines: int
-    seconds: float | None
-    timeout: float | None
-    action: str
-
-    def watching(self) -> dict[str, object]:
-        """Return the keyword arguments of `Terminal.type` and its relatives."""
-        return {
-            "until": self.until,
-            "lines": self.lines,
-            "seconds": self.seconds,
-            "timeout": self.timeout,
-        }
-
-    def ending(self) -> dict[str, float]:
-        """Return the keyword arguments of `Terminal.ctrl_c` and its relatives."""
-        return {} if self.timeout is None else {"timeout": self.timeout}
-
-
 class _Parser(argparse.ArgumentParser):
     """Raise errors in the words of the pages, and never end the kernel."""
 
@@ -147,11 +103,11 @@ class _Parser(argparse.ArgumentParser):
         raise UsageError(f"{message[:1].upper()}{message[1:]}.\n{_USAGE}")
 
 
-def _parse(line: str, in_cell: bool) -> _Options:
-    """Return what stands behind the magic's name.
+def _parse(line: str, in_cell: bool) -> argparse.Namespace:
+    """Return the options of a line.
 
     Args:
-        line: The text.
+        line: What stands behind the magic's name.
         in_cell: Whether it is `%%terminal`.
 
     Raises:
@@ -160,9 +116,8 @@ def _parse(line: str, in_cell: bool) -> _Options:
     given, unknown = _parser().parse_known_args(_words(line))
     if unknown:
         raise _unknown(unknown[0])
-    action = given.action or ""
-    _require_sense(given, action, in_cell)
-    return _Options(given.name, given.until, given.lines, given.seconds, given.timeout, action)
+    _require_sense(given, given.action or "", in_cell)
+    return given
 
 
 def _words(line: str) -> list[str]:
@@ -217,38 +172,28 @@ def _require_sense(given: argparse.Namespace, action: str, in_cell: bool) -> Non
     Raises:
         UsageError: Then.
     """
-    if not given.name and (in_cell or action or given.until or given.seconds is not None):
-        raise UsageError(
-            f"The terminal's name is missing. Give it one, as in `terminal sensor`.\n{_USAGE}"
-        )
-    if given.name and not _NAME.fullmatch(given.name):
-        raise UsageError(f"`{given.name}` is not a valid name: use letters, digits, `-` and `_`.")
-    if in_cell and action not in ("", "answer"):
-        option = action.replace("_", "-")
-        raise UsageError(
-            f"`--{option}` works only in a line of its own: `%terminal {given.name} --{option}`."
-        )
-    if not in_cell and action == "answer":
-        raise UsageError("`--answer` types the rest of the cell, so it needs `%%terminal`.")
-    _require_one_purpose(given, action)
-    if given.until == "":
-        raise UsageError("`--until` needs a text to wait for.")
-    if given.lines > 1 and given.until is None:
-        raise UsageError("`--lines` counts lines with a text: it needs `--until TEXT`.")
-
-
-def _require_one_purpose(given: argparse.Namespace, action: str) -> None:
-    """Refuse to watch a program in the same line in which it is ended.
-
-    Raises:
-        UsageError: Then.
-    """
-    if action in ("", "answer"):
-        return
-    useless = {"until": given.until, "for": given.seconds}
+    name, option = given.name, f"--{action.replace('_', '-')}"
+    is_end = action not in ("", "answer")
+    # A program is not watched in the same line in which it is ended.
+    watching = {"until": given.until, "for": given.seconds}
     if action == "close":
-        useless["timeout"] = given.timeout
-    for option, value in useless.items():
-        if value is not None:
-            word = action.replace("_", "-")
-            raise UsageError(f"`--{option}` cannot be combined with `--{word}`.\n{_USAGE}")
+        watching["timeout"] = given.timeout
+    useless = [one for one, value in watching.items() if is_end and value is not None]
+    asked = in_cell or action or given.until or given.seconds is not None
+    refusals = (
+        (not name and asked,
+         f"The terminal's name is missing. Give it one, as in `terminal sensor`.\n{_USAGE}"),
+        (name and not _NAME.fullmatch(name),
+         f"`{name}` is not a valid name: use letters, digits, `-` and `_`."),
+        (in_cell and is_end,
+         f"`{option}` works only in a line of its own: `%terminal {name} {option}`."),
+        (action == "answer" and not in_cell,
+         "`--answer` types the rest of the cell, so it needs `%%terminal`."),
+        (useless, f"`--{''.join(useless[:1])}` cannot be combined with `{option}`.\n{_USAGE}"),
+        (given.until == "", "`--until` needs a text to wait for."),
+        (given.lines > 1 and given.until is None,
+         "`--lines` counts lines with a text: it needs `--until TEXT`."),
+    )  # fmt: skip
+    for holds, said in refusals:
+        if holds:
+            raise UsageError(said)

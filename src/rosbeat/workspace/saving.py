@@ -83,26 +83,8 @@ def save(path: str, text: str, root: Path | None = None) -> Saved:
             whatever was there is there still.
     """
     base = (root or workspace()).resolve()
-    relative, _ = locate(path, base)
-    return save_bytes(path, _bytes(relative, text), base)
-
-
-def save_bytes(path: str, content: bytes, root: Path | None = None) -> Saved:
-    """Write a file of the workspace as `save` does, with exactly these bytes.
-
-    Args:
-        path: The file, relative to the workspace.
-        content: All of its content.
-        root: The workspace, by default the learner's.
-
-    Returns:
-        What was done.
-
-    Raises:
-        WorkspaceError: As with `save`.
-    """
-    base = (root or workspace()).resolve()
     relative, target = locate(path, base)
+    content = _bytes(relative, text)
     try:
         base.mkdir(parents=True, exist_ok=True)
         with only_writer(base):
@@ -146,7 +128,9 @@ def _bytes(relative: PurePosixPath, text: str) -> bytes:
 def _replace(relative: PurePosixPath, target: Path, content: bytes, base: Path) -> Saved:
     mode, kept = None, None
     if target.exists():
-        mode = _mode_of(relative, target)
+        if not os.access(target, os.W_OK):  # to replace it, nobody would need the right
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        mode = stat.S_IMODE(target.stat().st_mode)
         present = target.read_bytes()
         if present == content:
             return Saved(relative, changed=False)
@@ -154,24 +138,6 @@ def _replace(relative: PurePosixPath, target: Path, content: bytes, base: Path) 
     target.parent.mkdir(parents=True, exist_ok=True)
     write(target, content, mode)
     return Saved(relative, changed=True, kept=kept)
-
-
-def _mode_of(relative: PurePosixPath, target: Path) -> int:
-    """Return the permissions of a file that may be replaced."""
-    if not target.is_file():
-        raise WorkspaceError(
-            f"{relative} cannot be saved: a folder or a device with that name exists.",
-            "A file cannot have the same name as a folder or a device.",
-            "Choose another name, or rename the existing folder.",
-        )
-    if not os.access(target, os.W_OK):
-        raise WorkspaceError(
-            f"{relative} cannot be saved: the file is write-protected.",
-            "The write permission was removed, perhaps by you, to protect the file from changes.",
-            f"Restore the permission with  chmod u+w {relative}  in the workspace, or save under "
-            "another name.",
-        )
-    return stat.S_IMODE(target.stat().st_mode)
 
 
 def write(target: Path, content: bytes, mode: int | None = None) -> None:
@@ -219,30 +185,13 @@ def keep(relative: PurePosixPath, content: bytes, root: Path) -> PurePosixPath:
     folder.mkdir(parents=True, exist_ok=True)
     (root / KEPT / _NOT_A_PACKAGE).touch()
     number = 1
-    while True:
-        copy = folder / f"{relative.name}-{number}"
-        if _holds(copy, content) or _written(copy, content):
-            return PurePosixPath(copy.relative_to(root))
+    while (copy := folder / f"{relative.name}-{number}").exists():
+        if copy.read_bytes() == content:
+            break
         number += 1
-
-
-def _holds(copy: Path, content: bytes) -> bool:
-    return copy.is_file() and copy.read_bytes() == content
-
-
-def _written(copy: Path, content: bytes) -> bool:
-    """Make the copy; return False if another one has the name."""
-    try:
-        number = os.open(copy, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
-    except FileExistsError:
-        return False
-    try:
-        with os.fdopen(number, "wb") as file:
-            file.write(content)
-    except BaseException:
-        copy.unlink()
-        raise
-    return True
+    else:
+        write(copy, content)
+    return PurePosixPath(copy.relative_to(root))
 
 
 # From the path that was typed to a file of the workspace.
@@ -263,22 +212,18 @@ def locate(typed: str, root: Path | None = None) -> tuple[PurePosixPath, Path]:
     """
     relative = _relative(typed)
     base = (root or workspace()).resolve()
-    target = _real(base, relative)
+    target = (base / relative).resolve()
     if not target.is_relative_to(base) or target == base:
         raise _outside(typed)
-    _refuse_reserved(relative, target.relative_to(base).parts[0])
-    return relative, target
-
-
-def _refuse_reserved(relative: PurePosixPath, real: str) -> None:
-    """Refuse a folder that is not the learner's, also behind a link of another name."""
-    for first in (relative.parts[0], real):
+    # A folder that is not the learner's, also behind a link of another name.
+    for first in (relative.parts[0], target.relative_to(base).parts[0]):
         if first in RESERVED:
             raise WorkspaceError(
                 f"{relative} cannot be saved: {first} is not a folder for your files.",
                 "The folders build, install, log and kept belong to colcon and to this course.",
                 "Save into src, docs, scripts or resources.",
             )
+    return relative, target
 
 
 def _relative(typed: str) -> PurePosixPath:
@@ -322,17 +267,6 @@ def _refuse_more_than_a_path(text: str) -> None:
             "On Linux, `/` separates the parts of a path.",
             f"Write  {text.replace(chr(92), '/')}",
         )
-
-
-def _real(base: Path, relative: PurePosixPath) -> Path:
-    try:
-        return (base / relative).resolve()
-    except (OSError, RuntimeError):  # links that lead in a circle
-        raise WorkspaceError(
-            f"{relative} cannot be resolved.",
-            "A symbolic link on this path points back to itself.",
-            "Remove that link, or save under another name.",
-        ) from None
 
 
 def _outside(typed: str) -> WorkspaceError:

@@ -33,8 +33,7 @@ _SCRIPTS, _FINDER = "console_scripts", "find_packages"
 _ABOUT = ("version", "description", "license")
 # An empty list of console scripts, with nothing but comments in it.
 _EMPTY_LIST = re.compile(
-    rb"""(?m)(?P<head>^[^#\r\n]*(?P<quote>['"])console_scripts(?P=quote)[ \t]*:[ \t]*\[)"""
-    rb"(?P<inside>(?:\s|\#[^\r\n]*)*)\]"
+    r"""(?m)^(?P<head>[^#\n]*['"]console_scripts['"]\s*:\s*\[)(?P<inside>(?:\s|#[^\n]*)*)\]"""
 )
 # What the script prints goes to the standard error, and its arguments to the standard output.
 _RECORDER = """
@@ -85,9 +84,9 @@ def read_setup(path: Path) -> SetupScript:
         return SetupScript(problem=str(error) or type(error).__name__)
     calls = [one for one in ast.walk(tree) if isinstance(one, ast.Call) and _ends(one, "setup")]
     given = _given(tree, calls[0], path) if calls else None
-    return (
-        _script(given, _Source(source, tree, calls[0])) if given else SetupScript(problem=NO_CALL)
-    )
+    if given is None:
+        return SetupScript(problem=NO_CALL)
+    return _script(given, source, tree, calls[0])
 
 
 def _ends(call: ast.Call, name: str) -> bool:
@@ -118,15 +117,14 @@ def _literal(tree: ast.Module, call: ast.Call) -> _Given:
     names = _constants(tree)
     values: dict[str, Any] = {}
     excluded: tuple[str, ...] = ()
-    complete = not call.args
     for keyword in call.keywords:
-        name, value = keyword.arg, _value(keyword.value, names)
-        if name == "packages" and isinstance(keyword.value, ast.Call):
+        value = _value(keyword.value, names)
+        if keyword.arg == "packages" and isinstance(keyword.value, ast.Call):
             value, excluded = _patterns(keyword.value, names) or (None, ())
-        complete = complete and name is not None and _is_known(value)
-        if name and value is not None:
-            values[name] = value
-    return _Given(values, excluded, complete)
+        if keyword.arg and value is not None:
+            values[keyword.arg] = value
+    known = len(values) == len(call.keywords) and all(map(_is_known, values.values()))
+    return _Given(values, excluded, complete=known and not call.args)
 
 
 def _constants(tree: ast.Module) -> dict[str, str]:
@@ -180,7 +178,7 @@ def _patterns(
 
 def _texts(value: object) -> tuple[str, ...] | None:
     """Return the strings of a list; None if it is anything else."""
-    if not isinstance(value, list):
+    if not isinstance(value, list | tuple):
         return None
     return tuple(value) if all(isinstance(one, str) for one in value) else None
 
@@ -188,30 +186,16 @@ def _texts(value: object) -> tuple[str, ...] | None:
 # From arguments to a record.
 
 
-@dataclass(frozen=True)
-class _Source:
-    """Find texts in a build script.
-
-    Attributes:
-        text: All of it.
-        tree: Its syntax tree.
-        call: The call of `setup`.
-    """
-
-    text: str
-    tree: ast.Module
-    call: ast.Call
-
-    def entry(self, text: str) -> EntryPoint:
-        """Return an entry point with its place; a calculated one is where `setup` is called."""
-        texts = [one for one in ast.walk(self.tree)
-                 if isinstance(one, ast.Constant) and isinstance(one.value, str)]  # fmt: skip
-        for node in texts:
-            if node.value == text:
-                segment = ast.get_source_segment(self.text, node) or ""
-                return entry_point(text, node.lineno, _count_strings(segment))
-        lines = (node.lineno for node in texts if text in str(node.value))
-        return entry_point(text, next(lines, self.call.lineno))
+def _placed(text: str, source: str, tree: ast.Module, call: ast.Call) -> EntryPoint:
+    """Return an entry point with its place; a calculated one is where `setup` is called."""
+    texts = [one for one in ast.walk(tree)
+             if isinstance(one, ast.Constant) and isinstance(one.value, str)]  # fmt: skip
+    for node in texts:
+        if node.value == text:
+            segment = ast.get_source_segment(source, node) or ""
+            return entry_point(text, node.lineno, _count_strings(segment))
+    lines = (node.lineno for node in texts if text in str(node.value))
+    return entry_point(text, next(lines, call.lineno))
 
 
 def _count_strings(expression: str) -> int:
@@ -220,7 +204,7 @@ def _count_strings(expression: str) -> int:
     return sum(token.type == tokenize.STRING for token in tokens)
 
 
-def _script(given: _Given, source: _Source) -> SetupScript:
+def _script(given: _Given, source: str, tree: ast.Module, call: ast.Call) -> SetupScript:
     values = given.values
     groups = _groups(values.get("entry_points", {}))
     programs = [
@@ -232,24 +216,19 @@ def _script(given: _Given, source: _Source) -> SetupScript:
     name = values.get("name")
     return SetupScript(
         package_name=name if isinstance(name, str) else "",
-        entry_points=tuple(source.entry(one) for one in programs if isinstance(one, str)),
+        entry_points=tuple(
+            _placed(one, source, tree, call) for one in programs if isinstance(one, str)
+        ),
         incomplete=not (given.complete and known),
         keywords=tuple(sorted(values)),
         groups=tuple(sorted(groups or ())),
-        packages=None if hidden else _packages(values),
+        # Without any, setuptools finds none itself: it refuses where there are two folders, and
+        # every ROS package has `resource` beside its code.
+        packages=None if hidden else _texts(values.get("packages", [])),
         excluded=given.excluded,
         about=tuple((key, text) for key, text in about.items() if isinstance(text, str) and text),
         left_out=_left_out(values) if given.complete else (),
     )
-
-
-def _packages(values: Mapping[str, Any]) -> tuple[str, ...] | None:
-    """Return the packages that are installed; without any, setuptools does not find them itself.
-
-    It refuses where it finds two folders, and every ROS package has `resource` beside its code.
-    """
-    packages = values.get("packages", [])
-    return tuple(packages) if isinstance(packages, tuple) else _texts(packages)
 
 
 def _groups(value: object) -> Mapping[str, Any] | None:
@@ -304,31 +283,19 @@ def _installed(pairs: Any) -> Iterator[str]:  # noqa: ANN401 - whatever a learne
 # Editing.
 
 
-def with_entry_points(path: Path, scripts: list[str]) -> bytes | None:
+def with_entry_points(text: str, scripts: list[str]) -> str | None:
     """Return a build script with entry points in its empty list of console scripts.
 
     Args:
-        path: The `setup.py`; its encoding and its line ends stay.
+        text: The `setup.py`.
         scripts: Entry points, such as `talk = my_package.talk:main`.
 
     Returns:
-        None if it has no such list.
+        None if it has no such list, or two.
     """
-    data = path.read_bytes()
-    found = _EMPTY_LIST.search(data)
-    if not found or len(_EMPTY_LIST.findall(data)) > 1:
+    if len(_EMPTY_LIST.findall(text)) != 1:
         return None
-    end = b"\r\n" if b"\r\n" in data else b"\n"
-    items = b"".join(b" " * 12 + f"'{one}',".encode() + end for one in scripts)
-    before = found["inside"].rstrip(b" \t\r\n")
-    return b"".join(
-        (
-            data[: found.start()],
-            found["head"],
-            before,
-            end,
-            items,
-            b" " * 8,
-            data[found.end() - 1 :],
-        )
+    items = "".join(f"            '{one}',\n" for one in scripts)
+    return _EMPTY_LIST.sub(
+        lambda found: f"{found['head']}{found['inside'].rstrip()}\n{items}        ]", text
     )

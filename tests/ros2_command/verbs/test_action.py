@@ -1,7 +1,7 @@
 import re
-import signal
 
 import pytest
+from as_typed import interrupted
 
 pytestmark = pytest.mark.ros
 
@@ -56,9 +56,8 @@ def test_ctrl_c_cancels_the_goal(rich):
     with rich.running("action", "send_goal", *FIBONACCI, "{order: 40}") as process:
         while not (line := process.stdout.readline()).startswith("Goal accepted"):
             assert line
-        process.send_signal(signal.SIGINT)
-        out, error = process.communicate(timeout=30)
-    assert (process.returncode, error) == (2, "")
+        out, error = interrupted(process)
+    assert error == ""
     assert out.lstrip("\n") == "Canceling goal...\nGoal canceled.\n"  # the rest is read already
 
 
@@ -87,6 +86,5 @@ def test_goals_that_cannot_be_sent(rich, words, said):
 def test_nobody_to_answer(rich):
     with rich.running("action", "send_goal", "/house/fibonaci", FIBONACCI[1]) as process:
         assert "Did you mean '/house/fibonacci'?" in process.stderr.readline()
-        process.send_signal(signal.SIGINT)
-        out, _ = process.communicate(timeout=30)
-    assert (process.returncode, out) == (2, "Waiting for an action server to become available...\n")
+        out, _ = interrupted(process)
+    assert out == "Waiting for an action server to become available...\n"

@@ -1,7 +1,7 @@
 import re
-import signal
 
 import pytest
+from as_typed import interrupted
 
 pytestmark = pytest.mark.ros
 
@@ -62,9 +62,7 @@ def test_echo(rich):
             pass
         rich.out("service", "call", "/house/enable", "std_srvs/srv/SetBool")
         lines = [process.stdout.readline() for _ in range(2 * ECHOED.count("\n"))]
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=30)
-    assert process.returncode == 2
+        interrupted(process)
     text = re.sub(r"(?<=: )\d+\n", "<number>\n", "".join(lines))
     assert text.startswith(ECHOED)
     assert "event_type: RESPONSE_SENT" in text
@@ -93,9 +91,7 @@ def test_call_again_and_again(graph):
         seen = ""
         while seen.count("response:") < 3:
             seen += process.stdout.readline()
-        process.send_signal(signal.SIGINT)
-        _, error = process.communicate(timeout=30)
-    assert (process.returncode, error) == (2, "")
+        assert interrupted(process)[1] == ""
 
 
 @pytest.mark.parametrize(
@@ -116,6 +112,5 @@ def test_call_of_what_cannot_be_called(graph, words, said):
 def test_call_of_an_unknown_service_waits_and_says_so(graph):
     with graph.running("service", "call", "/one/enabl", "std_srvs/srv/SetBool") as process:
         assert "Did you mean '/one/enable'?" in process.stderr.readline()
-        process.send_signal(signal.SIGINT)
-        out, _ = process.communicate(timeout=30)
-    assert (process.returncode, out) == (2, "waiting for service to become available...\n")
+        out, _ = interrupted(process)
+    assert out == "waiting for service to become available...\n"

@@ -1,7 +1,7 @@
 import re
-import signal
 
 import pytest
+from as_typed import interrupted
 
 pytestmark = pytest.mark.ros
 
@@ -89,9 +89,7 @@ def test_echo_until_a_time_is_silent_if_nothing_comes(graph):
 def test_ctrl_c_ends_without_a_word(graph):
     with graph.running("topic", "echo", "/temperature") as process:
         assert process.stdout.readline() == "data: 25.5\n"
-        process.send_signal(signal.SIGINT)
-        _, error = process.communicate(timeout=30)
-    assert (process.returncode, error) == (2, "")
+        assert interrupted(process)[1] == ""
 
 
 def test_an_ended_command_leaves_the_graph(graph):
@@ -116,9 +114,7 @@ def test_rates(graph, verb, lines):
     with graph.running("topic", verb, "temperature") as process:
         for pattern in lines:
             assert re.fullmatch(pattern + "\n", process.stdout.readline())
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=30)
-    assert process.returncode == 2
+        interrupted(process)
 
 
 def test_delay(rich):
@@ -126,9 +122,7 @@ def test_delay(rich):
         assert re.fullmatch(r"average delay: \d\.\d{3}\n", process.stdout.readline())
         pattern = r"\tmin: .*s max: .*s std dev: .*s window: \d+\n"
         assert re.fullmatch(pattern, process.stdout.readline())
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=30)
-    assert process.returncode == 2
+        interrupted(process)
     error = rich.error("topic", "delay", "/house/number")
     assert error.startswith("msg does not have header\n")
     with rich.running("topic", "delay", "/house/poin") as process:
@@ -164,22 +158,20 @@ def test_pub_follows_simulated_time(rich):
     assert 3.5 < known[-1] - known[0] < 30.0  # at 1 Hz by the wall, it would be 50 s at least
 
 
-@pytest.mark.parametrize(
-    ("verb", "pattern", "simulated", "wall"),
-    [("hz", r"average rate: ([\d.]+)", 2, 20), ("bw", r"(\d+) B/s from", 16, 160)],
-)
-def test_rates_follow_simulated_time(rich, verb, pattern, simulated, wall):
-    """The node publishes at 20 Hz, 8 bytes each; in simulated time that is a tenth of it."""
-    with rich.running("topic", verb, "-s", "-w", "20", "/house/number") as process:
-        lines = (re.match(pattern, line) for line in process.stdout)
+def test_rates_follow_simulated_time(rich):
+    """The node publishes at 20 Hz; in simulated time that is a tenth of it."""
+    with rich.running("topic", "hz", "-s", "-w", "20", "/house/number") as process:
+        lines = (re.match(r"average rate: ([\d.]+)", line) for line in process.stdout)
         rates = [float(found[1]) for found, _ in zip(filter(None, lines), range(4), strict=False)]
-    assert rates[-1] < (simulated + wall) / 2
+    assert rates[-1] < 11
 
 
-def test_pub_repeats_that_it_waits(graph):
-    words = ("/on/in", "std_msgs/msg/Float32", "-1", "--max-wait-time-secs", "2.5")
-    out = graph.out("topic", "pub", *words, code=1)
-    assert out == 3 * "Waiting for at least 1 matching subscription(s)...\n"
+def test_pub_repeats_that_it_waits_and_says_who_may_be_meant(graph):
+    words = ("/on/in", "std_msgs/msg/Float32", "-1", "--max-wait-time-secs", "1.2")
+    done = graph("topic", "pub", *words, code=1)
+    assert done.stdout == 2 * "Waiting for at least 1 matching subscription(s)...\n"
+    assert done.stderr.startswith("Timed out waiting for subscribers: Expected 1 subcribers but")
+    assert "Did you mean '/one/in'?" in done.stderr
 
 
 def test_pub_reaches_the_node(graph):
@@ -206,10 +198,6 @@ def test_pub_several_times(graph):
         (("/x", "std_msgs/msg/Float32", "-r", "0"), "-r/--rate: Value must be positive", 2),
         (("/x", "std_msgs/msg/Float32", "-n", "a b"), "cannot be the name of a node", 1),
         (("/x y", "std_msgs/msg/Float32"), "topic name '/x y' is invalid", 1),
-        (("/on/in", "std_msgs/msg/Float32", "-1", "--max-wait-time-secs", "1.2"),
-         "Timed out waiting for subscribers: Expected 1 subcribers but only got 0 subscribers", 1),
-        (("/on/in", "std_msgs/msg/Float32", "-1", "--max-wait-time-secs", "1.2"),
-         "Did you mean '/one/in'?", 1),
     ],
 )  # fmt: skip
 def test_pub_of_what_cannot_be_sent(graph, words, said, code):

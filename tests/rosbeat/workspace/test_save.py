@@ -1,7 +1,6 @@
 """`%%save`: a cell becomes a file of the workspace, which runs as a module, and no work is lost."""
 
 import errno
-import json
 import linecache
 import os
 import shutil
@@ -15,7 +14,7 @@ from rosbeat import Session
 from rosbeat.errors import WorkspaceError
 from rosbeat.workspace import saving
 from rosbeat.workspace.catching_up import PACKAGE, finished
-from rosbeat.workspace.saving import only_writer, save, save_bytes
+from rosbeat.workspace.saving import only_writer, save
 from rosbeat.workspace.saving_magic import with_body
 
 PUBLISHER = f"src/{PACKAGE}/{PACKAGE}/temperature_publisher.py"
@@ -79,14 +78,12 @@ def test_what_is_kept_is_kept_byte_for_byte_with_its_rights(root):
     assert stat.S_IMODE((root / "src/a.py").stat().st_mode) == 0o750
     (root / "src/__init__.py").write_text("\n")
     assert save("src/__init__.py", "x = 1", root).kept is None  # no work to keep
-    save_bytes("docs/a.txt", b"a\r\n\xe9", root)
-    assert (root / "docs/a.txt").read_bytes() == b"a\r\n\xe9"
 
 
 @pytest.mark.parametrize(
     "path",
     ["../a.py", "/etc/passwd", "~/a.py", "src/../../a.py", "src/out/a.py", "out.py", "", " ",
-     "src/", "a\0b", "loop/a.py", "install/a.py", "kept/a.py", "ROS2_and_RL_Tutorials/src/a.py",
+     "src/", "a\0b", "install/a.py", "kept/a.py", "ROS2_and_RL_Tutorials/src/a.py",
      "."],
 )  # fmt: skip
 def test_no_way_out_and_nothing_that_is_not_a_file(root, says, path):
@@ -95,7 +92,6 @@ def test_no_way_out_and_nothing_that_is_not_a_file(root, says, path):
     (outside / "b.py").write_text("theirs")
     (root / "src/out").symlink_to(outside)
     (root / "out.py").symlink_to(outside / "b.py")
-    (root / "loop").symlink_to(root / "loop")
     before = sorted(root.parent.rglob("*"))
     with pytest.raises(WorkspaceError) as caught:
         save(path, "x", root)
@@ -112,22 +108,11 @@ def test_a_link_inside_the_workspace_stays_a_link(root):
     assert (root / "docs/a.md").read_text() == "two\n"
 
 
-@pytest.mark.parametrize(
-    ("spoil", "path", "words"),
-    [
-        (lambda path: os.mkdir(path), "src/a.py", "src/a.py"),
-        (lambda path: os.mkfifo(path), "src/a.py", "src/a.py"),
-        (lambda path: path.write_text("x"), "src/a.py/b.py", "the name that a folder needs"),
-    ],
-)
-def test_what_is_no_file_stays(root, says, spoil, path, words):
-    spoil(root / "src/a.py")
+def test_a_folder_or_a_write_protected_file_stays(root, says, monkeypatch):
+    (root / "src/b.py").mkdir()
     with pytest.raises(WorkspaceError) as caught:
-        save(path, "x", root)
-    says(caught.value, words)
-
-
-def test_a_write_protected_file_stays(root, says, monkeypatch):
+        save("src/b.py", "x", root)
+    says(caught.value, "src/b.py")
     save("src/a.py", "x", root)
     monkeypatch.setattr(saving.os, "access", lambda *_: False)
     with pytest.raises(WorkspaceError) as caught:
@@ -139,7 +124,7 @@ def test_a_write_protected_file_stays(root, says, monkeypatch):
 @pytest.mark.parametrize(
     ("code", "text"), [(errno.EACCES, "read-only"), (errno.ENOSPC, "full"), (errno.EIO, "refused")]
 )
-@pytest.mark.parametrize("call", ["open", "replace", "fdopen"])
+@pytest.mark.parametrize("call", ["open", "replace"])
 def test_what_the_system_refuses_changes_nothing(root, says, monkeypatch, code, text, call):
     save("src/a.py", "x", root)
     with monkeypatch.context() as patch:
@@ -156,14 +141,6 @@ def test_half_a_character_is_explained(root, says):
         save("src/a.py", "x = 1\ny = '\ud800'\n", root)
     says(caught.value, "line 2")
     assert inside(root) == []
-
-
-def test_two_pages_that_save_one_file_lose_no_version(root):
-    texts = [f"version {number}\n" for number in range(24)]
-    with futures.ThreadPoolExecutor(4) as pages:
-        list(pages.map(lambda text: save("src/a.py", text, root), texts))
-    kept = [one.read_text() for one in (root / "kept/src").iterdir()]
-    assert sorted([*kept, (root / "src/a.py").read_text()]) == sorted(texts)
 
 
 def test_one_waits_for_the_other(root):
@@ -315,15 +292,6 @@ def test_only_the_cell_itself_runs_on_the_page(run, shell):
     assert shell.user_ns["One"] is before
 
 
-def test_a_blank_in_a_definition_is_not_saved(run, root):
-    before = (root / PUBLISHER).read_text()
-    run("def wait():\n    ____\n")
-    result, shown = run(f"%%save {PUBLISHER} --with wait\nimport math\n")
-    assert result.success
-    assert shown == "not saved: there is still a blank in line 5 of temperature_publisher.py\n"
-    assert (root / PUBLISHER).read_text() == before
-
-
 @pytest.mark.parametrize(
     ("cell", "parts"),
     [
@@ -350,13 +318,6 @@ def test_other_files_are_only_saved(run, root, name):
     assert (root / "src" / PACKAGE / name).read_text() == "this is = no code: at all\n"
 
 
-def test_the_same_cell_again_says_nothing_about_copies(run, root):
-    (root / PUBLISHER).unlink()
-    for _ in range(3):
-        assert run(f"%%save {PUBLISHER}\nx = 1\n")[1] == f"saved {PUBLISHER}\n"
-    assert not (root / "kept").exists()
-
-
 @pytest.mark.parametrize(
     ("path", "name"),
     [
@@ -374,13 +335,6 @@ def test_which_files_are_modules(run, shell, package, path, name):
     (package / "second" / "__init__.py").touch()
     assert run(f"%%save {path}\nseen = __name__\n")[0].success
     assert shell.user_ns.get("seen") == name
-
-
-def test_a_module_that_is_imported_stays_the_imported_one(run, package):
-    (package / "json").mkdir()
-    (package / "json" / "__init__.py").touch()
-    run(f"%%save src/{PACKAGE}/json/__init__.py\nseen = __name__\n")
-    assert sys.modules["json"] is json
 
 
 def test_dollars_and_braces_stay_and_what_is_there_may_be_saved_again(run, root, package):

@@ -83,24 +83,6 @@ def test_nothing_is_left_open(home):
     assert files() <= before
 
 
-def test_a_forked_child_leaves_the_terminals_alone(terminals):
-    terminals.get("a")
-    terminals._pid = os.getpid() + 1
-    assert terminals.alien
-    terminals.close()
-    terminals._pid = os.getpid()
-    assert not terminals.get("a").ended
-
-
-def test_two_names_are_two_terminals(terminals):
-    one, two = terminals.get("one"), terminals.get("two")
-    one.type("cd /usr; X=1", show=str)
-    two.type("echo [$X]; pwd", show=str)
-    assert two.text.splitlines()[1:] == ["[]", "/home/you"]
-    assert terminals.get("one") is one
-    assert [terminal.name for terminal in terminals] == ["one", "two"]
-
-
 def test_closing_one_ends_what_runs_in_it(terminal):
     assert terminal.state == "waits at ~$"
     terminal.type("sleep 100", seconds=0, show=str)
@@ -169,16 +151,6 @@ def test_what_is_marked_is_ended_whether_it_listens_or_not(mark, start, follower
     reaper.end_marked(mark, grace=0.1)
     assert leader.wait(10) == -signal.SIGKILL
     assert reaper.marked(mark) == []
-
-
-def test_the_watcher_ends_what_is_marked_when_its_pipe_closes(mark, start, eventually):
-    process = start(SLEEP)
-    command = [sys.executable, "-I", "-S", reaper.__file__, mark, str(os.getpid())]
-    watcher = subprocess.Popen(command, stdin=subprocess.PIPE)
-    assert process.poll() is None
-    watcher.stdin.close()
-    assert watcher.wait(20) == 0
-    assert process.wait(10) == -signal.SIGKILL
 
 
 # The environment.
@@ -285,27 +257,6 @@ def test_a_trace_shows_nothing_of_the_prompt(seen):
     assert seen("true")[-2:] == ["true", "+ true"]
 
 
-def test_a_question_for_one_key_is_not_answered_by_a_repair(seen, terminal):
-    seen("read -n 1 -p 'Sure? ' X; PS1=", timeout=1.2)
-    terminal.answer("y", show=str, timeout=20)
-    assert seen("echo $X")[-1] == "y"
-
-
-@pytest.mark.parametrize("wait", ["", "; sleep 2"])
-def test_what_asked_for_one_key_gets_no_enter_that_the_shell_would_get(seen, terminal, wait):
-    seen(f"read -n 1 -p 'Sure? ' X{wait}", timeout=1.2)
-    terminal.answer("y", show=str, **({"seconds": 5} if wait else {"timeout": 20}))
-    # An empty line that bash reads is a second prompt, and ends the next command for the page.
-    assert seen('sleep 0.3; echo "late $X"')[-1] == "late y"
-
-
-@pytest.mark.parametrize(("option", "keys"), [("-n 3", "ab"), ("-e", "a")])
-def test_what_asked_for_more_keys_or_edits_lines_gets_enter(seen, terminal, option, keys):
-    seen(f"read {option} -p 'Which? ' X; echo \"<$X>\"", timeout=1.2)
-    terminal.answer(keys, show=(said := []).append, timeout=20)
-    assert said[-1] == f"<{keys}>"
-
-
 def test_a_folder_with_odd_letters(seen, terminal, home):
     name = 'o d$d `é\' "x" \\n'
     (home / name).mkdir()
@@ -318,11 +269,3 @@ def test_a_folder_that_is_gone(seen, home):
     (home / "gone").rmdir()
     assert seen("echo hello") == ["gone$ echo hello", "hello"]
     assert "# exit code 1" in seen("ls .. > /dev/null; cd nowhere 2> /dev/null")
-
-
-def test_a_folder_that_goes_while_a_program_runs(seen, terminal, home):
-    seen("mkdir gone; cd gone\nsleep 100", seconds=0.1)
-    (home / "gone").rmdir()
-    assert terminal.ctrl_c(show=str) == 130
-    assert "no longer exists" in " ".join(seen("touch x"))
-    assert seen("cd ..\npwd")[-1] == "/home/you"

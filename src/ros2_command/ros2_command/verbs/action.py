@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Callable
+from functools import partial
 
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
 from ros2_command.lookup import (
     Entries,
-    action_class,
     full_type,
     pick,
     show_entries,
     show_types,
     suggestion,
+    type_class,
     wait_for_server,
 )
 from ros2_command.message_text import Style, to_yaml
 from ros2_command.message_values import add_value_arguments, fill, read_yaml, value_text
 from ros2_command.names import absolute, check_name
-from ros2_command.registry import Verb
+from ros2_command.registry import Verb, argument, flag
 from ros2_command.untyped import Untyped
 
 #: Words for the values of `action_msgs/msg/GoalStatus.status`.
@@ -37,40 +38,16 @@ def _actions(graph: Graph) -> Entries:
     return sorted(get_action_names_and_types(graph.node))
 
 
-def _add_list(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument("-t", "--show-types", action="store_true",
-                        help="Additionally show the action type")  # fmt: skip
-    parser.add_argument("-c", "--count-actions", action="store_true",
-                        help="Only display the number of actions discovered")  # fmt: skip
-
-
 def _list(args: Namespace) -> None:
     with open_graph(args) as graph:
         found = _actions(graph)
     show_entries(found, args.count_actions, args.show_types)
 
 
-def _add_type(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument(
-        "action_name", help="Name of the ROS action to get type (e.g. '/fibonacci')"
-    )
-
-
 def _type(args: Namespace) -> None:
     with open_graph(args) as graph:
         _, types = pick(args.action_name, _actions(graph), f"Unknown action '{args.action_name}'")
     print("\n".join(types))
-
-
-def _add_info(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    add = parser.add_argument
-    add("action_name", help="Name of the ROS action to get info (e.g. '/fibonacci')")
-    add("-t", "--show-types", action="store_true", help="Additionally show the action type")
-    add("-c", "--count", action="store_true",
-        help="Only display the number of action clients and action servers")  # fmt: skip
 
 
 def _info(args: Namespace) -> None:
@@ -101,19 +78,11 @@ def _nodes_with(graph: Graph, action: str, ask: Untyped) -> Entries:
     return found
 
 
-def _add_send_goal(parser: ArgumentParser) -> None:
-    add = parser.add_argument
-    add("action_name", help="Name of the ROS action (e.g. '/fibonacci')")
-    add("action_type", help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')")
-    add_value_arguments(parser, "goal", "Goal request values in YAML format (e.g. '{order: 10}')")
-    add("-f", "--feedback", action="store_true", help="Echo feedback messages for the goal")
-
-
 def _send_goal(args: Namespace) -> int:
     from rclpy.action import ActionClient
 
     check_name("action", args.action_name)
-    kind = action_class(args.action_type)
+    kind = type_class(args.action_type, "action")
     goal = kind.Goal()
     stampers = fill(goal, read_yaml(value_text(args.goal, args.stdin)))
     with open_graph() as graph:
@@ -179,9 +148,33 @@ def _yaml(message: Untyped) -> str:
     return to_yaml(message, Style(limit=None))
 
 
+_TYPES = flag("-t", "--show-types", help="Additionally show the action type")
 VERBS = {
-    "info": Verb(_add_info, _info),
-    "list": Verb(_add_list, _list),
-    "send_goal": Verb(_add_send_goal, _send_goal),
-    "type": Verb(_add_type, _type),
-}
+    "info": Verb(
+        _info,
+        add_graph_arguments,
+        argument("action_name", help="Name of the ROS action to get info (e.g. '/fibonacci')"),
+        _TYPES,
+        flag("-c", "--count", help="Only display the number of action clients and action servers"),
+    ),
+    "list": Verb(
+        _list,
+        add_graph_arguments,
+        _TYPES,
+        flag("-c", "--count-actions", help="Only display the number of actions discovered"),
+    ),
+    "send_goal": Verb(
+        _send_goal,
+        argument("action_name", help="Name of the ROS action (e.g. '/fibonacci')"),
+        argument("action_type",
+                 help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')"),
+        partial(add_value_arguments, name="goal",
+                about="Goal request values in YAML format (e.g. '{order: 10}')"),
+        flag("-f", "--feedback", help="Echo feedback messages for the goal"),
+    ),
+    "type": Verb(
+        _type,
+        add_graph_arguments,
+        argument("action_name", help="Name of the ROS action to get type (e.g. '/fibonacci')"),
+    ),
+}  # fmt: skip

@@ -10,7 +10,7 @@ import re
 import signal
 import sys
 import time
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from datetime import datetime
@@ -23,7 +23,7 @@ from ros2_command.graph import Graph, open_graph
 from ros2_command.lookup import find_type, suggestion
 from ros2_command.names import absolute, check_name, check_node_name, is_hidden
 from ros2_command.parser import leave_out
-from ros2_command.registry import Verb
+from ros2_command.registry import Argument, Verb, argument, flag
 from ros2_command.untyped import Untyped
 
 _STORAGES = ["mcap", "sqlite3"]
@@ -41,30 +41,6 @@ _NANOSECONDS = 1_000_000_000
 
 def _error(text: str, *more: str) -> CommandError:
     return CommandError(f"[ERROR] [ros2bag]: {text}", *more)
-
-
-# Common arguments
-
-
-def _existing(text: str) -> Path:
-    if not Path(text).exists():
-        raise ArgumentTypeError(f"Bag path '{text}' does not exist!")
-    return Path(text)
-
-
-def _positive(text: str) -> float:
-    value = float(text)
-    if not value > 0:
-        raise ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
-    return value
-
-
-def _add_bag(parser: ArgumentParser) -> None:
-    parser.add_argument("bag_path", type=_existing, help="Bag to open.")
-    parser.add_argument(
-        "-s", "--storage", choices=_STORAGES,
-        help="Storage implementation of bag. By default attempts to detect automatically",
-    )  # fmt: skip
 
 
 @contextmanager
@@ -91,14 +67,6 @@ def _opened(path: Path) -> Iterator[Any]:
 
 
 # Information
-
-
-def _add_info(parser: ArgumentParser) -> None:
-    _add_bag(parser)
-    parser.add_argument("-t", "--topic-name", action="store_true",
-                        help="Only display topic names.")  # fmt: skip
-    parser.add_argument("-v", "--verbose", action="store_true",
-                        help=f"Display information for services {_NO_EFFECT}")  # fmt: skip
 
 
 def _info(args: Namespace) -> None:
@@ -160,67 +128,6 @@ def _date(nanoseconds: int) -> str:
 
 
 # Recording
-
-
-def _add_record(parser: ArgumentParser) -> None:
-    add = parser.add_argument
-    add("topics_positional", nargs="*", metavar="Topic", help="Topics to record.")
-    add("-o", "--output", help="Destination of the bagfile to create, "
-        "defaults to a timestamped folder in the current directory.")  # fmt: skip
-    add("-s", "--storage", choices=_STORAGES, default="mcap",
-        help="Storage identifier to be used, defaults to 'mcap'.")  # fmt: skip
-    add("--topics", nargs="+", default=[], metavar="Topic",
-        help="Space-delimited list of topics to record.")  # fmt: skip
-    add("--topic-types", nargs="+", default=[], metavar="TopicType",
-        help="Space-delimited list of topic types to record.")  # fmt: skip
-    add("-a", "--all", action="store_true", help="Record all topics (Exclude hidden topic).")
-    add("--all-topics", action="store_true", help="Record all topics (Exclude hidden topic).")
-    _add_patterns(parser, "Record")
-    add("--exclude-topic-types", nargs="+", default=[], metavar="ExcludeTopicTypes",
-        help="Space-delimited list of topic types not being recorded.")  # fmt: skip
-    add("--include-unpublished-topics", action="store_true",
-        help="Discover and record topics which have no publisher.")  # fmt: skip
-    add("--include-hidden-topics", action="store_true",
-        help="Discover and record hidden topics as well.")  # fmt: skip
-    add("--no-discovery", action="store_true",
-        help="Only topics present at startup will be recorded.")  # fmt: skip
-    add("-p", "--polling-interval", type=int, default=100,
-        help="Time in ms to wait between querying available topics for recording.")  # fmt: skip
-    add("--ignore-leaf-topics", action="store_true", help="Ignore topics without a subscription.")
-    add("-f", "--serialization-format", choices=["cdr"],
-        help="The rmw serialization format in which the messages are saved")  # fmt: skip
-    add("--use-sim-time", action="store_true",
-        help="Use simulation time for message timestamps by subscribing to the /clock topic. "
-        "Until first /clock message is received, no messages will be written to bag.")  # fmt: skip
-    add("--node-name", default="rosbag2_recorder", help="Specify the recorder node name.")
-    add("--log-level", choices=_LEVELS, default="info", help="Logging level.")
-    add("--disable-keyboard-controls", action="store_true", help=_NO_EFFECT)
-    add("--max-cache-size", type=int, help=_NO_EFFECT)
-    leave_out(parser, _TOPICS_ONLY, "--services", "--all-services", "--exclude-services")
-    leave_out(parser, _KEYBOARD, "--start-paused", "--snapshot-mode")
-    leave_out(parser, _OVERRIDES, "--qos-profile-overrides-path")
-    leave_out(parser, _ONE_FILE, "-b,--max-bag-size", "-d,--max-bag-duration", "--custom-data",
-              "--storage-config-file", "--storage-preset-profile", "--compression-mode",
-              "--compression-format", "--compression-queue-size", "--compression-threads",
-              "--compression-threads-priority")  # fmt: skip
-
-
-def _add_patterns(parser: ArgumentParser, word: str) -> None:
-    add = parser.add_argument
-    short = ["-x"] if word == "Play" else []
-    add("-e", "--regex", type=_pattern,
-        help=f"{word} only topics containing provided regular expression.")  # fmt: skip
-    add(*short, "--exclude-regex", type=_pattern,
-        help="Exclude topics containing provided regular expression.")  # fmt: skip
-    add("--exclude-topics", nargs="+", default=[], metavar="Topic",
-        help="Space-delimited list of topics to leave out.")  # fmt: skip
-
-
-def _pattern(text: str) -> re.Pattern[str]:
-    try:
-        return re.compile(text)
-    except re.error as error:
-        raise ArgumentTypeError(f"{text!r} is not a regular expression: {error}") from None
 
 
 def _record(args: Namespace) -> int:
@@ -453,42 +360,6 @@ def _stored(profile: Untyped) -> Untyped:
 # Playing
 
 
-def _add_play(parser: ArgumentParser) -> None:
-    _add_bag(parser)
-    add = parser.add_argument
-    add("-r", "--rate", type=_positive, default=1.0, help="rate at which to play back messages.")
-    add("--topics", nargs="+", default=[], metavar="Topic",
-        help="topics to replay. If none specified, all topics will be replayed.")  # fmt: skip
-    _add_patterns(parser, "Play")
-    add("-l", "--loop", action="store_true",
-        help="start back at the beginning on reaching the end, and play indefinitely.")  # fmt: skip
-    add("-m", "--remap", nargs="+", default=[], metavar="OLD:=NEW",
-        help="list of topics to be remapped")  # fmt: skip
-    add("--clock", type=_positive, nargs="?", const=40.0, metavar="HZ",
-        help="Publish to /clock at a specific frequency in Hz (default: 40).")  # fmt: skip
-    add("-d", "--delay", type=_positive, default=0.0,
-        help="Sleep duration before play (each loop), in seconds.")  # fmt: skip
-    add("--playback-duration", type=float, default=float("inf"),
-        help="Playback duration, in seconds of the recording.")  # fmt: skip
-    add("--start-offset", type=float, default=0.0,
-        help="Start the playback this many seconds into the bag file.")  # fmt: skip
-    add("--wait-for-all-acked", type=int, default=500, metavar="MS",
-        help="Wait until all published messages are acknowledged by all subscribers, or so many "
-        "milliseconds; 0 waits for ever.")  # fmt: skip
-    add("--log-level", choices=_LEVELS, default="info", help="Logging level.")
-    add("--read-ahead-queue-size", type=int, help=_NO_EFFECT)
-    for option in ("disable-keyboard-controls", "disable-loan-message"):
-        add(f"--{option}", action="store_true", help=_NO_EFFECT)
-    leave_out(parser, _TOPICS_ONLY, "--services", "--exclude-services",
-              "--publish-service-requests", "--service-requests-source")  # fmt: skip
-    leave_out(parser, _KEYBOARD, "-p,--start-paused")
-    leave_out(parser, _OVERRIDES, "--qos-profile-overrides-path")
-    leave_out(parser, _ONE_FILE, "--storage-config-file")
-    leave_out(parser, "use --clock HZ.", "--clock-topics", "--clock-topics-all")
-    leave_out(parser, "use --playback-duration SECONDS.", "--playback-until-sec",
-              "--playback-until-nsec")  # fmt: skip
-
-
 def _play(args: Namespace) -> int:
     from rclpy.duration import Duration
 
@@ -600,8 +471,128 @@ class Player:
         self._clock.publish(Clock(clock=Time(nanoseconds=self._first + past).to_msg()))
 
 
+# The arguments.
+
+
+def _existing(text: str) -> Path:
+    if not Path(text).exists():
+        raise ArgumentTypeError(f"Bag path '{text}' does not exist!")
+    return Path(text)
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not value > 0:
+        raise ArgumentTypeError(f"{text} is not in the valid range (> 0.0)")
+    return value
+
+
+def _pattern(text: str) -> re.Pattern[str]:
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise ArgumentTypeError(f"{text!r} is not a regular expression: {error}") from None
+
+
+def _patterns(word: str, *short: str) -> tuple[Argument, ...]:
+    """Return the arguments that choose topics by their names."""
+    return (
+        argument("-e", "--regex", type=_pattern,
+                 help=f"{word} only topics containing provided regular expression."),
+        argument(*short, "--exclude-regex", type=_pattern,
+                 help="Exclude topics containing provided regular expression."),
+        argument("--exclude-topics", nargs="+", default=[], metavar="Topic",
+                 help="Space-delimited list of topics to leave out."),
+    )  # fmt: skip
+
+
+_BAG = (
+    argument("bag_path", type=_existing, help="Bag to open."),
+    argument("-s", "--storage", choices=_STORAGES,
+             help="Storage implementation of bag. By default attempts to detect automatically"),
+)  # fmt: skip
+_LOG_LEVEL = argument("--log-level", choices=_LEVELS, default="info", help="Logging level.")
+_RECORD = (
+    argument("topics_positional", nargs="*", metavar="Topic", help="Topics to record."),
+    argument("-o", "--output", help="Destination of the bagfile to create, "
+             "defaults to a timestamped folder in the current directory."),
+    argument("-s", "--storage", choices=_STORAGES, default="mcap",
+             help="Storage identifier to be used, defaults to 'mcap'."),
+    argument("--topics", nargs="+", default=[], metavar="Topic",
+             help="Space-delimited list of topics to record."),
+    argument("--topic-types", nargs="+", default=[], metavar="TopicType",
+             help="Space-delimited list of topic types to record."),
+    flag("-a", "--all", help="Record all topics (Exclude hidden topic)."),
+    flag("--all-topics", help="Record all topics (Exclude hidden topic)."),
+    *_patterns("Record"),
+    argument("--exclude-topic-types", nargs="+", default=[], metavar="ExcludeTopicTypes",
+             help="Space-delimited list of topic types not being recorded."),
+    flag("--include-unpublished-topics",
+         help="Discover and record topics which have no publisher."),
+    flag("--include-hidden-topics", help="Discover and record hidden topics as well."),
+    flag("--no-discovery", help="Only topics present at startup will be recorded."),
+    argument("-p", "--polling-interval", type=int, default=100,
+             help="Time in ms to wait between querying available topics for recording."),
+    flag("--ignore-leaf-topics", help="Ignore topics without a subscription."),
+    argument("-f", "--serialization-format", choices=["cdr"],
+             help="The rmw serialization format in which the messages are saved"),
+    flag("--use-sim-time",
+         help="Use simulation time for message timestamps by subscribing to the /clock topic. "
+         "Until first /clock message is received, no messages will be written to bag."),
+    argument("--node-name", default="rosbag2_recorder", help="Specify the recorder node name."),
+    _LOG_LEVEL,
+    flag("--disable-keyboard-controls", help=_NO_EFFECT),
+    argument("--max-cache-size", type=int, help=_NO_EFFECT),
+    leave_out(_TOPICS_ONLY, "--services", "--all-services", "--exclude-services"),
+    leave_out(_KEYBOARD, "--start-paused", "--snapshot-mode"),
+    leave_out(_OVERRIDES, "--qos-profile-overrides-path"),
+    leave_out(_ONE_FILE, "-b,--max-bag-size", "-d,--max-bag-duration", "--custom-data",
+              "--storage-config-file", "--storage-preset-profile", "--compression-mode",
+              "--compression-format", "--compression-queue-size", "--compression-threads",
+              "--compression-threads-priority"),
+)  # fmt: skip
+_PLAY = (
+    *_BAG,
+    argument("-r", "--rate", type=_positive, default=1.0,
+             help="rate at which to play back messages."),
+    argument("--topics", nargs="+", default=[], metavar="Topic",
+             help="topics to replay. If none specified, all topics will be replayed."),
+    *_patterns("Play", "-x"),
+    flag("-l", "--loop",
+         help="start back at the beginning on reaching the end, and play indefinitely."),
+    argument("-m", "--remap", nargs="+", default=[], metavar="OLD:=NEW",
+             help="list of topics to be remapped"),
+    argument("--clock", type=_positive, nargs="?", const=40.0, metavar="HZ",
+             help="Publish to /clock at a specific frequency in Hz (default: 40)."),
+    argument("-d", "--delay", type=_positive, default=0.0,
+             help="Sleep duration before play (each loop), in seconds."),
+    argument("--playback-duration", type=float, default=float("inf"),
+             help="Playback duration, in seconds of the recording."),
+    argument("--start-offset", type=float, default=0.0,
+             help="Start the playback this many seconds into the bag file."),
+    argument("--wait-for-all-acked", type=int, default=500, metavar="MS",
+             help="Wait until all published messages are acknowledged by all subscribers, or so "
+             "many milliseconds; 0 waits for ever."),
+    _LOG_LEVEL,
+    argument("--read-ahead-queue-size", type=int, help=_NO_EFFECT),
+    flag("--disable-keyboard-controls", help=_NO_EFFECT),
+    flag("--disable-loan-message", help=_NO_EFFECT),
+    leave_out(_TOPICS_ONLY, "--services", "--exclude-services",
+              "--publish-service-requests", "--service-requests-source"),
+    leave_out(_KEYBOARD, "-p,--start-paused"),
+    leave_out(_OVERRIDES, "--qos-profile-overrides-path"),
+    leave_out(_ONE_FILE, "--storage-config-file"),
+    leave_out("use --clock HZ.", "--clock-topics", "--clock-topics-all"),
+    leave_out("use --playback-duration SECONDS.", "--playback-until-sec",
+              "--playback-until-nsec"),
+)  # fmt: skip
 VERBS = {
-    "info": Verb(_add_info, _info),
-    "play": Verb(_add_play, _play),
-    "record": Verb(_add_record, _record),
+    "info": Verb(
+        _info,
+        *_BAG,
+        flag("-t", "--topic-name", help="Only display topic names."),
+        flag("-v", "--verbose", help=f"Display information for services {_NO_EFFECT}"),
+    ),
+    "play": Verb(_play, *_PLAY),
+    "record": Verb(_record, *_RECORD),
 }

@@ -37,29 +37,6 @@ def _main(args: Namespace) -> None:
         print(_BASH, end="")
 
 
-#: What the arguments of a verb are, in order.
-_ARGUMENTS: dict[tuple[str, str | None], tuple[str, ...]] = {
-    ("run", None): ("package", "executable"),
-    **{("pkg", verb): ("package",) for verb in ("executables", "prefix", "xml")},
-    **{("topic", verb): ("topic",) for verb in ("bw", "delay", "hz", "info", "type")},
-    ("topic", "echo"): ("topic", "msg"),
-    ("topic", "pub"): ("topic", "msg"),
-    ("topic", "find"): ("msg",),
-    ("node", "info"): ("node",),
-    **{("param", verb): ("node",) for verb in ("dump", "list", "load")},
-    **{("param", verb): ("node", "parameter") for verb in ("delete", "describe", "get", "set")},
-    **{("service", verb): ("service", "srv") for verb in ("call", "echo")},
-    **{("service", verb): ("service",) for verb in ("info", "type")},
-    ("service", "find"): ("srv",),
-    **{("action", verb): ("action",) for verb in ("info", "type")},
-    ("action", "send_goal"): ("action", "goal"),
-    ("bag", "record"): ("topic",),
-    ("interface", "show"): ("type",),
-    ("interface", "proto"): ("type",),
-    ("interface", "package"): ("package",),
-}
-
-
 def candidates(words: Sequence[str]) -> list[str]:
     """Return the words that could stand in the place of the last one.
 
@@ -78,25 +55,31 @@ def candidates(words: Sequence[str]) -> list[str]:
 def _next(words: list[str]) -> list[str]:
     if not words:
         return list(COMMANDS)
-    command = words[0]
-    if command not in COMMANDS:
+    if words[0] not in COMMANDS:
         return []
-    verbs = COMMANDS[command].verbs
+    verbs = COMMANDS[words[0]].verbs
     if verbs and len(words) == 1:
         return list(verbs)
-    key, given = ((command, words[1]), words[2:]) if verbs else ((command, None), words[1:])
-    wanted = _ARGUMENTS.get(key, ())
-    return _SOURCES[wanted[len(given)]](given) if len(given) < len(wanted) else []
+    given = words[2:] if verbs else words[1:]
+    arguments = [one.dest for one in _parser_of(words)._actions if not one.option_strings]
+    if len(given) >= len(arguments) or words[:2] == ["pkg", "create"]:  # which wants a new name
+        return []
+    source = _SOURCES.get(arguments[len(given)])
+    return source(given) if source else []
 
 
 def _options(words: list[str]) -> list[str]:
-    parser = build(words)
-    plain = [word for word in words if not word.startswith("-")]
-    for word in plain[:2]:
+    return list(_parser_of(words)._option_string_actions)
+
+
+def _parser_of(words: list[str]) -> ArgumentParser:
+    """Return the parser of the command or verb that the words begin with."""
+    parser: ArgumentParser = build(words)
+    for word in [word for word in words if not word.startswith("-")][:2]:
         group = parser._subparsers
         choices = group._group_actions[0].choices if group is not None else {}
-        parser = choices.get(word, parser)  # type: ignore[union-attr]
-    return list(parser._option_string_actions)
+        parser = choices.get(word, parser)  # type: ignore[union-attr] # parsers by their names
+    return parser
 
 
 def _packages(given: list[str]) -> list[str]:
@@ -149,19 +132,23 @@ def _parameters(given: list[str]) -> list[str]:
         return RemoteParameters(graph, absolute(given[0])).names()
 
 
+#: Where the values of an argument come from, by its name.
 _SOURCES: dict[str, Callable[[list[str]], list[str]]] = {
-    "package": _packages,
-    "executable": _executables,
-    "msg": _interfaces("msg"),
-    "srv": _interfaces("srv"),
-    "goal": _interfaces("action"),
+    "package_name": _packages,
+    "executable_name": _executables,
+    "message_type": _interfaces("msg"),
+    "topic_type": _interfaces("msg"),
+    "service_type": _interfaces("srv"),
+    "action_type": _interfaces("action"),
     "type": _interfaces(None),
-    "topic": _from_graph("topic"),
-    "node": _from_graph("node"),
-    "service": _from_graph("service"),
-    "action": _from_graph("action"),
-    "parameter": _parameters,
+    "topic_name": _from_graph("topic"),
+    "topics_positional": _from_graph("topic"),
+    "node_name": _from_graph("node"),
+    "service_name": _from_graph("service"),
+    "action_name": _from_graph("action"),
+    "parameter_name": _parameters,
+    "parameter_names": _parameters,
 }
 
 
-VERBS = {"": Verb(_add_arguments, _main)}
+VERBS = {"": Verb(_main, _add_arguments)}

@@ -6,14 +6,14 @@ import os
 import platform
 import socket
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ros2_command.graph import PROFILE_VARIABLE, Graph, open_graph
 from ros2_command.names import is_hidden
-from ros2_command.registry import Verb
+from ros2_command.registry import Verb, flag, one_of
 
 Rows = list[tuple[str, str]]
 #: Topics that every node has, whether anybody listens or not.
@@ -110,17 +110,6 @@ def compatibility_rows(graph: Graph) -> list[tuple[str, str]]:
     return rows or [("compatibility status", "No publisher/subscriber pairs found")]
 
 
-def _add_arguments(parser: ArgumentParser) -> None:
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument("--report", "-r", action="store_true", help="Print all reports.")
-    group.add_argument("--report-failed", "-rf", action="store_true",
-                       help="Print reports of failed checks only.")  # fmt: skip
-    parser.add_argument("--exclude-packages", "-ep", action="store_true",
-                        help="Exclude package checks (here: there are none).")  # fmt: skip
-    parser.add_argument("--include-warnings", "-iw", action="store_true",
-                        help="Include warnings as failed checks.")  # fmt: skip
-
-
 def _main(args: Namespace) -> int:
     with open_graph() as graph:
         graph.settle()
@@ -195,4 +184,14 @@ def _sections(graph: Graph) -> list[tuple[str, Rows]]:
     ]  # fmt: skip
 
 
-VERBS = {"": Verb(_add_arguments, _main)}
+VERBS = {
+    "": Verb(
+        _main,
+        one_of(
+            flag("--report", "-r", help="Print all reports."),
+            flag("--report-failed", "-rf", help="Print reports of failed checks only."),
+        ),
+        flag("--exclude-packages", "-ep", help="Exclude package checks (here: there are none)."),
+        flag("--include-warnings", "-iw", help="Include warnings as failed checks."),
+    )
+}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from typing import Any
 
 from ros2_command.definitions import (
@@ -15,18 +15,7 @@ from ros2_command.definitions import (
 )
 from ros2_command.errors import CommandError, UsageError
 from ros2_command.packages import package_prefix
-from ros2_command.registry import Verb
-
-_OPTIONS = {"msg": ("-m", "msgs", "messages"), "srv": ("-s", "srvs", "services"),
-            "action": ("-a", "actions", "actions")}  # fmt: skip
-
-
-def _add_kinds(parser: ArgumentParser) -> None:
-    for kind, (short, word, title) in _OPTIONS.items():
-        parser.add_argument(
-            short, f"--only-{word}", action="append_const", dest="kinds", const=kind,
-            help=f"Print out only {title}",
-        )  # fmt: skip
+from ros2_command.registry import Verb, argument, flag, one_of
 
 
 def _kinds(args: Namespace) -> list[str]:
@@ -43,11 +32,6 @@ def _list(args: Namespace) -> None:
                 print(f"    {one.name}")
 
 
-def _add_package(parser: ArgumentParser) -> None:
-    parser.add_argument("package_name", help="Name of the ROS package (e.g. 'example_interfaces')")
-    _add_kinds(parser)
-
-
 def _package(args: Namespace) -> None:
     name = args.package_name
     for one in package_interfaces(name, package_prefix(name, "Unknown package '{}'")):
@@ -58,12 +42,6 @@ def _package(args: Namespace) -> None:
 def _packages(args: Namespace) -> None:
     for name in sorted({one.package for one in all_interfaces() if one.kind in _kinds(args)}):
         print(name)
-
-
-def _add_proto(parser: ArgumentParser) -> None:
-    parser.add_argument("--no-quotes", action="store_true",
-                        help="if true output has no outer quotes.")  # fmt: skip
-    parser.add_argument("type", help="Show an interface prototype (e.g. 'std_msgs/msg/String')")
 
 
 def _proto(args: Namespace) -> None:
@@ -82,16 +60,6 @@ def _proto(args: Namespace) -> None:
     print(text if args.no_quotes else f'"{text}"')
 
 
-def _add_show(parser: ArgumentParser) -> None:
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument("--all-comments", action="store_true",
-                       help="Show all comments, including for nested types")  # fmt: skip
-    group.add_argument("--no-comments", action="store_true",
-                       help="Show no comments or whitespace")  # fmt: skip
-    parser.add_argument("type", help="Show an interface definition (e.g. 'std_msgs/msg/String'); "
-                        "'-' reads the type from standard input")  # fmt: skip
-
-
 def _show(args: Namespace) -> None:
     name = sys.stdin.readline().strip() if args.type == "-" else args.type
     if not name:
@@ -101,10 +69,34 @@ def _show(args: Namespace) -> None:
         print(line)
 
 
+_ONLY = [
+    argument(short, f"--only-{word}", action="append_const", dest="kinds", const=kind,
+             help=f"Print out only {title}")
+    for kind, short, word, title in (
+        ("msg", "-m", "msgs", "messages"), ("srv", "-s", "srvs", "services"),
+        ("action", "-a", "actions", "actions"),
+    )
+]  # fmt: skip
 VERBS = {
-    "list": Verb(_add_kinds, _list),
-    "package": Verb(_add_package, _package),
-    "packages": Verb(_add_kinds, _packages),
-    "proto": Verb(_add_proto, _proto),
-    "show": Verb(_add_show, _show),
-}
+    "list": Verb(_list, *_ONLY),
+    "package": Verb(
+        _package,
+        argument("package_name", help="Name of the ROS package (e.g. 'example_interfaces')"),
+        *_ONLY,
+    ),
+    "packages": Verb(_packages, *_ONLY),
+    "proto": Verb(
+        _proto,
+        flag("--no-quotes", help="if true output has no outer quotes."),
+        argument("type", help="Show an interface prototype (e.g. 'std_msgs/msg/String')"),
+    ),
+    "show": Verb(
+        _show,
+        one_of(
+            flag("--all-comments", help="Show all comments, including for nested types"),
+            flag("--no-comments", help="Show no comments or whitespace"),
+        ),
+        argument("type", help="Show an interface definition (e.g. 'std_msgs/msg/String'); "
+                 "'-' reads the type from standard input"),
+    ),
+}  # fmt: skip

@@ -3,26 +3,17 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from typing import Any
 
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
 from ros2_command.lookup import Entries, find_node, visible
-from ros2_command.registry import Verb
+from ros2_command.registry import Verb, argument, flag
 
 SHARED_NAME = (
     "WARNING: Be aware that there are nodes in the graph that share an exact name, "
     "which can have unintended side effects."
 )
-
-
-def _add_list(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument(
-        "-a", "--all", action="store_true", help="Display all nodes even hidden ones"
-    )
-    parser.add_argument("-c", "--count-nodes", action="store_true",
-                        help="Only display the number of nodes discovered")  # fmt: skip
 
 
 def _list(args: Namespace) -> None:
@@ -35,15 +26,6 @@ def _list(args: Namespace) -> None:
         print(SHARED_NAME, file=sys.stderr)
     for name in names:
         print(name)
-
-
-def _add_info(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument("node_name", help="Node name to request information")
-    parser.add_argument(
-        "--include-hidden", action="store_true",
-        help="Display hidden topics, services, and actions as well",
-    )  # fmt: skip
 
 
 def _info(args: Namespace) -> None:
@@ -87,4 +69,17 @@ def _ask(graph: Graph, full: str) -> dict[str, Entries]:
     }
 
 
-VERBS = {"info": Verb(_add_info, _info), "list": Verb(_add_list, _list)}
+VERBS = {
+    "info": Verb(
+        _info,
+        add_graph_arguments,
+        argument("node_name", help="Node name to request information"),
+        flag("--include-hidden", help="Display hidden topics, services, and actions as well"),
+    ),
+    "list": Verb(
+        _list,
+        add_graph_arguments,
+        flag("-a", "--all", help="Display all nodes even hidden ones"),
+        flag("-c", "--count-nodes", help="Only display the number of nodes discovered"),
+    ),
+}  # fmt: skip

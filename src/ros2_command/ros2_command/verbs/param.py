@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -12,7 +12,7 @@ from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
 from ros2_command.lookup import find_node
 from ros2_command.names import absolute, did_you_mean
-from ros2_command.registry import Verb
+from ros2_command.registry import Verb, argument, flag
 from ros2_command.untyped import Untyped
 from ros2_command.verbs.service import ask
 
@@ -31,28 +31,6 @@ KINDS = (
     ("double array", "double_array_value"),
     ("string array", "string_array_value"),
 )
-
-
-def _add_node(parser: ArgumentParser) -> None:
-    """Add the arguments of the verbs that ask one node."""
-    add_graph_arguments(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
-    _add_hidden(parser)
-    parser.add_argument(
-        "--timeout", metavar="N", type=int, default=1,
-        help="Wait for N seconds until node becomes available (default 1 seconds)",
-    )  # fmt: skip
-
-
-def _add_hidden(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well"
-    )
-
-
-def _add_name(parser: ArgumentParser) -> None:
-    _add_node(parser)
-    parser.add_argument("parameter_name", help="Name of the parameter")
 
 
 class RemoteParameters:
@@ -135,11 +113,6 @@ def plain_value(value: Untyped) -> Untyped:
     return list(plain) if hasattr(plain, "__len__") and not isinstance(plain, str) else plain
 
 
-def _add_get(parser: ArgumentParser) -> None:
-    _add_name(parser)
-    parser.add_argument("--hide-type", action="store_true", help="Hide the type information")
-
-
 def _get(args: Namespace) -> None:
     with open_graph(args) as graph:
         node = open_node(graph, args)
@@ -157,11 +130,6 @@ def _get(args: Namespace) -> None:
         print(f"{kind.removesuffix(' array')} values are: {value}")
     else:
         print(f"{kind} value is: {value}")
-
-
-def _add_set(parser: ArgumentParser) -> None:
-    _add_name(parser)
-    parser.add_argument("value", help="Value of the parameter")
 
 
 def _set(args: Namespace) -> None:
@@ -207,11 +175,6 @@ def _delete(args: Namespace) -> None:
     print("Deleted parameter successfully")
 
 
-def _add_describe(parser: ArgumentParser) -> None:
-    _add_node(parser)
-    parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
-
-
 def _describe(args: Namespace) -> None:
     with open_graph(args) as graph:
         node = open_node(graph, args)
@@ -238,16 +201,6 @@ def _description(about: Untyped) -> list[str]:
         lines += [f"    Step: {one.step}"] if one.step else []
     extra = about.additional_constraints
     return lines + ([f"    Additional constraints: {extra}"] if extra else [])
-
-
-def _add_list(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument("node_name", nargs="?", help="Name of the ROS node")
-    _add_hidden(parser)
-    parser.add_argument("--param-prefixes", nargs="+", default=[],
-                        help="Only list parameters with the provided prefixes")  # fmt: skip
-    parser.add_argument("--param-type", action="store_true", help="Print parameter types")
-    parser.add_argument("--filter", help="Only list parameters matching the provided regex")
 
 
 def _list(args: Namespace) -> None:
@@ -312,15 +265,6 @@ def nested(parameters: dict[str, Any]) -> dict[str, Any]:
             place = inner
         place[last] = value
     return tree
-
-
-def _add_load(parser: ArgumentParser) -> None:
-    _add_node(parser)
-    parser.add_argument("parameter_file", help="Parameter file")
-    parser.add_argument(
-        "--no-use-wildcard", action="store_true",
-        help="Do not load parameters in the '/**' namespace into the node",
-    )  # fmt: skip
 
 
 def _load(args: Namespace) -> None:
@@ -397,12 +341,38 @@ def _parameter(name: str, value: Untyped) -> Untyped:
         ) from None
 
 
+_HIDDEN = flag("--include-hidden-nodes", help="Consider hidden nodes as well")
+_NODE = (
+    add_graph_arguments,
+    argument("node_name", help="Name of the ROS node"),
+    _HIDDEN,
+    argument("--timeout", metavar="N", type=int, default=1,
+             help="Wait for N seconds until node becomes available (default 1 seconds)"),
+)  # fmt: skip
+_PARAMETER = (*_NODE, argument("parameter_name", help="Name of the parameter"))
 VERBS = {
-    "delete": Verb(_add_name, _delete),
-    "describe": Verb(_add_describe, _describe),
-    "dump": Verb(_add_node, _dump),
-    "get": Verb(_add_get, _get),
-    "list": Verb(_add_list, _list),
-    "load": Verb(_add_load, _load),
-    "set": Verb(_add_set, _set),
-}
+    "delete": Verb(_delete, *_PARAMETER),
+    "describe": Verb(
+        _describe, *_NODE, argument("parameter_names", nargs="+", help="Names of the parameters")
+    ),
+    "dump": Verb(_dump, *_NODE),
+    "get": Verb(_get, *_PARAMETER, flag("--hide-type", help="Hide the type information")),
+    "list": Verb(
+        _list,
+        add_graph_arguments,
+        argument("node_name", nargs="?", help="Name of the ROS node"),
+        _HIDDEN,
+        argument("--param-prefixes", nargs="+", default=[],
+                 help="Only list parameters with the provided prefixes"),
+        flag("--param-type", help="Print parameter types"),
+        argument("--filter", help="Only list parameters matching the provided regex"),
+    ),
+    "load": Verb(
+        _load,
+        *_NODE,
+        argument("parameter_file", help="Parameter file"),
+        flag("--no-use-wildcard",
+             help="Do not load parameters in the '/**' namespace into the node"),
+    ),
+    "set": Verb(_set, *_PARAMETER, argument("value", help="Value of the parameter")),
+}  # fmt: skip

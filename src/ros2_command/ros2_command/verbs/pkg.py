@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ros2_command.errors import CommandError
 from ros2_command.names import did_you_mean
 from ros2_command.packages import all_packages, executables, package_prefix
-from ros2_command.registry import Verb
+from ros2_command.registry import Verb, argument, flag
 
 if TYPE_CHECKING:
     from xml.etree import ElementTree
@@ -21,13 +21,6 @@ def _list(args: Namespace) -> None:
         print(name)
 
 
-def _add_executables(parser: ArgumentParser) -> None:
-    parser.add_argument("package_name", nargs="?", help="The package name")
-    parser.add_argument(
-        "--full-path", action="store_true", help="Show full path of each executable"
-    )
-
-
 def _executables(args: Namespace) -> None:
     name = args.package_name
     packages = all_packages() if name is None else {name: package_prefix(name)}
@@ -36,19 +29,9 @@ def _executables(args: Namespace) -> None:
             print(path if args.full_path else f"{package} {path.name}")
 
 
-def _add_prefix(parser: ArgumentParser) -> None:
-    parser.add_argument("package_name", help="The package name")
-    parser.add_argument("--share", action="store_true", help="Show share directory of the package")
-
-
 def _prefix(args: Namespace) -> None:
     prefix = package_prefix(args.package_name, "Package not found")
     print(prefix / "share" / args.package_name if args.share else prefix)
-
-
-def _add_xml(parser: ArgumentParser) -> None:
-    parser.add_argument("package_name", help="The package name")
-    parser.add_argument("-t", "--tag", help="The XML tag to output, e.g. 'version'")
 
 
 def _xml(args: Namespace) -> None:
@@ -86,38 +69,46 @@ def read_manifest(path: Path) -> tuple[str, ElementTree.Element]:
     return (found[0] if found else data.strip()), root
 
 
-def _add_create(parser: ArgumentParser) -> None:
-    add = parser.add_argument
-    add("package_name", help="The package name")
-    add("--package-format", "--package_format", type=int, default=3, choices=[2, 3],
-        help="The package.xml format.")  # fmt: skip
-    add("--description", default="TODO: Package description",
-        help="The description given in the package.xml")  # fmt: skip
-    add("--license", default="TODO: License declaration",
-        help="The license attached to this package; this can be an arbitrary string, but a "
-        "LICENSE file will only be generated if it is one of the supported licenses "
-        "(pass '?' to get a list)")  # fmt: skip
-    add("--destination-directory", default=os.curdir,
-        help="Directory where to create the package directory")  # fmt: skip
-    add("--build-type", default="ament_cmake", choices=["cmake", "ament_cmake", "ament_python"],
-        help="The build type to process the package with (here: ament_python)")  # fmt: skip
-    add("--dependencies", nargs="+", default=[], help="list of dependencies")
-    add("--maintainer-email", help="email address of the maintainer of this package")
-    add("--maintainer-name", help="name of the maintainer of this package")
-    add("--node-name", help="name of the empty executable")
-    add("--library-name", help="name of the empty library")
-
-
 def _create(args: Namespace) -> None:
     from ros2_command.package_creation import create
 
     create(args)
 
 
+_NAME = argument("package_name", help="The package name")
 VERBS = {
-    "create": Verb(_add_create, _create),
-    "executables": Verb(_add_executables, _executables),
-    "list": Verb(lambda parser: None, _list),
-    "prefix": Verb(_add_prefix, _prefix),
-    "xml": Verb(_add_xml, _xml),
-}
+    "create": Verb(
+        _create,
+        _NAME,
+        argument("--package-format", "--package_format", type=int, default=3, choices=[2, 3],
+                 help="The package.xml format."),
+        argument("--description", default="TODO: Package description",
+                 help="The description given in the package.xml"),
+        argument("--license", default="TODO: License declaration",
+                 help="The license attached to this package; this can be an arbitrary string, but "
+                 "a LICENSE file will only be generated if it is one of the supported licenses "
+                 "(pass '?' to get a list)"),
+        argument("--destination-directory", default=os.curdir,
+                 help="Directory where to create the package directory"),
+        argument("--build-type", default="ament_cmake",
+                 choices=["cmake", "ament_cmake", "ament_python"],
+                 help="The build type to process the package with (here: ament_python)"),
+        argument("--dependencies", nargs="+", default=[], help="list of dependencies"),
+        argument("--maintainer-email", help="email address of the maintainer of this package"),
+        argument("--maintainer-name", help="name of the maintainer of this package"),
+        argument("--node-name", help="name of the empty executable"),
+        argument("--library-name", help="name of the empty library"),
+    ),
+    "executables": Verb(
+        _executables,
+        argument("package_name", nargs="?", help="The package name"),
+        flag("--full-path", help="Show full path of each executable"),
+    ),
+    "list": Verb(_list),
+    "prefix": Verb(
+        _prefix, _NAME, flag("--share", help="Show share directory of the package")
+    ),
+    "xml": Verb(
+        _xml, _NAME, argument("-t", "--tag", help="The XML tag to output, e.g. 'version'")
+    ),
+}  # fmt: skip

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from argparse import REMAINDER, ArgumentParser, Namespace
+from argparse import REMAINDER, Namespace
 from collections.abc import Collection, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -17,7 +17,7 @@ from types import TracebackType
 from ros2_command.errors import CommandError
 from ros2_command.names import nearest
 from ros2_command.packages import executables, package_prefix
-from ros2_command.registry import Verb
+from ros2_command.registry import Verb, argument
 
 # Executables of one package are often called alike, and the other one is then not what was meant.
 _ONLY_A_SLIP = 0.85
@@ -27,18 +27,6 @@ PASSED_ON = frozenset({signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQ
 _FROM_KERNEL = 128  # SI_KERNEL: typed at a terminal, so every process in the foreground has it
 #: Seconds to wait for a signal that the whole group gets.
 _LATER = 0.2
-
-
-def _add_arguments(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--prefix",
-        help="Prefix command, which should go before the executable. "
-        "Command must be wrapped in quotes if it contains spaces "
-        "(e.g. --prefix 'gdb -ex run --args').",
-    )
-    parser.add_argument("package_name", help="Name of the ROS package")
-    parser.add_argument("executable_name", help="Name of the executable")
-    parser.add_argument("argv", nargs=REMAINDER, help="Pass arbitrary arguments to the executable")
 
 
 def _main(args: Namespace) -> int:
@@ -223,4 +211,14 @@ def _report(code: int) -> int:
     return code
 
 
-VERBS = {"": Verb(_add_arguments, _main)}
+VERBS = {
+    "": Verb(
+        _main,
+        argument("--prefix", help="Prefix command, which should go before the executable. Command "
+                 "must be wrapped in quotes if it contains spaces (e.g. --prefix 'gdb -ex run "
+                 "--args')."),
+        argument("package_name", help="Name of the ROS package"),
+        argument("executable_name", help="Name of the executable"),
+        argument("argv", nargs=REMAINDER, help="Pass arbitrary arguments to the executable"),
+    )
+}  # fmt: skip

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from argparse import SUPPRESS, ArgumentParser, Namespace
+from argparse import SUPPRESS, Namespace
+from functools import partial
 from typing import Any
 
 from ros2_command.errors import CommandError
@@ -13,8 +14,8 @@ from ros2_command.lookup import (
     full_type,
     of_type,
     pick,
-    service_class,
     show_entries,
+    type_class,
     visible,
     wait_for_server,
 )
@@ -28,18 +29,15 @@ from ros2_command.message_text import (
 from ros2_command.message_values import add_value_arguments, fill, read_yaml, value_text
 from ros2_command.names import absolute, check_name
 from ros2_command.qos import add_qos_arguments, asked_profile
-from ros2_command.registry import Verb
+from ros2_command.registry import Verb, argument, flag
 from ros2_command.untyped import Untyped
 
-
-def _add_count_and_hidden(parser: ArgumentParser) -> None:
-    parser.add_argument("-c", "--count-services", action="store_true",
-                        help="Only display the number of services discovered")  # fmt: skip
-    # Without a default, what stands before the verb counts, too.
-    parser.add_argument(
-        "--include-hidden-services", action="store_true", default=SUPPRESS,
-        help="Consider hidden services as well",
-    )  # fmt: skip
+_COUNT = flag("-c", "--count-services", help="Only display the number of services discovered")
+# Without a default, what stands before the verb counts, too.
+_HIDDEN = argument(
+    "--include-hidden-services", action="store_true", default=SUPPRESS,
+    help="Consider hidden services as well",
+)  # fmt: skip
 
 
 def _services(graph: Graph) -> Entries:
@@ -48,21 +46,10 @@ def _services(graph: Graph) -> Entries:
     return [one for one in graph.settle().services() if not one[0].startswith(own)]
 
 
-def _add_list(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument("-t", "--show-types", action="store_true",
-                        help="Additionally show the service type")  # fmt: skip
-    _add_count_and_hidden(parser)
-
-
 def _list(args: Namespace) -> None:
     with open_graph(args) as graph:
         found = visible(_services(graph), args.include_hidden_services)
     show_entries(found, args.count_services, args.show_types)
-
-
-def _add_type(parser: ArgumentParser) -> None:
-    parser.add_argument("service_name", help="Name of the ROS service to get type")
 
 
 def _type(args: Namespace) -> None:
@@ -72,26 +59,11 @@ def _type(args: Namespace) -> None:
     print("\n".join(types))
 
 
-def _add_find(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "service_type",
-        help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')",
-    )
-    _add_count_and_hidden(parser)
-
-
 def _find(args: Namespace) -> None:
     with open_graph() as graph:
         found = of_type(_services(graph), args.service_type, args.include_hidden_services)
     for line in [len(found)] if args.count_services else found:
         print(line)
-
-
-def _add_info(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument(
-        "service_name", help="Name of the ROS service to get info (e.g. '/add_two_ints')"
-    )
 
 
 def _info(args: Namespace) -> None:
@@ -104,19 +76,11 @@ def _info(args: Namespace) -> None:
     print("Services count:", servers)
 
 
-def _add_call(parser: ArgumentParser) -> None:
-    add = parser.add_argument
-    add("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')")
-    add("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")
-    add_value_arguments(parser, "values", "Values to fill the service request with in YAML format")
-    add("-r", "--rate", metavar="N", type=float, help="Repeat the call at a specific rate in Hz")
-
-
 def _call(args: Namespace) -> None:
     if args.rate is not None and not args.rate > 0:
         raise CommandError("rate must be greater than zero")
     check_name("service", args.service_name)
-    kind = service_class(args.service_type)
+    kind = type_class(args.service_type, "srv")
     request = kind.Request()
     stampers = fill(request, read_yaml(value_text(args.values, args.stdin)))
     with open_graph() as graph:
@@ -150,17 +114,6 @@ def ask(graph: Graph, client: Untyped, request: Untyped, seconds: float | None =
     return future.result()
 
 
-def _add_echo(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument(
-        "service_name", help="Name of the ROS service to echo (e.g. '/add_two_ints')"
-    )
-    parser.add_argument("service_type", nargs="?",
-                        help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")  # fmt: skip
-    add_qos_arguments(parser, "subscribe", "services_default")
-    add_style_arguments(parser)
-
-
 def _echo(args: Namespace) -> None:
     check_name("service", args.service_name)
     with open_graph(args) as graph:
@@ -170,7 +123,7 @@ def _echo(args: Namespace) -> None:
         if args.service_type is None:
             name, types = pick(args.service_name, services, complaint)
             args.service_type = types[0]
-        kind = service_class(args.service_type).Event
+        kind = type_class(args.service_type, "srv").Event
         topic, style = f"{name}/_service_event", style_of(args)
         if topic not in dict(graph.topics()):
             print(
@@ -195,10 +148,43 @@ def _echo(args: Namespace) -> None:
 _EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
 
 VERBS = {
-    "call": Verb(_add_call, _call),
-    "echo": Verb(_add_echo, _echo),
-    "find": Verb(_add_find, _find),
-    "info": Verb(_add_info, _info),
-    "list": Verb(_add_list, _list),
-    "type": Verb(_add_type, _type),
-}
+    "call": Verb(
+        _call,
+        argument("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')"),
+        argument("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"),
+        partial(add_value_arguments, name="values",
+                about="Values to fill the service request with in YAML format"),
+        argument("-r", "--rate", metavar="N", type=float,
+                 help="Repeat the call at a specific rate in Hz"),
+    ),
+    "echo": Verb(
+        _echo,
+        add_graph_arguments,
+        argument("service_name", help="Name of the ROS service to echo (e.g. '/add_two_ints')"),
+        argument("service_type", nargs="?",
+                 help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"),
+        partial(add_qos_arguments, entity="subscribe", profile="services_default"),
+        add_style_arguments,
+    ),
+    "find": Verb(
+        _find,
+        argument("service_type",
+                 help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')"),
+        _COUNT,
+        _HIDDEN,
+    ),
+    "info": Verb(
+        _info,
+        add_graph_arguments,
+        argument("service_name",
+                 help="Name of the ROS service to get info (e.g. '/add_two_ints')"),
+    ),
+    "list": Verb(
+        _list,
+        add_graph_arguments,
+        flag("-t", "--show-types", help="Additionally show the service type"),
+        _COUNT,
+        _HIDDEN,
+    ),
+    "type": Verb(_type, argument("service_name", help="Name of the ROS service to get type")),
+}  # fmt: skip

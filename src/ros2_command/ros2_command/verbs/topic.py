@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import sys
 import time
-from argparse import SUPPRESS, ArgumentParser, ArgumentTypeError, Namespace
+from argparse import SUPPRESS, ArgumentTypeError, Namespace
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from ros2_command.errors import CommandError
 from ros2_command.graph import Graph, add_graph_arguments, open_graph
 from ros2_command.lookup import (
     Entries,
-    message_class,
     of_type,
     pick,
     show_entries,
     show_types,
     suggestion,
     topic_class,
+    type_class,
     visible,
 )
 from ros2_command.message_text import (
@@ -33,31 +34,15 @@ from ros2_command.message_values import Stamper, add_value_arguments, fill, read
 from ros2_command.names import absolute, check_name, check_node_name, did_you_mean, is_hidden
 from ros2_command.qos import add_qos_arguments, asked_profile, follow_publishers
 from ros2_command.rates import Bandwidth, Delays, Rates
-from ros2_command.registry import Verb
+from ros2_command.registry import Argument, Verb, argument, flag, one_of
 from ros2_command.untyped import Untyped
 
-
-def _add_hidden(parser: ArgumentParser) -> None:
-    # Without a default, what stands before the verb counts, too.
-    parser.add_argument(
-        "--include-hidden-topics", action="store_true", default=SUPPRESS,
-        help="Consider hidden topics as well",
-    )  # fmt: skip
-
-
-def _add_count(parser: ArgumentParser) -> None:
-    parser.add_argument("-c", "--count-topics", action="store_true",
-                        help="Only display the number of topics discovered")  # fmt: skip
-
-
-def _add_list(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument("-t", "--show-types", action="store_true",
-                        help="Additionally show the topic type")  # fmt: skip
-    _add_count(parser)
-    _add_hidden(parser)
-    parser.add_argument("-v", "--verbose", action="store_true",
-                        help="List full details about each topic")  # fmt: skip
+# Without a default, what stands before the verb counts, too.
+_HIDDEN = argument(
+    "--include-hidden-topics", action="store_true", default=SUPPRESS,
+    help="Consider hidden topics as well",
+)  # fmt: skip
+_COUNT = flag("-c", "--count-topics", help="Only display the number of topics discovered")
 
 
 def _list(args: Namespace) -> None:
@@ -85,11 +70,6 @@ def _details(graph: Graph, topics: Entries) -> list[str]:
     return lines
 
 
-def _add_type(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')")
-
-
 def _type(args: Namespace) -> None:
     with open_graph(args) as graph:
         topics = graph.settle().topics()
@@ -102,32 +82,11 @@ def _type(args: Namespace) -> None:
     print("\n".join(types))
 
 
-def _add_find(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument(
-        "topic_type",
-        help="Name of the ROS topic type to filter for (e.g. 'std_msgs/msg/String')",
-    )
-    _add_count(parser)
-    _add_hidden(parser)
-
-
 def _find(args: Namespace) -> None:
     with open_graph(args) as graph:
         found = of_type(graph.settle().topics(), args.topic_type, args.include_hidden_topics)
     for line in [len(found)] if args.count_topics else found:
         print(line)
-
-
-def _add_info(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    parser.add_argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')")
-    parser.add_argument(
-        "-v", "--verbose", action="store_true",
-        help="Prints detailed information like the node name, node namespace, topic type, "
-        "topic type hash, topic endpoint type, GID and QoS Profile of the publishers and "
-        "subscribers to this topic",
-    )  # fmt: skip
 
 
 def _info(args: Namespace) -> None:
@@ -196,23 +155,6 @@ def compile_filter(text: str | None) -> Callable[[Any], bool]:
             raise CommandError(f"--filter {text!r} failed: {error}") from None
 
     return holds
-
-
-def _add_echo(parser: ArgumentParser) -> None:
-    add_graph_arguments(parser)
-    add = parser.add_argument
-    add("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
-    add("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
-    add_qos_arguments(parser, "subscribe", "sensor_data")
-    add("--field", help="Echo a selected field of a message (e.g. 'pose.pose')")
-    add_style_arguments(parser)
-    add("--no-lost-messages", action="store_true", help="Don't report when a message is lost")
-    add("--raw", action="store_true", help="Echo the raw binary representation")
-    add("--filter", metavar="FILTER", dest="filter_expr",
-        help="Python expression that selects messages ('m': the message or its field)")  # fmt: skip
-    add("--once", action="store_true", help="Print the first message received and then exit.")
-    add("--timeout", metavar="N", type=float, help="Set a timeout in seconds for waiting")
-    add("-i", "--include-message-info", action="store_true", help="Shows the associated info")
 
 
 def _echo(args: Namespace) -> None:
@@ -311,13 +253,16 @@ def _positive(text: str) -> int:
     return int(text)
 
 
-def _add_measuring(parser: ArgumentParser, about: str, window: int) -> None:
-    parser.add_argument("topic_name", help=about)
-    parser.add_argument(
-        "--window", "-w", type=_positive, default=window, metavar="WINDOW",
-        help=f"window size, in # of messages, for calculating rate (default: {window})",
+def _measured(about: str, window: int) -> tuple[Argument, ...]:
+    """Return the arguments of the verbs that measure a topic."""
+    return (
+        argument("topic_name", help=about),
+        argument(
+            "--window", "-w", type=_positive, default=window, metavar="WINDOW",
+            help=f"window size, in # of messages, for calculating rate (default: {window})",
+        ),
+        partial(add_graph_arguments, daemon=False),
     )  # fmt: skip
-    add_graph_arguments(parser, daemon=False)
 
 
 def _known_class(graph: Graph, topic: str) -> Untyped:
@@ -343,13 +288,6 @@ def _measure(graph: Graph, report: Callable[[], str | None]) -> None:
             print(text)
 
 
-def _add_hz(parser: ArgumentParser) -> None:
-    _add_measuring(parser, "Name of the ROS topic to listen to (e.g. '/chatter')", 10000)
-    parser.add_argument("--filter", dest="filter_expr", metavar="EXPR",
-                        help="only measure messages matching this Python expression")  # fmt: skip
-    parser.add_argument("--wall-time", action="store_true", help="calculates rate using wall time")
-
-
 def _hz(args: Namespace) -> None:
     wanted = compile_filter(args.filter_expr)
     rates = Rates(args.window)
@@ -365,10 +303,6 @@ def _hz(args: Namespace) -> None:
         _measure(graph, rates.report)
 
 
-def _add_bw(parser: ArgumentParser) -> None:
-    _add_measuring(parser, "Topic name to monitor for bandwidth utilization", 100)
-
-
 def _bw(args: Namespace) -> None:
     bandwidth = Bandwidth(args.window)
     with open_graph(args) as graph:
@@ -381,10 +315,6 @@ def _bw(args: Namespace) -> None:
         subscribe(graph, args.topic_name, kind, note, raw=True)
         print(f"Subscribed to [{args.topic_name}]")
         _measure(graph, lambda: bandwidth.report(clock()))
-
-
-def _add_delay(parser: ArgumentParser) -> None:
-    _add_measuring(parser, "Topic name to calculate the delay for", 10000)
 
 
 def _delay(args: Namespace) -> None:
@@ -423,36 +353,11 @@ def nonnegative_int(text: str) -> int:
     return value
 
 
-def _add_pub(parser: ArgumentParser) -> None:
-    add = parser.add_argument
-    add("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')")
-    add("message_type", help="Type of the ROS message (e.g. 'std_msgs/String')")
-    add_value_arguments(parser, "values", "Values to fill the message with in YAML format")
-    add("-r", "--rate", metavar="N", type=_positive_float, default=1.0,
-        help="Publishing rate in Hz (default: 1)")  # fmt: skip
-    add("-p", "--print", metavar="N", type=int, default=1, dest="print_every",
-        help="Only print every N-th published message (default: 1)")  # fmt: skip
-    times = parser.add_mutually_exclusive_group()
-    times.add_argument("-1", "--once", action="store_true", help="Publish one message and exit")
-    times.add_argument("-t", "--times", type=nonnegative_int, default=0,
-                       help="Publish this number of times and then exit")  # fmt: skip
-    add("-w", "--wait-matching-subscriptions", type=nonnegative_int,
-        help="Wait until finding the specified number of matching subscriptions. "
-        "(default: 1 with --once or --times, else 0)")  # fmt: skip
-    add("--max-wait-time-secs", type=_positive_float,
-        help="Maximum seconds to wait for matching subscriptions")  # fmt: skip
-    add("--keep-alive", metavar="N", type=float, default=0.1,
-        help="Keep the node alive for N seconds after the last message (default: 0.1)")  # fmt: skip
-    add("-n", "--node-name", help="Name of the created publishing node")
-    add_qos_arguments(parser, "publish", "default")
-    add_graph_arguments(parser, daemon=False)
-
-
 def _pub(args: Namespace) -> None:
     check_name("topic", args.topic_name)
     if args.node_name is not None:
         check_node_name(args.node_name)
-    kind = message_class(args.message_type)
+    kind = type_class(args.message_type, "msg")
     values = read_yaml(value_text(args.values, args.stdin))
     if not isinstance(values, dict):
         raise CommandError("The passed value needs to be a dictionary in YAML format")
@@ -530,13 +435,87 @@ def _publish(
 
 
 VERBS = {
-    "bw": Verb(_add_bw, _bw),
-    "delay": Verb(_add_delay, _delay),
-    "echo": Verb(_add_echo, _echo),
-    "find": Verb(_add_find, _find),
-    "hz": Verb(_add_hz, _hz),
-    "info": Verb(_add_info, _info),
-    "list": Verb(_add_list, _list),
-    "pub": Verb(_add_pub, _pub),
-    "type": Verb(_add_type, _type),
-}
+    "bw": Verb(_bw, *_measured("Topic name to monitor for bandwidth utilization", 100)),
+    "delay": Verb(_delay, *_measured("Topic name to calculate the delay for", 10000)),
+    "echo": Verb(
+        _echo,
+        add_graph_arguments,
+        argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')"),
+        argument("message_type", nargs="?",
+                 help="Type of the ROS message (e.g. 'std_msgs/msg/String')"),
+        partial(add_qos_arguments, entity="subscribe", profile="sensor_data"),
+        argument("--field", help="Echo a selected field of a message (e.g. 'pose.pose')"),
+        add_style_arguments,
+        flag("--no-lost-messages", help="Don't report when a message is lost"),
+        flag("--raw", help="Echo the raw binary representation"),
+        argument("--filter", metavar="FILTER", dest="filter_expr",
+                 help="Python expression that selects messages ('m': the message or its field)"),
+        flag("--once", help="Print the first message received and then exit."),
+        argument("--timeout", metavar="N", type=float,
+                 help="Set a timeout in seconds for waiting"),
+        flag("-i", "--include-message-info", help="Shows the associated info"),
+    ),
+    "find": Verb(
+        _find,
+        add_graph_arguments,
+        argument("topic_type",
+                 help="Name of the ROS topic type to filter for (e.g. 'std_msgs/msg/String')"),
+        _COUNT,
+        _HIDDEN,
+    ),
+    "hz": Verb(
+        _hz,
+        *_measured("Name of the ROS topic to listen to (e.g. '/chatter')", 10000),
+        argument("--filter", dest="filter_expr", metavar="EXPR",
+                 help="only measure messages matching this Python expression"),
+        flag("--wall-time", help="calculates rate using wall time"),
+    ),
+    "info": Verb(
+        _info,
+        add_graph_arguments,
+        argument("topic_name", help="Name of the ROS topic to get info (e.g. '/chatter')"),
+        flag("-v", "--verbose",
+             help="Prints detailed information like the node name, node namespace, topic type, "
+             "topic type hash, topic endpoint type, GID and QoS Profile of the publishers and "
+             "subscribers to this topic"),
+    ),
+    "list": Verb(
+        _list,
+        add_graph_arguments,
+        flag("-t", "--show-types", help="Additionally show the topic type"),
+        _COUNT,
+        _HIDDEN,
+        flag("-v", "--verbose", help="List full details about each topic"),
+    ),
+    "pub": Verb(
+        _pub,
+        argument("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')"),
+        argument("message_type", help="Type of the ROS message (e.g. 'std_msgs/String')"),
+        partial(add_value_arguments, name="values",
+                about="Values to fill the message with in YAML format"),
+        argument("-r", "--rate", metavar="N", type=_positive_float, default=1.0,
+                 help="Publishing rate in Hz (default: 1)"),
+        argument("-p", "--print", metavar="N", type=int, default=1, dest="print_every",
+                 help="Only print every N-th published message (default: 1)"),
+        one_of(
+            flag("-1", "--once", help="Publish one message and exit"),
+            argument("-t", "--times", type=nonnegative_int, default=0,
+                     help="Publish this number of times and then exit"),
+        ),
+        argument("-w", "--wait-matching-subscriptions", type=nonnegative_int,
+                 help="Wait until finding the specified number of matching subscriptions. "
+                 "(default: 1 with --once or --times, else 0)"),
+        argument("--max-wait-time-secs", type=_positive_float,
+                 help="Maximum seconds to wait for matching subscriptions"),
+        argument("--keep-alive", metavar="N", type=float, default=0.1,
+                 help="Keep the node alive for N seconds after the last message (default: 0.1)"),
+        argument("-n", "--node-name", help="Name of the created publishing node"),
+        partial(add_qos_arguments, entity="publish", profile="default"),
+        partial(add_graph_arguments, daemon=False),
+    ),
+    "type": Verb(
+        _type,
+        add_graph_arguments,
+        argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')"),
+    ),
+}  # fmt: skip

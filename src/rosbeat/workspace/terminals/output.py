@@ -170,10 +170,6 @@ def _obey(sequence: re.Match[str], cells: list[str], column: int) -> int:
     """Do what a control sequence asks, as far as it concerns one line."""
     if sequence["final"] == "K" and sequence["args"] in ("", "0"):
         del cells[column:]
-    elif sequence["final"] == "K" and sequence["args"] == "2":
-        cells[:] = [" "] * column
-    elif sequence["final"] == "G":
-        column = min(len(cells), max(0, int(sequence["args"] or 1) - 1))
     return column
 
 

@@ -1,4 +1,4 @@
-"""Commands that a terminal does not type, and the errors that it raises."""
+"""Commands that a terminal does not type, and why."""
 
 from __future__ import annotations
 
@@ -132,88 +132,6 @@ def _instead(name: str) -> str:
     return f"{printed}JupyterLab's own terminal can do that: choose File, New, Terminal."
 
 
-# Errors.
-
-
-def busy(name: str, command: str) -> TerminalError:
-    """Return the error for a new command while another one runs."""
-    other = {"sensor": "monitor", "monitor": "sensor"}.get(name, f"{name}2")
-    return TerminalError(
-        f"The terminal `{name}` is busy: `{short(command)}` runs in it.",
-        "A terminal runs one command at a time, and this command has not finished.",
-        f"Stop it with `%terminal {name} --ctrl-c`, or use another terminal: "
-        f"`%%terminal {other}`. To type into the program, add `--answer`.",
-    )
-
-
-def does_not_stop(name: str, command: str, key: str, seconds: float) -> TerminalError:
-    """Return the error for a program that goes on.
-
-    Args:
-        name: The terminal.
-        command: The command that runs in it.
-        key: The key that was pressed, `^C` or `^D`; empty if the program was killed.
-        seconds: How long ago.
-    """
-    after = {"^C": "Ctrl+C", "^D": "Ctrl+D"}.get(key, "it was killed")
-    end = f"`%terminal {name} --kill`" if key else f"`%terminal {name} --close`"
-    return TerminalError(
-        f"`{short(command)}` is still running {seconds:g} s after {after}.",
-        "The program ignores the request, needs more time to shut down, or keeps starting other "
-        "programs.",
-        f"Wait a little and check with `%terminal {name}`, or end it immediately with {end}.",
-    )
-
-
-def not_seen(text: str, lines: int, seconds: float | None, last: list[str]) -> TerminalError:
-    """Return the error for a text that has not appeared.
-
-    Args:
-        text: The text.
-        lines: In how many lines it should have appeared.
-        seconds: How long it was waited for; None if the command ended before.
-        last: The last lines of the terminal.
-    """
-    often = f" in {lines} lines" if lines > 1 else ""
-    when = "before the command ended" if seconds is None else f"within {seconds:g} s"
-    shown = "".join(f"\n    {line}" for line in last) or " none."
-    return TerminalError(
-        f"`{text}` did not appear{often} {when}.",
-        f"The terminal printed something else. Its last lines:{shown}",
-        "Compare the text with the command's output. A slow computer may need a longer "
-        "`--timeout`.",
-    )
-
-
-def ended(name: str) -> TerminalError:
-    """Return the error for a command to a terminal whose shell is gone."""
-    return TerminalError(
-        f"The terminal `{name}` has ended.",
-        "Its shell no longer exists, and neither do the variables that were set in it.",
-        f'`%%terminal {name}` and `workspace.terminal("{name}")` open a new terminal with this '
-        "name.",
-    )
-
-
-def nothing_to_answer(name: str) -> TerminalError:
-    """Return the error for an answer that no program waits for."""
-    return TerminalError(
-        f"No program is running in the terminal `{name}`, so `--answer` has no program to type "
-        "into.",
-        "`--answer` types into a running program, but here bash is waiting for a command.",
-        "To type a command, leave out `--answer`.",
-    )
-
-
-def too_long() -> TerminalError:
-    """Return the error for an answer that a terminal would cut."""
-    return TerminalError(
-        "A line of the answer is longer than 4,095 bytes.",
-        "A terminal cuts off longer lines before the program receives them.",
-        "Write the text to a file, and let the program read the file.",
-    )
-
-
 _MISSING = {
     '"': 'a closing quote `"`',
     "'": "a closing quote `'`",
@@ -222,25 +140,32 @@ _MISSING = {
     "`": "a closing backquote",
 }
 _WANTED = re.compile(r"looking for matching `(.)'|wanted `(.+)'\)")
+_AT_THE_END = "unexpected end of file"
 
 
-def unfinished(command: str) -> TerminalError:
-    """Return the error for a command whose rest bash still waits for.
+def refuse_unfinished(lines: list[str]) -> None:
+    """Refuse a cell whose rest bash would still wait for; `bash -n` reads it and runs nothing.
 
     Args:
-        command: The whole command, so far. What is missing is asked of `bash -n`.
+        lines: The commands.
+
+    Raises:
+        TerminalError: If it has no end. What is missing is said as far as bash says it.
     """
     asked = subprocess.run(
         ["bash", "--norc", "-n"],
-        input=command + "\n", capture_output=True, text=True, timeout=10, check=False,
+        input="\n".join(lines) + "\n", capture_output=True, text=True, timeout=10, check=False,
         env={"LC_ALL": "C", "PATH": "/usr/local/bin:/usr/bin:/bin"},
     )  # fmt: skip
+    goes_on = re.search(r"(?<!\\)(\\\\)*\\$", lines[-1])
     found = _WANTED.search(asked.stderr)
+    if not (goes_on or found or _AT_THE_END in asked.stderr):
+        return
     missing = "its end (`done`, `fi`, `}`, the line after a `\\` or the like)"
     if found:
         missing = _MISSING.get(found[1]) or f"the line `{found[2]}` that ends the text"
-    return TerminalError(
+    raise TerminalError(
         f"The command is not finished: {missing} is missing.",
-        "bash was waiting for the rest. The command was discarded, and no part of it ran.",
+        "bash would wait for the rest. Nothing of the cell was typed.",
         "Complete the command in the cell, then run the cell again.",
     )

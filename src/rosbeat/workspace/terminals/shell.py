@@ -36,9 +36,9 @@ _ROWS, _COLUMNS = 40, 120
 _SIGNALS = ("SIGINT", "SIGQUIT", "SIGTERM", "SIGHUP", "SIGPIPE", "SIGTSTP", "SIGTTIN", "SIGTTOU")
 # Seconds: for bash to start, for a terminal to take input, and between two looks whether it lives.
 _STARTS_WITHIN, _TAKES_WITHIN, _LOOK_EVERY = 20.0, 20.0, 0.25
-_ASLEEP_WITHIN, _AGAIN_AFTER = 2.0, 5.0
-# Our own prompt is on its way for so long; a program that wants one key has it within so long.
-_ON_ITS_WAY, _TAKEN_WITHIN, _MOMENT = 0.1, 1.0, 0.005
+_AGAIN_AFTER = 2.0
+# Our own prompt is on its way for so long.
+_ON_ITS_WAY = 0.1
 # A program that prints without end is slowed down, so that it leaves the page some of the machine.
 _FLOOD, _PAUSE = 65_536, 0.01
 # After `set -v` bash shows its start-up, too.
@@ -156,21 +156,8 @@ class Shell:
         self._write(line + "\n")
 
     def answer(self, line: str) -> None:
-        """Type a line into the running program.
-
-        A program that asks for single keys may have all that it wants before Enter, which would go
-        to the shell.
-        """
+        """Type a line into the running program."""
         self.note(line)
-        asked = modes = _Modes.of(self._process.fd)
-        if modes.takes_keys and line and (len(line) == 1 or not modes.edits_lines):
-            self._write(line)
-            line, deadline = "", time.monotonic() + _TAKEN_WITHIN
-            while self.state == BUSY and modes == asked and time.monotonic() < deadline:
-                self.wait(lambda: self.state != BUSY, _MOMENT)
-                modes = _Modes.of(self._process.fd)
-            if self.state != BUSY or modes != asked:
-                return
         self._write(line + "\n")
 
     def end_of_input(self) -> None:
@@ -195,14 +182,11 @@ class Shell:
     def leave_unfinished(self) -> None:
         """Press Ctrl+C in the middle of a command.
 
-        A signal that comes between bash's prompt and its first look at the keyboard is noted and
-        then forgotten until the next one, so bash has to be asleep before, waiting for a key.
+        A signal that comes between bash's prompt and its first look at the keyboard is noted, and
+        then forgotten until the next one.
         """
         deadline = time.monotonic() + _TAKES_WITHIN
         while self.state == UNFINISHED and time.monotonic() < deadline:
-            asleep_by = time.monotonic() + _ASLEEP_WITHIN
-            while not _sleeps(self._process.pid) and time.monotonic() < asleep_by:
-                time.sleep(0.001)
             self.interrupt()
             self.wait(lambda: self.state != UNFINISHED, _AGAIN_AFTER)
 
@@ -231,10 +215,6 @@ class Shell:
 
     # The running program.
 
-    def reads_lines(self) -> bool:
-        """Return whether the terminal collects what is typed into lines of limited length."""
-        return _Modes.of(self._process.fd).collects_lines
-
     def foreground(self) -> int:
         """Return the process group that has the terminal; 0 if there is none, or if it is bash."""
         group = _foreground(self._process.fd)
@@ -253,7 +233,8 @@ class Shell:
         Args:
             group: The process group that is meant, by default the one in front.
         """
-        if _Modes.of(self._process.fd).obeys_ctrl_c:
+        _, local = _modes(self._process.fd)
+        if local & termios.ISIG:
             self._signal(signal.SIGINT, group)
         else:
             self._write("\x03")
@@ -296,8 +277,11 @@ class Shell:
             running = os.path.basename(os.readlink(f"/proc/{self._process.pid}/exe"))
         except OSError:
             return False
+        taken, local = _modes(self._process.fd)
+        # Unlike a program, and `read -n 1`, readline takes single keys and tells CR from newline.
+        edits_lines = not local & termios.ICANON and not taken & termios.ICRNL
         in_front = self.state == BUSY and _foreground(self._process.fd) == self._process.pid
-        return in_front and running.startswith("bash") and _Modes.of(self._process.fd).edits_lines
+        return in_front and running.startswith("bash") and edits_lines
 
     # The reading thread.
 
@@ -386,46 +370,13 @@ def _beginning_of_mark(text: str, begin: int) -> int:
 # The pseudo-terminal and its processes.
 
 
-@dataclass(frozen=True)
-class _Modes:
-    """Hold how a terminal treats the keyboard, by the manual page termios(3); 0 if it has ended.
-
-    Attributes:
-        input: The flags `c_iflag`.
-        local: The flags `c_lflag`.
-    """
-
-    input: int = 0
-    local: int = 0
-
-    @classmethod
-    def of(cls, descriptor: int) -> _Modes:
-        """Return the modes of a terminal."""
-        try:
-            found = termios.tcgetattr(descriptor)
-        except (termios.error, OSError, ValueError):
-            return cls()
-        return cls(int(found[0]), int(found[3]))
-
-    @property
-    def collects_lines(self) -> bool:
-        """Return whether a program gets whole lines."""
-        return bool(self.local & termios.ICANON)
-
-    @property
-    def takes_keys(self) -> bool:
-        """Return whether a program gets each key as it is pressed."""
-        return self.local != 0 and not self.collects_lines
-
-    @property
-    def edits_lines(self) -> bool:
-        """Return whether readline has the terminal: unlike `read -n 1` it tells CR from newline."""
-        return not self.collects_lines and not self.input & termios.ICRNL
-
-    @property
-    def obeys_ctrl_c(self) -> bool:
-        """Return whether Ctrl+C is a signal, and not a key like others."""
-        return bool(self.local & termios.ISIG)
+def _modes(descriptor: int) -> tuple[int, int]:
+    """Return the flags `c_iflag` and `c_lflag` of termios(3); zeros if the terminal has ended."""
+    try:
+        found = termios.tcgetattr(descriptor)
+    except (termios.error, OSError, ValueError):
+        return 0, 0
+    return int(found[0]), int(found[3])
 
 
 def _start_bash(folder: Path, token: str) -> PtyProcess:
@@ -502,15 +453,6 @@ def _foreground(descriptor: int) -> int:
     with suppress(OSError):
         return os.tcgetpgrp(descriptor)
     return 0
-
-
-def _sleeps(pid: int) -> bool:
-    """Return whether a process sleeps; one that cannot be looked at is taken to sleep."""
-    try:
-        status = Path(f"/proc/{pid}/stat").read_text(errors="replace")
-    except OSError:
-        return True
-    return status.rpartition(") ")[2].startswith("S")
 
 
 #: Numbers of the system calls `read`, `select` and `poll`, and of their relatives, on x86-64 and on

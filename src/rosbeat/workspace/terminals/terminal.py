@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from rosbeat.errors import TerminalError
 from rosbeat.records import LogRecord
@@ -19,15 +20,9 @@ from rosbeat.workspace.terminals.reaper import end_marked
 from rosbeat.workspace.terminals.shell import BUSY, ENDED, READY, UNFINISHED, Shell
 from rosbeat.workspace.waiting import LONG, Note
 
-# How following a command ends: it has ended; the text has come; the time that was asked for is
-# over; patience is; the program waits for an answer.
-_FINISHED, _FOUND, _TIME_UP, _TOO_LONG, _QUIET = [
-    "finished",
-    "found",
-    "time_up",
-    "too_long",
-    "quiet",
-]
+# How watching a command ends: it has ended; the text has come; the time that was asked for is over;
+# patience is; the program waits for an answer.
+_FINISHED, _FOUND, _TIME_UP, _TOO_LONG, _QUIET = range(5)
 # Seconds for which a cell follows a command by itself. Builds take long on a small computer.
 _PATIENCE, _BUILD_PATIENCE = 60.0, 300.0
 # After so many seconds of silence the beginning of a line is taken for a question.
@@ -40,16 +35,15 @@ _LAST_LINES = 5
 # What is looked at to explain a failure: so many lines, and characters of each.
 _LINES_TO_EXPLAIN, _LONGEST_TO_EXPLAIN = 2000, 1000
 _TOUCHES_PROMPT = re.compile(r"PS[12]|PROMPT_COMMAND|\b(exec|source|eval|unset)\b|(^|[;&|\s])\.\s")
-_LONGEST_LINE = 4095
 
 
 @dataclass(frozen=True)
-class Goal:
-    """Hold what is waited for.
+class Watching:
+    """Hold how a command is watched.
 
     Attributes:
-        until: A text; None to wait for the end of the command.
-        lines: In how many lines it has to come.
+        until: Watch only until this text appears; None to wait for the end of the command.
+        lines: In how many lines the text has to appear.
         seconds: How long to watch; None for as long as it takes.
         timeout: Seconds after which to give up; None for 60, or 300 for colcon.
         until_quiet: Whether a program that has fallen silent is enough.
@@ -126,25 +120,14 @@ class Terminal:
         """Return the folder in which its next command runs."""
         return self._shell.folder
 
-    def type(
-        self,
-        text: str,
-        *,
-        until: str | None = None,
-        lines: int = 1,
-        seconds: float | None = None,
-        timeout: float | None = None,
-        show: Show = colours.show,
-    ) -> None:
+    def type(self, text: str, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - fields of Watching
         """Type commands, line by line, and show what they print until the last one has ended.
 
         Args:
             text: One command or more, as in a cell.
-            until: Watch the last command only until this text appears; it goes on running.
-            lines: In how many lines the text has to appear.
-            seconds: Watch the last command for so long; it goes on running.
-            timeout: Seconds after which watching a command ends; by default 60, and 300 for colcon.
             show: Takes each line that is shown.
+            **watching: The fields of `Watching`, by which the last command is watched; it goes on
+                running if that ends first.
 
         Raises:
             TerminalError: If the terminal has ended, is busy, is given an unfinished command, or
@@ -152,53 +135,46 @@ class Terminal:
             KeyboardInterrupt: If the cell is interrupted; the command goes on running.
         """
         if self.ended:
-            raise refusals.ended(self.name)
+            raise TerminalError(
+                f"The terminal `{self.name}` has ended.",
+                "Its shell no longer exists, and neither do the variables that were set in it.",
+                f'`%%terminal {self.name}` and `workspace.terminal("{self.name}")` open a new '
+                "terminal with this name.",
+            )
         typed = refusals.lines_of(text)
         if blank := refusals.blank_in(typed):
             say(show, f"nothing was typed: {blank}")
             return
+        refusals.refuse_unfinished(typed)
         self._make_way(text, show)
         self._cell = text
         with self._told():
-            self._type_lines(typed, Goal(until, lines, seconds, timeout), show)
+            self._type_lines(typed, Watching(**watching), show)
 
-    def answer(
-        self,
-        text: str,
-        *,
-        until: str | None = None,
-        lines: int = 1,
-        seconds: float | None = None,
-        timeout: float | None = None,
-        show: Show = colours.show,
-    ) -> None:
+    def answer(self, text: str, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - as type
         """Type into the program that runs, and show what it says until it falls silent.
 
         The arguments are those of `type`.
 
         Raises:
-            TerminalError: If no program runs, a line is too long for a terminal, or `until` does
-                not appear in time.
+            TerminalError: If no program runs, or `until` does not appear in time.
         """
         if not self.busy:
-            raise refusals.nothing_to_answer(self.name)
+            raise TerminalError(
+                f"No program is running in the terminal `{self.name}`, so `--answer` has no "
+                "program to type into.",
+                "`--answer` types into a running program, but here bash is waiting for a command.",
+                "To type a command, leave out `--answer`.",
+            )
+        goal = Watching(**watching)
+        if goal.until is None and goal.seconds is None:
+            goal = replace(goal, until_quiet=True)
         typed = refusals.lines_of(text)
         self._shell.wait(lambda: self._shell.begun, _BEGINS_WITHIN)
-        if self._shell.reads_lines() and any(len(one.encode()) > _LONGEST_LINE for one in typed):
-            raise refusals.too_long()
-        quiet = until is None and seconds is None
         with self._told():
-            self._answer_lines(typed, Goal(until, lines, seconds, timeout, quiet), show)
+            self._answer_lines(typed, goal, show)
 
-    def look(
-        self,
-        *,
-        until: str | None = None,
-        lines: int = 1,
-        seconds: float | None = None,
-        timeout: float | None = None,
-        show: Show = colours.show,
-    ) -> None:
+    def look(self, *, show: Show = colours.show, **watching: Any) -> None:  # noqa: ANN401 - as type
         """Show what came since the last look, and watch on if there is something to wait for.
 
         The arguments are those of `type`.
@@ -206,9 +182,9 @@ class Terminal:
         Raises:
             TerminalError: If `until` does not appear in time.
         """
-        if until is None and seconds is None:
-            seconds = 0.0
-        goal = Goal(until, lines, seconds, timeout)
+        goal = Watching(**watching)
+        if goal.until is None and goal.seconds is None:
+            goal = replace(goal, seconds=0.0)
         with self._told():
             self._conclude(self._follow(goal, Display(show), self._place), goal, show, looking=True)
 
@@ -256,28 +232,6 @@ class Terminal:
         """
         return self._end(self._shell.kill, "", timeout, show)
 
-    def wait_for(self, text: str, lines: int = 1, timeout: float = 10.0) -> tuple[str, ...]:
-        """Wait until a text has appeared since the last command was typed; show nothing.
-
-        Args:
-            text: The text.
-            lines: In how many lines it has to appear.
-            timeout: Seconds to wait.
-
-        Returns:
-            The lines with the text.
-
-        Raises:
-            TerminalError: If it does not appear in time.
-        """
-        found: list[Line] = []
-        goal, shown = Goal(text, lines, timeout=timeout), self._place
-        ending = self._watch(goal, found.append, self._begin)
-        self._place = shown
-        if ending != _FOUND:
-            raise self._not_seen(goal, timeout)
-        return tuple(line.text for line in found if text in line.text and not line.typed)
-
     def logs(self) -> tuple[LogRecord, ...]:
         """Return the lines that ROS nodes have logged here, as far back as they are kept.
 
@@ -304,11 +258,11 @@ class Terminal:
         if lost and self._shell.wait(lambda: not self.busy, _BEGINS_WITHIN):
             return
         if not again:
-            raise refusals.busy(self.name, self.command)
+            raise self._busy()
         say(show, f"`{refusals.short(self.command)}` of this cell still runs, and is stopped first")
         self.ctrl_c(timeout=_STOPS_WITHIN, show=lambda _: None)
 
-    def _type_lines(self, lines: list[str], goal: Goal, show: Show) -> None:
+    def _type_lines(self, lines: list[str], goal: Watching, show: Show) -> None:
         display = Display(show)
         for number, line in enumerate(lines, 1):
             begins = self._shell.state == READY
@@ -326,17 +280,17 @@ class Terminal:
             if ending != _FINISHED or self.ended:
                 self._say_rest(lines[number:], show)
                 return
-        if self._shell.state == UNFINISHED:
+        if self._shell.state == UNFINISHED:  # for aliases and options, `bash -n` cannot know it
             display.end()
             self._shell.leave_unfinished()
-            raise refusals.unfinished(self.command)
+            say(show, "the last command is not finished, and was dropped")
 
     def _refusal(self, line: str) -> str:
         here = self._prompt().removesuffix("$ ")
         outside = refusals.build_outside(line, self._shell.folder, workspace(), here)
         return outside or refusals.full_screen(line)
 
-    def _type_line(self, line: str, goal: Goal, display: Display) -> str:
+    def _type_line(self, line: str, goal: Watching, display: Display) -> int:
         place = self._shell.end
         if self._shell.state == READY:
             self.command, self._begin, self._folder = line, place, self._shell.folder
@@ -347,13 +301,13 @@ class Terminal:
         self._shell.enter(line, before + line)
         return self._follow(goal, display, place)
 
-    def _answer_lines(self, lines: list[str], goal: Goal, show: Show) -> None:
+    def _answer_lines(self, lines: list[str], goal: Watching, show: Show) -> None:
         display = Display(show)
         for number, line in enumerate(lines, 1):
             is_last = number == len(lines)
             place = self._shell.end
             self._shell.answer(line)
-            ending = self._follow(goal if is_last else Goal(until_quiet=True), display, place)
+            ending = self._follow(goal if is_last else Watching(until_quiet=True), display, place)
             if ending == _FINISHED or is_last:
                 self._conclude(ending, goal, show, looking=ending == _QUIET)
                 self._say_rest(lines[number:], show)
@@ -361,14 +315,14 @@ class Terminal:
 
     # Following.
 
-    def _follow(self, goal: Goal, display: Display, place: int) -> str:
+    def _follow(self, goal: Watching, display: Display, place: int) -> int:
         """Show what comes until the goal is reached; return how that ended."""
         ending = self._watch(goal, display.add, place)
         if self._shell.state != UNFINISHED or ending != _FINISHED:
             display.end()
         return ending
 
-    def _watch(self, goal: Goal, see: Callable[[Line], None], place: int) -> str:
+    def _watch(self, goal: Watching, see: Callable[[Line], None], place: int) -> int:
         allowed = self._patience(goal) if goal.seconds is None else goal.seconds
         self._place = place
         note = Note()
@@ -378,8 +332,8 @@ class Terminal:
             note.clear()
 
     def _watch_until(
-        self, goal: Goal, see: Callable[[Line], None], deadline: float, note: Note
-    ) -> str:
+        self, goal: Watching, see: Callable[[Line], None], deadline: float, note: Note
+    ) -> int:
         found, may_repair = 0, self._touches_prompt()
         spoke = time.monotonic()
         while True:
@@ -411,7 +365,7 @@ class Terminal:
             elif goal.until_quiet:
                 return _QUIET
 
-    def _waits_for(self, goal: Goal, seconds: float) -> str:
+    def _waits_for(self, goal: Watching, seconds: float) -> str:
         """Say why nothing comes: what is waited for, and how to end that."""
         command, silent = refusals.short(self.command), f"nothing came for {seconds:.0f} s"
         if self._shell.waits_for_input():
@@ -426,14 +380,14 @@ class Terminal:
             goal_is = f"for {goal.seconds:g} s"
         return f"`{command}` runs ({silent}); this cell watches {goal_is}."
 
-    def _conclude(self, ending: str, goal: Goal, show: Show, looking: bool = False) -> None:
+    def _conclude(self, ending: int, goal: Watching, show: Show, looking: bool = False) -> None:
         """Say how the command ended, or that it did not."""
         if ending == _FINISHED:
             self._finish(show)
             # A command that failed has said so; who waits for more of it is told as well.
             said_so = bool(self._shell.code) and not looking
             if goal.until is not None and self._shell.state != UNFINISHED and not said_so:
-                raise self._not_seen(goal, None)
+                raise self._not_seen(goal, "before the command ended")
             return
         partial = self._shell.glance(self._shell.end).partial
         if partial and ending != _FOUND:
@@ -441,7 +395,7 @@ class Terminal:
         command = refusals.short(self.command)
         if ending == _TOO_LONG:
             if goal.until is not None:
-                raise self._not_seen(goal, self._patience(goal))
+                raise self._not_seen(goal, f"within {self._patience(goal):g} s")
             say(
                 show,
                 f"`{command}` still runs after {self._patience(goal):g} s, and goes on; "
@@ -486,7 +440,7 @@ class Terminal:
             act()
             while self._follow(self._next_look(deadline), display, self._place) != _FINISHED:
                 if time.monotonic() >= deadline:
-                    raise refusals.does_not_stop(self.name, self.command, key, timeout)
+                    raise self._does_not_stop(key, timeout)
                 # A loop of the shell may have gone on to its next program meanwhile. One that was
                 # reached is left to end in its own way: pressed again, Ctrl+C would break that off.
                 now = self._shell.foreground()
@@ -496,17 +450,43 @@ class Terminal:
         self._finish(show, always=True)
         return self._shell.code
 
-    def _next_look(self, deadline: float) -> Goal:
-        return Goal(timeout=min(_AGAIN_AFTER, deadline - time.monotonic()))
+    def _next_look(self, deadline: float) -> Watching:
+        return Watching(timeout=min(_AGAIN_AFTER, deadline - time.monotonic()))
 
     # Words.
 
     def _printed(self) -> list[str]:
         return [line.text for line in self._shell.glance(self._begin).lines if not line.typed]
 
-    def _not_seen(self, goal: Goal, seconds: float | None) -> TerminalError:
-        last = self._printed()[-_LAST_LINES:]
-        return refusals.not_seen(goal.until or "", goal.lines, seconds, last)
+    def _busy(self) -> TerminalError:
+        other = {"sensor": "monitor", "monitor": "sensor"}.get(self.name, f"{self.name}2")
+        return TerminalError(
+            f"The terminal `{self.name}` is busy: `{refusals.short(self.command)}` runs in it.",
+            "A terminal runs one command at a time, and this command has not finished.",
+            f"Stop it with `%terminal {self.name} --ctrl-c`, or use another terminal: "
+            f"`%%terminal {other}`. To type into the program, add `--answer`.",
+        )
+
+    def _does_not_stop(self, key: str, seconds: float) -> TerminalError:
+        after = {"^C": "Ctrl+C", "^D": "Ctrl+D"}.get(key, "it was killed")
+        end = f"`%terminal {self.name} --kill`" if key else f"`%terminal {self.name} --close`"
+        return TerminalError(
+            f"`{refusals.short(self.command)}` is still running {seconds:g} s after {after}.",
+            "The program ignores the request, needs more time to shut down, or keeps starting "
+            "other programs.",
+            f"Wait a little and check with `%terminal {self.name}`, or end it immediately with "
+            f"{end}.",
+        )
+
+    def _not_seen(self, goal: Watching, when: str) -> TerminalError:
+        often = f" in {goal.lines} lines" if goal.lines > 1 else ""
+        last = "".join(f"\n    {line}" for line in self._printed()[-_LAST_LINES:]) or " none."
+        return TerminalError(
+            f"`{goal.until}` did not appear{often} {when}.",
+            f"The terminal printed something else. Its last lines:{last}",
+            "Compare the text with the command's output. A slow computer may need a longer "
+            "`--timeout`.",
+        )
 
     def _say_rest(self, rest: list[str], show: Show) -> None:
         if rest:
@@ -535,7 +515,7 @@ class Terminal:
     def _touches_prompt(self) -> bool:
         return bool(_TOUCHES_PROMPT.search(self.command))
 
-    def _patience(self, goal: Goal) -> float:
+    def _patience(self, goal: Watching) -> float:
         if goal.timeout is not None:
             return goal.timeout
         return _BUILD_PATIENCE if self.command.split()[:1] == ["colcon"] else _PATIENCE
