@@ -3,7 +3,6 @@
 import gc
 import weakref
 
-import pytest
 import rclpy.utilities
 
 from nodes import Speaker, Talker
@@ -67,9 +66,3 @@ def test_no_log_file_is_written(tmp_path, monkeypatch):
 def test_a_context_cannot_be_shut_down_by_rclpy(ros):
     rclpy.shutdown(context=ros._world.context)
     assert ros._world.context.ok()
-
-
-@pytest.mark.parametrize("name", ["first", "second"])
-def test_each_session_has_a_context_of_its_own(name):
-    with Session() as one, Session() as two:
-        assert one._world.context is not two._world.context

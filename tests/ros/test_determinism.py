@@ -19,7 +19,7 @@ from rosbeat.records_json import digest
 
 TESTS = Path(six_nodes.__file__).parent
 #: The lead runs 200; a test suite does not need to.
-RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "20"))
+RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "10"))
 PROCESSES = int(os.environ.get("ROSBEAT_DETERMINISM_PROCESSES", "2"))
 
 

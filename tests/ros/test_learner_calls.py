@@ -105,13 +105,6 @@ def test_spin_runs_live_until_interrupt(ros, capsys, interrupt):
     assert len(ticker.fired) == count + 100
 
 
-def test_spin_with_nothing_to_do_can_be_interrupted(ros, interrupt):
-    node = ros.add(lambda: Node("idle"))
-    interrupt(0.3)
-    with pytest.raises(KeyboardInterrupt):
-        rclpy.spin(node)
-
-
 def test_spin_ends_with_a_fault(ros, capsys):
     doer = ros.add(partial(Doer, lambda _: 1 / 0, period=0.01))
     rclpy.spin(doer)
@@ -152,14 +145,6 @@ def test_spinning_in_a_callback_is_refused(ros, capsys):
     assert "deadlock" in capsys.readouterr().err
 
 
-def test_waiting_in_a_callback_for_a_future_of_nobody_is_a_deadlock(ros, capsys):
-    ros.add(partial(Doer, lambda node: rclpy.spin_until_future_complete(node, Future())))
-    ros.run(5)
-    (fault,) = ros.observation().faults
-    assert fault.kind == "DeadlockError"
-    assert "deadlock" in capsys.readouterr().err
-
-
 def test_spin_until_a_future_that_never_comes(ros):
     node = ros.add(lambda: Node("waits"))
     rclpy.spin_until_future_complete(node, Future(), timeout_sec=7.0)
@@ -177,14 +162,6 @@ def test_spin_until_future_complete_live(ros):
     ros.start()
     rclpy.spin_until_future_complete(node, future, timeout_sec=10.0)
     assert future.result() == 5
-
-
-def test_without_a_session_spin_can_be_interrupted(plain, interrupt):
-    node = Node("idle")
-    interrupt(0.3)
-    with pytest.raises(KeyboardInterrupt):
-        rclpy.spin(node)
-    node.destroy_node()
 
 
 def test_without_a_session_everything_is_rclpys_own(plain):
@@ -221,15 +198,6 @@ def test_a_plain_node_beside_a_session(plain, interrupt, capfd):
     assert "before" in printed.err + printed_after.err
     assert rclpy.ok()
     node.destroy_node()
-
-
-def test_after_the_session_init_works_as_ever():
-    with Session():
-        pass
-    assert not rclpy.ok()
-    rclpy.init(args=[], domain_id=50, signal_handler_options=rclpy.SignalHandlerOptions.NO)
-    assert rclpy.ok()
-    rclpy.shutdown()
 
 
 def test_on_a_page_a_node_without_a_session_is_explained(monkeypatch):

@@ -2,8 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
 import threading
 import time
 from functools import partial
@@ -15,27 +13,11 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from nodes import AsyncDoer, Doer, Listener, Server, Speaker, Talker, Ticker
+from other_process import other_process
 from rosbeat import Session
 from rosbeat.errors import DurationError, SessionError
 from rosbeat.ros.context import Interrupts, show_briefly
 from rosbeat.ros.wait_set import WaitSetExecutor
-
-OTHER_PROCESS = """
-import rclpy, sys
-from rclpy.node import Node
-from std_msgs.msg import Int32
-rclpy.init()
-node = Node("outside")
-heard = []
-node.create_subscription(Int32, "count", heard.append, 10)
-publisher = node.create_publisher(Int32, "reply", 10)
-print("ready", flush=True)
-while len(heard) < 3:
-    rclpy.spin_once(node, timeout_sec=0.1)
-while True:
-    publisher.publish(Int32(data=heard[-1].data))
-    rclpy.spin_once(node, timeout_sec=0.05)
-"""
 
 
 def live_threads():
@@ -116,24 +98,6 @@ def test_use_sim_time_tells_the_truth(ros):
     assert born_live.get_parameter("use_sim_time").value is True
     assert node.get_clock().now().nanoseconds == round(ros.time * 1e9)
     assert changes == []
-
-
-def test_nodes_see_the_sessions_time_in_constructors_and_callbacks(ros):
-    class Watch(Node):
-        def __init__(self):
-            super().__init__("watch")
-            self.seen = [self.now()]
-            self.create_timer(0.5, lambda: self.seen.append(self.now()))
-
-        def now(self):
-            return self.get_clock().now().nanoseconds / 1e9, self.get_parameter(
-                "use_sim_time"
-            ).value
-
-    ros.run(3)
-    watch = ros.add(Watch)
-    ros.run(1)
-    assert watch.seen == [(3.0, True), (3.5, True), (4.0, True)]
 
 
 def test_what_is_destroyed_while_rclpy_gathers_entities_stops_nobody(ros, eventually):
@@ -312,43 +276,15 @@ def test_stopping_in_full_swing_records_no_fault(ros):
     assert ros.observation().faults == ()
 
 
-def test_two_sessions_in_one_domain_hear_each_other(empty_domain):
-    with Session(domain_id=empty_domain) as ros, Session(domain_id=empty_domain) as other:
-        assert other.domain_id == ros.domain_id == empty_domain
-        ros.add(partial(Talker, period=0.02))
-        listener = other.add(Listener)
-        ros.start()
-        other.start()
-        # The name of a node in another context comes after its first messages.
-        assert other.wait(
-            20,
-            until=lambda: (
-                len(listener.heard) >= 3 and other.messages("count")[-1].node == "/talker"
-            ),
-        )
-        other.stop()
-        samples = other.messages("count")
-        assert [sample.value for sample in samples] == listener.heard
-        assert {sample.node for sample in samples} == {"/talker"}
-
-
 def test_another_process_hears_and_is_heard(empty_domain):
-    environ = {**os.environ, "ROS_DOMAIN_ID": str(empty_domain)}
-    environ["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
-    program = f"import rosbeat\n{OTHER_PROCESS}"
-    with Session(domain_id=empty_domain) as ros:
+    with (
+        other_process(empty_domain, "Relay('outside', 'count', 'reply'),"),
+        Session(domain_id=empty_domain) as ros,
+    ):
         ros.add(partial(Talker, period=0.02))
         listener = ros.add(partial(Listener, topic="reply"))
         ros.start()
-        outside = subprocess.Popen(
-            [sys.executable, "-c", program], env=environ, stdout=subprocess.PIPE, text=True
-        )
-        try:
-            assert outside.stdout.readline() == "ready\n"
-            assert ros.wait(30, until=lambda: len(listener.heard) >= 3)
-        finally:
-            outside.kill()
-            outside.communicate()
+        assert ros.wait(30, until=lambda: len(listener.heard) >= 3)
 
 
 # Ctrl+C, and Interrupt of a kernel.

@@ -1,6 +1,5 @@
 """The instrument panel of a session: what it sees and what it does."""
 
-import math
 import threading
 import time
 from functools import partial
@@ -286,12 +285,6 @@ def test_the_panel_changes_nothing_in_virtual_time(in_a_browser):
     assert run(look=True) == run(look=False)
 
 
-def test_a_closed_session_has_no_panel(ros):
-    ros.close()
-    with pytest.raises(SessionError):
-        ros.panel()
-
-
 # Faults on a topic, in virtual time.
 
 
@@ -321,21 +314,17 @@ def fault(node):
     return made
 
 
-def test_what_is_recorded_is_what_went_out(publish, fault):
-    fault.kind, fault.amount = "offset", 5.0
-    assert publish(20.0, 21.5) == [25.0, 26.5]
-
-
-def test_the_nodes_own_message_stays_as_it_is(node, fault):
-    fault.kind, fault.amount = "offset", 5.0
+@pytest.mark.parametrize(
+    ("kind", "sent"), [("offset", "[25.0, 26.5]"), ("nan", "[nan, nan]"), ("none", "[20.0, 21.5]")]
+)
+def test_what_is_recorded_is_what_went_out(ros, node, publish, fault, kind, sent):
+    fault.kind, fault.amount = kind, 5.0
+    assert str(publish(20.0, 21.5)) == sent
+    node.humidity.publish(Float32(data=50.0))
+    assert [sample.value for sample in ros.messages("humidity")] == [50.0]
     message = Float32(data=1.0)
     node.temperature.publish(message)
-    assert message.data == 1.0
-
-
-def test_not_a_number(publish, fault):
-    fault.kind = "nan"
-    assert all(map(math.isnan, publish(20.0, 21.5)))
+    assert message.data == 1.0  # the node's own stays as it is
 
 
 @pytest.mark.parametrize(("share", "least", "most"), [(0, 200, 200), (50, 70, 130), (100, 0, 0)])
@@ -344,20 +333,8 @@ def test_a_share_of_the_messages_is_lost(publish, fault, share, least, most):
     assert least <= len(publish(*[1.0] * 200)) <= most
 
 
-def test_other_topics_are_left_alone(ros, node, fault):
-    fault.kind = "nan"
-    node.humidity.publish(Float32(data=50.0))
-    assert [sample.value for sample in ros.messages("humidity")] == [50.0]
-
-
 def test_afterwards_all_is_as_before(node, publish, fault):
     fault.kind = "nan"
     fault.remove()
     assert publish(20.0) == [20.0]
     assert "TopicFault" not in repr(node.temperature.publish)
-
-
-def test_what_rclpy_refuses_it_refuses_still(node, fault):
-    fault.kind = "offset"
-    with pytest.raises(TypeError, match="Expected"):
-        node.temperature.publish(25.0)

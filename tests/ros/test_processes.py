@@ -69,21 +69,6 @@ def lines(ros):
 # One process or two.
 
 
-def test_nodes_of_one_process_wait_for_one_another(ros):
-    sleeper, beat = ros.add(Sleeper, Beat)
-    assert (sleeper.get_name(), beat.get_name()) == ("sleeper", "beat")
-    ros.run(3)
-    # The timer of 1.0 s is late, the one of 1.5 and 2.0 s is skipped, and the grid stays.
-    assert times(ros, "beat") == [0.5, 2.2, 2.5, 3.0]
-
-
-def test_nodes_of_two_processes_do_not(ros):
-    ros.add(Sleeper)
-    ros.add(Beat)
-    ros.run(3)
-    assert times(ros, "beat") == [0.5, 1, 1.5, 2, 2.5, 3]
-
-
 def test_the_graph_tells_which_nodes_share_a_process(ros):
     ros.add(Sleeper)
     assert ros.graph().processes == ()
@@ -120,67 +105,7 @@ def test_an_exception_ends_all_nodes_of_its_process(ros, capsys):
     assert "/beat ran in the same process, which has ended." in capsys.readouterr().out
 
 
-def test_timers_of_an_instant_come_before_the_messages_they_send(ros):
-    class Both(Node):
-        def __init__(self):
-            super().__init__("both")
-            self.pub = self.create_publisher(Int32, "number", 10)
-            self.create_subscription(Int32, "number", lambda m: self.say(f"got {m.data}"), 10)
-            for number in (1, 2):
-                self.create_timer(1.0, lambda number=number: self.send(number))
-
-        def say(self, text):
-            self.get_logger().info(text)
-
-        def send(self, number):
-            self.say(f"send {number}")
-            self.pub.publish(Int32(data=number))
-
-    ros.add(Both)
-    ros.run(1)
-    assert [text for _, text in lines(ros)] == ["send 1", "send 2", "got 1", "got 2"]
-
-
 # Threads and callback groups.
-
-
-def test_one_group_is_one_at_a_time_whatever_the_threads(ros):
-    group = MutuallyExclusiveCallbackGroup()
-    ros.add(lambda: Two(group, group), threads=4)
-    ros.run(4)
-    assert lines(ros) == [(1, "0 begins"), (2, "0 ends"), (2, "1 begins"), (3, "1 ends")]
-
-
-def test_two_groups_overlap_in_two_threads(ros):
-    make = MutuallyExclusiveCallbackGroup
-    ros.add(lambda: Two(make(), make()), threads=2)
-    ros.run(4)
-    assert lines(ros) == [(1, "0 begins"), (1.3, "1 begins"), (2, "0 ends"), (2.3, "1 ends")]
-
-
-def test_two_groups_do_not_overlap_in_one_thread(ros):
-    make = MutuallyExclusiveCallbackGroup
-    ros.add(lambda: Two(make(), make()))
-    ros.run(4)
-    assert lines(ros) == [(1, "0 begins"), (2, "0 ends"), (2, "1 begins"), (3, "1 ends")]
-
-
-def test_a_reentrant_group_overlaps_itself(ros):
-    class Again(Node):
-        def __init__(self):
-            super().__init__("again")
-            self.create_timer(1.0, self.work, ReentrantCallbackGroup())
-            self.begun = 0
-
-        def work(self):
-            self.begun += 1
-            number = self.begun
-            time.sleep(1.5)
-            self.get_logger().info(str(number))
-
-    ros.add(Again, threads=3)
-    ros.run(5)
-    assert lines(ros) == [(2.5, "1"), (3.5, "2"), (4.5, "3")]
 
 
 # Deadlocks.
@@ -211,21 +136,6 @@ class Server(Node):
     def answer(self, _, response):
         time.sleep(0.7)
         return response
-
-
-def test_a_call_waits_in_virtual_time(ros):
-    ros.add(Server)
-    ros.add(lambda: Asker(ReentrantCallbackGroup()), threads=2)
-    ros.run(3)
-    assert lines(ros) == [(1.7, "answered")]
-
-
-def test_a_call_with_a_timeout_returns_none(ros):
-    ros.add(Server)
-    ros.add(lambda: Asker(timeout=0.5))
-    ros.run(3)
-    assert lines(ros) == [(1.5, "nothing")]
-    assert not ros.observation().faults
 
 
 def test_a_deadlock_says_who_waits_for_what_and_the_others_go_on(ros, capsys):
@@ -325,20 +235,6 @@ def test_a_session_leaves_no_greenlet_thread_or_patched_function():
     assert (time.sleep, rclpy.spin) == (sleep, spin)
     assert len(all_greenlets()) == before
     assert threading.active_count() == threads
-
-
-def test_a_callback_that_will_not_end_is_left_behind_when_the_session_closes():
-    def stubborn():
-        while True:
-            try:  # noqa: SIM105 - written as a learner would
-                time.sleep(10)
-            except BaseException:
-                pass
-
-    ros = Session()
-    ros.add(lambda: Node("stubborn")).create_timer(1.0, stubborn)
-    ros.run(2)
-    ros.close()
 
 
 # Bad input.
@@ -467,21 +363,6 @@ def test_a_node_that_is_replaced_in_its_sleep_ends_there(ros):
     assert [text for _, text in lines(ros)] == ["awake"]
 
 
-def test_an_exception_after_a_sleep_leaves_nothing_behind(ros, capsys):
-    class Fails(Sleeper):
-        def sleep(self):
-            super().sleep()
-            raise ValueError("no")
-
-    before = len(all_greenlets())
-    ros.add(Fails)
-    ros.run(5)
-    (fault,) = ros.observation().faults
-    assert (fault.kind, fault.time, fault.callback) == ("ValueError", 2.2, "sleep")
-    assert len(all_greenlets()) <= before + 2
-    capsys.readouterr()
-
-
 def busy_system():
     """Run processes, threads, sleeps, calls and coroutines, and return what was seen."""
     group = ReentrantCallbackGroup
@@ -524,18 +405,3 @@ def test_any_exception_of_a_callback_ends_its_process_only(ros, callback):
     assert len(ros.messages("beat")) == 4
     (fault,) = ros.observation().faults
     assert (fault.node, fault.kind, fault.time_ns) == ("/raising", "OwnError", 1_000_000_000)
-
-
-def test_any_exception_of_a_callback_leaves_the_spin_of_its_program(ros):
-    def main():
-        rclpy.init()
-        node = rclpy.create_node("raising")
-        node.create_timer(1.0, raise_own_error)
-        rclpy.spin(node)
-
-    raising = ros.spawn(main)
-    ros.add(Beat)
-    ros.run(2)
-    assert raising.returncode == 1
-    assert "OwnError" in raising.stderr
-    assert len(ros.messages("beat")) == 4

@@ -67,41 +67,6 @@ def test_a_page_and_a_check_see_the_same(slept, ros):
     assert 3.0 not in slept
 
 
-def test_a_callback_that_sleeps_at_the_end_of_a_run_goes_on_in_the_next(ros):
-    for node in (Boss, Beat, Worker):
-        ros.add(node)
-    ros.run(seconds=2)
-    assert ros.time == 2
-    assert not ros.logs()
-    ros.run(seconds=4)
-    assert times(ros, "beat") == [1, 2, 3, 4, 5, 6]
-    assert [(one.time, one.text) for one in ros.logs()] == [(4.5, "done")]
-
-
-def test_two_sleepers_wake_each_in_its_own_time(ros):
-    class Late(Worker):
-        def work(self, msg):
-            time.sleep(0.5)
-            time.sleep(msg.data)
-            self.get_logger().info("late")
-
-    ros.add(Boss)
-    ros.add(Worker)
-    ros.add(Late, name="late")
-    ros.run(seconds=6)
-    assert [(one.time, one.name) for one in ros.logs()] == [(4.5, "worker"), (5, "late")]
-
-
-def test_who_sleeps_for_long_holds_up_nobody_else(ros):
-    ros.add(lambda: Boss(36_000.0))
-    ros.add(Beat)
-    ros.add(Worker)
-    ros.run(seconds=5)
-    assert times(ros, "beat") == [1, 2, 3, 4, 5]
-    assert times(ros, "worker") == [1]
-    assert not ros.observation().faults
-
-
 def test_every_way_to_sleep_counts(ros):
     def nap(node):
         sleep(1)  # a name of this module
@@ -131,15 +96,6 @@ def test_a_constructor_sleeps_in_virtual_time_and_the_others_go_on(slept, ros):
     assert 2.5 not in slept
 
 
-def test_live_a_sleep_is_a_sleep(ros):
-    ros.add(Worker)
-    ros.add(lambda: Boss(0.05)).timer.timer_period_ns = 10_000_000
-    begin = time.monotonic()
-    ros.start()
-    assert ros.wait(10, until=lambda: ros.logs("worker"))
-    assert time.monotonic() - begin >= 0.05
-
-
 def test_a_session_goes_live_only_when_nothing_sleeps_in_virtual_time(ros, says):
     ros.add(Boss)
     ros.add(Worker)
@@ -164,25 +120,6 @@ def test_one_that_is_paused_or_removed_in_its_sleep_stays_so(ros):
     ros.remove(helper)
     ros.run(seconds=2)
     assert times(ros, "worker")[1:] == [8, 9, 10]
-
-
-def test_waiting_for_a_future_sleeps_in_virtual_time_too(ros):
-    import rclpy
-    from std_srvs.srv import Trigger
-
-    server = ros.add(lambda: Node("server"))
-    client = server.create_client(Trigger, "go")
-
-    def answer(_, response):
-        time.sleep(1_000)  # more than the test may take
-        return response
-
-    helper = ros.add(lambda: Node("helper"))
-    helper.create_service(Trigger, "go", answer)
-    future = client.call_async(Trigger.Request())
-    rclpy.spin_until_future_complete(server, future)
-    assert future.done()
-    assert ros.time == 1_000
 
 
 class Index:
@@ -232,24 +169,3 @@ def test_an_interrupt_ends_a_sleep(ros, monkeypatch):
         other.run(seconds=1)
     ros.run(seconds=2)
     assert times(ros, "beat")[-1] == 7
-
-
-def test_a_node_that_is_slower_than_its_messages_falls_behind_and_the_run_ends(ros):
-    class Slow(Node):
-        def __init__(self):
-            super().__init__("slow")
-            self.create_subscription(Float32, "beat", self.work, 5)
-
-        def work(self, msg):
-            time.sleep(4.0)
-            self.get_logger().info("done")
-
-    ros.add(Beat)
-    ros.add(Slow)
-    ros.run(seconds=60)
-    assert ros.time == 60
-    done = [line.time for line in ros.logs("slow")]
-    assert done == [5.0 + 4 * n for n in range(14)]
-    ros.run(seconds=8)
-    assert len(ros.logs("slow")) == 16
-    assert not ros.observation().faults
