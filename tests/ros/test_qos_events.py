@@ -384,8 +384,7 @@ def test_stored_messages_hold_back_nothing_that_follows(ros, asked):
 @pytest.fixture
 def for_ever(monkeypatch):
     """Let a session wait for stored messages longer than a test may take."""
-    for limit in ("_UNACKNOWLEDGED", "_LIMIT"):
-        monkeypatch.setattr(f"rosbeat.ros.qos_events.{limit}", 1_000.0)
+    monkeypatch.setattr("rosbeat.ros.qos_events._LIMIT", 1_000.0)
 
 
 @pytest.mark.usefixtures("for_ever")
@@ -411,46 +410,16 @@ def test_nobody_waits_for_what_was_heard_in_real_time(ros):
     assert nurse.heard == [1]
 
 
-@pytest.fixture
-def unacknowledged(ros):
-    """A publisher that knows of nobody what has arrived: a volatile subscription came too late."""
+def test_stored_messages_come_where_another_subscription_never_acknowledges(ros):
     heart = ros.add(lambda: Heart(quality(stored=True, depth=1)))
     for number in (1, 2):  # the first is not stored any more
         heart.beat(number)
-    ros.add(lambda: Nurse(quality(), "passer_by"))
+    ros.add(lambda: Nurse(quality(), "passer_by"))  # volatile, and too late
     heart.beat(3)
     assert not heart.publisher.wait_for_all_acked(Duration(seconds=0.2))
-    return heart
-
-
-def test_nobody_waits_for_a_volatile_subscription_that_came_late(ros, unacknowledged, monkeypatch):
-    monkeypatch.setattr("rosbeat.ros.qos_events._LIMIT", 1_000.0)  # longer than the test may take
-    for number in range(4, 7):
-        nurse = ros.add(lambda number=number: Nurse(STORED, f"nurse{number}"))
-        unacknowledged.beat(number)
-        ros.run(0)
-        assert nurse.heard == [number - 1, number]
-
-
-def test_what_was_taken_early_is_a_part_of_the_queue(ros, unacknowledged):
-    nurse = ros.add(lambda: Nurse(quality(stored=True, depth=2)))
-    ros.pause(nurse)
-    for number in (4, 5):
-        unacknowledged.beat(number)
-    ros.resume(nurse)
-    ros.run(0)
-    assert nurse.heard == [4, 5]
-    unacknowledged.beat(6)
-    ros.run(0)
-    assert nurse.heard == [4, 5, 6]
-
-
-def test_what_was_taken_early_is_heard_in_real_time(ros, unacknowledged):
     nurse = ros.add(lambda: Nurse(STORED))
-    ros.start()
-    assert ros.wait(10, until=lambda: nurse.heard)
-    unacknowledged.beat(4)
-    assert ros.wait(10, until=lambda: len(nurse.heard) > 1)
+    heart.beat(4)
+    ros.run(0)
     assert nurse.heard == [3, 4]
 
 

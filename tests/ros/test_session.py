@@ -42,7 +42,7 @@ def test_messages_of_ros_itself_are_not_recorded(ros, says):
     says(caught.value, "Messages on /rosout are not recorded", "ROS itself publishes on it")
 
 
-def test_an_interrupt_names_the_endless_callback_and_ends_its_node(ros, capsys):
+def test_an_interrupt_names_the_endless_callback_and_ends_its_node(ros):
     ros.add(Endless)
     ticker = ros.add(partial(Ticker, 1.0))
     with pytest.raises(KeyboardInterrupt) as caught:
@@ -52,23 +52,18 @@ def test_an_interrupt_names_the_endless_callback_and_ends_its_node(ros, capsys):
     assert "line " in shown
     assert "What to try:   Mend the callback" in shown
     ros.run(5)
-    assert "rosbeat: /endless ended when you interrupted its callback." in capsys.readouterr().out
     assert [at // 10**9 for at, _ in ticker.fired] == [1, 2, 3, 4, 5, 6, 7]
-    ros.add(Endless)
-    ros.run(1)
-    assert "interrupted" not in capsys.readouterr().out
 
 
-def test_an_interrupt_in_a_quick_callback_ends_no_node(ros, capsys):
+def test_an_interrupt_in_a_quick_callback_ends_no_node(ros):
     node = ros.add(partial(Endless, 0.0))
     with pytest.raises(KeyboardInterrupt) as caught:
         ros.run(5)
     assert caught.value._render_traceback_() == [
         "KeyboardInterrupt: stopped at 2 s; the session is still open."
     ]
-    node.tick = lambda: None
-    ros.run(1)
-    assert "interrupted" not in capsys.readouterr().out
+    assert ros.nodes == (node,)
+    assert ros.observation().faults == ()
 
 
 def names(session):
@@ -202,14 +197,6 @@ def test_durations_are_checked(ros, says, seconds):
         ros.run(seconds)
     says(caught.value, "run(seconds=...)")
     assert ros.time == 0
-
-
-def test_time_ends_after_292_years(ros, says):
-    for _ in range(9):
-        ros.run(1e9)
-    with pytest.raises(DurationError) as caught:
-        ros.run(1e9)
-    says(caught.value, "292 years")
 
 
 @pytest.mark.parametrize(

@@ -277,7 +277,7 @@ def install_learner_calls() -> None:
         if isinstance(target, SessionContext | ProgramContext):
             target.init(args, domain_id=options.get("domain_id"))
             if isinstance(target, ProgramContext):
-                target.program.install_handlers(options.get("signal_handler_options"))
+                target.program.install_handlers()
             return
         if in_kernel():
             options.setdefault("signal_handler_options", rclpy.signals.SignalHandlerOptions.NO)

@@ -12,7 +12,7 @@ import sys
 from array import array
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, partial, wraps
 from importlib import import_module
 from importlib.util import module_from_spec
@@ -37,7 +37,6 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import (
     DurabilityPolicy,
-    HistoryPolicy,
     QoSProfile,
     ReliabilityPolicy,
 )
@@ -195,11 +194,6 @@ class Recorder:
         """Register a publisher."""
         made = Channel(len(self._channels), topic, node, memory)
         self._channels.append(made)
-        return made
-
-    def rename(self, channel: Channel, node: str) -> Channel:
-        """Correct the name of the publishing node, also for what has been recorded."""
-        made = self._channels[channel.number] = replace(channel, node=node)
         return made
 
     def label(self, node: str, kind: str, name: str, source: str) -> CallbackLabel:
@@ -384,13 +378,6 @@ class PublisherTap:
     def fits(self, subscription: Any) -> bool:  # noqa: ANN401 - rclpy is untyped
         """Return whether a subscription of this topic is connected to this publisher."""
         return self._type is subscription.msg_type and fit(self._qos, subscription.qos_profile)
-
-    @property
-    def stored(self) -> int:
-        """Return how many messages are stored at most: some may have expired."""
-        depth: int = self._qos.depth
-        limited = self._qos.history == HistoryPolicy.KEEP_LAST
-        return min(self.count, max(1, depth)) if limited else self.count
 
     @property
     def stores(self) -> bool:
