@@ -41,8 +41,8 @@ _FRAME = re.compile(r'\s*File "(?P<file>[^"]*)", line (?P<line>\d+), in (?P<func
 #: How far the log lines of a program may lie apart, in seconds. Its first line is time zero on both
 #: sides, and its timers are made some hundredths of a second before or after that.
 LINES_APART = 0.2
-#: Programs that run at once; a start keeps a core busy for half a second.
-AT_ONCE = 4
+#: Programs that run at once, beside the cases; a start keeps a core busy for half a second.
+AT_ONCE = 3
 
 
 @dataclass(frozen=True)

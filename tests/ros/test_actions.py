@@ -176,15 +176,6 @@ def test_a_goal_that_nobody_takes_is_explained(ros, says):
     says(caught.value, "No action server has responded to send_goal for the action /heat")
 
 
-def test_goals_after_a_cell_was_run_again(ros, pair):
-    pair[1].send(1)
-    ros.run(2)
-    again = ros.add(Sender)
-    again.send(1)
-    ros.run(2)
-    assert again.log == [(2, "accepted"), (3, [1]), (3, (SUCCEEDED, [1]))]
-
-
 def test_live(ros, pair):
     class Quick(Heater):
         def heat(self, goal):

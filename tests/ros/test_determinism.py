@@ -104,14 +104,6 @@ def test_the_smaller_of_both_depths(published, stores, wants, gets):
     assert late(published, stores, wants) == list(range(published - gets + 1, published + 1))
 
 
-def test_a_volatile_late_joiner_gets_nothing(ros):
-    ros.add(partial(Talker, qos=stored(5)))
-    ros.run(5)
-    listener = ros.add(Listener)
-    ros.run(0)
-    assert listener.heard == []
-
-
 def test_a_publisher_that_is_gone_stores_nothing(ros, monkeypatch):
     # A wait would last longer than the test may.
     monkeypatch.setattr("rosbeat.ros.qos_events._LIMIT", 1_000.0)

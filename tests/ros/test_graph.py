@@ -1,7 +1,6 @@
 """The graph: of a session, of other processes in a domain that was joined, and waiting for it."""
 
 import time
-from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
 
@@ -214,14 +213,6 @@ def test_a_node_that_is_listed_after_it_has_left_does_not_count(
         listed = [*observer.get_node_names_and_namespaces(), ("ghost", "/"), ("talker", "/")]
         monkeypatch.setattr(observer, "get_node_names_and_namespaces", lambda: listed)
         assert one.graph().nodes == ("/talker",)
-
-
-def test_nodes_of_one_name_count_each(empty_domain, eventually):
-    with ExitStack() as stack:
-        one, two, three = (stack.enter_context(Session(domain_id=empty_domain)) for _ in range(3))
-        for session in two, three:
-            session.add(Talker)
-        eventually(lambda: one.graph().nodes == ("/talker", "/talker"), 30)
 
 
 # Participants, counted by the ports that they bind.

@@ -16,8 +16,7 @@ from nodes import AsyncDoer, Doer, Listener, Server, Speaker, Talker, Ticker
 from other_process import other_process
 from rosbeat import Session
 from rosbeat.errors import DurationError, SessionError
-from rosbeat.ros.context import Interrupts, show_briefly
-from rosbeat.ros.wait_set import WaitSetExecutor
+from rosbeat.ros.context import Interrupts
 
 
 def live_threads():
@@ -145,28 +144,6 @@ def test_a_callback_that_exits_does_not_silence_the_others(ros, capsys, error):
     count = len(ticker.fired)
     assert ros.wait(10, until=lambda: len(ticker.fired) > count + 5)
     capsys.readouterr()
-
-
-def test_a_paused_node_rests_and_resumes(ros):
-    talker, listener = ros.add(partial(Talker, period=0.01)), ros.add(partial(Listener, qos=3))
-    ros.start()
-    ros.pause(listener)
-    count, goal = len(listener.heard), talker.count + 10
-    assert ros.wait(10, until=lambda: talker.count > goal)
-    assert len(listener.heard) <= count + 1
-    ros.resume(listener)
-    goal = len(listener.heard) + 5
-    assert ros.wait(10, until=lambda: len(listener.heard) >= goal)
-
-
-def test_a_node_added_and_removed_while_live(ros):
-    ros.start()
-    talker, listener = ros.add(partial(Talker, period=0.01)), ros.add(Listener)
-    assert ros.wait(10, until=lambda: len(listener.heard) > 3)
-    ros.add(partial(Talker, period=0.01))
-    assert talker not in ros.nodes
-    ros.remove(listener)
-    assert [node.get_name() for node in ros.nodes] == ["talker"]
 
 
 def test_call_in_a_cell_while_live(ros):
@@ -315,13 +292,3 @@ def test_interrupts_are_left_alone_in_other_threads():
     thread.start()
     thread.join()
     assert seen == [(signal.getsignal(signal.SIGINT), False)]
-
-
-def test_an_interrupt_shows_one_line_where_it_can():
-    interrupt = KeyboardInterrupt()
-    show_briefly(interrupt, "stopped at 3 s.")
-    assert interrupt._render_traceback_() == ["KeyboardInterrupt: stopped at 3 s."]
-
-
-def test_an_executor_whose_making_was_interrupted_goes_quietly():
-    WaitSetExecutor.__new__(WaitSetExecutor).__del__()

@@ -70,17 +70,6 @@ def test_news_are_told_once_and_counted_whole(instruments, live, eventually):
     assert instruments.news().arrivals == ()
 
 
-def test_the_newest_message_of_each_publisher(instruments, live, eventually):
-    live.add(partial(Talker, "one", period=0.01))
-    live.add(partial(Talker, "two", period=0.01))
-    eventually(lambda: len(live.messages("count")) > 10)
-    live.stop()
-    newest = {one.newest.node: one.newest for one in instruments.news().arrivals}
-    assert set(newest) == {"/one", "/two"}
-    for node, sample in newest.items():
-        assert sample == [one for one in live.messages("count") if one.node == node][-1]
-
-
 def test_exceptions_and_log_lines(instruments, live, eventually, capsys):
     live.add(partial(Doer, lambda _: 1 / 0, period=0.01))
     live.add(partial(Speaker, period=0.01))
@@ -112,13 +101,6 @@ def test_a_stopped_node_is_made_again_as_it_was_made(instruments, live, eventual
     instruments.stop("/sensor")
     instruments.start("/sensor")
     assert set(values(live)) == {21.0}
-
-
-def test_a_node_that_was_handed_over_ready_made_starts_again_from_its_class(instruments, live):
-    live.add(Sensor())
-    instruments.stop("/sensor")
-    instruments.start("/sensor")
-    assert instruments.conditions() == {"/sensor": "running"}
 
 
 def test_an_ended_node_starts_again(instruments, live, eventually, capsys):

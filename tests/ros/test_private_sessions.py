@@ -38,19 +38,6 @@ class Repeater(Node):
         self.publisher.publish(Int32(data=self.number))
 
 
-def test_many_sessions_in_one_process_hear_only_themselves():
-    with ExitStack() as stack:
-        sessions = [stack.enter_context(Session()) for _ in range(MANY)]
-        ears = []
-        for number, ros in enumerate(sessions):
-            ros.add(partial(Repeater, number))
-            ears.append(ros.add(Listener))
-        for ros in sessions:
-            ros.run(3)
-        assert [ear.heard for ear in ears] == [[number] * 3 for number in range(MANY)]
-        assert {ros.graph().nodes for ros in sessions} == {("/repeater", "/listener")}
-
-
 @pytest.mark.parametrize("localhost_only", ["", "1"])
 def test_live_sessions_hear_only_themselves(localhost_only, monkeypatch):
     # rcl lets this variable take precedence over the range of discovery.

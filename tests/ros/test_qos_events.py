@@ -18,11 +18,9 @@ from std_msgs.msg import Int32
 from limited import TOPIC, Heart, Nurse, by_the_wall, quality, virtually
 from nodes import Listener, Talker
 from rosbeat import Session
-from rosbeat.records import NANOSECONDS, QoS
+from rosbeat.records import NANOSECONDS
 from rosbeat.records_json import digest
 from rosbeat.ros.qos_events import event_name, limit_ns, topic_of
-from rosbeat.ros.scenario import Publish, observe
-from rosbeat.ros.test_nodes import feeder, profile
 
 pytestmark = pytest.mark.ros
 
@@ -541,21 +539,3 @@ def test_a_lifespan_on_a_topic_of_every_node_is_left_to_the_middleware(ros):
     node.get_logger().info("hello")
     ros.run(1)
     assert heard == ["hello"]
-
-
-def test_feeders_and_steps_have_limits_too():
-    limited = QoS(deadline_ns=NANOSECONDS, lifespan_ns=2 * NANOSECONDS)
-    made = profile(limited)
-    assert (made.deadline.nanoseconds, made.lifespan.nanoseconds) == (10**9, 2 * 10**9)
-    assert profile(QoS()) == QoSProfile(depth=10)
-    seen = observe(
-        lambda: Nurse(quality(1.0)),
-        6,
-        others=[feeder("feeder", TOPIC, "std_msgs/msg/Int32", [1, 2, 3], qos=limited)],
-        steps=[Publish(4.5, topic=f"/{TOPIC}", type_name="std_msgs/msg/Int32", values=(4,),
-                       qos=limited)],
-    )  # fmt: skip
-    ends = seen.graph.on(f"/{TOPIC}", "publisher")
-    assert {end.qos for end in ends} == {limited}
-    missed = [one.time for one in seen.callbacks if one.kind == "event"]
-    assert missed == [4.0, 5.5]

@@ -74,35 +74,6 @@ def test_spin_until_future_complete_runs_virtual_time(ros):
     assert future.result().message == "1"
 
 
-def test_coroutines_wake_one_another_at_one_instant(ros):
-    class Sleepers(Node):
-        """The first to begin is the last to be woken."""
-
-        def __init__(self):
-            super().__init__("sleepers")
-            self.log = []
-            self.create_timer(1.0, self.go)
-
-        def go(self):
-            self.alarms = [rclpy.task.Future() for _ in range(6)]
-            for number in range(5):
-                self.executor.create_task(self.sleep, number)
-            self.executor.create_task(self.begin)
-
-        async def sleep(self, number):
-            await self.alarms[number + 1]
-            self.log.append((number, self.get_clock().now().nanoseconds))
-            self.alarms[number].set_result(None)
-
-        async def begin(self):
-            self.alarms[5].set_result(None)
-            await rclpy.task.Future()
-
-    sleepers = ros.add(Sleepers)
-    ros.run(1)
-    assert sleepers.log == [(number, SECOND) for number in (4, 3, 2, 1, 0)]
-
-
 def test_tasks_that_make_tasks_for_ever_are_stopped(ros, says, monkeypatch):
     monkeypatch.setattr("rosbeat.ros.virtual_time.MOST_TURNS", 1_000)
 

@@ -109,25 +109,6 @@ def test_nothing_is_left_of_it():
     assert [random.uniform(0, 1) for _ in range(5)] == [plain.uniform(0, 1) for _ in range(5)]
 
 
-def test_nothing_is_left_of_it_after_an_exception():
-    class Interrupted(Node):
-        def __init__(self):
-            super().__init__("interrupted")
-            self.create_timer(1.0, self.stop)
-
-        def stop(self):
-            raise KeyboardInterrupt
-
-    with Session() as ros:
-        ros.add(drift([(0, 50.0)]))
-        ros.add(Interrupted)
-        with pytest.raises(KeyboardInterrupt):
-            ros.run(3)
-    shared = random.uniform.__self__
-    assert not {"random", "_randbelow"} & set(vars(shared))
-    assert random.random == shared.random
-
-
 # The greenhouse: what there is to find in it, and that it is the same each time.
 
 

@@ -156,15 +156,6 @@ def test_a_paused_node_keeps_what_its_queue_holds(ros):
     assert listener.heard == [1, 2, 10, 11, 12, 13, 14]
 
 
-def test_publishing_in_a_cell_is_heard_in_the_next_run(ros):
-    talker, listener = ros.add(partial(Talker, period=100.0)), ros.add(Listener)
-    talker.talk()
-    talker.talk()
-    assert listener.heard == []
-    ros.run(0)
-    assert listener.heard == [1, 2]
-
-
 def test_what_was_sent_before_the_node_was_added_waits_in_its_queue(ros):
     listener = Listener()
     talker = ros.add(partial(Talker, period=100.0))
