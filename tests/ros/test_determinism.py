@@ -105,8 +105,8 @@ def test_the_smaller_of_both_depths(published, stores, wants, gets):
 
 
 def test_a_publisher_that_is_gone_stores_nothing(ros, monkeypatch):
-    # A wait would last longer than the test may.
-    monkeypatch.setattr("rosbeat.ros.qos_events._LIMIT", 1_000.0)
+    for limit in ("_UNACKNOWLEDGED", "_LIMIT"):  # a wait would last longer than the test may
+        monkeypatch.setattr(f"rosbeat.ros.qos_events.{limit}", 1_000.0)
     talker = ros.add(partial(Talker, qos=stored(5)))
     ros.run(5)
     talker.destroy_publisher(talker.publisher)

@@ -13,6 +13,7 @@ from rclpy.event_handler import (
 )
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.wait_for_message import wait_for_message
 from std_msgs.msg import Int32
 
 from limited import TOPIC, Heart, Nurse, by_the_wall, quality, virtually
@@ -382,7 +383,8 @@ def test_stored_messages_hold_back_nothing_that_follows(ros, asked):
 @pytest.fixture
 def for_ever(monkeypatch):
     """Let a session wait for stored messages longer than a test may take."""
-    monkeypatch.setattr("rosbeat.ros.qos_events._LIMIT", 1_000.0)
+    for limit in ("_UNACKNOWLEDGED", "_LIMIT"):
+        monkeypatch.setattr(f"rosbeat.ros.qos_events.{limit}", 1_000.0)
 
 
 @pytest.mark.usefixtures("for_ever")
@@ -408,16 +410,61 @@ def test_nobody_waits_for_what_was_heard_in_real_time(ros):
     assert nurse.heard == [1]
 
 
-def test_stored_messages_come_where_another_subscription_never_acknowledges(ros):
+@pytest.fixture
+def unacknowledged(ros):
+    """A publisher that knows of nobody what has arrived: a volatile subscription came too late."""
     heart = ros.add(lambda: Heart(quality(stored=True, depth=1)))
     for number in (1, 2):  # the first is not stored any more
         heart.beat(number)
-    ros.add(lambda: Nurse(quality(), "passer_by"))  # volatile, and too late
+    ros.add(lambda: Nurse(quality(), "passer_by"))
     heart.beat(3)
     assert not heart.publisher.wait_for_all_acked(Duration(seconds=0.2))
-    nurse = ros.add(lambda: Nurse(STORED))
-    heart.beat(4)
+    return heart
+
+
+def test_nobody_waits_for_a_volatile_subscription_that_came_late(ros, unacknowledged, monkeypatch):
+    monkeypatch.setattr("rosbeat.ros.qos_events._LIMIT", 1_000.0)  # longer than the test may take
+    for number in range(4, 7):
+        nurse = ros.add(lambda number=number: Nurse(STORED, f"nurse{number}"))
+        unacknowledged.beat(number)
+        ros.run(0)
+        assert nurse.heard == [number - 1, number]
+
+
+def test_what_was_taken_early_is_a_part_of_the_queue(ros, unacknowledged):
+    nurse = ros.add(lambda: Nurse(quality(stored=True, depth=2)))
+    ros.pause(nurse)
+    for number in (4, 5):
+        unacknowledged.beat(number)
+    ros.resume(nurse)
     ros.run(0)
+    assert nurse.heard == [4, 5]
+    unacknowledged.beat(6)
+    ros.run(0)
+    assert nurse.heard == [4, 5, 6]
+
+
+def test_what_was_taken_early_is_returned_to_who_waits_for_a_message(ros, unacknowledged):
+    class Waiting(Node):
+        def __init__(self):
+            super().__init__("waiting")
+            self.timer = self.create_timer(1.0, self.ask)
+
+        def ask(self):
+            self.timer.cancel()
+            self.got = wait_for_message(Int32, self, TOPIC, qos_profile=STORED, time_to_wait=5.0)
+
+    waiting = ros.add(Waiting)
+    ros.run(1)
+    assert waiting.got == (True, Int32(data=3))
+
+
+def test_what_was_taken_early_is_heard_in_real_time(ros, unacknowledged):
+    nurse = ros.add(lambda: Nurse(STORED))
+    ros.start()
+    assert ros.wait(10, until=lambda: nurse.heard)
+    unacknowledged.beat(4)
+    assert ros.wait(10, until=lambda: len(nurse.heard) > 1)
     assert nurse.heard == [3, 4]
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ctypes
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from contextlib import suppress
+from functools import partial
 from threading import Event, Thread, current_thread
 from typing import TYPE_CHECKING, Any
 
@@ -16,9 +17,12 @@ from rclpy.executors import (
     ExternalShutdownException,
     ShutdownException,
     SingleThreadedExecutor,
+    await_or_execute,
 )
 from rclpy.node import Node
 from rclpy.task import Future, Task
+
+from rosbeat.ros.entities import Entry, take_message
 
 if TYPE_CHECKING:
     from rosbeat.ros.recording import Entity
@@ -60,7 +64,21 @@ class LiveExecutor(SingleThreadedExecutor):
 
     def start(self) -> None:
         """Begin to run callbacks."""
+        for state in self._world.states():
+            for entry in state.entries if state.spinning else ():
+                self._run_taken_messages(entry)
         self._thread.start()
+
+    def _run_taken_messages(self, entry: Entry) -> None:
+        """Make tasks of messages that are in no queue any more; see `qos_events.TakenEarly`."""
+
+        def take(_: object) -> Callable[[], Coroutine[Any, Any, None]] | None:
+            work = take_message(entry, None)
+            return None if work is None else partial(await_or_execute, work[0], *work[1])
+
+        if entry.kind == "subscription" and entry.handle is not entry.entity.handle:
+            for _ in range(len(entry.handle)):
+                self._make_handler(entry.entity, entry.state.node, take)
 
     def is_this_thread(self) -> bool:
         """Return whether the caller is a callback of this executor."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from bisect import bisect_left
+from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from threading import get_ident
@@ -18,7 +19,7 @@ from rclpy.event_handler import (
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSCompatibility, QoSProfile, qos_check_compatible
+from rclpy.qos import HistoryPolicy, QoSCompatibility, QoSProfile, qos_check_compatible
 
 from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS
 from rosbeat.ros.entities import Entry, NodeState, Work, callback_name, message_work
@@ -360,18 +361,64 @@ class Limits:
 #
 # The sign is that the publisher knows everything to be acknowledged. It is not given where another
 # subscription never acknowledges: a volatile one that came after the publisher had dropped some of
-# its messages. Then they have come long before the limit.
+# its messages. Then the messages are taken early and counted, and the executor gets them from here.
 
 
-#: Seconds after which the sign is not to be expected any more.
+#: Seconds after which the sign is hardly to be expected any more.
+_UNACKNOWLEDGED = 0.02
+#: Seconds; it takes as long only where stored messages have expired, too, or the queue is shorter
+#: than what is stored.
 _LIMIT = 2.0
 _STEP = 0.0005
 
 
-def wait_for_stored(taps: Iterable[PublisherTap], qos: QoSProfile) -> None:
+def wait_for_stored(taps: Iterable[PublisherTap], entry: Entry) -> None:
     """Wait until a new subscription has all messages that the publishers of its topic store."""
-    storing = [tap for tap in taps if tap.stores_for(qos)]
-    end = time.monotonic() + _LIMIT
+    storing = [tap for tap in taps if tap.stores_for(entry.entity.qos_profile)]
+    begin = time.monotonic()
     # Asked again and again, since rclpy would wait without giving way to other threads.
-    while not all(tap.has_delivered() for tap in storing) and time.monotonic() < end:
+    while not all(tap.has_delivered() for tap in storing):
+        waited = time.monotonic() - begin
+        if waited > _UNACKNOWLEDGED:
+            early = entry.handle if isinstance(entry.handle, TakenEarly) else TakenEarly(entry)
+            if early.count() >= sum(tap.stored for tap in storing) or waited > _LIMIT:
+                return
         time.sleep(_STEP)
+
+
+class TakenEarly:
+    """Stand in for a subscription's handle until the messages that were taken early are used up."""
+
+    def __init__(self, entry: Entry) -> None:
+        self._entry, self._handle = entry, entry.handle
+        self._arguments = (entry.entity.msg_type, entry.entity.raw)
+        qos = entry.entity.qos_profile
+        limited = qos.history == HistoryPolicy.KEEP_LAST
+        # It is a part of the queue, so both together hold no more than the queue.
+        self._messages: deque[Any] = deque(maxlen=max(1, qos.depth) if limited else None)
+        self._count = 0
+        entry.handle = self
+
+    def __enter__(self) -> None:
+        self._handle.__enter__()
+
+    def __exit__(self, *error: object) -> None:
+        self._handle.__exit__(*error)
+
+    def __len__(self) -> int:
+        return len(self._messages)
+
+    def count(self) -> int:
+        """Take what has arrived, and return how many messages that were so far."""
+        with self._handle:
+            while (taken := self._handle.take_message(*self._arguments)) is not None:
+                self._messages.append(taken)
+                self._count += 1
+        return self._count
+
+    def take_message(self, *_: object) -> Any:  # noqa: ANN401 - a message with its info, or None
+        """Return the oldest message."""
+        self.count()
+        if len(self._messages) <= 1:
+            self._entry.handle = self._handle
+        return self._messages.popleft() if self._messages else None

@@ -37,6 +37,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import (
     DurabilityPolicy,
+    HistoryPolicy,
     QoSProfile,
     ReliabilityPolicy,
 )
@@ -378,6 +379,13 @@ class PublisherTap:
     def fits(self, subscription: Any) -> bool:  # noqa: ANN401 - rclpy is untyped
         """Return whether a subscription of this topic is connected to this publisher."""
         return self._type is subscription.msg_type and fit(self._qos, subscription.qos_profile)
+
+    @property
+    def stored(self) -> int:
+        """Return how many messages are stored at most: some may have expired."""
+        depth: int = self._qos.depth
+        limited = self._qos.history == HistoryPolicy.KEEP_LAST
+        return min(self.count, max(1, depth)) if limited else self.count
 
     @property
     def stores(self) -> bool:

@@ -586,8 +586,9 @@ class World:
 
     def _watch_subscription(self, entry: Entry) -> None:
         entry.born = self.recorder.mark()
-        taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
-        wait_for_stored(taps, entry.entity.qos_profile)
+        if self.live is None:
+            taps = (tap for state in self.states() for tap in state.taps)
+            wait_for_stored([tap for tap in taps if tap.topic == entry.name], entry)
         if self.counts_limits:
             self.limits.subscription_made(entry)
         if self.external_messages is not None:
