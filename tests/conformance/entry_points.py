@@ -156,8 +156,6 @@ RUNS = {
                at=1.4),
         Run("sleeping_handler", "mains/sleeping_handler.py", signal=signal.SIGTERM, at=1.5),
         Run("own_exception", "mains/own_exception.py"),
-        Run("exit_code_300", "mains/exit_code.py", ("300",)),
-        Run("exit_code_-1", "mains/exit_code.py", ("-1",)),
         Run("wrong_argument", "mains/arguments.py", ("--ros-args", "-p", "limit:=3")),
     ]
 }  # fmt: skip
