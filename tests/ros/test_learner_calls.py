@@ -177,25 +177,15 @@ def test_without_a_session_everything_is_rclpys_own(plain):
     listener.destroy_node()
 
 
-def test_a_plain_node_beside_a_session(plain, interrupt, capfd):
+def test_a_plain_node_beside_a_session(plain, interrupt):
     node = Node("plain")
     fired = []
     node.create_timer(0.02, lambda: fired.append(1))
-    node.get_logger().info("before")
-    with Session() as ros:
-        ros.add(Speaker)
-        ros.run(2)
+    with Session():
         interrupt(0.3)
         with pytest.raises(KeyboardInterrupt):
             rclpy.spin(node)
-        assert fired
-    printed = capfd.readouterr()
-    assert "here is speaker" in printed.out
-    assert "here is speaker" not in printed.err
-    node.get_logger().info("after")
-    printed_after = capfd.readouterr()
-    # rcl writes to its own buffer of file descriptor 2.
-    assert "before" in printed.err + printed_after.err
+    assert fired
     assert rclpy.ok()
     node.destroy_node()
 

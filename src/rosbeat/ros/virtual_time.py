@@ -895,9 +895,11 @@ class VirtualTimeExecutor(WaitSetExecutor):
         finally:
             if program is not None:
                 program.leave()
-            ended, self._entry = call or self._call_of_entry, None
-            if ended is not None:
-                self._end_call(ended)
+            if call is None:
+                call = self._call_of_entry
+            self._entry = None
+            if call is not None:
+                self._end_call(call)
 
     @property
     def current(self) -> Call | None:
