@@ -1,4 +1,4 @@
-"""Nodes started under another name, in a namespace, with other topics and parameters."""
+"""Nodes started under another name or with other parameters; several, as by a launch file."""
 
 import pytest
 from rclpy.node import Node
@@ -6,7 +6,7 @@ from std_msgs.msg import Float32
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.launch import Launch, Maker, checked
-from rosbeat.ros.scenario import Add, observe
+from rosbeat.ros.scenario import MOST_NODES, Add, observe, observe_system
 from rosbeat.ros.session import Session
 
 pytestmark = pytest.mark.ros
@@ -100,3 +100,59 @@ def test_a_scenario_starts_its_answer_and_the_others():
     assert seen.subject == "/house/talker"
     assert {"/other", "/late", "/house/talker"} == set(seen.graph.nodes)
     assert [one.value for one in seen.samples if one.topic == "/house/temperature"] == [2.0] * 3
+
+
+# Several nodes of a learner's: a system.
+
+
+class Broken(Node):
+    def __init__(self):
+        super().__init__("broken")
+        raise ValueError("no")
+
+
+class Fragile(Node):
+    def __init__(self):
+        super().__init__("fragile")
+        self.create_timer(1.0, lambda: 1 / 0)
+
+
+def values(seen):
+    return [(one.node, one.value) for one in seen.samples]
+
+
+@pytest.mark.parametrize(
+    "system",
+    [[Talker], (Talker,), (kind for kind in [Talker]), lambda: Talker().get_name() and [Talker],
+     [Maker(Talker)], [(Talker, {})], [lambda: Talker()], lambda: [Talker()]],
+    ids=range(8),
+)  # fmt: skip
+def test_a_list_may_come_in_many_ways(system):
+    assert {value for _, value in values(observe_system(system, 2))} == {1.0}
+
+
+def test_a_node_that_raises_ends_alone():
+    seen = observe_system([Broken, Fragile, Talker], 3)
+    assert [fault.kind for fault in seen.faults] == ["ZeroDivisionError", "ValueError"]
+    assert len(seen.samples) == 3
+
+
+@pytest.mark.parametrize(
+    "system",
+    [None, 5, "Talker", Talker, [], lambda: None, lambda: Talker, {"a": Talker},
+     [(Talker, "b")], [(Talker, {"colour": 1})], [Talker] * (MOST_NODES + 1)],
+    ids=range(11),
+)  # fmt: skip
+def test_anything_else_is_no_system(system):
+    seen = observe_system(system, 1)
+    assert [fault.kind for fault in seen.faults] == ["NoSystemError"]
+    assert seen.samples == ()
+
+
+def test_an_endless_list_is_broken_off():
+    def forever():
+        while True:
+            pass
+
+    (fault,) = observe_system(forever, 1, deadline=0.3).faults
+    assert fault.kind == "DeadlinePassed"
