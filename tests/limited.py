@@ -116,7 +116,7 @@ class ByTheWall:
         made = kind(*args, context=self.context, **options)
         self.nodes.append(made)
         self.executor.add_node(made)
-        self.pass_time(0.2)  # endpoints of one process are matched at once
+        self.pass_time(0.05)  # endpoints of one process are matched at once
         return made
 
     def pass_time(self, seconds: float) -> None:

@@ -134,8 +134,3 @@ class Words(Node):
 
     def say(self) -> None:
         self.publisher.publish(String(data=self.text))
-
-
-def kinds(kind: type[Node], *args: Any, **kwargs: Any) -> Callable[[], Node]:
-    """A factory of one node."""
-    return partial(kind, *args, **kwargs)

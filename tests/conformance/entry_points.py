@@ -41,8 +41,8 @@ _FRAME = re.compile(r'\s*File "(?P<file>[^"]*)", line (?P<line>\d+), in (?P<func
 #: How far the log lines of a program may lie apart, in seconds. Its first line is time zero on both
 #: sides, and its timers are made some hundredths of a second before or after that.
 LINES_APART = 0.2
-#: Programs that run at once; a start keeps a core busy for half a second.
-AT_ONCE = 4
+#: Programs that run at once, beside the cases; a start keeps a core busy for half a second.
+AT_ONCE = 3
 
 
 @dataclass(frozen=True)
@@ -154,13 +154,8 @@ RUNS = {
         Run("add_client", "mains/add_client.py", ("2", "3"), beside=("mains/add_service.py",)),
         *_both("arguments", "mains/arguments.py", "one", "--ros-args", *_REMAPPED, "--", "two",
                at=1.4),
-        *_both("signal_options_no", "mains/signal_options.py", "NO", at=1.4),
-        *_both("signal_options_sigint", "mains/signal_options.py", "SIGINT", at=1.4),
-        *_both("signal_options_sigterm", "mains/signal_options.py", "SIGTERM", at=1.4),
         Run("sleeping_handler", "mains/sleeping_handler.py", signal=signal.SIGTERM, at=1.5),
         Run("own_exception", "mains/own_exception.py"),
-        Run("exit_code_300", "mains/exit_code.py", ("300",)),
-        Run("exit_code_-1", "mains/exit_code.py", ("-1",)),
         Run("wrong_argument", "mains/arguments.py", ("--ros-args", "-p", "limit:=3")),
     ]
 }  # fmt: skip
@@ -312,7 +307,7 @@ def measure_programs(
 
     Args:
         runs: The programs.
-        domains: Private domain ids.
+        domains: Private domain ids, one for each of `AT_ONCE` programs.
         file: A file to write to.
         deadline: After how many seconds nothing is measured anew.
 
@@ -320,7 +315,7 @@ def measure_programs(
         The outcome of each, or why there is none that says anything about rclpy.
     """
     free: Queue[int] = Queue()
-    for domain in domains[:AT_ONCE]:
+    for domain in domains:
         free.put(domain)
     give_up = time.monotonic() + deadline
 

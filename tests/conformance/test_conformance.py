@@ -1,19 +1,22 @@
 """Virtual time does what rclpy's own executors do against the wall clock.
 
 Each case and each program runs twice: as real processes (`real`, `entry_points`) and in a session
-(`virtual`). The real side of all of them is measured once, in about a minute.
+(`virtual`). The real side of all of them is measured once, in less than a minute.
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
 from itertools import groupby, zip_longest
 
 import pytest
 
 from conformance.cases import CASES
+from conformance.entry_points import AT_ONCE as PROGRAMS_AT_ONCE
 from conformance.entry_points import LINES_APART, RUNS, Line, Outcome, Run, measure_programs
 from conformance.programs import Case, Entry
 from conformance.real import Measurement, measure
@@ -26,16 +29,10 @@ pytestmark = [
     pytest.mark.skipif(sys.platform != "linux", reason="forks, and asks Linux to end children"),
 ]
 
+#: Cases that have a domain, and may run at once.
+CASES_AT_ONCE = 12
 #: How long before and after its end nothing happens in a case, in seconds.
 MARGIN = 0.09
-
-
-@pytest.fixture(scope="module")
-def domains() -> Iterator[list[int]]:
-    leases = [lease_domain() for _ in range(12)]
-    yield [lease.domain_id for lease in leases]
-    for lease in leases:
-        lease.release()
 
 
 def chosen(request: pytest.FixtureRequest, function: str) -> list[str]:
@@ -44,33 +41,43 @@ def chosen(request: pytest.FixtureRequest, function: str) -> list[str]:
     return [item.callspec.params["name"] for item in items if item.originalname == function]
 
 
-@pytest.fixture(scope="module")
-def real_cases(request: pytest.FixtureRequest, domains: list[int]) -> dict[str, Measurement]:
-    names = chosen(request, "test_case")
-    return measure([CASES[name] for name in names], domains)
+@dataclass(frozen=True)
+class Real:
+    """What the cases and the programs did as real processes."""
+
+    cases: dict[str, Measurement]
+    programs: dict[str, Outcome | str]
 
 
 @pytest.fixture(scope="module")
-def real_programs(
-    request: pytest.FixtureRequest,
-    domains: list[int],
-    tmp_path_factory: pytest.TempPathFactory,
-) -> dict[str, Outcome | str]:
-    names = chosen(request, "test_program")
+def real(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Real]:
+    """Measure both at once: cases sleep most of the time."""
     lag = tmp_path_factory.mktemp("programs") / "lag"
-    return measure_programs([RUNS[name] for name in names], domains, lag)
+    with ExitStack() as stack:
+        leases = [lease_domain() for _ in range(CASES_AT_ONCE + PROGRAMS_AT_ONCE)]
+        for lease in leases:
+            stack.callback(lease.release)
+        domains = [lease.domain_id for lease in leases]
+        runs = [RUNS[name] for name in chosen(request, "test_program")]
+        cases = [CASES[name] for name in chosen(request, "test_case")]
+        with ThreadPoolExecutor(1) as pool:
+            programs = pool.submit(measure_programs, runs, domains[CASES_AT_ONCE:], lag)
+            measured = measure(cases, domains[:CASES_AT_ONCE])
+            yield Real(measured, programs.result())
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_case(name: str, real_cases: dict[str, Measurement]) -> None:
-    real = real_cases[name]
-    if real.invalid:
-        pytest.skip(f"no valid measurement before the deadline: {real.invalid}")
-    differences = list(compare(CASES[name], real.entries, run_case(CASES[name])))
+def test_case(name: str, real: Real) -> None:
+    done = real.cases[name]
+    if done.invalid:
+        pytest.skip(f"no valid measurement before the deadline: {done.invalid}")
+    differences = list(compare(CASES[name], done.entries, run_case(CASES[name])))
     if CASES[name].differs:
         assert differences, f"There is no difference any more: {CASES[name].differs}"
     else:
-        assert not differences, "\n".join([CASES[name].about, *differences, *real.stderr])
+        assert not differences, "\n".join([CASES[name].about, *differences, *done.stderr])
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -82,24 +89,24 @@ def test_nothing_happens_at_the_end_of_a_case(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_program(name: str, real_programs: dict[str, Outcome | str]) -> None:
-    real = real_programs[name]
-    if isinstance(real, str):
-        pytest.skip(f"no valid measurement before the deadline: {real}")
+def test_program(name: str, real: Real) -> None:
+    done = real.programs[name]
+    if isinstance(done, str):
+        pytest.skip(f"no valid measurement before the deadline: {done}")
     virtual = run_program(RUNS[name])
-    if real.race:  # a session has none of them; until the signal both have done the same
-        assert until_signal(RUNS[name], virtual) == until_signal(RUNS[name], real)
+    if done.race:  # a session has none of them; until the signal both have done the same
+        assert until_signal(RUNS[name], virtual) == until_signal(RUNS[name], done)
         return
     if RUNS[name].differs:
-        same = (virtual.returncode, virtual.error) == (real.returncode, real.error)
+        same = (virtual.returncode, virtual.error) == (done.returncode, done.error)
         assert not same, f"There is no difference any more: {RUNS[name].differs}"
         return
-    assert (virtual.returncode, virtual.error) == (real.returncode, real.error)
-    assert virtual.frames == real.frames
-    assert virtual.printed == real.printed
-    assert texts(RUNS[name], virtual) == texts(RUNS[name], real)
+    assert (virtual.returncode, virtual.error) == (done.returncode, done.error)
+    assert virtual.frames == done.frames
+    assert virtual.printed == done.printed
+    assert texts(RUNS[name], virtual) == texts(RUNS[name], done)
     if not RUNS[name].beside:
-        assert_close_in_time(real, virtual)
+        assert_close_in_time(done, virtual)
 
 
 def compare(case: Case, real: Sequence[Entry], virtual: Sequence[Entry]) -> Iterator[str]:

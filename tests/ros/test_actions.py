@@ -1,6 +1,5 @@
 """Actions in virtual time: the same each time, seen in the graph, explained where they wait."""
 
-import time
 from functools import partial
 
 import pytest
@@ -11,7 +10,7 @@ from rclpy.node import Node
 from test_msgs.action import Fibonacci
 
 from action_nodes import Heater, Sender
-from nodes import Doer, Ticker
+from nodes import Doer
 from rosbeat import Session
 from rosbeat.errors import SessionError
 
@@ -24,28 +23,6 @@ ABORTED = GoalStatus.STATUS_ABORTED
 def pair(ros):
     """A server and a client, made and added."""
     return ros.add(Heater), ros.add(Sender)
-
-
-def test_a_goal_is_rejected(ros, pair):
-    pair[1].send(99)
-    ros.run(5)
-    assert pair[1].log == [(0, "rejected")]
-
-
-def test_a_goal_is_canceled(ros, pair):
-    pair[1].send(9)
-    ros.run(2.5)
-    pair[1].cancel()
-    ros.run(5)
-    assert pair[1].log[-3:] == [(2.5, "canceling 1"), (3, [1, 2, 3]), (3, (CANCELED, [1, 2, 3]))]
-
-
-def test_two_goals_at_once(ros, pair):
-    pair[1].send(2)
-    pair[1].send(3)
-    ros.run(5)
-    ends = [what for what in pair[1].log if isinstance(what[1], tuple)]
-    assert ends == [(2, (SUCCEEDED, [1, 2])), (3, (SUCCEEDED, [1, 2, 3]))]
 
 
 def test_two_clients_hear_only_of_their_own_goals(ros, pair):
@@ -90,24 +67,6 @@ def test_an_exception_in_the_work_aborts_its_goal_and_the_node_goes_on(ros, caps
     before = server.tick
     ros.run(1)
     assert server.tick is not before
-
-
-def test_work_that_sleeps_takes_virtual_time(slept, ros):
-    class Sleeper(Heater):
-        def heat(self, goal):
-            for _ in range(goal.request.order):
-                time.sleep(1.0)
-            goal.succeed()
-            return Fibonacci.Result()
-
-    ros.add(Sleeper)
-    client, ticker = ros.add(Sender), ros.add(partial(Ticker, 1.0))
-    client.send(3)
-    ros.run(2)
-    ros.run(5)
-    assert 1.0 not in slept
-    assert client.log == [(0, "accepted"), (3, (SUCCEEDED, []))]
-    assert len(ticker.fired) >= 7
 
 
 def _everything():
@@ -215,30 +174,6 @@ def test_a_goal_that_nobody_takes_is_explained(ros, says):
     with pytest.raises(SessionError) as caught:
         client.send_goal(Fibonacci.Goal())
     says(caught.value, "No action server has responded to send_goal for the action /heat")
-
-
-def test_wait_for_server_does_not_wait_for_one_that_is_there(ros, pair):
-    assert pair[1].client.wait_for_server()
-    assert ros.time == 0
-
-
-def test_a_paused_server_takes_the_goal_later(ros, pair):
-    ros.pause("heater")
-    pair[1].send(1)
-    ros.run(3)
-    assert pair[1].log == []
-    ros.resume("heater")
-    ros.run(2)
-    assert pair[1].log[0] == (3, "accepted")
-
-
-def test_goals_after_a_cell_was_run_again(ros, pair):
-    pair[1].send(1)
-    ros.run(2)
-    again = ros.add(Sender)
-    again.send(1)
-    ros.run(2)
-    assert again.log == [(2, "accepted"), (3, [1]), (3, (SUCCEEDED, [1]))]
 
 
 def test_live(ros, pair):

@@ -19,7 +19,7 @@ from rosbeat.records_json import digest
 
 TESTS = Path(six_nodes.__file__).parent
 #: The lead runs 200; a test suite does not need to.
-RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "20"))
+RUNS = int(os.environ.get("ROSBEAT_DETERMINISM_RUNS", "10"))
 PROCESSES = int(os.environ.get("ROSBEAT_DETERMINISM_PROCESSES", "2"))
 
 
@@ -102,14 +102,6 @@ def test_a_late_joiner_gets_exactly_what_is_stored():
 )
 def test_the_smaller_of_both_depths(published, stores, wants, gets):
     assert late(published, stores, wants) == list(range(published - gets + 1, published + 1))
-
-
-def test_a_volatile_late_joiner_gets_nothing(ros):
-    ros.add(partial(Talker, qos=stored(5)))
-    ros.run(5)
-    listener = ros.add(Listener)
-    ros.run(0)
-    assert listener.heard == []
 
 
 def test_a_publisher_that_is_gone_stores_nothing(ros, monkeypatch):

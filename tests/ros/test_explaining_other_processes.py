@@ -86,10 +86,3 @@ def test_nothing_is_left_behind(joined, eventually):
     joined.explain("cuont", seconds=0)
     eventually(lambda: hidden() == before, 30)
     assert joined.nodes == ()
-
-
-def test_a_private_session_has_nobody_to_listen_to(ros):
-    ros.add(Talker)
-    ros.add(Listener)
-    ros.run(2)
-    assert ros.explain("count").is_well

@@ -117,16 +117,6 @@ def test_a_fault_in_such_a_callback_points_at_the_learners_line(joined, capsys):
     capsys.readouterr()
 
 
-def test_virtual_time_in_a_joined_domain_records_own_messages_once():
-    lease = lease_domain()
-    with Session(domain_id=lease.domain_id) as ros:
-        ros.add(Talker)
-        ear = ros.add(Listener)
-        ros.run(100)
-        assert numbers(ros, "/talker") == ear.heard == list(range(1, 101))
-    lease.release()
-
-
 def test_what_a_session_refuses_to_send_counts_for_nothing(joined):
     talker, ear = (
         joined.add(partial(Talker, "own", "quiet")),
@@ -136,11 +126,3 @@ def test_what_a_session_refuses_to_send_counts_for_nothing(joined):
         talker.publisher.publish("no message")
     joined.run(3)
     assert numbers(joined, "/own", "quiet") == ear.heard == [1, 2, 3]
-
-
-def test_after_the_end_messages_can_be_read(domain):
-    with Session(domain_id=domain) as ros:
-        ros.add(Listener)
-        ros.start()
-        assert ros.wait(30, until=lambda: ros.messages("count"))
-    assert ros.messages("count")

@@ -1,26 +1,22 @@
 """The graph: of a session, of other processes in a domain that was joined, and waiting for it."""
 
-import gc
 import time
-from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
 
-import psutil
 import pytest
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-from nodes import SECOND, Doer, Listener, Server, Talker, Ticker
+from nodes import Doer, Listener, Server, Talker
 from other_process import other_process
 from rosbeat import Session
 from rosbeat.domains import lease_domain, participants, udp_ports
 from rosbeat.errors import DurationError, SessionError, UnknownTopicError
 from rosbeat.records import QoS
 from rosbeat.ros.graph import count_participants, domains_in_use
-from rosbeat.viz import graph as picture
 
 pytestmark = pytest.mark.ros
 
@@ -50,16 +46,6 @@ def test_services_and_clients(ros):
     ros.add(lambda: Node("asker")).create_client(Trigger, "ask")
     (server,), (client,) = ros.graph().on("/ask", "server"), ros.graph().on("/ask", "client")
     assert (server.type_name, client.node) == ("std_srvs/srv/Trigger", "/asker")
-
-
-def test_timers(ros):
-    ticker = ros.add(partial(Ticker, 0.5, 2.0))
-    ros.run(4)
-    assert [(timer.period_ns, timer.calls) for timer in ros.graph().timers] == [
-        (SECOND // 2, 8), (2 * SECOND, 2),
-    ]  # fmt: skip
-    ticker.destroy_timer(ticker.clocks[0])
-    assert [timer.period_ns for timer in ros.graph().timers] == [2 * SECOND]
 
 
 def test_what_was_destroyed_is_not_there(ros):
@@ -144,41 +130,10 @@ def test_two_nodes_of_one_name_are_two(joined):
     assert sorted(joined.graph().nodes) == ["/listener", "/server", "/talker", "/talker"]
 
 
-def test_the_picture_shows_them(joined):
-    assert picture(joined.graph()).description == (
-        "3 nodes and 1 topic. /count (Int32): published by /talker, subscribed to by /listener. "
-        "/ask (Trigger) is a service: offered by /server, used by nobody."
-    )
-
-
 def test_the_observer_is_seen_by_nobody(joined):
     with Session(domain_id=joined.domain_id) as other:
         other.wait_for_nodes("talker", timeout=30)
         assert other.graph() == joined.graph()
-
-
-def test_joining_again_and_again_leaves_nothing(domain, eventually):
-    process = psutil.Process()
-    Session(domain_id=domain).close()
-    gc.collect()
-    descriptors, threads = process.num_fds(), process.num_threads()
-    for _ in range(5):
-        ros = Session(domain_id=domain)  # the one before is dropped, not closed
-        ros.add(Listener)
-        ros.start()
-        ros.graph()
-    ros.close()
-    gc.collect()
-    eventually(lambda: process.num_threads() <= threads)
-    eventually(lambda: process.num_fds() <= descriptors)
-
-
-def test_after_the_end_the_graph_is_as_it_was(domain):
-    with Session(domain_id=domain) as ros:
-        ros.wait_for_nodes("talker", timeout=30)
-        before = ros.graph()
-    assert ros.graph() == before
-    assert before.nodes
 
 
 def test_a_node_that_does_not_come_gets_three_parts(joined, says):
@@ -233,14 +188,6 @@ def test_a_topic_that_only_others_use_is_explained(joined, says):
 # The hidden node through which a session sees other processes.
 
 
-def test_own_messages_are_told_from_those_of_another_session(empty_domain, eventually):
-    with Session(domain_id=empty_domain) as one, Session(domain_id=empty_domain) as two:
-        one.add(Talker)
-        two.add(Talker)
-        eventually(lambda: len(one.graph().on("/count", "publisher")) == 2, 30)
-        eventually(lambda: one.graph().nodes == ("/talker", "/talker"), 30)
-
-
 def test_the_observer_is_no_node_of_the_session_and_has_nothing_to_say(empty_domain):
     with Session(domain_id=empty_domain) as ros:
         observer = ros._world.graph_observer
@@ -255,12 +202,6 @@ def test_the_observer_is_no_node_of_the_session_and_has_nothing_to_say(empty_dom
         assert ros.observation().callbacks == ()
 
 
-def test_a_private_session_has_none(ros):
-    ros.add(Listener)
-    ros.run(0)
-    assert ros._world.graph_observer is None
-
-
 def test_a_node_that_is_listed_after_it_has_left_does_not_count(
     empty_domain, eventually, monkeypatch
 ):
@@ -272,14 +213,6 @@ def test_a_node_that_is_listed_after_it_has_left_does_not_count(
         listed = [*observer.get_node_names_and_namespaces(), ("ghost", "/"), ("talker", "/")]
         monkeypatch.setattr(observer, "get_node_names_and_namespaces", lambda: listed)
         assert one.graph().nodes == ("/talker",)
-
-
-def test_nodes_of_one_name_count_each(empty_domain, eventually):
-    with ExitStack() as stack:
-        one, two, three = (stack.enter_context(Session(domain_id=empty_domain)) for _ in range(3))
-        for session in two, three:
-            session.add(Talker)
-        eventually(lambda: one.graph().nodes == ("/talker", "/talker"), 30)
 
 
 # Participants, counted by the ports that they bind.
@@ -320,10 +253,6 @@ def test_the_process_itself_does_not_count():
     assert [participants(domain, ports) for domain in (7, 8)] == [[], [1000]]
 
 
-def test_nothing_is_known_without_a_table():
-    assert udp_ports("") == udp_ports("nonsense\n1: 2") == set()
-
-
 def test_a_session_is_counted_and_is_no_other(empty_domain):
     with Session(domain_id=empty_domain):
         assert count_participants(empty_domain) == 1
@@ -333,22 +262,3 @@ def test_a_session_is_counted_and_is_no_other(empty_domain):
 
 
 # Waiting with a deadline.
-
-
-def test_what_is_true_already_is_not_waited_for(ros):
-    ros.start()
-    assert ros.wait(0, until=lambda: True) is True
-
-
-def test_the_deadline_ends_the_waiting(ros):
-    ros.start()
-    begin = time.monotonic()
-    assert ros.wait(0.12, until=lambda: False) is False
-    assert time.monotonic() >= begin + 0.12
-
-
-def test_without_a_deadline_it_asks_until_it_is_true(ros):
-    ros.start()
-    answers = [False, False, "yes"]
-    assert ros.wait(until=lambda: answers.pop(0)) is True
-    assert answers == []

@@ -1,4 +1,4 @@
-"""Nodes started under another name, in a namespace, with other topics and parameters."""
+"""Nodes started under another name or with other parameters; several, as by a launch file."""
 
 import pytest
 from rclpy.node import Node
@@ -6,7 +6,7 @@ from std_msgs.msg import Float32
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.launch import Launch, Maker, checked
-from rosbeat.ros.scenario import Add, observe
+from rosbeat.ros.scenario import MOST_NODES, Add, observe, observe_system
 from rosbeat.ros.session import Session
 
 pytestmark = pytest.mark.ros
@@ -40,13 +40,6 @@ def test_a_node_keeps_its_class_and_gets_another_place():
         assert type(node) is Talker
 
 
-def test_only_the_node_that_is_added_is_started_so():
-    with Session() as ros:
-        ros.add(Talker, name="one")
-        ros.add(Talker)
-        assert ros.graph().nodes == ("/one", "/talker")
-
-
 def test_the_same_name_makes_room_for_the_new_one_and_another_does_not():
     with Session() as ros:
         ros.add(Talker, name="one")
@@ -75,11 +68,6 @@ def test_what_cannot_be_a_name_or_a_value_is_refused(start, says):
     with Session() as ros, pytest.raises(SessionError) as caught:
         ros.add(Talker, **start)
     says(caught.value, "cannot be started with", "ros.add(")
-
-
-def test_a_name_that_ros_does_not_allow_is_an_error_of_the_constructor():
-    with Session() as ros, pytest.raises(SessionError, match="could not be created"):
-        ros.add(Talker, name="my sensor")
 
 
 def test_a_node_that_exists_cannot_be_renamed(says):
@@ -112,3 +100,59 @@ def test_a_scenario_starts_its_answer_and_the_others():
     assert seen.subject == "/house/talker"
     assert {"/other", "/late", "/house/talker"} == set(seen.graph.nodes)
     assert [one.value for one in seen.samples if one.topic == "/house/temperature"] == [2.0] * 3
+
+
+# Several nodes of a learner's: a system.
+
+
+class Broken(Node):
+    def __init__(self):
+        super().__init__("broken")
+        raise ValueError("no")
+
+
+class Fragile(Node):
+    def __init__(self):
+        super().__init__("fragile")
+        self.create_timer(1.0, lambda: 1 / 0)
+
+
+def values(seen):
+    return [(one.node, one.value) for one in seen.samples]
+
+
+@pytest.mark.parametrize(
+    "system",
+    [[Talker], (Talker,), (kind for kind in [Talker]), lambda: Talker().get_name() and [Talker],
+     [Maker(Talker)], [(Talker, {})], [lambda: Talker()], lambda: [Talker()]],
+    ids=range(8),
+)  # fmt: skip
+def test_a_list_may_come_in_many_ways(system):
+    assert {value for _, value in values(observe_system(system, 2))} == {1.0}
+
+
+def test_a_node_that_raises_ends_alone():
+    seen = observe_system([Broken, Fragile, Talker], 3)
+    assert [fault.kind for fault in seen.faults] == ["ZeroDivisionError", "ValueError"]
+    assert len(seen.samples) == 3
+
+
+@pytest.mark.parametrize(
+    "system",
+    [None, 5, "Talker", Talker, [], lambda: None, lambda: Talker, {"a": Talker},
+     [(Talker, "b")], [(Talker, {"colour": 1})], [Talker] * (MOST_NODES + 1)],
+    ids=range(11),
+)  # fmt: skip
+def test_anything_else_is_no_system(system):
+    seen = observe_system(system, 1)
+    assert [fault.kind for fault in seen.faults] == ["NoSystemError"]
+    assert seen.samples == ()
+
+
+def test_an_endless_list_is_broken_off():
+    def forever():
+        while True:
+            pass
+
+    (fault,) = observe_system(forever, 1, deadline=0.3).faults
+    assert fault.kind == "DeadlinePassed"

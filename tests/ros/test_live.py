@@ -2,8 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
 import threading
 import time
 from functools import partial
@@ -15,27 +13,10 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from nodes import AsyncDoer, Doer, Listener, Server, Speaker, Talker, Ticker
+from other_process import other_process
 from rosbeat import Session
 from rosbeat.errors import DurationError, SessionError
-from rosbeat.ros.context import Interrupts, show_briefly
-from rosbeat.ros.wait_set import WaitSetExecutor
-
-OTHER_PROCESS = """
-import rclpy, sys
-from rclpy.node import Node
-from std_msgs.msg import Int32
-rclpy.init()
-node = Node("outside")
-heard = []
-node.create_subscription(Int32, "count", heard.append, 10)
-publisher = node.create_publisher(Int32, "reply", 10)
-print("ready", flush=True)
-while len(heard) < 3:
-    rclpy.spin_once(node, timeout_sec=0.1)
-while True:
-    publisher.publish(Int32(data=heard[-1].data))
-    rclpy.spin_once(node, timeout_sec=0.05)
-"""
+from rosbeat.ros.context import Interrupts
 
 
 def live_threads():
@@ -118,24 +99,6 @@ def test_use_sim_time_tells_the_truth(ros):
     assert changes == []
 
 
-def test_nodes_see_the_sessions_time_in_constructors_and_callbacks(ros):
-    class Watch(Node):
-        def __init__(self):
-            super().__init__("watch")
-            self.seen = [self.now()]
-            self.create_timer(0.5, lambda: self.seen.append(self.now()))
-
-        def now(self):
-            return self.get_clock().now().nanoseconds / 1e9, self.get_parameter(
-                "use_sim_time"
-            ).value
-
-    ros.run(3)
-    watch = ros.add(Watch)
-    ros.run(1)
-    assert watch.seen == [(3.0, True), (3.5, True), (4.0, True)]
-
-
 def test_what_is_destroyed_while_rclpy_gathers_entities_stops_nobody(ros, eventually):
     talker = ros.add(Talker)
     (event, *_) = next(iter(talker.publishers)).event_handlers
@@ -181,28 +144,6 @@ def test_a_callback_that_exits_does_not_silence_the_others(ros, capsys, error):
     count = len(ticker.fired)
     assert ros.wait(10, until=lambda: len(ticker.fired) > count + 5)
     capsys.readouterr()
-
-
-def test_a_paused_node_rests_and_resumes(ros):
-    talker, listener = ros.add(partial(Talker, period=0.01)), ros.add(partial(Listener, qos=3))
-    ros.start()
-    ros.pause(listener)
-    count, goal = len(listener.heard), talker.count + 10
-    assert ros.wait(10, until=lambda: talker.count > goal)
-    assert len(listener.heard) <= count + 1
-    ros.resume(listener)
-    goal = len(listener.heard) + 5
-    assert ros.wait(10, until=lambda: len(listener.heard) >= goal)
-
-
-def test_a_node_added_and_removed_while_live(ros):
-    ros.start()
-    talker, listener = ros.add(partial(Talker, period=0.01)), ros.add(Listener)
-    assert ros.wait(10, until=lambda: len(listener.heard) > 3)
-    ros.add(partial(Talker, period=0.01))
-    assert talker not in ros.nodes
-    ros.remove(listener)
-    assert [node.get_name() for node in ros.nodes] == ["talker"]
 
 
 def test_call_in_a_cell_while_live(ros):
@@ -312,43 +253,15 @@ def test_stopping_in_full_swing_records_no_fault(ros):
     assert ros.observation().faults == ()
 
 
-def test_two_sessions_in_one_domain_hear_each_other(empty_domain):
-    with Session(domain_id=empty_domain) as ros, Session(domain_id=empty_domain) as other:
-        assert other.domain_id == ros.domain_id == empty_domain
-        ros.add(partial(Talker, period=0.02))
-        listener = other.add(Listener)
-        ros.start()
-        other.start()
-        # The name of a node in another context comes after its first messages.
-        assert other.wait(
-            20,
-            until=lambda: (
-                len(listener.heard) >= 3 and other.messages("count")[-1].node == "/talker"
-            ),
-        )
-        other.stop()
-        samples = other.messages("count")
-        assert [sample.value for sample in samples] == listener.heard
-        assert {sample.node for sample in samples} == {"/talker"}
-
-
 def test_another_process_hears_and_is_heard(empty_domain):
-    environ = {**os.environ, "ROS_DOMAIN_ID": str(empty_domain)}
-    environ["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
-    program = f"import rosbeat\n{OTHER_PROCESS}"
-    with Session(domain_id=empty_domain) as ros:
+    with (
+        other_process(empty_domain, "Relay('outside', 'count', 'reply'),"),
+        Session(domain_id=empty_domain) as ros,
+    ):
         ros.add(partial(Talker, period=0.02))
         listener = ros.add(partial(Listener, topic="reply"))
         ros.start()
-        outside = subprocess.Popen(
-            [sys.executable, "-c", program], env=environ, stdout=subprocess.PIPE, text=True
-        )
-        try:
-            assert outside.stdout.readline() == "ready\n"
-            assert ros.wait(30, until=lambda: len(listener.heard) >= 3)
-        finally:
-            outside.kill()
-            outside.communicate()
+        assert ros.wait(30, until=lambda: len(listener.heard) >= 3)
 
 
 # Ctrl+C, and Interrupt of a kernel.
@@ -379,13 +292,3 @@ def test_interrupts_are_left_alone_in_other_threads():
     thread.start()
     thread.join()
     assert seen == [(signal.getsignal(signal.SIGINT), False)]
-
-
-def test_an_interrupt_shows_one_line_where_it_can():
-    interrupt = KeyboardInterrupt()
-    show_briefly(interrupt, "stopped at 3 s.")
-    assert interrupt._render_traceback_() == ["KeyboardInterrupt: stopped at 3 s."]
-
-
-def test_an_executor_whose_making_was_interrupted_goes_quietly():
-    WaitSetExecutor.__new__(WaitSetExecutor).__del__()

@@ -1,6 +1,5 @@
 """The instrument panel of a session: what it sees and what it does."""
 
-import math
 import threading
 import time
 from functools import partial
@@ -71,17 +70,6 @@ def test_news_are_told_once_and_counted_whole(instruments, live, eventually):
     assert instruments.news().arrivals == ()
 
 
-def test_the_newest_message_of_each_publisher(instruments, live, eventually):
-    live.add(partial(Talker, "one", period=0.01))
-    live.add(partial(Talker, "two", period=0.01))
-    eventually(lambda: len(live.messages("count")) > 10)
-    live.stop()
-    newest = {one.newest.node: one.newest for one in instruments.news().arrivals}
-    assert set(newest) == {"/one", "/two"}
-    for node, sample in newest.items():
-        assert sample == [one for one in live.messages("count") if one.node == node][-1]
-
-
 def test_exceptions_and_log_lines(instruments, live, eventually, capsys):
     live.add(partial(Doer, lambda _: 1 / 0, period=0.01))
     live.add(partial(Speaker, period=0.01))
@@ -113,13 +101,6 @@ def test_a_stopped_node_is_made_again_as_it_was_made(instruments, live, eventual
     instruments.stop("/sensor")
     instruments.start("/sensor")
     assert set(values(live)) == {21.0}
-
-
-def test_a_node_that_was_handed_over_ready_made_starts_again_from_its_class(instruments, live):
-    live.add(Sensor())
-    instruments.stop("/sensor")
-    instruments.start("/sensor")
-    assert instruments.conditions() == {"/sensor": "running"}
 
 
 def test_an_ended_node_starts_again(instruments, live, eventually, capsys):
@@ -286,12 +267,6 @@ def test_the_panel_changes_nothing_in_virtual_time(in_a_browser):
     assert run(look=True) == run(look=False)
 
 
-def test_a_closed_session_has_no_panel(ros):
-    ros.close()
-    with pytest.raises(SessionError):
-        ros.panel()
-
-
 # Faults on a topic, in virtual time.
 
 
@@ -321,21 +296,17 @@ def fault(node):
     return made
 
 
-def test_what_is_recorded_is_what_went_out(publish, fault):
-    fault.kind, fault.amount = "offset", 5.0
-    assert publish(20.0, 21.5) == [25.0, 26.5]
-
-
-def test_the_nodes_own_message_stays_as_it_is(node, fault):
-    fault.kind, fault.amount = "offset", 5.0
+@pytest.mark.parametrize(
+    ("kind", "sent"), [("offset", "[25.0, 26.5]"), ("nan", "[nan, nan]"), ("none", "[20.0, 21.5]")]
+)
+def test_what_is_recorded_is_what_went_out(ros, node, publish, fault, kind, sent):
+    fault.kind, fault.amount = kind, 5.0
+    assert str(publish(20.0, 21.5)) == sent
+    node.humidity.publish(Float32(data=50.0))
+    assert [sample.value for sample in ros.messages("humidity")] == [50.0]
     message = Float32(data=1.0)
     node.temperature.publish(message)
-    assert message.data == 1.0
-
-
-def test_not_a_number(publish, fault):
-    fault.kind = "nan"
-    assert all(map(math.isnan, publish(20.0, 21.5)))
+    assert message.data == 1.0  # the node's own stays as it is
 
 
 @pytest.mark.parametrize(("share", "least", "most"), [(0, 200, 200), (50, 70, 130), (100, 0, 0)])
@@ -344,20 +315,8 @@ def test_a_share_of_the_messages_is_lost(publish, fault, share, least, most):
     assert least <= len(publish(*[1.0] * 200)) <= most
 
 
-def test_other_topics_are_left_alone(ros, node, fault):
-    fault.kind = "nan"
-    node.humidity.publish(Float32(data=50.0))
-    assert [sample.value for sample in ros.messages("humidity")] == [50.0]
-
-
 def test_afterwards_all_is_as_before(node, publish, fault):
     fault.kind = "nan"
     fault.remove()
     assert publish(20.0) == [20.0]
     assert "TopicFault" not in repr(node.temperature.publish)
-
-
-def test_what_rclpy_refuses_it_refuses_still(node, fault):
-    fault.kind = "offset"
-    with pytest.raises(TypeError, match="Expected"):
-        node.temperature.publish(25.0)

@@ -19,8 +19,8 @@ from rosbeat.domains import SESSION_DOMAINS
 
 pytestmark = pytest.mark.ros
 
-#: More than there are domain ids for programs: sessions once had one each.
-MANY = 60
+#: More than there are domains that sessions share.
+MANY = 24
 #: So many that two of one process share a domain.
 SHARING = len(SESSION_DOMAINS) + 1
 
@@ -36,19 +36,6 @@ class Repeater(Node):
 
     def talk(self) -> None:
         self.publisher.publish(Int32(data=self.number))
-
-
-def test_many_sessions_in_one_process_hear_only_themselves():
-    with ExitStack() as stack:
-        sessions = [stack.enter_context(Session()) for _ in range(MANY)]
-        ears = []
-        for number, ros in enumerate(sessions):
-            ros.add(partial(Repeater, number))
-            ears.append(ros.add(Listener))
-        for ros in sessions:
-            ros.run(3)
-        assert [ear.heard for ear in ears] == [[number] * 3 for number in range(MANY)]
-        assert {ros.graph().nodes for ros in sessions} == {("/repeater", "/listener")}
 
 
 @pytest.mark.parametrize("localhost_only", ["", "1"])
@@ -114,7 +101,7 @@ def sessions_elsewhere(first, last):
 
 def test_sessions_of_several_processes_hear_only_themselves():
     with ExitStack() as stack:
-        ranges = [(first, first + MANY // 4) for first in range(0, MANY, MANY // 4)]
+        ranges = [(0, MANY // 2), (MANY // 2, MANY)]
         running = [stack.enter_context(sessions_elsewhere(*one)) for one in ranges]
         for process in running:  # all are open before anybody is asked
             print(file=process.stdin, flush=True)
@@ -123,19 +110,6 @@ def test_sessions_of_several_processes_hear_only_themselves():
             assert arrived
             assert heard == [[number] for number in range(first, last)]
             assert nodes == ["/listener", "/repeater"]
-
-
-def test_a_session_in_a_joined_domain_hears_no_private_one(empty_domain):
-    with Session() as private, Session(domain_id=empty_domain) as joined:
-        private.add(partial(Repeater, 1, 0.02))
-        ear = private.add(Listener)
-        joined.add(partial(Repeater, 2, 0.02))
-        other = joined.add(Listener)
-        private.start()
-        joined.start()
-        assert private.wait(30, until=lambda: len(ear.heard) >= 10)
-        assert joined.wait(30, until=lambda: len(other.heard) >= 10)
-        assert (set(ear.heard), set(other.heard)) == ({1}, {2})
 
 
 def sockets(process):

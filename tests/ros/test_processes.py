@@ -1,20 +1,24 @@
-"""Nodes that share a process, callbacks that wait, and deadlocks."""
+"""Nodes that share a process, callbacks that sleep or wait, and deadlocks."""
 
 import gc
 import threading
 import time
+from time import sleep
 
+import numpy as np
 import pytest
 import rclpy
 from greenlet import greenlet
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.duration import Duration
 from rclpy.node import Node
-from std_msgs.msg import Int32
+from std_msgs.msg import Float32, Int32
 from std_srvs.srv import Trigger
 
 from rosbeat import Session
 from rosbeat.errors import NodeConstructionError, SessionError
 from rosbeat.records_json import digest
+from rosbeat.ros.scenario import observe
 
 pytestmark = pytest.mark.ros
 
@@ -22,10 +26,10 @@ pytestmark = pytest.mark.ros
 class Beat(Node):
     """Says a number each half second."""
 
-    def __init__(self, name="beat"):
+    def __init__(self, name="beat", period=0.5):
         super().__init__(name)
         self.pub = self.create_publisher(Int32, name, 10)
-        self.create_timer(0.5, lambda: self.pub.publish(Int32(data=1)))
+        self.create_timer(period, lambda: self.pub.publish(Int32(data=1)))
 
 
 class Sleeper(Node):
@@ -69,21 +73,6 @@ def lines(ros):
 # One process or two.
 
 
-def test_nodes_of_one_process_wait_for_one_another(ros):
-    sleeper, beat = ros.add(Sleeper, Beat)
-    assert (sleeper.get_name(), beat.get_name()) == ("sleeper", "beat")
-    ros.run(3)
-    # The timer of 1.0 s is late, the one of 1.5 and 2.0 s is skipped, and the grid stays.
-    assert times(ros, "beat") == [0.5, 2.2, 2.5, 3.0]
-
-
-def test_nodes_of_two_processes_do_not(ros):
-    ros.add(Sleeper)
-    ros.add(Beat)
-    ros.run(3)
-    assert times(ros, "beat") == [0.5, 1, 1.5, 2, 2.5, 3]
-
-
 def test_the_graph_tells_which_nodes_share_a_process(ros):
     ros.add(Sleeper)
     assert ros.graph().processes == ()
@@ -120,69 +109,6 @@ def test_an_exception_ends_all_nodes_of_its_process(ros, capsys):
     assert "/beat ran in the same process, which has ended." in capsys.readouterr().out
 
 
-def test_timers_of_an_instant_come_before_the_messages_they_send(ros):
-    class Both(Node):
-        def __init__(self):
-            super().__init__("both")
-            self.pub = self.create_publisher(Int32, "number", 10)
-            self.create_subscription(Int32, "number", lambda m: self.say(f"got {m.data}"), 10)
-            for number in (1, 2):
-                self.create_timer(1.0, lambda number=number: self.send(number))
-
-        def say(self, text):
-            self.get_logger().info(text)
-
-        def send(self, number):
-            self.say(f"send {number}")
-            self.pub.publish(Int32(data=number))
-
-    ros.add(Both)
-    ros.run(1)
-    assert [text for _, text in lines(ros)] == ["send 1", "send 2", "got 1", "got 2"]
-
-
-# Threads and callback groups.
-
-
-def test_one_group_is_one_at_a_time_whatever_the_threads(ros):
-    group = MutuallyExclusiveCallbackGroup()
-    ros.add(lambda: Two(group, group), threads=4)
-    ros.run(4)
-    assert lines(ros) == [(1, "0 begins"), (2, "0 ends"), (2, "1 begins"), (3, "1 ends")]
-
-
-def test_two_groups_overlap_in_two_threads(ros):
-    make = MutuallyExclusiveCallbackGroup
-    ros.add(lambda: Two(make(), make()), threads=2)
-    ros.run(4)
-    assert lines(ros) == [(1, "0 begins"), (1.3, "1 begins"), (2, "0 ends"), (2.3, "1 ends")]
-
-
-def test_two_groups_do_not_overlap_in_one_thread(ros):
-    make = MutuallyExclusiveCallbackGroup
-    ros.add(lambda: Two(make(), make()))
-    ros.run(4)
-    assert lines(ros) == [(1, "0 begins"), (2, "0 ends"), (2, "1 begins"), (3, "1 ends")]
-
-
-def test_a_reentrant_group_overlaps_itself(ros):
-    class Again(Node):
-        def __init__(self):
-            super().__init__("again")
-            self.create_timer(1.0, self.work, ReentrantCallbackGroup())
-            self.begun = 0
-
-        def work(self):
-            self.begun += 1
-            number = self.begun
-            time.sleep(1.5)
-            self.get_logger().info(str(number))
-
-    ros.add(Again, threads=3)
-    ros.run(5)
-    assert lines(ros) == [(2.5, "1"), (3.5, "2"), (4.5, "3")]
-
-
 # Deadlocks.
 
 
@@ -211,21 +137,6 @@ class Server(Node):
     def answer(self, _, response):
         time.sleep(0.7)
         return response
-
-
-def test_a_call_waits_in_virtual_time(ros):
-    ros.add(Server)
-    ros.add(lambda: Asker(ReentrantCallbackGroup()), threads=2)
-    ros.run(3)
-    assert lines(ros) == [(1.7, "answered")]
-
-
-def test_a_call_with_a_timeout_returns_none(ros):
-    ros.add(Server)
-    ros.add(lambda: Asker(timeout=0.5))
-    ros.run(3)
-    assert lines(ros) == [(1.5, "nothing")]
-    assert not ros.observation().faults
 
 
 def test_a_deadlock_says_who_waits_for_what_and_the_others_go_on(ros, capsys):
@@ -325,20 +236,6 @@ def test_a_session_leaves_no_greenlet_thread_or_patched_function():
     assert (time.sleep, rclpy.spin) == (sleep, spin)
     assert len(all_greenlets()) == before
     assert threading.active_count() == threads
-
-
-def test_a_callback_that_will_not_end_is_left_behind_when_the_session_closes():
-    def stubborn():
-        while True:
-            try:  # noqa: SIM105 - written as a learner would
-                time.sleep(10)
-            except BaseException:
-                pass
-
-    ros = Session()
-    ros.add(lambda: Node("stubborn")).create_timer(1.0, stubborn)
-    ros.run(2)
-    ros.close()
 
 
 # Bad input.
@@ -467,21 +364,6 @@ def test_a_node_that_is_replaced_in_its_sleep_ends_there(ros):
     assert [text for _, text in lines(ros)] == ["awake"]
 
 
-def test_an_exception_after_a_sleep_leaves_nothing_behind(ros, capsys):
-    class Fails(Sleeper):
-        def sleep(self):
-            super().sleep()
-            raise ValueError("no")
-
-    before = len(all_greenlets())
-    ros.add(Fails)
-    ros.run(5)
-    (fault,) = ros.observation().faults
-    assert (fault.kind, fault.time, fault.callback) == ("ValueError", 2.2, "sleep")
-    assert len(all_greenlets()) <= before + 2
-    capsys.readouterr()
-
-
 def busy_system():
     """Run processes, threads, sleeps, calls and coroutines, and return what was seen."""
     group = ReentrantCallbackGroup
@@ -526,16 +408,141 @@ def test_any_exception_of_a_callback_ends_its_process_only(ros, callback):
     assert (fault.node, fault.kind, fault.time_ns) == ("/raising", "OwnError", 1_000_000_000)
 
 
-def test_any_exception_of_a_callback_leaves_the_spin_of_its_program(ros):
-    def main():
-        rclpy.init()
-        node = rclpy.create_node("raising")
-        node.create_timer(1.0, raise_own_error)
-        rclpy.spin(node)
+# A sleep in a callback takes virtual time, on a page as in a check.
 
-    raising = ros.spawn(main)
+
+class Worker(Beat):
+    """Beats once a second, and sleeps as long as it is told to."""
+
+    def __init__(self):
+        super().__init__("worker", 1.0)
+        self.create_subscription(Float32, "order", self.work, 10)
+
+    def work(self, msg):
+        time.sleep(msg.data)
+        self.get_logger().info("done")
+
+
+class Boss(Node):
+    """Gives one order, of 3 s, at 1.5 s."""
+
+    def __init__(self, seconds=3.0):
+        super().__init__("boss")
+        self.pub = self.create_publisher(Float32, "order", 10)
+        self.timer = self.create_timer(1.5, self.order)
+        self.seconds = seconds
+
+    def order(self):
+        self.timer.cancel()
+        self.pub.publish(Float32(data=self.seconds))
+
+
+def test_a_page_and_a_check_see_the_same(slept, ros):
+    for node in (Boss, Beat, Worker):
+        ros.add(node)
+    ros.run(seconds=8)
+    assert len(times(ros, "beat")) == 16
+    assert times(ros, "worker") == [1, 4.5, 5, 6, 7, 8]
+    assert [(one.time, one.text) for one in ros.logs()] == [(4.5, "done")]
+    seen = observe(Worker, 8, others=[Boss, Beat])
+    assert seen.samples == ros.observation().samples
+    assert seen.callbacks == ros.observation().callbacks
+    assert 3.0 not in slept
+
+
+def test_every_way_to_sleep_counts(ros):
+    def nap(node):
+        sleep(1)  # a name of this module
+        node.get_clock().sleep_for(Duration(seconds=1))
+
+    node = ros.add(lambda: Node("napper"))
+    timer = node.create_timer(1.0, lambda: (timer.cancel(), nap(node), node.get_logger().info("")))
+    ros.run(seconds=3)
+    assert [one.time for one in ros.logs("napper")] == [3]
+
+
+def test_a_constructor_sleeps_in_virtual_time_and_the_others_go_on(slept, ros):
+    class Slow(Beat):
+        def __init__(self):
+            time.sleep(2.5)
+            super().__init__("slow")
+
     ros.add(Beat)
+    ros.add(Slow)
+    assert (ros.time, times(ros, "beat")) == (2.5, [0.5, 1, 1.5, 2, 2.5])
+    assert 2.5 not in slept
+
+
+def test_a_session_goes_live_only_when_nothing_sleeps_in_virtual_time(ros, says):
+    ros.add(Boss)
+    ros.add(Worker)
     ros.run(2)
-    assert raising.returncode == 1
-    assert "OwnError" in raising.stderr
-    assert len(ros.messages("beat")) == 4
+    with pytest.raises(SessionError) as caught:
+        ros.start()
+    says(caught.value, "`work` of /worker is still waiting")
+    ros.run(3)
+    ros.start()
+    ros.stop()
+
+
+def test_one_that_is_paused_or_removed_in_its_sleep_stays_so(ros):
+    ros.add(Boss)
+    worker = ros.add(Worker)
+    helper = ros.add(lambda: Node("helper"))
+    helper.create_timer(2.0, lambda: ros.pause(worker))
+    ros.run(seconds=8)
+    assert times(ros, "worker") == [1]
+    assert [one.time for one in ros.logs("worker")] == [4.5]
+    ros.resume(worker)
+    ros.remove(helper)
+    ros.run(seconds=2)
+    assert times(ros, "worker")[1:] == [8, 9, 10]
+
+
+class Index:
+    """A whole number of a library's own, as NumPy has some."""
+
+    def __index__(self):
+        return 1_000
+
+
+@pytest.mark.parametrize("span", [1_000, 1e3, np.int64(1_000), np.float64(1_000), Index()])
+def test_what_python_sleeps_for_takes_virtual_time(ros, span):
+    sleeper = ros.spawn(lambda: time.sleep(span))  # for longer than the test may take
+    ros.run(999.9)
+    assert sleeper.returncode is None
+    ros.run(0.1)
+    assert sleeper.returncode == 0
+
+
+@pytest.mark.parametrize(
+    "span", [-1, -1e-12, float("nan"), float("inf"), 10**30, 1e10, "2", None, np.float32(2)]
+)
+def test_what_python_refuses_to_sleep_for_is_refused(ros, span):
+    with pytest.raises((ValueError, TypeError, OverflowError)) as real:
+        time.sleep(span)
+    refused = ros.spawn(lambda: time.sleep(span))
+    assert refused.returncode == 1
+    assert refused.stderr.endswith(f"{real.typename}: {real.value}\n")
+
+
+def test_an_interrupt_ends_a_sleep(ros, monkeypatch):
+    node = ros.add(lambda: Node("napper"))
+    ros.add(Beat)
+    timer = node.create_timer(1.0, lambda: time.sleep(1000))
+    stopper = ros.add(lambda: Node("stopper"))
+
+    def stop():
+        raise KeyboardInterrupt
+
+    stopper.create_timer(5.0, stop)
+    with pytest.raises(KeyboardInterrupt):
+        ros.run(seconds=20)
+    assert ros.time == 5
+    assert time.sleep is sleep
+    timer.cancel()
+    ros.remove(stopper)
+    with Session() as other:
+        other.run(seconds=1)
+    ros.run(seconds=2)
+    assert times(ros, "beat")[-1] == 7

@@ -94,19 +94,6 @@ def test_an_endless_call_after_many_quick_ones_is_endless():
     assert (fault.callback, fault.text) == ("tick", "still running after 1 s")
 
 
-def test_a_feeder_publishes_one_value_a_second_and_then_falls_silent():
-    observation = observe(
-        Echo, 9, others=[feeder("f", "in", "std_msgs/msg/Float32", [1.0, 2.5, -3.0])]
-    )
-    heard = [(s.time, s.value) for s in observation.samples if s.topic == "/echo"]
-    assert heard == [(1, 1.0), (2, 2.5), (3, -3.0)]
-
-
-def test_the_same_scenario_gives_the_same_observation():
-    feed = feeder("f", "in", "std_msgs/msg/Float32", [1.0])
-    assert observe(Echo, 3, others=[feed]) == observe(Echo, 3, others=[feed])
-
-
 def test_the_subject_is_named_and_its_prints_are_counted(capsys):
     class Loud(Echo):
         def __init__(self):
@@ -231,18 +218,6 @@ def test_a_node_that_sleeps_in_a_callback_is_late_and_the_others_go_on(slept):
     assert [log.time for log in seen.logs] == [1, 4, 5, 6]
     assert seen == again
     assert 2.5 not in slept
-
-
-def test_steps_happen_while_a_node_sleeps():
-    steps = [
-        Publish(at=1, topic="nap", values=(3.0,)),
-        Publish(at=2, topic="in", values=(5.0,)),
-        Pause(at=3),
-        Resume(at=6),
-    ]
-    seen = observe(Sleeper, 8, steps=steps)
-    assert [(s.time, s.value) for s in seen.samples if s.topic == "/echo"] == [(6, 5.0)]
-    assert [log.time for log in seen.logs] == [1, 6, 7, 8]
 
 
 def test_short_sleeps_take_no_time_and_endless_ones_are_faults():

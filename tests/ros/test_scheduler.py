@@ -9,7 +9,6 @@ from rclpy.exceptions import InvalidHandle
 
 from rosbeat.errors import EndlessChainError
 from rosbeat.ros import virtual_time
-from rosbeat.ros.errors import duration_ns
 from rosbeat.ros.virtual_time import Agenda
 
 
@@ -105,8 +104,3 @@ def test_time_that_passes_resets_the_count():
         guard.instant_ends()
     with pytest.raises(EndlessChainError):
         fire(virtual_time.MOST_FIRINGS + 1)
-
-
-@given(st.integers(0, 10**9))
-def test_whole_seconds_are_exact(seconds):
-    assert duration_ns(seconds) == seconds * 10**9

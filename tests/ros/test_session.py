@@ -42,7 +42,7 @@ def test_messages_of_ros_itself_are_not_recorded(ros, says):
     says(caught.value, "Messages on /rosout are not recorded", "ROS itself publishes on it")
 
 
-def test_an_interrupt_names_the_endless_callback_and_ends_its_node(ros, capsys):
+def test_an_interrupt_names_the_endless_callback_and_ends_its_node(ros):
     ros.add(Endless)
     ticker = ros.add(partial(Ticker, 1.0))
     with pytest.raises(KeyboardInterrupt) as caught:
@@ -52,23 +52,18 @@ def test_an_interrupt_names_the_endless_callback_and_ends_its_node(ros, capsys):
     assert "line " in shown
     assert "What to try:   Mend the callback" in shown
     ros.run(5)
-    assert "rosbeat: /endless ended when you interrupted its callback." in capsys.readouterr().out
     assert [at // 10**9 for at, _ in ticker.fired] == [1, 2, 3, 4, 5, 6, 7]
-    ros.add(Endless)
-    ros.run(1)
-    assert "interrupted" not in capsys.readouterr().out
 
 
-def test_an_interrupt_in_a_quick_callback_ends_no_node(ros, capsys):
+def test_an_interrupt_in_a_quick_callback_ends_no_node(ros):
     node = ros.add(partial(Endless, 0.0))
     with pytest.raises(KeyboardInterrupt) as caught:
         ros.run(5)
     assert caught.value._render_traceback_() == [
         "KeyboardInterrupt: stopped at 2 s; the session is still open."
     ]
-    node.tick = lambda: None
-    ros.run(1)
-    assert "interrupted" not in capsys.readouterr().out
+    assert ros.nodes == (node,)
+    assert ros.observation().faults == ()
 
 
 def names(session):
@@ -116,17 +111,6 @@ def test_a_cell_run_twenty_times_leaves_one_node_at_one_rate(ros):
     assert ros.graph().nodes == ("/talker",)
 
 
-def test_a_with_block_run_twenty_times():
-    heard = set()
-    for _ in range(20):
-        with Session(seed=4) as ros:
-            ros.add(Talker)
-            listener = ros.add(Listener)
-            ros.run(3)
-            heard.add(tuple(listener.heard))
-    assert heard == {(1, 2, 3)}
-
-
 @pytest.mark.parametrize("live", [False, True])
 def test_a_session_cell_run_twenty_times_accumulates_nothing(live, eventually):
     process = psutil.Process()
@@ -146,22 +130,6 @@ def test_a_session_cell_run_twenty_times_accumulates_nothing(live, eventually):
     gc.collect()
     eventually(lambda: process.num_threads() <= threads)
     eventually(lambda: process.num_fds() <= descriptors)
-
-
-def test_worlds_are_not_kept(eventually):
-    from rosbeat.ros.world import World
-
-    gc.collect()
-    before = len([thing for thing in gc.get_objects() if isinstance(thing, World)])
-    for _ in range(10):
-        ros = Session()
-        ros.add(Talker)
-        ros.run(1)
-    ros.close()
-    del ros
-    gc.collect()
-    after = len([thing for thing in gc.get_objects() if isinstance(thing, World)])
-    assert after - before <= 1
 
 
 def test_a_dropped_session_is_closed(eventually):
@@ -184,17 +152,6 @@ def test_remove_by_node_and_by_name(ros, says):
     with pytest.raises(NodeClassError) as caught:
         ros.remove(talker)
     says(caught.value)
-
-
-def test_namespaces(ros):
-    class Named(Node):
-        def __init__(self):
-            super().__init__("sensor", namespace="room/one")
-
-    ros.add(Named)
-    ros.add(Named)
-    assert ros.graph().nodes == ("/room/one/sensor",)
-    ros.remove("room/one/sensor")
 
 
 # What it prints in the cell.
@@ -232,26 +189,14 @@ def test_quiet_prints_nothing_and_a_flood_is_counted(ros, capsys):
 # What it is asked for wrongly.
 
 
-@pytest.mark.parametrize("seconds", [-1, -1e-9, float("nan"), float("inf"), "5", None, 1e12, True])
+@pytest.mark.parametrize(
+    "seconds", [-1, -1e-9, float("nan"), float("inf"), "5", None, 1e12, 10**400, True]
+)
 def test_durations_are_checked(ros, says, seconds):
     with pytest.raises(DurationError) as caught:
         ros.run(seconds)
     says(caught.value, "run(seconds=...)")
     assert ros.time == 0
-
-
-def test_a_duration_beyond_all_numbers(ros, says):
-    with pytest.raises(DurationError) as caught:
-        ros.run(10**400)
-    says(caught.value)
-
-
-def test_time_ends_after_292_years(ros, says):
-    for _ in range(9):
-        ros.run(1e9)
-    with pytest.raises(DurationError) as caught:
-        ros.run(1e9)
-    says(caught.value, "292 years")
 
 
 @pytest.mark.parametrize(
@@ -304,26 +249,12 @@ def test_names_are_texts(ros, says, call):
     says(caught.value, "quotation marks")
 
 
-def test_run_in_a_callback_is_refused(ros, capsys):
-    ros.add(partial(Doer, lambda _: ros.run(1)))
+@pytest.mark.parametrize("call", ["run(1)", "start()", "stop()", "wait()", "add(Talker)"])
+def test_calls_that_run_nodes_are_refused_in_a_callback(ros, capsys, call):
+    ros.add(partial(Doer, lambda _: eval(f"ros.{call}", {"ros": ros, "Talker": Talker})))
     ros.run(1)
     (fault,) = ros.observation().faults
     assert fault.kind == "SessionError"
-    assert "`ros.run` was called from inside a callback" in fault.text
-    capsys.readouterr()
-
-
-@pytest.mark.parametrize("call", ["start", "stop", "wait"])
-def test_live_calls_in_a_callback_are_refused(ros, call, capsys):
-    ros.add(partial(Doer, lambda _: getattr(ros, call)()))
-    ros.run(1)
-    assert [fault.kind for fault in ros.observation().faults] == ["SessionError"]
-    capsys.readouterr()
-
-
-def test_adding_in_a_callback_is_refused(ros, capsys):
-    ros.add(partial(Doer, lambda _: ros.add(Talker)))
-    ros.run(1)
-    assert [fault.kind for fault in ros.observation().faults] == ["SessionError"]
+    assert f"`ros.{call.partition('(')[0]}` was called from inside a callback" in fault.text
     assert names(ros) == ["doer"]
     capsys.readouterr()

@@ -1,19 +1,15 @@
 """After the end; and several sessions at once, which do not disturb each other."""
 
-import random
+import gc
+import weakref
 
 import pytest
-from rclpy.node import Node
+import rclpy.utilities
 
-from nodes import Listener, Speaker, Talker, Ticker
+from nodes import Listener, Speaker, Talker
 from rosbeat import Session
-from rosbeat.errors import (
-    ClosedSessionError,
-    DurationError,
-    NodeClassError,
-    RosbeatError,
-    UnknownTopicError,
-)
+from rosbeat.errors import ClosedSessionError
+from rosbeat.ros.context import SessionContext
 
 # The end.
 
@@ -49,11 +45,6 @@ def test_a_node_that_outlives_its_session_only_fails(capfd):
     talker.destroy_node()
 
 
-def test_every_error_is_one_of_ours():
-    for kind in (ClosedSessionError, DurationError, NodeClassError, UnknownTopicError):
-        assert issubclass(kind, RosbeatError)
-
-
 def test_repr(ros):
     assert repr(ros) == "Session(virtual time, 0 s, no nodes)"
     ros.add(Talker)
@@ -81,63 +72,6 @@ def test_two_sessions_hear_nothing_of_each_other(capsys):
         assert len(capsys.readouterr().out.splitlines()) == 15
 
 
-def test_random_numbers_do_not_mix():
-    class Dice(Node):
-        def __init__(self):
-            super().__init__("dice")
-            self.drawn = [random.random()]
-            self.create_timer(1.0, lambda: self.drawn.append(random.random()))
-
-    def alone(seed):
-        with Session(seed=seed) as ros:
-            dice = ros.add(Dice)
-            ros.run(6)
-            return dice.drawn
-
-    random.seed(99)
-    outside = [random.random() for _ in range(3)]
-    random.seed(99)
-    with Session(seed=1) as one, Session(seed=2) as two:
-        dice = [one.add(Dice), two.add(Dice)]
-        seen = []
-        for _ in range(3):
-            one.run(2)
-            seen.append(random.random())
-            two.run(2)
-    assert seen == outside
-    assert [die.drawn for die in dice] == [alone(1), alone(2)]
-
-
-def test_a_node_belongs_to_the_session_that_adds_it():
-    with Session() as one, Session() as two:
-        one.add(Talker)
-        two.add(Listener)
-        one.add(Speaker)
-    assert one.observation().graph.nodes == ("/talker", "/speaker")
-    assert two.observation().graph.nodes == ("/listener",)
-
-
-def test_closing_the_inner_session_gives_the_outer_back():
-    with Session() as outer:
-        with Session() as inner:
-            assert inner.add(Talker).context is not outer.add(Listener).context
-        made = Ticker(1.0)
-        outer.add(made)
-        assert len(outer.nodes) == 2
-
-
-def test_closing_the_outer_session_first():
-    outer, inner = Session(), Session()
-    outer.close()
-    inner.add(Talker)
-    inner.run(1)
-    inner.close()
-    with Session() as third:
-        third.add(Talker)
-        third.run(1)
-        assert len(third.messages("count")) == 1
-
-
 def test_everybody_is_told_of_a_shutdown_even_if_one_raises():
     told = []
 
@@ -148,3 +82,64 @@ def test_everybody_is_told_of_a_shutdown_even_if_one_raises():
         ros._world.context.on_shutdown(fail)
         ros._world.context.on_shutdown(lambda: told.append(True))
     assert told == [True]
+
+
+# A session's context is rclpy's default while it is open, and never afterwards.
+
+
+def default():
+    return rclpy.utilities.g_default_context
+
+
+def test_sessions_nest():
+    before = default()
+    outer = Session()
+    middle = default()
+    inner = Session()
+    assert isinstance(middle, SessionContext)
+    assert default() is not middle
+    inner.close()
+    assert default() is middle
+    outer.close()
+    assert default() is before
+
+
+def test_sessions_closed_in_any_order():
+    before = default()
+    sessions = [Session() for _ in range(4)]
+    for number in (1, 3, 0, 2):
+        sessions[number].close()
+        assert not getattr(default(), "ended", False)
+    assert default() is before
+
+
+def test_a_session_closed_while_another_runs(ros):
+    inner = Session()
+    ros.add(lambda: (inner.close(), Talker())[1])
+    assert default() is ros._world.context
+
+
+def test_an_ended_context_keeps_nothing_alive():
+    with Session() as first:
+        context = default()
+        world = weakref.ref(first._world)
+    assert context.watcher is None
+    context.init()
+    context.shutdown()
+    context.try_shutdown()
+    del first
+    gc.collect()
+    assert world() is None
+
+
+def test_no_log_file_is_written(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
+    with Session() as ros:
+        ros.add(Speaker)
+        ros.run(1, quiet=True)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_context_cannot_be_shut_down_by_rclpy(ros):
+    rclpy.shutdown(context=ros._world.context)
+    assert ros._world.context.ok()

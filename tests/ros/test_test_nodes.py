@@ -1,18 +1,17 @@
-"""The nodes that scenarios put beside an answer, and the greenhouse of page 07."""
+"""Nodes that run beside an answer, the greenhouse of page 07, and a node that plays a bag."""
 
-import math
 import random
 
 import pytest
 from rclpy.node import Node
 
 from rosbeat import Session
+from rosbeat.errors import BagError
 from rosbeat.exercises.scenarios import station
 from rosbeat.records import QoS
+from rosbeat.ros.playback import PlayedTopic, player
 from rosbeat.ros.test_nodes import (
     GREENHOUSE,
-    Lamp,
-    add_greenhouse,
     drift,
     feeder,
     listener,
@@ -24,24 +23,6 @@ STRING = "std_msgs/msg/String"
 KEPT = QoS(depth=2, durability="TRANSIENT_LOCAL")
 
 # Sensors.
-
-
-def test_one_reading_a_second_and_none_for_a_silence(ros):
-    ros.add(station("gauge", "level", [1, None, math.nan, 2.5]))
-    ros.run(seconds=9)
-    said = [(one.time, one.value) for one in ros.messages("level")]
-    assert [time for time, _ in said] == [1.0, 3.0, 4.0]
-    assert math.isnan(said[1][1])
-    assert (said[0][1], said[2][1]) == (1.0, 2.5)
-
-
-def test_every_node_begins_at_the_beginning(ros):
-    kind = station("gauge", "level", iter([1.0, 2.0]))
-    ros.add(kind)
-    ros.run(seconds=1)
-    ros.add(kind)
-    ros.run(seconds=2)
-    assert [one.value for one in ros.messages("level")] == [1.0, 1.0, 2.0]
 
 
 def test_who_keeps_an_answer_company_offers_nothing_for_parameters(ros):
@@ -65,10 +46,6 @@ def heard(*, joins, qos, offers=KEPT, words=("a", "b", "c", "d")):
         ros.add(listener("ear", "word", STRING, qos))
         ros.run(len(words) + 1 - joins)
         return [line.text for line in ros.logs("ear")]
-
-
-def test_it_logs_each_message_once():
-    assert heard(joins=0, qos=10) == ["a", "b", "c", "d"]
 
 
 def test_it_asks_for_what_it_was_told_to():
@@ -125,10 +102,6 @@ def test_other_functions_drift_too(draw):
     assert mean(gambler.drawn[:200]) != pytest.approx(mean(gambler.drawn[200:]), abs=0.2)
 
 
-def test_the_same_seed_gives_the_same_numbers():
-    assert drawn([(100, 3.0), (0, 1.0)]) == drawn([(100, 3.0), (0, 1.0)])
-
-
 def test_nothing_is_left_of_it():
     plain = random.Random(9)
     drawn([(0, 50.0)], 3)
@@ -136,31 +109,7 @@ def test_nothing_is_left_of_it():
     assert [random.uniform(0, 1) for _ in range(5)] == [plain.uniform(0, 1) for _ in range(5)]
 
 
-def test_nothing_is_left_of_it_after_an_exception():
-    class Interrupted(Node):
-        def __init__(self):
-            super().__init__("interrupted")
-            self.create_timer(1.0, self.stop)
-
-        def stop(self):
-            raise KeyboardInterrupt
-
-    with Session() as ros:
-        ros.add(drift([(0, 50.0)]))
-        ros.add(Interrupted)
-        with pytest.raises(KeyboardInterrupt):
-            ros.run(3)
-    shared = random.uniform.__self__
-    assert not {"random", "_randbelow"} & set(vars(shared))
-    assert random.random == shared.random
-
-
 # The greenhouse: what there is to find in it, and that it is the same each time.
-
-
-def test_two_runs_are_the_same(capfd):
-    assert observe_greenhouse() == observe_greenhouse()
-    assert capfd.readouterr() == ("", "")
 
 
 def test_there_is_one_answer_to_each_question():
@@ -175,24 +124,24 @@ def test_there_is_one_answer_to_each_question():
     assert not system.faults
 
 
-def test_it_opens_the_window_and_waters():
-    with Session() as ros:
-        add_greenhouse(ros)
-        ros.run(seconds=10, quiet=True)
-        (window,) = [node for node in ros.nodes if node.get_name() == "window"]
-        assert {one.value for one in ros.messages("window_state")} == {"shut"}
-        assert {one.value for one in ros.messages("watering")} == {"on", "off"}
-        window.set_parameters([window.get_parameter("open_above").__class__(
-            "open_above", value=22.0)])  # fmt: skip
-        ros.run(seconds=1, quiet=True)
-        assert ros.messages("window_state")[-1].value == "open"
+# A node that plays a bag; see also `tests/rosbeat/bags/test_replay.py`.
 
 
-def test_the_lamp_is_content_once_it_hears():
-    with Session() as ros:
-        add_greenhouse(ros)
-        ros.run(seconds=5, quiet=True)
-        complaints = len(ros.logs("lamp"))
-        ros.add(Lamp, remappings={"light": "lights"})
-        ros.run(seconds=90, quiet=True)
-        assert complaints == len(ros.logs("lamp")) == 1
+@pytest.mark.parametrize(
+    ("recorded", "offered"),
+    [
+        (QoS("?", "?", "?", 0), QoS("RELIABLE", "VOLATILE", "KEEP_LAST", 10)),
+        (QoS(history="KEEP_ALL"), QoS(history="KEEP_ALL")),
+    ],
+)
+def test_an_unknown_quality_becomes_the_default_of_ros(ros, recorded, offered):
+    ros.add(player("player", [PlayedTopic("/word", STRING, recorded)], []))
+    (end,) = ros.graph().on("/word", "publisher")
+    assert (end.qos.reliability, end.qos.history) == (offered.reliability, offered.history)
+
+
+@pytest.mark.parametrize("name", ["a_msgs/msg/A", "std_msgs/msg/Nothing", "nonsense"])
+def test_an_unknown_type_gets_three_parts(says, name):
+    with pytest.raises(BagError) as caught:
+        player("player", [PlayedTopic("/count", name, QoS())], [])
+    says(caught.value, "cannot be published here")

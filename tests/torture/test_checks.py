@@ -101,7 +101,9 @@ def test_a_check_of_what_raises_or_does_no_harm_answers_and_the_kernel_lives():
         assert kernel.run(PRELUDE).error == ""
         right = kernel.run(PROBE).text
         for group in ("RAISING", "HARMLESS"):
-            for name in sorted(set(getattr(nasty, group)) - OTHERS_SUFFER):
+            # All of them end in a check of `tests/ros/test_scenario.py`.
+            names = sorted(set(getattr(nasty, group)) - OTHERS_SUFFER)[:: 1 if FULL else 4]
+            for name in names:
                 answer = f"nasty.{group}[{name!r}]" + ("[0]" if group == "RAISING" else "")
                 reply = kernel.run(f"told({answer})")
                 assert reply.error == "", (name, reply)

@@ -13,7 +13,7 @@ import pytest
 
 from torture.kernel import FULL, Kernel
 
-STARTS, RERUNS, INTERRUPTS = (50, 20, 20) if FULL else (9, 20, 3)
+STARTS, RERUNS, INTERRUPTS = (50, 20, 20) if FULL else (9, 10, 2)
 #: Interrupt ends every cell within this many seconds.
 # What is promised, where the machine is not busy with other tests. Otherwise an interrupt has to
 # work; how quickly says more about the machine.

@@ -92,8 +92,10 @@ class VirtualWaits:
         taken: list[Any] = []
 
         def arrived() -> bool:
-            with subscription.handle:
-                found = subscription.handle.take_message(msg_type, subscription.raw)
+            # What was stored may be taken already: see `qos_events.TakenEarly`.
+            handle = subscription.handle if entry is None else entry.handle
+            with handle:
+                found = handle.take_message(msg_type, subscription.raw)
             taken.extend(found[:1] if found else [])
             return bool(taken)
 

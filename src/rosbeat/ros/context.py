@@ -16,7 +16,6 @@ import rclpy
 import rclpy.signals
 import rclpy.utilities
 from rclpy.context import Context
-from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from rosbeat.domains import SESSION_DOMAINS
 from rosbeat.ros.console import note
@@ -94,7 +93,6 @@ class SessionContext(Context):
             domain_id = SESSION_DOMAINS[number % len(SESSION_DOMAINS)]
         with _environment(_NO_DISCOVERY if self._is_private else {}):
             super().init(SESSION_ARGUMENTS, domain_id=domain_id)
-        _configure_logging(self, rclpy.utilities.g_default_context)
 
     def init(self, args: Any = None, **_: Any) -> None:  # noqa: ANN401 - rclpy's own signature
         """Answer a learner's `rclpy.init()`: this context is running already."""
@@ -125,7 +123,6 @@ class SessionContext(Context):
         if rclpy.utilities.g_default_context is self:
             self.uninstall(self._previous)
         super().try_shutdown()
-        _configure_logging(self._previous, self._previous)
 
     def _call_on_shutdown_callbacks(self) -> None:
         """Call all of them, also if one raises, as that of rclpy's global executor may."""
@@ -192,19 +189,6 @@ def _open_context(context: Context | None) -> Context | None:
     while isinstance(context, SessionContext) and context.watcher is None:
         context = context._previous
     return context
-
-
-def _configure_logging(settings: Context | None, other: Context | None) -> None:
-    """Make logging follow one context's arguments.
-
-    rcl configures logging for the whole process, by the arguments of the first context. If that
-    was a learner's own (`other`), every line of a session's nodes would also appear on file
-    descriptor 2, so the session takes logging over and gives it back.
-    """
-    if settings is None or other is None or isinstance(other, SessionContext) or not other.ok():
-        return
-    rclpy_implementation.rclpy_logging_fini()
-    rclpy_implementation.rclpy_logging_configure(settings.handle)
 
 
 def show_briefly(interrupt: KeyboardInterrupt, text: str) -> None:
@@ -277,7 +261,7 @@ def install_learner_calls() -> None:
         if isinstance(target, SessionContext | ProgramContext):
             target.init(args, domain_id=options.get("domain_id"))
             if isinstance(target, ProgramContext):
-                target.program.install_handlers(options.get("signal_handler_options"))
+                target.program.install_handlers()
             return
         if in_kernel():
             options.setdefault("signal_handler_options", rclpy.signals.SignalHandlerOptions.NO)

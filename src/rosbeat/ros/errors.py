@@ -30,7 +30,7 @@ INSTEAD_OF_WAITING = (
     "and await the future, with the client in its own callback group. To do something "
     "repeatedly, create a timer."
 )
-#: About 31 years; a longer span is a slip, and ROS time ends at 2**63 nanoseconds.
+#: About 31 years; a longer span is a slip.
 _LONGEST = 1e9
 
 
@@ -64,21 +64,6 @@ def check_name(call: str, value: object) -> str:
         f"{call}(...) was given {value!r}, which is of type {type(value).__name__}.",
         "The argument is a name, and a name is a string.",
         f'Put it in quotation marks: `ros.{call}("temperature")`.',
-    )
-
-
-def check_end(time_ns: int) -> int:
-    """Return a time in nanoseconds that fits into a signed 64-bit number, as ROS requires.
-
-    Raises:
-        DurationError: If it does not fit.
-    """
-    if time_ns < 2**63:
-        return time_ns
-    raise DurationError(
-        "The session would run beyond the latest time that ROS can represent.",
-        "ROS counts nanoseconds in 64 bits, which is enough for 292 years.",
-        "Open a new session: its time begins at zero again.",
     )
 
 

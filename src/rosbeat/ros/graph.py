@@ -400,8 +400,8 @@ class ExternalMessages:
         self._observer, self._recorder, self._now = observer, recorder, now
         self._own: defaultdict[str, list[PublicationLog]] = defaultdict(list)
         self._known: set[tuple[str, int, int]] = set()
-        self._channels: dict[tuple[str, frozenset[bytes]], Channel] = {}
-        self._last: dict[str, Channel] = {}
+        self._channels: dict[tuple[str, str], Channel] = {}
+        self._last: dict[str, str] = {}  # by topic: who published last
         self._memories: dict[str, Memory] = {}
 
     def watch_publisher(self, publisher: Publisher) -> None:
@@ -437,21 +437,15 @@ class ExternalMessages:
             self._recorder.add_sample(self._channel(topic).number, self._now(), copy)
 
     def _channel(self, topic: str) -> Channel:
-        outside = list(filter(self._observer.is_outside, self._observer.publishers(topic)))
-        if not outside and topic in self._last:
-            return self._last[topic]  # the publisher has left
-        # By their addresses: the name of a node comes some 0.1 s after its publisher.
-        key = topic, frozenset(bytes(one.endpoint_gid) for one in outside)
-        names = {owner(one) for one in outside}
-        is_known = len(names) == 1 and outside[0].node_name != _UNKNOWN_NODE
-        name = names.pop() if is_known else _UNKNOWN_PUBLISHER
-        channel = self._channels.get(key)
-        if channel is None:
-            channel = self._recorder.channel(topic, name, self._memories[topic])
-        elif channel.node != name:
-            channel = self._recorder.rename(channel, name)
-        self._channels[key] = self._last[topic] = channel
-        return channel
+        outside = filter(self._observer.is_outside, self._observer.publishers(topic))
+        # The name of a node comes some 0.1 s after its publisher, which may have left by now.
+        names = {owner(one) for one in outside} or {self._last.get(topic, _UNKNOWN_PUBLISHER)}
+        is_known = len(names) == 1 and not any(name.endswith(_UNKNOWN_NODE) for name in names)
+        self._last[topic] = name = names.pop() if is_known else _UNKNOWN_PUBLISHER
+        if (topic, name) not in self._channels:
+            made = self._recorder.channel(topic, name, self._memories[topic])
+            self._channels[topic, name] = made
+        return self._channels[topic, name]
 
 
 def _with_message_info(

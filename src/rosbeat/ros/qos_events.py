@@ -364,8 +364,8 @@ class Limits:
 # its messages. Then the messages are taken early and counted, and the executor gets them from here.
 
 
-#: Seconds after which the sign is not to be expected any more.
-_UNACKNOWLEDGED = 0.1
+#: Seconds after which the sign is hardly to be expected any more.
+_UNACKNOWLEDGED = 0.02
 #: Seconds; it takes as long only where stored messages have expired, too, or the queue is shorter
 #: than what is stored.
 _LIMIT = 2.0

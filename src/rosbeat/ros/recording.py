@@ -12,7 +12,7 @@ import sys
 from array import array
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, partial, wraps
 from importlib import import_module
 from importlib.util import module_from_spec
@@ -195,11 +195,6 @@ class Recorder:
         """Register a publisher."""
         made = Channel(len(self._channels), topic, node, memory)
         self._channels.append(made)
-        return made
-
-    def rename(self, channel: Channel, node: str) -> Channel:
-        """Correct the name of the publishing node, also for what has been recorded."""
-        made = self._channels[channel.number] = replace(channel, node=node)
         return made
 
     def label(self, node: str, kind: str, name: str, source: str) -> CallbackLabel:

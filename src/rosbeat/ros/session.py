@@ -16,7 +16,6 @@ from rosbeat.records import GraphSnapshot, LogRecord, Observation, Sample
 from rosbeat.ros import spinning
 from rosbeat.ros.context import install_learner_calls, show_briefly
 from rosbeat.ros.errors import (
-    check_end,
     check_name,
     check_whole,
     duration_ns,
@@ -270,10 +269,9 @@ class Session:
         with self._running("run"):
             if self.is_live:
                 raise session_is_live()
-            self._world.tell_broken_off()
             self._world.console.begin(quiet)
             try:
-                self._world.virtual.run_until(check_end(self._world.now() + span))
+                self._world.virtual.run_until(self._world.now() + span)
             except KeyboardInterrupt as interrupt:
                 ended = self._world.break_endless_off(interrupt)
                 usual = f"stopped at {self.time:g} s; the session is still open."

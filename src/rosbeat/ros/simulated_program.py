@@ -28,7 +28,6 @@ from greenlet import GreenletExit
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 
 from rosbeat.errors import SessionError
 from rosbeat.ros.context import ProgramContext
@@ -188,14 +187,9 @@ class SimulatedProgram:
         if main is not None and main.spinning and self._is_idle():
             self._world.virtual.end_wait(main)
 
-    def install_handlers(self, options: SignalHandlerOptions | None) -> None:
-        """Let rclpy's handlers answer the signals that `rclpy.init` was told, which are all."""
-        chosen = options or SignalHandlerOptions.ALL
-        self._caught = {
-            number
-            for number in (signal.SIGINT, signal.SIGTERM)
-            if chosen in (SignalHandlerOptions.ALL, getattr(SignalHandlerOptions, number.name))
-        }
+    def install_handlers(self) -> None:
+        """Let rclpy's handlers answer Ctrl+C and SIGTERM, as after `rclpy.init`."""
+        self._caught = {signal.SIGINT, signal.SIGTERM}
 
     def fail(self, error: SessionError) -> None:
         """End the program with an error, from a thread of its own, as soon as `main` waits."""
@@ -367,23 +361,18 @@ def _checked_file(name: str) -> Path:
     meaning = "`ros.spawn` runs a program: a Python file with a function `main`."
     try:
         file = Path(name).expanduser().resolve()
+        exists = file.exists()
         if file.is_file() and file.suffix == ".py":
             return file
-        if file.exists():
-            kind = "a folder" if file.is_dir() else "not a Python file: its name lacks `.py`"
-            raise SessionError(
-                f"{name!r} is {kind}.", meaning, "Name the file itself, such as `my_node.py`."
-            )
-        there = "has no such file" if file.parent.is_dir() else "does not exist"
     except (OSError, ValueError, RuntimeError):  # too long, a NUL character, a user without a home
+        file, exists = Path(), False
+    shown = reprlib.repr(name)
+    if exists:
         raise SessionError(
-            f"{reprlib.repr(name)} cannot be the name of a file.",
-            meaning,
-            "Check whether the name is too long, or contains a character that does not belong "
-            "there.",
-        ) from None
+            f"{shown} is not a Python file.", meaning, "Name the file itself, such as `my_node.py`."
+        )
     raise SessionError(
-        f"There is no file {name!r}.", meaning, f"Check the folder: `{file.parent}` {there}."
+        f"There is no file {shown}.", meaning, f"Check the name, and the folder `{file.parent}`."
     )
 
 

@@ -870,57 +870,36 @@ class VirtualTimeExecutor(WaitSetExecutor):
     def _call(
         self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...] = ()
     ) -> None:
-        if not entry.state.open:
-            self._call_in_busy_process(entry, callback, arguments)
-            return
         entry.calls += 1
         self._note_callback(self.now, entry.label_number)
         self._entry, self.calling = entry, entry.label
+        call = program = None
+        if not entry.state.open:  # something waits in this process already, such as a `spin`
+            call = self._current()
+            program = call.process.program
+        if program is not None:
+            program.enter()
         try:
             result = callback(*arguments)
-        except NOT_OF_CALLBACKS:
-            raise
         except BaseException as error:
-            self._interrupts.raise_if_pressed()
-            self._raised(self._current(), entry.label.name, error)
+            pressed = program is not None and program.interrupt is error  # a simulated Ctrl+C
+            if isinstance(error, NOT_OF_CALLBACKS) and not pressed:
+                raise
+            if not pressed:
+                self._interrupts.raise_if_pressed()
+            self._raised(call or self._current(), entry.label.name, error)
         else:
             # A plain function that returns a coroutine forgot to await it; so it is in rclpy.
             if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
                 self._begin(result, entry)
         finally:
+            if program is not None:
+                program.leave()
+            if call is None:
+                call = self._call_of_entry
             self._entry = None
-            if self._call_of_entry is not None:
-                self._end_call(self._call_of_entry)
-
-    def _call_in_busy_process(
-        self, entry: Entry, callback: Callable[..., Any], arguments: tuple[Any, ...]
-    ) -> None:
-        """Do the same in a process where something waits already, such as a program's `spin`."""
-        process = entry.state.process
-        entry.calls += 1
-        self._note_callback(self.now, entry.label_number)
-        self.calling = entry.label
-        self.current = call = Call(process, entry.state, entry, entry.label)
-        if process.program is not None:
-            process.program.enter()
-        try:
-            result = callback(*arguments)
-        except KeyboardInterrupt as error:
-            if process.program is None or process.program.interrupt is not error:
-                raise
-            self._raised(call, entry.label.name, error)
-        except NOT_OF_CALLBACKS:
-            raise
-        except BaseException as error:
-            self._interrupts.raise_if_pressed()
-            self._raised(call, entry.label.name, error)
-        else:
-            if result is not None and iscoroutine(result) and iscoroutinefunction(callback):
-                self._begin(result, entry)
-        finally:
-            if process.program is not None:
-                process.program.leave()
-            self._end_call(call)
+            if call is not None:
+                self._end_call(call)
 
     @property
     def current(self) -> Call | None:

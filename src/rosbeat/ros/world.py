@@ -53,8 +53,6 @@ from rosbeat.ros.wait_set import waitable_label, waitable_name
 
 #: Seconds after which an interrupt is meant for the callback that it hits.
 _ENDLESS = 1.0
-#: What to do about a node whose callback was interrupted.
-ADD_AGAIN = "Mend the callback so that it returns, then run the cell that adds the node again."
 
 
 class World:
@@ -94,7 +92,6 @@ class World:
         self.limits = Limits(self)
         self.closed = False
         self.panel: Any = None
-        self.broken_off: list[NodeState] = []
         self.makers: WeakKeyDictionary[Node, Maker] = WeakKeyDictionary()
         self._waits = VirtualWaits(self.virtual, self._entries.get)
         self._random = SeededRandom(seed)
@@ -347,20 +344,14 @@ class World:
         if label is None or state is None or state.process.program is not None:
             return ""
         self.end_process(state.process)
-        self.broken_off.append(state)
         return (
             f"{state.name} had been in {label.name} for {seconds:.0f} s.\n"
             f"    line {line}: {code}\n"
             "  What it means: While a callback runs, nothing else can. The node has ended; the "
             "other nodes go on.\n"
-            f"  What to try:   {ADD_AGAIN}"
+            "  What to try:   Mend the callback so that it returns, then run the cell that adds "
+            "the node again."
         )
-
-    def tell_broken_off(self) -> None:
-        """Say which nodes run no more since somebody interrupted them."""
-        for state in self.broken_off:
-            if state in self.states():
-                note(f"{state.name} ended when you interrupted its callback. {ADD_AGAIN}")
 
     def deadlocked(self, waits: Sequence[Wait]) -> None:
         """Record that callbacks wait for ever, at the line where the first of them waits."""
@@ -595,8 +586,9 @@ class World:
 
     def _watch_subscription(self, entry: Entry) -> None:
         entry.born = self.recorder.mark()
-        taps = [tap for state in self.states() for tap in state.taps if tap.topic == entry.name]
-        wait_for_stored(taps, entry)
+        if self.live is None:
+            taps = (tap for state in self.states() for tap in state.taps)
+            wait_for_stored([tap for tap in taps if tap.topic == entry.name], entry)
         if self.counts_limits:
             self.limits.subscription_made(entry)
         if self.external_messages is not None:
