@@ -158,7 +158,7 @@ UPLOADS = (
     Upload("copied cell ids", {PAGE: page(WRONG, _copied_ids)}, "failed", ""),
     Upload("points of its own", {PAGE: page(WRONG, _points)}, "failed", "readings"),
     Upload("one answer for all", {PAGE: page(RIGHT, _another_exercise)}, "passed"),
-    Upload("version 3", {PAGE: page(WRONG, _version_3)}, "failed"),
+    Upload("version 3", {PAGE: page(WRONG, _version_3)}, "held", "not a notebook"),
     Upload("version 99", {PAGE: page(WRONG, lambda body: body.update(nbformat=99))}, "failed"),
     Upload("widgets", {PAGE: page(RIGHT, _widgets)}, "passed"),
     Upload("odd types", {PAGE: page(WRONG, _odd_types)}, "failed"),

@@ -251,12 +251,7 @@ DIAGRAMS = {
 
 @cache
 def advice(mistake: str, exercise: str) -> Advice:
-    """Return what there is to show and to say about a mistake.
-
-    Args:
-        mistake: Its id.
-        exercise: The id of the exercise in which it was made.
-    """
+    """Return what there is to show and to say about a mistake."""
     found = EXERCISES[exercise]
     here = _examples().get(exercise, {})
     known = here.get(mistake, {})

@@ -41,12 +41,6 @@ from rosbeat.viz.words import count
 def run(options: argparse.Namespace) -> int:
     """Serve the page until a person stops it (Ctrl-C), or forget what learners have shared.
 
-    Args:
-        options: What was typed after `rosbeat class`.
-
-    Returns:
-        The exit code.
-
     Raises:
         CommandError: If no folder is named.
         GradingError: If the folder cannot be read, or the port is taken.
@@ -122,10 +116,6 @@ def _diagram(name: str) -> bytes:
 
 class ClassServer(LocalServer):
     """Serve the page of a class on the loopback interface, at an address that nobody can guess.
-
-    Args:
-        folder: The folder of the class.
-        port: The port; 0 for any that is free.
 
     Raises:
         GradingError: If the port is taken.

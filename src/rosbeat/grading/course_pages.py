@@ -52,9 +52,6 @@ class CoursePage:
 def course_pages(folder: Path) -> tuple[CoursePage, ...]:
     """Read the course's pages.
 
-    Args:
-        folder: The folder `notebooks` of the course.
-
     Raises:
         GradingError: If there are none.
     """
@@ -88,11 +85,6 @@ def which_page(found: Notebook, file: str, pages: Iterable[CoursePage]) -> Cours
 
     What it is counts more than what it is called: its exercises, its cells, what it says of itself,
     its title, and last of all the name of its file.
-
-    Args:
-        found: The notebook.
-        file: The name of its file.
-        pages: The pages of the course.
     """
     return max(
         (page for page in pages if _points(found, file, page)),

@@ -59,10 +59,6 @@ _NAMELESS = "This is new to the course: it has no name for this mistake yet."
 def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
     """Return the page of one learner.
 
-    Args:
-        graded: What was found.
-        solutions: The published solutions, which pictures show beside an answer.
-
     Returns:
         A whole HTML document, the same for the same input; it needs no network and no script.
     """
@@ -156,9 +152,6 @@ def code_of(mark: Mark) -> Markup:
     A line is marked only if its text is the one that was named: an answer may have several cells,
     and numbers count from the beginning of a cell.
 
-    Args:
-        mark: The answer, with its source.
-
     Returns:
         A `pre` element; nothing if the cell is empty.
     """
@@ -199,12 +192,7 @@ class FeedbackZips:
         self._made: dict[str, tuple[BytesIO, ZipFile]] = {}
 
     def add(self, graded: Graded, page: str) -> None:
-        """Add the feedback of one learner, if a system takes it.
-
-        Args:
-            graded: What was found.
-            page: The learner's page, as `feedback` made it.
-        """
+        """Add the feedback of one learner, if a system takes it."""
         if graded.system == "moodle" and graded.learner.isdecimal():
             called = _NOT_IN_A_NAME.sub(" ", graded.name).strip(" .~") or "learner"
             name = f"{called}_{graded.learner}_assignfeedback_file_feedback.html"
@@ -243,12 +231,7 @@ def _canvas_name(path: str) -> str:
 
 
 def feedback_notebook(graded: Graded, page: str) -> str:
-    """Return the feedback on one page as a notebook, with the learner's answers as cells.
-
-    Args:
-        graded: What was found.
-        page: The lesson's name.
-    """
+    """Return the feedback on one page as a notebook, with the learner's answers as cells."""
     marks = [mark for mark in graded.marks if mark.page == page]
     reached, out_of = sum(mark.points for mark in marks), sum(mark.out_of for mark in marks)
     title = f"Feedback: {page_title(page)}: {points_of(reached, out_of)}{so_far(marks)}"

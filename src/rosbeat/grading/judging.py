@@ -44,26 +44,14 @@ _UNREAD = {
 
 
 def judge(exercise: Exercise[Any], evidence: Evidence, seed: int = PAGE) -> Outcome:
-    """Say what an answer is worth.
-
-    Args:
-        exercise: The exercise.
-        evidence: What came out of the sandbox; not trusted.
-        seed: From what the inputs of the scenario were drawn; 0 on a page.
-    """
+    """Say what an answer is worth."""
     return judge_and_trace(exercise, evidence, seed)[0]
 
 
 def judge_and_trace(
     exercise: Exercise[Any], evidence: Evidence, seed: int = PAGE
 ) -> tuple[Outcome, str]:
-    """Return what an answer is worth, and its trace for pages that show what it did.
-
-    Args:
-        exercise: The exercise.
-        evidence: What came out of the sandbox; not trusted.
-        seed: From what the inputs of the scenario were drawn; 0 on a page.
-    """
+    """Return what an answer is worth, and its trace for pages that show what it did."""
     early = _before_reading(exercise, evidence)
     outcome, trace = (early, "") if early else _read(exercise, evidence, seed)
     return replace(outcome, out_of=exercise.points), trace

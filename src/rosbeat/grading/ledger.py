@@ -12,10 +12,10 @@ import json
 import os
 import re
 import secrets
+from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
-from types import TracebackType
 from typing import BinaryIO
 
 from rosbeat.errors import GradingError, RecordError
@@ -45,12 +45,7 @@ def course_version() -> str:
 
 
 def key_of(job: Job, version: str) -> str:
-    """Return what an answer is known by.
-
-    Args:
-        job: All that decides what is observed.
-        version: The version of the course that judges.
-    """
+    """Return what an answer is known by."""
     return sha256(f"{version}\n{to_line(job)}".encode("utf-8", "backslashreplace")).hexdigest()
 
 
@@ -60,36 +55,21 @@ def seed_of(folder: Path) -> int:
     It is made at the first run and kept: with another one, all answers would have to be observed
     again. It is nobody's business but the instructor's: whoever knows it could prepare evidence.
 
-    Args:
-        folder: The folder of results; it is made if it is not there.
-
     Raises:
         GradingError: If the seed cannot be read or written.
     """
     path = folder / SEED_FILE
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if not path.exists():
-            _make_seed(path)
+        with suppress(FileExistsError), open(path, "x", opener=_for_me_alone) as file:
+            file.write(f"{secrets.randbits(_BITS)}\n")
         return int(path.read_text(encoding="ascii"))
     except (OSError, ValueError) as error:
         raise _trouble(path, error) from error
 
 
-def _make_seed(path: Path) -> None:
-    """Make the file whole; of two runs that begin at once, one makes it."""
-    made = path.with_name(f".{path.name}-{os.getpid()}")
-    handle = os.open(made, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
-    with os.fdopen(handle, "w", encoding="ascii") as file:
-        file.write(f"{secrets.randbits(_BITS)}\n")
-    try:
-        os.link(made, path)
-    except FileExistsError:
-        pass
-    except OSError:  # a file system without hard links
-        made.replace(path)
-    finally:
-        made.unlink(missing_ok=True)
+def _for_me_alone(path: str, flags: int) -> int:
+    return os.open(path, flags, mode=0o600)
 
 
 def _trouble(path: Path, error: Exception) -> GradingError:
@@ -112,9 +92,6 @@ class _Entry:
 class Ledger:
     """Keep outcomes by key, in a file; usable in a `with` block.
 
-    Args:
-        path: The file; it is made if it is not there.
-
     Raises:
         GradingError: If it cannot be read or written.
     """
@@ -133,12 +110,7 @@ class Ledger:
     def __enter__(self) -> Ledger:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._file.close()
 
     def __len__(self) -> int:

@@ -38,9 +38,6 @@ _libc = ctypes.CDLL(None, use_errno=True)
 def unshare(flags: int) -> None:
     """Leave namespaces and begin new ones.
 
-    Args:
-        flags: Which, of `CLONE_NEW...`.
-
     Raises:
         OSError: If the kernel refuses.
     """
@@ -51,9 +48,6 @@ def pidfd_open(process: int) -> int:
     """Return a descriptor of a process, which can be read from when that has ended.
 
     As `os.pidfd_open`, which not every build of Python has.
-
-    Args:
-        process: Its number.
 
     Raises:
         OSError: If the kernel refuses, or is older than 5.3.
@@ -103,11 +97,6 @@ def pivot_root(new: str, old: str) -> None:
 
 def prctl(option: int, value: int, further: int = 0) -> None:
     """Change something about this process.
-
-    Args:
-        option: What, of `PR_...`.
-        value: What it becomes.
-        further: A second value, for the options that take one.
 
     Raises:
         OSError: If the kernel refuses.
@@ -235,9 +224,6 @@ _FILTER = 2
 
 def number_of(call: str) -> int:
     """Return the number of a system call on this machine.
-
-    Args:
-        call: Its name, such as one of `REFUSED`.
 
     Raises:
         OSError: If this machine's numbers are not known here.

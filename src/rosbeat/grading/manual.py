@@ -61,9 +61,6 @@ class Manual:
 def read_manual(path: Path) -> Manual:
     """Read what was given by hand; nothing, if there is no file.
 
-    Args:
-        path: The file `manual.csv`.
-
     Raises:
         GradingError: If there is such a file and it cannot be read.
     """
@@ -178,10 +175,6 @@ def _read(line: Line, mark: Mark | None, remarks: list[Remark]) -> _Given:
 def points_by_hand(text: str, mark: Mark | None) -> float:
     """Return points that a person has written for an exercise.
 
-    Args:
-        text: What was written.
-        mark: The exercise; None if none was named.
-
     Raises:
         UnusableError: If it is no number of points that the exercise can have.
     """
@@ -236,11 +229,7 @@ def _marked(mark: Mark, given: _Given) -> Mark:
 
 
 def template(gradebook: Gradebook) -> str:
-    """Return a file to fill in, with a line for each exercise that is held.
-
-    Args:
-        gradebook: What was judged.
-    """
+    """Return a file to fill in, with a line for each exercise that is held."""
     rows: list[tuple[str, ...]] = [_TEMPLATE]
     for graded in gradebook.learners:
         held = [mark for mark in graded.marks if mark.status == HELD]
@@ -250,10 +239,6 @@ def template(gradebook: Gradebook) -> str:
 
 def write_template(path: Path, gradebook: Gradebook) -> bool:
     """Write the template, unless a person has written something into the file.
-
-    Args:
-        path: The file `manual.csv`.
-        gradebook: What was judged.
 
     Returns:
         Whether the file is now the template.

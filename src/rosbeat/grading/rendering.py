@@ -83,12 +83,7 @@ class Segment:
 
 
 def segments_of(statuses: Iterable[str], of_class: bool = False) -> list[Segment]:
-    """Return the parts of a bar that counts statuses, without those that do not occur.
-
-    Args:
-        statuses: The statuses to count.
-        of_class: Whether an instructor reads it, and not a learner.
-    """
+    """Return the parts of a bar that counts statuses, without those that do not occur."""
     found = list(statuses)
     return [
         Segment(look.kind, found.count(status), f"{look.sign} {_word(look, of_class)}")
@@ -175,11 +170,7 @@ def points_of(points: float, out_of: float) -> str:
 
 
 def page_title(page: str) -> str:
-    """Return the title of a page with its number; its name if the course has no title for it.
-
-    Args:
-        page: The lesson's name, such as `03_write_a_publisher`.
-    """
+    """Return the title of a page with its number; its name if the course has no title for it."""
     return _TITLES.get(page[:2]) or page
 
 
@@ -213,10 +204,6 @@ def _environment() -> Environment:
 
 def render(template: str, **values: Any) -> str:  # noqa: ANN401 - whatever the template shows
     """Render a page.
-
-    Args:
-        template: The name of a file in `templates`.
-        values: What it shows. Texts are escaped; only `Markup` is taken for HTML.
 
     Returns:
         A whole HTML document, the same for the same values.

@@ -61,14 +61,7 @@ _Rows = list[tuple[str, ...]]
 
 
 def class_report(book: Gradebook) -> str:
-    """Return the report of a class.
-
-    Args:
-        book: The class.
-
-    Returns:
-        A whole HTML document, the same for the same input; it needs no network and no script.
-    """
+    """Return the report of a class: a whole HTML document that needs no network and no script."""
     exercises, mistakes = tally_exercises(book), tally_mistakes(book)
     signs = ", ".join(f"{look.sign} {look.of_class}" for look in STATUSES.values())
     return render(
@@ -313,11 +306,7 @@ def _first(ranked: Sequence[tuple[str, int]]) -> str:
 
 
 def tally_points(book: Gradebook) -> PointsTally:
-    """Sort the learners into steps by their share of the points.
-
-    Args:
-        book: The class; learners without points or without a grade are left out.
-    """
+    """Sort the learners with points and a grade into steps by their share of the points."""
     counted = [one for one in book.learners if one.out_of > 0 and not one.excused]
     shares = [100 * one.points / one.out_of for one in counted]
     steps = Counter(int(min(max(share, 0.0), 100.0) // STEP) for share in shares)

@@ -46,11 +46,6 @@ _MOST_SENT = 1 << 20
 def review(out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> None:
     """Serve the review of a class until a person stops it (Ctrl-C).
 
-    Args:
-        out: The folder of results.
-        judged: The class, before anything was given by hand.
-        write: Writes all results of a gradebook.
-
     Raises:
         GradingError: If no address on this computer is free.
     """
@@ -82,13 +77,7 @@ class Given:
 
 
 class Review:
-    """Hold a class that is being reviewed, and what was given by hand.
-
-    Args:
-        out: The folder of results.
-        judged: The class, before anything was given by hand.
-        write: Writes all results of a gradebook.
-    """
+    """Hold a class that is being reviewed, and what was given by hand."""
 
     def __init__(self, out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> None:
         self.out, self._judged, self._write = out, judged, write
@@ -131,10 +120,6 @@ class Review:
 
     def give(self, group: Group, given: Given) -> None:
         """Write points and a comment for answers of a group into manual.csv.
-
-        Args:
-            group: The group.
-            given: What is given; answers without points and comment are as they were judged again.
 
         Raises:
             UnusableError: If the points are none, nobody is chosen, or the file cannot be read.
@@ -284,9 +269,6 @@ def _shared(review: Review, root: str, nonce: str) -> dict[str, Any]:
 
 class ReviewServer(LocalServer):
     """Serve a review on the loopback interface, at an address that nobody can guess.
-
-    Args:
-        review: The class.
 
     Raises:
         GradingError: If no address on this computer is free.

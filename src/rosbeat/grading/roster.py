@@ -10,34 +10,19 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Generic, Protocol, TypeVar
+from typing import Generic, TypeVar
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.csv_table import Row, cell, read_table
 from rosbeat.grading.deadlines import read_extension
+from rosbeat.grading.marks import Graded
 from rosbeat.grading.remarks import Remark, printable
 from rosbeat.grading.submissions import Collection, Submission
 
 # Finding a learner.
 
 
-class Named(Protocol):
-    """Describe what has a learner's id and name: a submission, or a row of the gradebook."""
-
-    @property
-    def learner(self) -> str:
-        """Return what tells this learner from others."""
-
-    @property
-    def name(self) -> str:
-        """Return what the learner is called."""
-
-    @property
-    def system(self) -> str:
-        """Return where the submission came from."""
-
-
-Learner = TypeVar("Learner", bound=Named)
+Learner = TypeVar("Learner", Submission, Graded)
 
 
 class UnusableError(ValueError):
@@ -57,11 +42,7 @@ _LOOK_UP = "Write the learner as in the column learner of grades.csv."
 
 
 class Lookup(Generic[Learner]):
-    """Find a learner by what a person, or a spreadsheet on the way, made of the id or the name.
-
-    Args:
-        learners: The class.
-    """
+    """Find a learner by what a person, or a spreadsheet on the way, made of the id or the name."""
 
     def __init__(self, learners: Iterable[Learner]) -> None:
         self._indexes: tuple[dict[str, list[Learner]], ...] = ({}, {}, {}, {}, {})
@@ -78,9 +59,6 @@ class Lookup(Generic[Learner]):
     def find(self, text: str) -> Learner:
         """Return the learner that is meant: by id, by the id as tables show it, or by name.
 
-        Args:
-            text: What stands in the table.
-
         Raises:
             UnusableError: If there is no such learner, or more than one.
         """
@@ -95,11 +73,7 @@ class Lookup(Generic[Learner]):
         return found[0]
 
     def all(self, text: str) -> list[Learner]:
-        """Return every learner that may be meant.
-
-        Args:
-            text: An id or a name.
-        """
+        """Return every learner that may be meant."""
         if not text:
             return []
         forms = [[text], [text], [_plain(text)], [_plain(text)], _orders(text)]

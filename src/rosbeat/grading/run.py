@@ -20,9 +20,9 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
-from queue import Full, Queue, SimpleQueue
+from queue import Empty, SimpleQueue
 from types import MappingProxyType
-from typing import Generic, TypeVar
+from typing import TypeVar
 
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import GradingError
@@ -82,13 +82,6 @@ def grade(
 ) -> Gradebook:
     """Judge every exercise of every submission.
 
-    Args:
-        collection: What was handed in.
-        plan: How it is graded.
-        ledger: What has been judged already; what is judged now is added.
-        observe: Has jobs done.
-        tell: Is told how far it is.
-
     Raises:
         GradingError: If no sandbox can be made, or the ledger cannot be written.
     """
@@ -119,12 +112,7 @@ def _trace(answer: Answer, plan: Plan, ledger: Ledger) -> str:
 
 
 def all_answers(collection: Collection, plan: Plan) -> Answers:
-    """Return the answers by learner and page; exercises without points are left out.
-
-    Args:
-        collection: What was handed in.
-        plan: How it is graded.
-    """
+    """Return the answers by learner and page; exercises without points are left out."""
     pages = {page.lesson: page for page in plan.pages}
     return {
         (one.learner, handed.page): tuple(
@@ -311,9 +299,6 @@ _ONE_AT_A_TIME = threading.Lock()
 def with_files(job: Job) -> Job:
     """Return a job as it is sent: a page of terminals with the workspace that it starts from.
 
-    Args:
-        job: The job.
-
     Raises:
         GradingError: If the workspace cannot be made on this machine.
     """
@@ -326,9 +311,6 @@ def with_files(job: Job) -> Job:
 @cache
 def files_before(page: str) -> Mapping[str, str]:
     """Make what the pages before this one leave, somewhere else, and read it.
-
-    Args:
-        page: The page's number, such as `05`.
 
     Returns:
         Content in Latin-1 by path in the workspace; a folder's path ends with `/` and has none. It
@@ -510,29 +492,6 @@ def _failed(evidence: Evidence) -> str:
     return "" if found.logs else "a node does not hear what it publishes"
 
 
-@dataclass
-class _Queue(Generic[Key]):
-    """Hold submissions that wait for workers, and what has come of them.
-
-    Attributes:
-        waiting: The submissions.
-        results: Evidence by key; what went wrong; None from each thread that is done. It holds only
-            a few, so that no submission is read long before its turn.
-        lock: Held by whoever takes the next submission.
-        is_given_up: Whether nobody takes results any more.
-    """
-
-    waiting: Iterator[Sequence[tuple[Key, Job]]]
-    results: Queue[tuple[Key, Evidence] | BaseException | None]
-    lock: threading.Lock = field(default_factory=threading.Lock)
-    is_given_up: bool = False
-
-    def next(self) -> list[tuple[Key, Job]]:
-        """Return the next submission; an empty one if there is none."""
-        with self.lock:
-            return list(next(self.waiting, ()))
-
-
 class Pool:
     """Have submissions observed by several workers; usable in a `with` block.
 
@@ -571,57 +530,59 @@ class Pool:
     ) -> Iterator[tuple[Key, Evidence]]:
         """Have submissions observed, several at a time; evidence comes as it is ready.
 
-        Args:
-            submissions: The jobs of each, with something to know them by.
-
         Raises:
             GradingError: If no sandbox can be made.
         """
-        queue: _Queue[Key] = _Queue(iter(submissions), Queue(self.size))
-        threads = [threading.Thread(target=self._serve, args=(queue,)) for _ in range(self.size)]
+        waiting: SimpleQueue[list[tuple[Key, Job]]] = SimpleQueue()
+        results: SimpleQueue[tuple[Key, Evidence] | BaseException | None] = SimpleQueue()
+        for one in submissions:
+            waiting.put(list(one))
+        threads = [
+            threading.Thread(target=self._serve, args=(waiting, results)) for _ in range(self.size)
+        ]
         with self._lock:
             self._threads = [one for one in self._threads if one.is_alive()] + threads
             for thread in threads:
                 thread.start()
         left = len(threads)
-        try:
-            while left:
-                found = queue.results.get()
-                if isinstance(found, BaseException):
-                    raise found
-                if found is None:
-                    left -= 1
-                else:
-                    yield found
-        finally:
-            queue.waiting, queue.is_given_up = iter(()), True
+        while left:
+            found = results.get()
+            if isinstance(found, BaseException):
+                raise found
+            if found is None:
+                left -= 1
+            else:
+                yield found
 
-    def _serve(self, queue: _Queue[Key]) -> None:
-        """Observe submissions with one worker, or those that come after it, until there is none."""
+    def _serve(
+        self,
+        waiting: SimpleQueue[list[tuple[Key, Job]]],
+        results: SimpleQueue[tuple[Key, Evidence] | BaseException | None],
+    ) -> None:
+        """Observe submissions with one worker, or those that come after it, until there is none.
+
+        Into the results goes evidence by key, what went wrong, and None when this thread is done.
+        """
         worker, tries = self._idle.get(), 0
         try:
-            while (left := queue.next()) and not self._is_closed:
+            while not self._is_closed:
+                left = waiting.get_nowait()
                 while left and not self._is_closed:
                     for evidence in worker.observe([job for _, job in left]):
-                        self._put(queue, (left.pop(0)[0], evidence))
+                        results.put((left.pop(0)[0], evidence))
                         tries = 0
                     if left:
                         worker, tries = self._replaced(worker), tries + 1
                     if left and tries == _TRIES:
-                        self._put(queue, (left.pop(0)[0], Evidence(LOST)))
+                        results.put((left.pop(0)[0], Evidence(LOST)))
                         tries = 0
+        except Empty:
+            pass
         except BaseException as error:
-            self._put(queue, error)
+            results.put(error)
         finally:
             self._idle.put(worker)
-            self._put(queue, None)
-
-    def _put(self, queue: _Queue[Key], result: tuple[Key, Evidence] | BaseException | None) -> None:
-        """Add a result, as soon as there is room for it; drop it if nobody takes any more."""
-        while not (queue.is_given_up or self._is_closed):
-            with suppress(Full):
-                queue.results.put(result, timeout=0.1)
-                return
+            results.put(None)
 
     def _new_worker(self) -> Worker:
         worker = Worker(self._unsafe, self._patience)

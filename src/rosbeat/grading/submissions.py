@@ -203,11 +203,7 @@ def _of_folder(parts: tuple[str, ...]) -> Owner | None:
 
 
 def own_path(path: str) -> str:
-    """Return a file's path as its learner knows it, without what the system added.
-
-    Args:
-        path: Where it was found, with slashes; it stays if it does not tell whose it is.
-    """
+    """Return a file's path as its learner knows it, without what the system added."""
     owner = owner_of(tuple(path.split("/")))
     return (owner.file if owner else "") or path
 
@@ -424,10 +420,6 @@ def require_submissions(source: Path, found: Collection, is_known: bool) -> None
 
 def require_apart(source: Path, out: Path) -> None:
     """Refuse a folder of results among the submissions: the next run would take it for a learner.
-
-    Args:
-        source: The submissions.
-        out: The folder for results.
 
     Raises:
         GradingError: If one is in the other's place, or in it.

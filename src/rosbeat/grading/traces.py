@@ -73,9 +73,6 @@ def trace_of(seen: Any) -> str:  # noqa: ANN401 - any kind of evidence
     """Return the trace of an answer as JSON; empty if there is nothing to show.
 
     Evidence that somebody has forged may hold numbers that are none of ROS; it has no trace.
-
-    Args:
-        seen: The evidence, as `exercises.evidence.from_json` returns it.
     """
     try:
         trace = _trace(seen)
@@ -229,10 +226,6 @@ class Picture:
 
 def picture(own: str, expected: str = "") -> Picture | None:
     """Return the picture of an answer beside that of the published solution.
-
-    Args:
-        own: The answer's trace, as `trace_of` wrote it.
-        expected: The published solution's.
 
     Returns:
         The picture; None if there is nothing to show.

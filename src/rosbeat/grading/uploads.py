@@ -98,9 +98,6 @@ class Allowance:
     def read(self, file: File) -> bytes:
         """Return the bytes of a file.
 
-        Args:
-            file: The file.
-
         Raises:
             OSError: If it cannot be read, or if the learner has used up the allowance. The text is
                 a sentence.
@@ -120,9 +117,6 @@ class Allowance:
 @contextmanager
 def open_upload(source: Path) -> Iterator[list[File]]:
     """Open a folder or a zip file.
-
-    Args:
-        source: The folder or the zip file.
 
     Yields:
         Its files, sorted by path. They can be read until the context ends; zip files among them
@@ -153,11 +147,6 @@ def _no_source(source: Path) -> GradingError:
 
 def opened(file: File, allowed: Allowance, level: int = 0) -> Iterator[File]:
     """Open a zip file of a learner; any other file is yielded as it is.
-
-    Args:
-        file: The file.
-        allowed: What may still be read for this learner; counted down.
-        level: How many zip files the file is inside of.
 
     Yields:
         Files. A zip file that cannot be opened is yielded itself, with its problem.

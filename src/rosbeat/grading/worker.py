@@ -95,11 +95,7 @@ def environment() -> dict[str, str]:
 
 
 def main(options: Sequence[str]) -> None:
-    """Observe submissions until there are no more.
-
-    Args:
-        options: `UNSAFE`, or nothing.
-    """
+    """Observe submissions until there are no more."""
     isolated = UNSAFE not in options
     if isolated:
         # It works only while there is one thread, and importing ROS starts more. If it is refused,
