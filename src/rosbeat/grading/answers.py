@@ -36,12 +36,10 @@ class Answer:
     """Describe one answer of one learner.
 
     Attributes:
-        exercise: The exercise's id.
         job: What has to be observed; None if its cell is as it is on the course's page, or lost.
         repairs: What was done to find and to run the answer, a sentence each.
         remarks: What an instructor should know of it, a sentence each; see `remarks_on`.
         cut: Whether the file breaks off before its cell.
-        source: The text of its cells.
     """
 
     exercise: str
@@ -151,7 +149,6 @@ class Found:
     """Hold the cell of one exercise as it was handed in.
 
     Attributes:
-        exercise: The exercise's id.
         source: The text of its cell; empty if there is none.
         place: The cell's place on the page, or -1.
         repairs: What was done to find it, a sentence each; nothing if it was where it belongs.

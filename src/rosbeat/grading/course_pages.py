@@ -12,13 +12,7 @@ from rosbeat.grading.notebook import Cell, Notebook, read_notebook
 
 @dataclass(frozen=True)
 class Wanted:
-    """Describe a cell of the course's own page that waits for an answer.
-
-    Attributes:
-        exercise: The exercise's id.
-        id: The cell's id.
-        blank: Its text, with blanks.
-    """
+    """Describe a cell of the course's own page that waits for an answer."""
 
     exercise: str
     id: str
@@ -31,10 +25,7 @@ class CoursePage:
 
     Attributes:
         lesson: Its name, such as `03_write_a_publisher`.
-        title: Its first heading.
         wanted: The cells that wait for an answer, in order.
-        ids: The ids of all its cells.
-        cells: All its cells, in order.
     """
 
     lesson: str

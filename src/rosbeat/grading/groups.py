@@ -41,7 +41,6 @@ class Group:
     """Hold answers to one exercise that are alike, with equal outcomes.
 
     Attributes:
-        exercise: The exercise's id.
         members: Whose they are, and their marks.
         solution: What they have to do with the published solution: `EQUAL`, `NEARLY` or empty.
     """

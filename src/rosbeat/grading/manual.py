@@ -28,15 +28,7 @@ _LOOKED_AT = "Looked at by the instructor."
 
 @dataclass(frozen=True)
 class Line:
-    """Hold one line of the file, as it is there.
-
-    Attributes:
-        number: Which line of the file it is, from 1.
-        learner: Whom it is about.
-        exercise: The exercise, or empty.
-        points: The points, or empty.
-        comment: What to tell the learner, or empty.
-    """
+    """Hold one line of the file, as it is there."""
 
     number: int
     learner: str
@@ -47,12 +39,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Manual:
-    """Hold all that is in the file.
-
-    Attributes:
-        lines: Its lines, those without points and comment left out.
-        remarks: What could not be read.
-    """
+    """Hold all that is in the file."""
 
     lines: tuple[Line, ...] = ()
     remarks: tuple[Remark, ...] = ()

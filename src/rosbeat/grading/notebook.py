@@ -25,7 +25,6 @@ class Cell:
     Attributes:
         place: Its place on the page, from 0.
         sort: `code`, `markdown` or `raw`.
-        source: Its text.
         id: Its id, or empty.
         exercise: The exercise whose answer it says it is, or empty.
         check: The exercise whose check it says it is, or empty.
@@ -44,7 +43,6 @@ class Notebook:
     """Hold what could be read of a notebook.
 
     Attributes:
-        cells: Its cells, in order.
         lesson: The page that it says it is, such as `03_write_a_publisher`; or empty.
         repairs: What was repaired to read it, a sentence each.
         problem: Why nothing could be read, a sentence; or empty.

@@ -248,12 +248,7 @@ _OTHER_POINTS = (
 
 @dataclass(frozen=True)
 class File:
-    """Hold a file of a release.
-
-    Attributes:
-        content: What is in it.
-        is_program: Whether it can be executed.
-    """
+    """Hold a file of a release."""
 
     content: bytes
     is_program: bool = False

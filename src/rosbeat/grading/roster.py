@@ -133,13 +133,7 @@ class Person:
 
 @dataclass(frozen=True)
 class Roster:
-    """Hold who is in the class.
-
-    Attributes:
-        people: The learners, in the order of the file.
-        system: `moodle` or `canvas` if the file is an export that has their ids; or empty.
-        file: What the file is called.
-    """
+    """Hold who is in the class."""
 
     people: tuple[Person, ...]
     system: str = ""

@@ -171,7 +171,6 @@ class Band:
 
     Attributes:
         kind: `own`, `expected` or `input`; the name of its colour and of its mark.
-        label: Whose it is.
         top: Where it begins, in units of the picture.
         height: Its height.
         points: Where its marks are, and whether the published solution says something else then.
@@ -203,7 +202,6 @@ class Picture:
     Attributes:
         height: Its height; its width is 640.
         headings: What each lane shows, with the height at which it is written.
-        bands: The strips.
         ticks: The time axis: places and labels.
         said: What it shows, in words.
         own: What a terminal shows after this answer.

@@ -85,12 +85,7 @@ class File:
 
 @dataclass
 class Allowance:
-    """Count what may still be read for one learner.
-
-    Attributes:
-        size: Bytes.
-        files: Files.
-    """
+    """Count what may still be read for one learner."""
 
     size: int = field(default_factory=lambda: MOST_OF_A_LEARNER)
     files: int = field(default_factory=lambda: MOST_FILES)
