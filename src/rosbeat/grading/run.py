@@ -27,7 +27,7 @@ from typing import TypeVar
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import from_json
-from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.answers import NOT_THERE, Answer, answers_on
 from rosbeat.grading.course_pages import CoursePage
@@ -44,6 +44,8 @@ from rosbeat.records import Observation, Outcome
 from rosbeat.workspace.catching_up import catch_up
 
 Key = TypeVar("Key")
+#: Why an exercise is held whose cell is not in the part of its file that can be read.
+_CUT = "The file stops before this exercise: hand it in again."
 #: Has the jobs of submissions done, and gives evidence as it comes.
 Observe = Callable[[Iterable[Sequence[tuple[str, Job]]]], Iterator[tuple[str, Evidence]]]
 #: Is told how many answers are judged, of how many; first, how many were judged in earlier runs.
@@ -96,7 +98,7 @@ def grade(
     _judge_new([some for some in todo if some], sum(map(len, jobs)), plan, ledger, observe, tell)
     learners = tuple(_graded(one, answers, plan, ledger) for one in collection.submissions)
     solutions = tuple(
-        Solution(one.exercise, one.source, _trace(one, plan, ledger)) for one in published
+        Solution(one.exercise, one.source, ledger.trace(_key(one, plan))) for one in published
     )
     return Gradebook(plan.version, learners, collection.remarks, solutions)
 
@@ -107,8 +109,9 @@ def _published(page: CoursePage, plan: Plan) -> tuple[Answer, ...]:
     return tuple(one for one in found if plan.out_of(one.exercise) > 0 and one.job)
 
 
-def _trace(answer: Answer, plan: Plan, ledger: Ledger) -> str:
-    return ledger.trace(key_of(answer.job, plan.version)) if answer.job else ""
+def _key(answer: Answer, plan: Plan) -> str:
+    """Return what an answer is known by in the ledger; empty if nothing has to be observed."""
+    return key_of(answer.job, plan.version) if answer.job else ""
 
 
 def all_answers(collection: Collection, plan: Plan) -> Answers:
@@ -135,7 +138,7 @@ def _different_jobs(
     known: set[str] = set()
     found: list[list[tuple[str, Job]]] = []
     for answers in submissions:
-        jobs = {key_of(one.job, plan.version): one.job for one in answers if one.job is not None}
+        jobs = {_key(one, plan): one.job for one in answers if one.job is not None}
         found.append([(key, job) for key, job in jobs.items() if key not in known])
         known.update(jobs)
     return found
@@ -194,46 +197,47 @@ def _remarks(one: Submission, answers: Answers) -> Iterator[Remark]:
 def _marks(
     page: CoursePage, handed: HandedIn, answers: Sequence[Answer], plan: Plan, ledger: Ledger
 ) -> Iterator[Mark]:
+    """Yield the marks of a page; what no machine could read or watch is held: it may be right."""
     for answer in answers:
-        exercise = EXERCISES[answer.exercise]
-        out_of = plan.out_of(answer.exercise)
-        known = ledger.get(key_of(answer.job, plan.version)) if answer.job else None
+        exercise, key = EXERCISES[answer.exercise], _key(answer, plan)
+        held = Mark(
+            *(exercise.id, exercise.title, page.lesson, HELD, 0.0, plan.out_of(exercise.id), _CUT),
+            evidence=_CUT,
+            late=handed.late,
+            file=handed.path,
+            source=answer.source,
+        )
+        outcome = ledger.get(key) or untouched(exercise)
         if answer.cut:
-            yield _held(page, exercise, answer, out_of, handed, _CUT)
-        elif known and known.evidence == WATCHER_LOST:
-            yield _held(page, exercise, answer, out_of, handed, WATCHER_LOST)
+            yield held
+        elif outcome.evidence == WATCHER_LOST:
+            yield replace(
+                held,
+                cause=f"Held for a person to look at: {WATCHER_LOST}",
+                evidence=WATCHER_LOST,
+                hint="It was tried more than once. Your instructor looks at it.",
+                repairs=answer.repairs,
+                answer=answer.source,
+            )
         else:
-            outcome = known or _untried(exercise, answer)
-            mark = _mark(page, exercise, answer, outcome, out_of, handed.late)
-            yield replace(mark, source=answer.source, trace=_trace(answer, plan, ledger))
-
-
-def _untried(exercise: Exercise[object], answer: Answer) -> Outcome:
-    outcome = untouched(exercise)
-    return replace(outcome, evidence=NOT_THERE) if NOT_THERE in answer.repairs else outcome
-
-
-def _mark(
-    page: CoursePage,
-    exercise: Exercise[object],
-    answer: Answer,
-    outcome: Outcome,
-    out_of: float,
-    late: bool,
-) -> Mark:
-    points = scaled(outcome, out_of)
-    return Mark(
-        *(exercise.id, exercise.title, page.lesson, outcome.status, points, out_of),
-        cause=cause_of(outcome),
-        mistake=outcome.mistake,
-        evidence=outcome.evidence,
-        hint=outcome.hint,
-        remarks=outcome.remarks,
-        parts=outcome.parts,
-        repairs=answer.repairs,
-        judged=points,
-        late=late,
-    )
+            if outcome.status == NOT_ATTEMPTED and NOT_THERE in answer.repairs:
+                outcome = replace(outcome, evidence=NOT_THERE)
+            points = scaled(outcome, held.out_of)
+            yield replace(
+                held,
+                status=outcome.status,
+                points=points,
+                judged=points,
+                file="",
+                cause=cause_of(outcome),
+                mistake=outcome.mistake,
+                evidence=outcome.evidence,
+                hint=outcome.hint,
+                remarks=outcome.remarks,
+                parts=outcome.parts,
+                repairs=answer.repairs,
+                trace=ledger.trace(key),
+            )
 
 
 def cause_of(outcome: Outcome) -> str:
@@ -249,37 +253,6 @@ def cause_of(outcome: Outcome) -> str:
         first = f"{met} of {len(outcome.parts)} requirements are met."
     named = f"{known.heading}: {first}" if known else first
     return printable(named, 400) if outcome.status == FAILED else named
-
-
-_CUT = "The file stops before this exercise: hand it in again."
-
-
-def _held(
-    page: CoursePage,
-    exercise: Exercise[object],
-    answer: Answer,
-    out_of: float,
-    handed: HandedIn,
-    why: str,
-) -> Mark:
-    """Hold what no machine could read or watch: it may be right. The next run tries it again."""
-    mark = Mark(
-        *(exercise.id, exercise.title, page.lesson, HELD, 0.0, out_of),
-        cause=why,
-        evidence=why,
-        late=handed.late,
-        file=handed.path,
-        source=answer.source,
-    )
-    if why == _CUT:
-        return mark
-    return replace(
-        mark,
-        cause=f"Held for a person to look at: {why}",
-        hint="It was tried more than once. Your instructor looks at it.",
-        repairs=answer.repairs,
-        answer=answer.source,
-    )
 
 
 def _missing(page: CoursePage, plan: Plan) -> Iterator[Mark]:

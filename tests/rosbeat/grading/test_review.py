@@ -38,6 +38,8 @@ def shapes(one, other):
         ("a = 1\nb = a", "a = 1\nb = b", (False, False)),
         ("a = f(1)", "a = g(1)", (False, False)),
         ("self.a = self.b", "self.c = self.b", (False, True)),
+        ("self.a = 1\nother.a = 2", "self.b = 1\nother.a = 2", (False, True)),
+        ("self.start()", "self.stop()", (False, False)),
         ("message.data = 1.0", "message.layout = 1.0", (False, False)),
         ("for x in y: f(data=x)", "for data in y: f(data=data)", (False, True)),
         ("'/status'", "'/state'", (True, True)),  # a text that nobody uses is a comment
