@@ -97,10 +97,6 @@ def board_html(board: Board) -> str:
     )
 
 
-def _page(board: str, nonce: str) -> str:
-    return render("class_live.html", board=Markup(board), csp_nonce=nonce)
-
-
 def _segments(tally: Tally) -> list[Segment]:
     return [
         Segment("passed", tally.passed, "✓ passed"),
@@ -147,7 +143,9 @@ class _Handler(LocalHandler):
         name = path.removeprefix("diagram/").removesuffix(".svg").replace("%20", " ")
         if path in ("", "board"):
             nonce, board = new_nonce(), board_html(cast(ClassServer, self.server).board())
-            page = _page(board, nonce) if path == "" else board
+            page = board
+            if path == "":
+                page = render("class_live.html", board=Markup(board), csp_nonce=nonce)
             allowed = {"connect-src": "'self'", "img-src": "'self' data:", "form-action": "'none'"}
             self.send_page(page, nonce, allowed=allowed)
         elif path.startswith("diagram/") and name in DIAGRAMS.values():

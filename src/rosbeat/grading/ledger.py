@@ -12,7 +12,6 @@ import json
 import os
 import re
 import secrets
-from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -61,15 +60,27 @@ def seed_of(folder: Path) -> int:
     path = folder / SEED_FILE
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with suppress(FileExistsError), open(path, "x", opener=_for_me_alone) as file:
-            file.write(f"{secrets.randbits(_BITS)}\n")
+        if not path.exists():
+            _make_seed(path)
         return int(path.read_text(encoding="ascii"))
     except (OSError, ValueError) as error:
         raise _trouble(path, error) from error
 
 
-def _for_me_alone(path: str, flags: int) -> int:
-    return os.open(path, flags, mode=0o600)
+def _make_seed(path: Path) -> None:
+    """Make the file whole; of two runs that begin at once, one makes it."""
+    made = path.with_name(f".{path.name}-{os.getpid()}")
+    handle = os.open(made, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    with os.fdopen(handle, "w", encoding="ascii") as file:
+        file.write(f"{secrets.randbits(_BITS)}\n")
+    try:
+        os.link(made, path)
+    except FileExistsError:
+        pass
+    except OSError:  # a file system without hard links
+        made.replace(path)
+    finally:
+        made.unlink(missing_ok=True)
 
 
 def _trouble(path: Path, error: Exception) -> GradingError:

@@ -9,6 +9,7 @@ colours are in `style.css`.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -84,16 +85,13 @@ class Segment:
 
 def segments_of(statuses: Iterable[str], of_class: bool = False) -> list[Segment]:
     """Return the parts of a bar that counts statuses, without those that do not occur."""
-    found = list(statuses)
+    found = Counter(statuses)
+    words = {status: look.of_class if of_class else look.word for status, look in STATUSES.items()}
     return [
-        Segment(look.kind, found.count(status), f"{look.sign} {_word(look, of_class)}")
+        Segment(look.kind, found[status], f"{look.sign} {words[status]}")
         for status, look in STATUSES.items()
         if status in found
     ]
-
-
-def _word(look: Look, of_class: bool) -> str:
-    return look.of_class if of_class else look.word
 
 
 def in_words(segments: Sequence[Segment]) -> str:

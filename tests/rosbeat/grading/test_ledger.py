@@ -88,14 +88,6 @@ def test_lines_of_another_version_are_left_out(path, line):
     assert kept(path) == {"a": OUTCOME}
 
 
-def test_two_runs_on_one_folder_lose_nothing(path):
-    with Ledger(path) as one, Ledger(path) as other:
-        for number in range(20):
-            one.add(f"a{number}", OUTCOME)
-            other.add(f"b{number}", OUTCOME)
-    assert len(kept(path)) == 40
-
-
 def test_a_full_disk_is_said(path, monkeypatch, says):
     def full(_):
         raise OSError(28, "No space left on device")

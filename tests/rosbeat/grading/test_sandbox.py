@@ -221,7 +221,7 @@ def eats(_):
 told = {}
 for work in (looks, loops, leaves, stays_behind, eats):
     with Sandbox(View(environment={"A": "b"}), isolated=False) as sandbox:
-        seen = sandbox.run(work, Limits(wall=1.0, memory=200_000_000))
+        seen = sandbox.run(work, Limits(wall=2.0, memory=200_000_000))
     told[work.__name__] = [seen.how, seen.number, seen.result.decode()]
 told["left"] = Path("/proc", told["stays_behind"][2]).exists()
 told["here"] = os.getcwd()
