@@ -10,7 +10,7 @@ import stat
 import pytest
 
 from graded_classes import HOSTILE
-from parsed_html import ELEMENTS, Parsed
+from parsed_html import ELEMENTS, Parsed, require_harmless
 from rosbeat import cli
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import GradingError
@@ -224,11 +224,8 @@ def test_what_is_hostile_is_only_text_on_the_page(place):
         said = {"exercise": "03a", "status": "failed", "mistake": "wrong-rate", "time": NOW}
         learner(place, number, *[json.dumps({**said, "name": name})] * 3)
     page = board_html(board(place))
-    parsed = Parsed(page)
-    assert {tag for tag, _ in parsed.elements} <= ELEMENTS | LIVE
-    assert not [name for _, attrs in parsed.elements for name in attrs if name.startswith("on")]
+    require_harmless(page, LIVE)
     assert "&lt;script&gt;alert(1)&lt;/script&gt;" in page
-    assert not re.search("[\u202e\0\x1b]", page)
 
 
 # The server.
