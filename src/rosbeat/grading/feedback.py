@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from io import BytesIO
 from itertools import groupby
 from typing import Any
@@ -189,36 +189,38 @@ class FeedbackZips:
     """Fill the zips that Moodle and Canvas take, learner by learner."""
 
     def __init__(self) -> None:
-        self._made: dict[str, tuple[BytesIO, ZipFile]] = {}
+        self._entries: dict[str, dict[str, str]] = {
+            "moodle_feedback.zip": {},
+            "canvas_feedback.zip": {},
+        }
 
     def add(self, graded: Graded, page: str) -> None:
         """Add the feedback of one learner, if a system takes it."""
         if graded.system == "moodle" and graded.learner.isdecimal():
             called = _NOT_IN_A_NAME.sub(" ", graded.name).strip(" .~") or "learner"
             name = f"{called}_{graded.learner}_assignfeedback_file_feedback.html"
-            self._put("moodle_feedback.zip", name, page)
+            self._entries["moodle_feedback.zip"][name] = page
         if graded.system == "canvas":
             for lesson, path in graded.files:
                 name = _canvas_name(path)
                 if name:
-                    self._put("canvas_feedback.zip", name, feedback_notebook(graded, lesson))
+                    made = feedback_notebook(graded, lesson)
+                    self._entries["canvas_feedback.zip"][name] = made
 
     def files(self) -> dict[str, bytes]:
         """Return the content of each zip by its name; empty for a system of which nobody came."""
-        found = {"moodle_feedback.zip": b"", "canvas_feedback.zip": b""}
-        for file, (content, archive) in self._made.items():
-            archive.close()
-            found[file] = content.getvalue()
-        return found
+        return {name: _zipped(entries) for name, entries in self._entries.items()}
 
-    def _put(self, archive: str, name: str, text: str) -> None:
-        if archive not in self._made:
-            content = BytesIO()
-            self._made[archive] = content, ZipFile(content, "w", ZIP_DEFLATED)
-        entry = ZipInfo(name, _DATE)
-        entry.compress_type = ZIP_DEFLATED
-        entry.external_attr = 0o644 << 16
-        self._made[archive][1].writestr(entry, text.encode("utf-8", "backslashreplace"))
+
+def _zipped(entries: Mapping[str, str]) -> bytes:
+    content = BytesIO()
+    with ZipFile(content, "w", ZIP_DEFLATED) as archive:
+        for name, text in entries.items():
+            entry = ZipInfo(name, _DATE)
+            entry.compress_type = ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, text.encode("utf-8", "backslashreplace"))
+    return content.getvalue() if entries else b""
 
 
 def _canvas_name(path: str) -> str:

@@ -54,11 +54,12 @@ def book(*learners):
 @pytest.mark.parametrize("text", NASTY)
 def test_hostile_names_leave_tables_whole_and_no_cell_is_a_formula_in_any_country(text):
     made = book(*(replace(hostile_learner(text), system=one) for one in ("moodle", "canvas")))
-    tables = {7 * 2: grades_csv(made), 1: moodle_csv(made), 2: canvas_csv(made)}
+    marks = sum(len(one.marks) for one in made.learners)
+    tables = ((marks, grades_csv(made)), (1, moodle_csv(made)), (2, canvas_csv(made)))
     # Where cells are parted at semicolons, a whole row of ours may be one.
     before = csv.field_size_limit(1_000_000)
     try:
-        for many, table in tables.items():
+        for many, table in tables:
             table.encode("utf-8")
             assert len(named(table)) == many
             assert max(len(one) for row in rows(table) for one in row) <= 32_767
