@@ -67,3 +67,12 @@ class Shown(HTMLParser):
         self._words += data
         if self._href:
             self._link += data
+
+
+def require_harmless(page, more=frozenset()):
+    """Require that nothing of a page acts, or hides what it is, whatever a learner has written."""
+    page.encode("utf-8")
+    elements = Parsed(page).elements
+    assert {tag for tag, _ in elements} <= ELEMENTS | more
+    assert not any(name.startswith("on") for _, attrs in elements for name in attrs)
+    assert not set("\0\x1b\u202e") & set(page)

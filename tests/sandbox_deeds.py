@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from rosbeat.errors import GradingError
@@ -25,7 +26,9 @@ from rosbeat.grading.linux import REFUSED, number_of
 from rosbeat.grading.sandbox import Limits, Sandbox, View, become_able, python_folders
 
 #: Seconds of those that nothing but the deadline ends, and of all others on a busy machine.
-SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (1.0, 15.0))
+SHORT, LONG = (Limits(wall=wall, memory=300_000_000) for wall in (0.7, 15.0))
+#: So many processes are enough to see that there are no more; more make the machine busy.
+FEW = replace(SHORT, processes=24)
 #: A folder that is shown, and one of which only one file is.
 SHOWN, HIDDEN = (Path(tempfile.gettempdir(), f"rosbeat {one} Ü {os.getpid()}") for one in "ab")
 SECRET = Path(tempfile.gettempdir(), f"rosbeat-secret-{os.getpid()}")
@@ -520,9 +523,13 @@ def ending(found):
 
 #: Deeds that end at the deadline.
 ENDLESS = (
-    *(loops, sleeps, ignores_signals, forks, prints, closes_everything_and_sleeps),
+    *(loops, sleeps, ignores_signals, prints, closes_everything_and_sleeps),
     *(stops_itself, waits_for_a_child_that_borrows_its_memory),
 )
+
+
+def _limits(deed):
+    return FEW if deed is forks else SHORT if deed in ENDLESS else LONG
 
 
 def kept(view):
@@ -537,10 +544,7 @@ def kept(view):
         return told
     try:
         with Sandbox(view) as sandbox:
-            told = {
-                deed.__name__: ending(sandbox.run(deed, SHORT if deed in ENDLESS else LONG))
-                for deed in DEEDS
-            }
+            told = {deed.__name__: ending(sandbox.run(deed, _limits(deed))) for deed in DEEDS}
     except GradingError as error:
         told = {"refused": str(error)}
     with os.fdopen(writing, "w") as file:

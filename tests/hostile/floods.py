@@ -1,6 +1,6 @@
 """Floods: of memory, disk, output, messages and results."""
 
-from hostile.deed import TRACE, Deed, before, within
+from hostile.deed import Deed, before, within
 
 DEEDS = (
     Deed(
@@ -8,10 +8,8 @@ DEEDS = (
         before("kept = []\nwhile True:\n    kept.append(b'x' * 50_000_000)"),
         words="emory",
     ),
-    Deed("memory in a callback", within("self.kept = [0] * 10**12"), words="MemoryError"),
     Deed("one number that is too large", before("x = 10 ** 10 ** 10"), words=""),
     Deed("output", before("while True:\n    print('x' * 100_000)"), words=""),
-    Deed("output in a callback", within("while True:\n    print('x' * 100_000)"), words=""),
     Deed(
         "an exception of 100 MB", before("raise ValueError('x' * 100_000_000)"), words="ValueError"
     ),
@@ -31,27 +29,6 @@ DEEDS = (
         "nodes without end",
         before("while True:\n    Node('a')").replace("while", "rclpy.init()\nwhile"),
         words="",
-    ),
-    Deed(
-        "the disk",
-        before(
-            f"with open('/tmp/{TRACE}', 'wb') as file:\n"
-            "    while True:\n        file.write(bytes(10_000_000))"
-        ),
-        words="",
-    ),
-    Deed(
-        "shared memory",
-        before(
-            f"for n in range(1000):\n    with open(f'/dev/shm/{TRACE}-{{n}}', 'wb') as file:\n"
-            "        file.write(bytes(10_000_000))"
-        ),
-        words="OSError",
-    ),
-    Deed(
-        "files without end",
-        before(f"import os\nfor n in range(10**6):\n    os.mkdir(f'/tmp/{TRACE}-{{n}}')"),
-        words="OSError",
     ),
     Deed("deep brackets", "HumiditySensor = " + "(" * 5000 + ")" * 5000, words=""),
     Deed("deep lists", "HumiditySensor = " + "-" * 20000 + "1", words=""),

@@ -138,7 +138,6 @@ DEEDS = (
         ),
         words="end",
     ),
-    Deed("stopped by itself", before("import os\nos.kill(os.getpid(), 19)"), words="end"),
     Deed(
         "limits of its own, of nothing",
         before(
@@ -147,19 +146,6 @@ DEEDS = (
             WRONG,
         ),
         words="",
-    ),
-    Deed(
-        "wider limits",
-        before(
-            "import resource as r\nfor one in (r.RLIMIT_AS, r.RLIMIT_NPROC, r.RLIMIT_NOFILE):\n"
-            "    r.setrlimit(one, (1 << 40, 1 << 40))"
-        ),
-        words="ValueError",
-    ),
-    Deed(
-        "memory of its init",
-        before("import resource\nresource.prlimit(1, resource.RLIMIT_AS, (0, 0))"),
-        words="PermissionError",
     ),
     Deed(
         "another program in its place",

@@ -158,7 +158,7 @@ UPLOADS = (
     Upload("copied cell ids", {PAGE: page(WRONG, _copied_ids)}, "failed", ""),
     Upload("points of its own", {PAGE: page(WRONG, _points)}, "failed", "readings"),
     Upload("one answer for all", {PAGE: page(RIGHT, _another_exercise)}, "passed"),
-    Upload("version 3", {PAGE: page(WRONG, _version_3)}, "failed"),
+    Upload("version 3", {PAGE: page(WRONG, _version_3)}, "held", "not a notebook"),
     Upload("version 99", {PAGE: page(WRONG, lambda body: body.update(nbformat=99))}, "failed"),
     Upload("widgets", {PAGE: page(RIGHT, _widgets)}, "passed"),
     Upload("odd types", {PAGE: page(WRONG, _odd_types)}, "failed"),
@@ -177,7 +177,7 @@ UPLOADS = (
     Upload("markup as evidence", {PAGE: page(
         "raise ValueError('<script>alert(1)</script><img src=x onerror=alert(1)>')")}, "failed",
         "script"),
-    Upload("a zip bomb", {"all.zip": lambda: _zip({PAGE: b" " * 300_000_000})}, "held", "300 MB"),
+    Upload("a zip bomb", {"all.zip": lambda: _zip({PAGE: b" " * 70_000_000})}, "held", "70 MB"),
     Upload("a zip that leads out", {"all.zip": _zip({f"../../{PAGE}": page(RIGHT)})}, "passed"),
     Upload("a zip that is none", {"all.zip": b"PK\x03\x04" + bytes(100)}, "held", "opened"),
     Upload("a zip in a zip in a zip", {"all.zip": _zip({"a.zip": _zip(
@@ -207,8 +207,8 @@ UPLOADS = (
            "passed"),
     Upload("a zip with 20,000 folders in each other", {"all.zip": _zip(
         {"a/" * 20_000 + PAGE: _WHOLE})}, "", "folders"),
-    Upload("a zip with 30,000 files", {"all.zip": lambda: _zip(
-        {str(n): b"" for n in range(30_000)})}, "held", "entries"),
+    Upload("a zip with 20,001 files", {"all.zip": lambda: _zip(
+        {str(n): b"" for n in range(20_001)})}, "held", "entries"),
     Upload("a zip for somebody else", {"all.zip": _zip(
         {f"Ana_4711_assignsubmission_file_/{PAGE}": _WHOLE})}, "passed"),
     Upload("a file for somebody else", {f"ana_4711_1_{PAGE}": _WHOLE}, "passed"),

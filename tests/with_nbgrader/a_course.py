@@ -57,9 +57,9 @@ def main(folder: Path) -> None:
     add_odd_page(source)
     run(GenerateAssignmentApp, "ps1")
     solutions = {name: solution(name) for name in POINTS if name[:2] in PAGES}
-    hand_in("ada", solutions, *PAGES)
-    hand_in("bob", {name: one.text for name, one in answers_of(1).items()}, *PAGES)
-    hand_in("cleo", {}, "03")
+    hand_in("ada", solutions, "03")
+    hand_in("bob", {name: one.text for name, one in answers_of(1).items()}, "03")
+    hand_in("bob", {}, "04")  # untouched
     nbformat.write(filled(blank("03"), solutions), "whole.ipynb")
     files = ("whole.ipynb", f"submitted/bob/ps1/{NAMES['03']}.ipynb")
     said = [validated(file) for file in files]
@@ -99,7 +99,7 @@ def add_odd_page(source):
 def hand_in(learner, answers, *pages):
     """Fill in the released pages and put them where nbgrader looks for them."""
     place = Path("submitted", learner, "ps1")
-    place.mkdir(parents=True)
+    place.mkdir(parents=True, exist_ok=True)
     for name in [*(NAMES[page] for page in pages), *(["odd"] if learner == "ada" else [])]:
         page = nbformat.read(Path("release", "ps1", f"{name}.ipynb"), as_version=4)
         nbformat.write(filled(page, answers), place / f"{name}.ipynb")

@@ -1,9 +1,9 @@
 """Find the answers on a submitted page, and create a job for each.
 
-A cell is found by its id, else by the exercise in its metadata, else by similarity: it defines the
-same names as the exercise's cell. Every repair that was needed to find or run an answer is reported
-in a sentence. No answer is held because of what it imports or names: `remarks_on` points out what
-an instructor may want to look at, and the mark stands.
+A cell is found by its id, else by the exercise in its metadata, else because it defines the same
+names as the exercise's cell. Every repair that was needed to find or run an answer is reported in a
+sentence. No answer is held because of what it imports or names: `remarks_on` points out what an
+instructor may want to look at, and the mark stands.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ import json
 import re
 from collections.abc import Iterable, Sequence, Set
 from dataclasses import dataclass, replace
-from difflib import SequenceMatcher
 from functools import lru_cache
 
 from rosbeat.exercises.exercise import BLANK
@@ -23,8 +22,6 @@ from rosbeat.grading.course_pages import CoursePage, Wanted
 from rosbeat.grading.jobs import Job
 from rosbeat.grading.notebook import Cell
 
-#: From which share of equal text on a cell without a name counts as the one that was filled in.
-ALIKE = 0.6
 #: What is said of an answer that is nowhere, and of one of which a part is.
 NOT_THERE, PART_NOT_THERE = "Its cell is not on the page.", "A cell of it is not on the page."
 #: Characters of a cell that is read as a program, and of all cells that are searched for helpers:
@@ -39,12 +36,10 @@ class Answer:
     """Describe one answer of one learner.
 
     Attributes:
-        exercise: The exercise's id.
         job: What has to be observed; None if its cell is as it is on the course's page, or lost.
         repairs: What was done to find and to run the answer, a sentence each.
         remarks: What an instructor should know of it, a sentence each; see `remarks_on`.
         cut: Whether the file breaks off before its cell.
-        source: The text of its cells.
     """
 
     exercise: str
@@ -58,14 +53,7 @@ class Answer:
 def answers_on(
     page: CoursePage, cells: Sequence[Cell], cut: bool = False, seed: int = 0
 ) -> tuple[Answer, ...]:
-    """Find the answers on a page that was handed in.
-
-    Args:
-        page: The course's own page.
-        cells: The cells that were handed in.
-        cut: Whether the file breaks off, so that there may have been more.
-        seed: From what the inputs of scenarios are drawn; 0 on a page.
-    """
+    """Find the answers on a page that was handed in."""
     found = find_cells(page.wanted, cells)
     parts: dict[str, list[tuple[Wanted, Found]]] = {}
     for wanted, one in zip(page.wanted, found, strict=True):
@@ -89,7 +77,7 @@ def _answer(
     base = Job(
         *(wanted.exercise, subject_of(page, wanted.exercise), parts[-1][1].source),
         imports=imports_of(page),
-        given=_given(wanted.exercise, seed),
+        given=json.dumps(EXERCISES[wanted.exercise].given(), sort_keys=True),
         seed=seed,
     )
     if is_replayed(page, wanted):
@@ -103,11 +91,6 @@ def _answer(
     said = dict.fromkeys(said for _, some in run for said in some)
     remarks = _remarks(page, texts, earlier, base.imports)
     return Answer(wanted.exercise, job, (*repairs, *said), remarks, source=source)
-
-
-def _given(exercise: str, seed: int) -> str:
-    """Return what the scenario of an exercise is handed besides the answer, as JSON."""
-    return json.dumps(EXERCISES[exercise].given(), sort_keys=True)
 
 
 # What the course's page says about its exercises.
@@ -166,7 +149,6 @@ class Found:
     """Hold the cell of one exercise as it was handed in.
 
     Attributes:
-        exercise: The exercise's id.
         source: The text of its cell; empty if there is none.
         place: The cell's place on the page, or -1.
         repairs: What was done to find it, a sentence each; nothing if it was where it belongs.
@@ -197,7 +179,7 @@ def find_cells(wanted: Sequence[Wanted], cells: Sequence[Cell]) -> tuple[Found, 
         shared = any(other.exercise == one.exercise for other in wanted if other is not one)
         found = _find_part(one, free) if shared else _find(one, free)
         taken.add(found.place)
-        answers.append(_joined(found, cells, taken))
+        answers.append(found)
     return tuple(answers)
 
 
@@ -222,23 +204,20 @@ def _find(wanted: Wanted, cells: Sequence[Cell]) -> Found:
         return _chosen(wanted, _unique([*by_id, *by_name]), "")
     if by_name:
         return _chosen(wanted, by_name, "Its cell has another id than on the course's page.")
-    alike = _alike(wanted, cells)
-    if alike:
-        said = "Its cell has lost its name and was found by what it defines."
-        return _chosen(wanted, alike, said)
+    if alike := _alike(wanted, cells):
+        return _chosen(
+            wanted, alike, "Its cell has lost its name and was found by what it defines."
+        )
     return Found(wanted.exercise, repairs=(NOT_THERE,))
 
 
 def _find_part(wanted: Wanted, cells: Sequence[Cell]) -> Found:
     """Find one of several cells of the same exercise: its name alone does not say which."""
-    by_id = [cell for cell in cells if cell.id and cell.id == wanted.id]
     by_name = [cell for cell in cells if cell.exercise == wanted.exercise]
-    if by_id:
+    if by_id := [cell for cell in cells if cell.id and cell.id == wanted.id]:
         return _chosen(wanted, by_id, "")
-    alike = _alike(wanted, by_name) or _alike(wanted, cells) or by_name[:1]
-    if alike:
-        said = "A cell of it has another id than on the course's page."
-        return _chosen(wanted, alike, said)
+    if alike := _alike(wanted, by_name) or _alike(wanted, cells) or by_name[:1]:
+        return _chosen(wanted, alike, "A cell of it has another id than on the course's page.")
     return Found(wanted.exercise, repairs=(PART_NOT_THERE,))
 
 
@@ -263,42 +242,7 @@ _DEFINED = re.compile(r"^(?:class|def)\s+(\w+)", re.MULTILINE)
 
 def _alike(wanted: Wanted, cells: Sequence[Cell]) -> list[Cell]:
     names = set(_DEFINED.findall(wanted.blank))
-    same = [cell for cell in cells if names and names & set(_DEFINED.findall(cell.source))]
-    if same:
-        return same
-    near = [cell for cell in cells if _likeness(wanted.blank, cell.source) >= ALIKE]
-    return sorted(near, key=lambda cell: _likeness(wanted.blank, cell.source))[-1:]
-
-
-def _likeness(blank: str, source: str) -> float:
-    """Return how much of the text that was given is still there, from 0 to 1."""
-    given = [line.strip() for line in blank.splitlines() if line.strip() and BLANK not in line]
-    kept = [line.strip() for line in source.splitlines() if line.strip()]
-    if not given or not kept:
-        return 0.0
-    matcher = SequenceMatcher(None, given, kept, autojunk=False)
-    return sum(block.size for block in matcher.get_matching_blocks()) / len(given)
-
-
-def _joined(found: Found, cells: Sequence[Cell], taken: set[int]) -> Found:
-    """Put a cell together that was split in two, if only the whole is a program."""
-    if not found.source or _is_program(found.source):
-        return found
-    after = [cell for cell in cells if cell.place > found.place][:2]
-    text = found.source
-    for cell in after:
-        if cell.sort != "code" or cell.exercise not in ("", found.exercise):
-            break
-        text = f"{text}\n{cell.source}"
-        if _is_program(text):
-            taken.update(one.place for one in after if one.place <= cell.place)
-            said = "Its cell was split; the parts were put together."
-            return replace(found, source=text, repairs=(*found.repairs, said))
-    return found
-
-
-def _is_program(source: str) -> bool:
-    return source.lstrip().startswith("%%") or _parsed(without_magics(source)[0]) is not None
+    return [cell for cell in cells if names & set(_DEFINED.findall(cell.source))]
 
 
 @lru_cache(maxsize=512)
@@ -326,9 +270,6 @@ def without_magics(source: str) -> tuple[str, tuple[str, ...]]:
 
     `%%time` and others that run their body give the body; `!ls` and others that need a shell or a
     kernel are left out, each with a sentence. A cell that is Python already stays as it is.
-
-    Args:
-        source: The text of a cell.
     """
     if _parsed(source) is not None:
         return source, ()
@@ -503,10 +444,6 @@ _INNER_NAMES = frozenset(
 
 def remarks_on(source: str, imports: str = "") -> tuple[str, ...]:
     """Say where an answer reaches for what runs and observes it. It may be a slip; the mark stands.
-
-    Args:
-        source: A cell of Python.
-        imports: The page's cell of imports: what it brings is everybody's.
 
     Returns:
         A sentence for each line, without a full stop; nothing for a text that is no Python.

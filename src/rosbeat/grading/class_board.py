@@ -30,8 +30,6 @@ class Tally:
     """Hold how many learners are where with one exercise.
 
     Attributes:
-        exercise: The exercise's id.
-        title: What it is about.
         passed: Learners of whom a check said `passed`.
         trying: Learners with fewer failed checks than `STUCK`, and no passed one.
         stuck: Learners with as many or more, and no passed one.
@@ -58,13 +56,7 @@ class Tally:
 
 @dataclass(frozen=True)
 class Lesson:
-    """Hold the tallies of a page.
-
-    Attributes:
-        page: The page.
-        tallies: One for each of its exercises that somebody has checked.
-        is_now: Whether somebody has checked one within the last `WINDOW` seconds.
-    """
+    """Hold the tallies of a page."""
 
     page: Page
     tallies: tuple[Tally, ...]
@@ -76,8 +68,6 @@ class Common:
     """Hold a mistake that several learners have made in the last minutes.
 
     Attributes:
-        mistake: Its id.
-        title: What it is, with a capital.
         learners: How many learners have made it.
         since: How many of them have passed the exercise since.
         places: The exercises in which it was made, the most frequent first, and by how many.
@@ -223,8 +213,6 @@ class Advice:
     """Hold what an instructor can show and say about a mistake in an exercise.
 
     Attributes:
-        exercise: The exercise.
-        title: What the exercise is about.
         seen: What the check says of an answer with this mistake; empty if the course has none.
         hint: The hint that it gives; empty likewise.
         first_hint: The exercise's own first hint.
@@ -251,12 +239,7 @@ DIAGRAMS = {
 
 @cache
 def advice(mistake: str, exercise: str) -> Advice:
-    """Return what there is to show and to say about a mistake.
-
-    Args:
-        mistake: Its id.
-        exercise: The id of the exercise in which it was made.
-    """
+    """Return what there is to show and to say about a mistake."""
     found = EXERCISES[exercise]
     here = _examples().get(exercise, {})
     known = here.get(mistake, {})

@@ -15,7 +15,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from threading import Lock
 from typing import Annotated, Literal
 
 from msgspec import Meta
@@ -37,7 +36,6 @@ class Record:
     """Hold what one check has written.
 
     Attributes:
-        exercise: The exercise's id.
         status: `passed` or `failed`.
         time: When, in seconds since 1970.
         mistake: Id of the named mistake; may be empty, or unknown to the course.
@@ -53,11 +51,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Learner:
-    """Hold what one learner shares.
-
-    Attributes:
-        records: The outcomes of checks, in order of time.
-    """
+    """Hold what one learner shares."""
 
     records: tuple[Record, ...]
 
@@ -90,10 +84,6 @@ class Reading:
     time: float
 
 
-#: What tells that a file is still the same: inode, size and time of the last change.
-_State = tuple[int, int, int]
-
-
 class ClassFolder:
     """Read the folder of a class, again and again.
 
@@ -112,8 +102,6 @@ class ClassFolder:
         ),
     ) -> None:
         self.path, self._now, self._owner = path, now, owner
-        self._lock = Lock()
-        self._known: dict[str, tuple[_State, tuple[Record, ...]]] = {}
 
     def read(self) -> Reading:
         """Return what the learners share now.
@@ -121,57 +109,42 @@ class ClassFolder:
         Raises:
             GradingError: If the folder cannot be read.
         """
-        with self._lock:
-            now = self._now()
-            try:
-                found, skipped = self._files()
-            except OSError as error:
-                raise GradingError(
-                    f"The folder of the class cannot be read: {self.path}: {error.strerror}.",
-                    "Learners who share write into this folder.",
-                    "docs/instructors.md says how to create it: Where the class is stuck.",
-                ) from None
-            known, self._known = self._known, {}
-            learners, unread = [], 0
-            for files in found.values():
-                records: list[Record] = []
-                for name, state in files:
-                    try:
-                        records += self._records(name, state, known.get(name))
-                    except FileNotFoundError:
-                        pass  # it has just been deleted
-                    except OSError:
-                        unread += 1
-                recent = (one for one in records if now - DAY < one.time <= now + _AHEAD)
-                learners.append(Learner(tuple(sorted(recent, key=lambda one: one.time))))
-            return Reading(tuple(learners), tuple(_notices(unread, skipped)), now)
+        now = self._now()
+        try:
+            found, skipped = self._files()
+        except OSError as error:
+            raise GradingError(
+                f"The folder of the class cannot be read: {self.path}: {error.strerror}.",
+                "Learners who share write into this folder.",
+                "docs/instructors.md says how to create it: Where the class is stuck.",
+            ) from None
+        learners, unread = [], 0
+        for files in found.values():
+            records: list[Record] = []
+            for _, name in sorted(files)[-_FILES:]:
+                try:
+                    records += _parsed(_end_of(self.path / name))
+                except FileNotFoundError:
+                    pass  # it has just been deleted
+                except OSError:
+                    unread += 1
+            recent = (one for one in records if now - DAY < one.time <= now + _AHEAD)
+            learners.append(Learner(tuple(sorted(recent, key=lambda one: one.time))))
+        return Reading(tuple(learners), tuple(_notices(unread, skipped)), now)
 
-    def _files(self) -> tuple[dict[int, list[tuple[str, _State]]], int]:
-        """Return the newest files of each owner, and how many entries were not looked at."""
-        found: dict[int, list[tuple[str, _State]]] = {}
+    def _files(self) -> tuple[dict[int, list[tuple[int, str]]], int]:
+        """Return dates and names of each owner's files, and how many entries were left out."""
+        found: dict[int, list[tuple[int, str]]] = {}
         with os.scandir(self.path) as entries:
             for number, entry in enumerate(entries):
                 if number >= _ENTRIES:
-                    return _newest(found), sum(1 for _ in entries) + 1
+                    return found, sum(1 for _ in entries) + 1
                 with suppress(OSError):  # it has just been deleted
                     state = entry.stat(follow_symlinks=False)
                     if FILE_NAME.fullmatch(entry.name) and _is_plain(state):
-                        mark = (state.st_ino, state.st_size, state.st_mtime_ns)
-                        found.setdefault(self._owner(entry), []).append((entry.name, mark))
-        return _newest(found), 0
-
-    def _records(
-        self, name: str, state: _State, known: tuple[_State, tuple[Record, ...]] | None
-    ) -> tuple[Record, ...]:
-        """Return the records of a file, read again only if it has changed.
-
-        Raises:
-            OSError: If it cannot be read.
-        """
-        if known is None or known[0] != state:
-            known = state, tuple(_parsed(_end_of(self.path / name)))
-        self._known[name] = known
-        return known[1]
+                        named = (state.st_mtime_ns, entry.name)
+                        found.setdefault(self._owner(entry), []).append(named)
+        return found, 0
 
     def forget(self, before: float | None = None) -> int:
         """Delete the files of learners, and return how many.
@@ -194,12 +167,6 @@ class ClassFolder:
                 "Run the command as the owner of the folder, or ask the administrator.",
             ) from None
         return len(gone)
-
-
-def _newest(found: dict[int, list[tuple[str, _State]]]) -> dict[int, list[tuple[str, _State]]]:
-    return {
-        owner: sorted(files, key=lambda one: one[1][2])[-_FILES:] for owner, files in found.items()
-    }
 
 
 def _is_old(entry: os.DirEntry[str], before: float | None) -> bool:

@@ -41,12 +41,6 @@ from rosbeat.viz.words import count
 def run(options: argparse.Namespace) -> int:
     """Serve the page until a person stops it (Ctrl-C), or forget what learners have shared.
 
-    Args:
-        options: What was typed after `rosbeat class`.
-
-    Returns:
-        The exit code.
-
     Raises:
         CommandError: If no folder is named.
         GradingError: If the folder cannot be read, or the port is taken.
@@ -103,10 +97,6 @@ def board_html(board: Board) -> str:
     )
 
 
-def _page(board: str, nonce: str) -> str:
-    return render("class_live.html", board=Markup(board), csp_nonce=nonce)
-
-
 def _segments(tally: Tally) -> list[Segment]:
     return [
         Segment("passed", tally.passed, "✓ passed"),
@@ -122,10 +112,6 @@ def _diagram(name: str) -> bytes:
 
 class ClassServer(LocalServer):
     """Serve the page of a class on the loopback interface, at an address that nobody can guess.
-
-    Args:
-        folder: The folder of the class.
-        port: The port; 0 for any that is free.
 
     Raises:
         GradingError: If the port is taken.
@@ -157,7 +143,9 @@ class _Handler(LocalHandler):
         name = path.removeprefix("diagram/").removesuffix(".svg").replace("%20", " ")
         if path in ("", "board"):
             nonce, board = new_nonce(), board_html(cast(ClassServer, self.server).board())
-            page = _page(board, nonce) if path == "" else board
+            page = board
+            if path == "":
+                page = render("class_live.html", board=Markup(board), csp_nonce=nonce)
             allowed = {"connect-src": "'self'", "img-src": "'self' data:", "form-action": "'none'"}
             self.send_page(page, nonce, allowed=allowed)
         elif path.startswith("diagram/") and name in DIAGRAMS.values():

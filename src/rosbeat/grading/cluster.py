@@ -48,9 +48,6 @@ class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]
     """Keep prepared processes on one worker of Dask, one for each of its threads.
 
     Dask sets it up on every worker, on those too that join or are restarted later.
-
-    Args:
-        name: What it is known by.
     """
 
     def __init__(self, name: str) -> None:
@@ -59,29 +56,17 @@ class Prepared(WorkerPlugin):  # type: ignore[misc, unused-ignore]
         self._pool: Pool | None = None
 
     def setup(self, worker: distributed.Worker) -> None:
-        """Start the processes.
-
-        Args:
-            worker: Dask's worker.
-        """
+        """Start the processes."""
         self._version = course_version()
         self._pool = Pool(worker.state.nthreads)
 
     def teardown(self, worker: distributed.Worker) -> None:
-        """End the processes.
-
-        Args:
-            worker: Dask's worker.
-        """
+        """End the processes."""
         if self._pool is not None:
             self._pool.close()
 
     def observe(self, lines: Sequence[str], version: str) -> list[str]:
         """Have the jobs of a submission done, and return evidence, a line each.
-
-        Args:
-            lines: The jobs, as `jobs.to_line` writes them.
-            version: The version of the course that will judge.
 
         Raises:
             GradingError: If the course is another one here, or no sandbox can be made.
@@ -137,9 +122,6 @@ class Cluster:
 
     def observe(self, submissions: Iterable[Submission[Key]]) -> Iterator[tuple[Key, Evidence]]:
         """Have submissions observed, several at a time; evidence comes as it is ready.
-
-        Args:
-            submissions: The jobs of each, with something to know them by.
 
         Raises:
             GradingError: If a worker cannot make a sandbox or has another course, or the cluster
@@ -245,11 +227,7 @@ class Cluster:
 
 
 def another_course(why: str) -> GradingError:
-    """Return the error for a cluster that has not the course that judges.
-
-    Args:
-        why: What was found.
-    """
+    """Return the error for a cluster that has not the course that judges."""
     return GradingError(
         f"A worker of the cluster has another course than this computer: {why}.",
         "What it observes could be another thing than what is judged here.",

@@ -10,12 +10,12 @@ import argparse
 import shlex
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -52,9 +52,6 @@ from rosbeat.grading.writing import write_whole
 from rosbeat.records_json import from_json, to_json
 from rosbeat.viz.words import count
 from rosbeat.workspace.place import course_root
-
-if TYPE_CHECKING:
-    from rosbeat.grading.cluster import Cluster
 
 #: Exit code: all is written, and something waits for a person.
 WAITS = 3
@@ -116,12 +113,6 @@ part of it, in src/rosbeat/workspace/finished; they show one answer to exercise 
 def run_release(options: argparse.Namespace) -> int:
     """Make what learners get, and say what was done.
 
-    Args:
-        options: What `options.release_arguments` declares.
-
-    Returns:
-        The exit code.
-
     Raises:
         GradingError: If the release cannot be made.
     """
@@ -161,12 +152,6 @@ _NAME = 30
 def run_collect(options: argparse.Namespace) -> int:
     """Say who handed in what, and everything that is worth knowing about the files.
 
-    Args:
-        options: What `options.collect_arguments` declares.
-
-    Returns:
-        The exit code: 0, whatever was handed in.
-
     Raises:
         GradingError: If there is nothing that could be submissions.
     """
@@ -194,12 +179,7 @@ def _with_dates(
 
 
 def handed_in(found: Collection, pages: Iterable[CoursePage]) -> tuple[CoursePage, ...]:
-    """Return the pages that anybody handed in: those count if none were named.
-
-    Args:
-        found: What was handed in.
-        pages: The pages of the course.
-    """
+    """Return the pages that anybody handed in: those count if none were named."""
     there = {page.page for one in found.submissions for page in one.pages}
     return tuple(page for page in pages if page.lesson in there)
 
@@ -241,10 +221,12 @@ def _row(one: Submission, pages: Sequence[CoursePage]) -> list[str]:
 def _cell(page: HandedIn | None) -> str:
     if page is None:
         return "-"
-    told = {"late": page.late, "unreadable": bool(page.notebook.problem), "half": page.notebook.cut}
-    if told["unreadable"]:
-        del told["half"]
-    return ", ".join(word for word, is_so in told.items() if is_so) or "yes"
+    words = ["late"] if page.late else []
+    if page.notebook.problem:
+        words.append("unreadable")
+    elif page.notebook.cut:
+        words.append("half")
+    return ", ".join(words) or "yes"
 
 
 def _total(found: Collection, pages: Sequence[CoursePage], remarks: int) -> str:
@@ -263,8 +245,7 @@ def _as_json(found: Collection) -> str:
     learners = [
         {
             **{"learner": one.learner, "name": one.name, "system": one.system},
-            **{"pages": [_page(page) for page in one.pages]},
-            "remarks": one.remarks,
+            **{"pages": [_page(page) for page in one.pages], "remarks": one.remarks},
         }
         for one in found.submissions
     ]
@@ -292,9 +273,6 @@ _FOR_A_PERSON = ("manual", "roster")
 
 def run_grade(options: argparse.Namespace) -> int:
     """Grade what was handed in, and write all results.
-
-    Args:
-        options: What `options.grade_arguments` declares.
 
     Returns:
         The exit code: 0, or `WAITS`.
@@ -329,11 +307,11 @@ def run_grade(options: argparse.Namespace) -> int:
     write_results(options.out, gradebook, options.assignment)
     note_options(options.out, typed)
     code = WAITS if _waiting(gradebook) else 0
-    print(_summary_json(gradebook, options.out, code) if options.json
-          else summary(gradebook, options.out))  # fmt: skip
+    said = _summary_json(gradebook, options.out, code) if options.json else ""
+    print(said or summary(gradebook, options.out))
     if options.review:
         review(
-            options.out, judged, lambda book: write_results(options.out, book, options.assignment)
+            options.out, judged, partial(write_results, options.out, assignment=options.assignment)
         )
     return code
 
@@ -365,38 +343,24 @@ def _require_consistent(options: argparse.Namespace) -> None:
 
 
 def _judged(found: Collection, plan: Plan, options: argparse.Namespace) -> Gradebook:
-    with _goes_on() as note, Ledger(options.out / LEDGER) as ledger, progress_bar() as tell:
+    far = [0, 0]
+    with Ledger(options.out / LEDGER) as ledger, progress_bar() as tell:
 
         def told(done: int, total: int) -> None:
-            note(done, total)
+            far[:] = done, total
             tell(done, total)
 
-        return grade(found, plan, ledger, _observer(options), told)
-
-
-@contextmanager
-def _goes_on() -> Iterator[Callable[[int, int], None]]:
-    """Say what is kept if somebody stops the judging; yields what is told how far it is."""
-    far = [0, 0]
-
-    def note(done: int, total: int) -> None:
-        far[:] = done, total
-
-    try:
-        yield note
-    except KeyboardInterrupt:
-        kept = f"{far[0] or 'None'} of {far[1]} answers are judged and kept"
-        raise StoppedError(
-            "stopped.",
-            f"{kept}; the results are as they were before." if far[1] else "Nothing was judged.",
-            "Type the same command again, with the same options: it goes on from there.",
-        ) from None
-
-
-def _cluster(address: str) -> Cluster:
-    from rosbeat.grading.cluster import Cluster  # it needs Dask, which few have
-
-    return Cluster(address)
+        try:
+            return grade(found, plan, ledger, _observer(options), told)
+        except KeyboardInterrupt:
+            kept = f"{far[0] or 'None'} of {far[1]} answers are judged and kept"
+            raise StoppedError(
+                "stopped.",
+                f"{kept}; the results are as they were before."
+                if far[1]
+                else "Nothing was judged.",
+                "Type the same command again, with the same options: it goes on from there.",
+            ) from None
 
 
 def _observer(options: argparse.Namespace) -> Observe:
@@ -405,11 +369,13 @@ def _observer(options: argparse.Namespace) -> Observe:
     def observe(
         submissions: Iterable[Sequence[tuple[str, Job]]],
     ) -> Iterator[tuple[str, Evidence]]:
-        with (
-            _cluster(options.scheduler)
-            if options.scheduler
-            else Pool(options.workers, options.unsafe_no_sandbox)
-        ) as pool:
+        if options.scheduler:
+            from rosbeat.grading.cluster import Cluster  # it needs Dask, which few have
+
+            made: Cluster | Pool = Cluster(options.scheduler)
+        else:
+            made = Pool(options.workers, options.unsafe_no_sandbox)
+        with made as pool:
             yield from pool.observe(submissions)
 
     return observe
@@ -471,10 +437,6 @@ def _deciding(options: argparse.Namespace, pages: Iterable[CoursePage]) -> dict[
 def note_options(out: Path, typed: Typed) -> None:
     """Write down how this run was started, once its results are written.
 
-    Args:
-        out: The folder with the results.
-        typed: The options that decide about results, as they were typed.
-
     Raises:
         GradingError: If it cannot be written.
     """
@@ -484,10 +446,6 @@ def note_options(out: Path, typed: Typed) -> None:
 
 def changes(out: Path, typed: Typed) -> str:
     """Say in one line which options differ from those of the last time.
-
-    Args:
-        out: The folder with the results.
-        typed: The options that decide about results, as they were typed.
 
     Returns:
         The line; empty if all is the same or there was no last time.

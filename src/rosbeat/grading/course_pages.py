@@ -12,13 +12,7 @@ from rosbeat.grading.notebook import Cell, Notebook, read_notebook
 
 @dataclass(frozen=True)
 class Wanted:
-    """Describe a cell of the course's own page that waits for an answer.
-
-    Attributes:
-        exercise: The exercise's id.
-        id: The cell's id.
-        blank: Its text, with blanks.
-    """
+    """Describe a cell of the course's own page that waits for an answer."""
 
     exercise: str
     id: str
@@ -31,10 +25,7 @@ class CoursePage:
 
     Attributes:
         lesson: Its name, such as `03_write_a_publisher`.
-        title: Its first heading.
         wanted: The cells that wait for an answer, in order.
-        ids: The ids of all its cells.
-        cells: All its cells, in order.
     """
 
     lesson: str
@@ -51,9 +42,6 @@ class CoursePage:
 
 def course_pages(folder: Path) -> tuple[CoursePage, ...]:
     """Read the course's pages.
-
-    Args:
-        folder: The folder `notebooks` of the course.
 
     Raises:
         GradingError: If there are none.
@@ -88,11 +76,6 @@ def which_page(found: Notebook, file: str, pages: Iterable[CoursePage]) -> Cours
 
     What it is counts more than what it is called: its exercises, its cells, what it says of itself,
     its title, and last of all the name of its file.
-
-    Args:
-        found: The notebook.
-        file: The name of its file.
-        pages: The pages of the course.
     """
     return max(
         (page for page in pages if _points(found, file, page)),

@@ -72,8 +72,6 @@ def read_table(path: Path, columns: Sequence[str], known: Collection[str] = ()) 
     """
     text = _text(path)
     separator = max(_SEPARATORS, key=text.partition("\n")[0].count)
-    if text[:5].casefold() in {f"sep={one}" for one in _SEPARATORS}:  # written by Excel
-        separator = text[4]
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     found: list[tuple[int, list[str]]] = []
     begins = 1
@@ -83,7 +81,7 @@ def read_table(path: Path, columns: Sequence[str], known: Collection[str] = ()) 
             begins = reader.line_num + 1
     except csv.Error as error:
         raise _refused(path, f"line {begins} is not CSV: {error}") from error
-    found = [one for one in found if any(map(str.strip, one[1])) and one[1] != ["sep=", ""]]
+    found = [one for one in found if any(map(str.strip, one[1]))]
     header = tuple(columns)
     names = [one.strip().casefold() for one in found[0][1]] if found else []
     if set(names) & set(known or columns[:1]):
@@ -129,30 +127,19 @@ def cell(text: str) -> str:
 
     Line ends and tabs become blanks, other control and direction characters are written as
     `\u....`, and an apostrophe stands before what would be a formula; a sign alone is none.
-
-    Args:
-        text: Any text.
     """
     shown = printable(_BREAKS.sub(" ", text), MOST_OF_A_CELL)
     return _FORMULA.sub("'", _SECOND_FORMULA.sub(r"\1'", shown))
 
 
 def number(value: float) -> str:
-    """Return points with at most five digits behind the point, and no zeros at the end.
-
-    Args:
-        value: Points.
-    """
+    """Return points with at most five digits behind the point, and no zeros at the end."""
     shown = f"{value:.{_DIGITS}f}".rstrip("0").rstrip(".")
     return "0" if shown == "-0" else shown
 
 
 def csv_text(rows: Iterable[Sequence[str | float]]) -> str:
-    """Return a table as CSV: commas, CR LF, texts as `cell`, numbers as `number`.
-
-    Args:
-        rows: The rows, the header first.
-    """
+    """Return a table as CSV: commas, CR LF, texts as `cell`, numbers as `number`."""
     file = io.StringIO(newline="")
     writer = csv.writer(file, lineterminator="\r\n")
     for row in rows:

@@ -86,11 +86,7 @@ class LateRule:
         return self.every != inf
 
     def off(self, late_by: float) -> float:
-        """Return the share of the points that is taken off.
-
-        Args:
-            late_by: Seconds after the deadline.
-        """
+        """Return the share that is taken off a page, so many seconds after the deadline."""
         begun = max(1, ceil(late_by / self.every)) if self.needs_a_date else 1
         return min(self.most, self.share * begun)
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from io import BytesIO
 from itertools import groupby
 from typing import Any
@@ -58,10 +58,6 @@ _NAMELESS = "This is new to the course: it has no name for this mistake yet."
 
 def feedback(graded: Graded, solutions: Iterable[Solution] = ()) -> str:
     """Return the page of one learner.
-
-    Args:
-        graded: What was found.
-        solutions: The published solutions, which pictures show beside an answer.
 
     Returns:
         A whole HTML document, the same for the same input; it needs no network and no script.
@@ -156,9 +152,6 @@ def code_of(mark: Mark) -> Markup:
     A line is marked only if its text is the one that was named: an answer may have several cells,
     and numbers count from the beginning of a cell.
 
-    Args:
-        mark: The answer, with its source.
-
     Returns:
         A `pre` element; nothing if the cell is empty.
     """
@@ -196,41 +189,38 @@ class FeedbackZips:
     """Fill the zips that Moodle and Canvas take, learner by learner."""
 
     def __init__(self) -> None:
-        self._made: dict[str, tuple[BytesIO, ZipFile]] = {}
+        self._entries: dict[str, dict[str, str]] = {
+            "moodle_feedback.zip": {},
+            "canvas_feedback.zip": {},
+        }
 
     def add(self, graded: Graded, page: str) -> None:
-        """Add the feedback of one learner, if a system takes it.
-
-        Args:
-            graded: What was found.
-            page: The learner's page, as `feedback` made it.
-        """
+        """Add the feedback of one learner, if a system takes it."""
         if graded.system == "moodle" and graded.learner.isdecimal():
             called = _NOT_IN_A_NAME.sub(" ", graded.name).strip(" .~") or "learner"
             name = f"{called}_{graded.learner}_assignfeedback_file_feedback.html"
-            self._put("moodle_feedback.zip", name, page)
+            self._entries["moodle_feedback.zip"][name] = page
         if graded.system == "canvas":
             for lesson, path in graded.files:
                 name = _canvas_name(path)
                 if name:
-                    self._put("canvas_feedback.zip", name, feedback_notebook(graded, lesson))
+                    made = feedback_notebook(graded, lesson)
+                    self._entries["canvas_feedback.zip"][name] = made
 
     def files(self) -> dict[str, bytes]:
         """Return the content of each zip by its name; empty for a system of which nobody came."""
-        found = {"moodle_feedback.zip": b"", "canvas_feedback.zip": b""}
-        for file, (content, archive) in self._made.items():
-            archive.close()
-            found[file] = content.getvalue()
-        return found
+        return {name: _zipped(entries) for name, entries in self._entries.items()}
 
-    def _put(self, archive: str, name: str, text: str) -> None:
-        if archive not in self._made:
-            content = BytesIO()
-            self._made[archive] = content, ZipFile(content, "w", ZIP_DEFLATED)
-        entry = ZipInfo(name, _DATE)
-        entry.compress_type = ZIP_DEFLATED
-        entry.external_attr = 0o644 << 16
-        self._made[archive][1].writestr(entry, text.encode("utf-8", "backslashreplace"))
+
+def _zipped(entries: Mapping[str, str]) -> bytes:
+    content = BytesIO()
+    with ZipFile(content, "w", ZIP_DEFLATED) as archive:
+        for name, text in entries.items():
+            entry = ZipInfo(name, _DATE)
+            entry.compress_type = ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, text.encode("utf-8", "backslashreplace"))
+    return content.getvalue() if entries else b""
 
 
 def _canvas_name(path: str) -> str:
@@ -243,12 +233,7 @@ def _canvas_name(path: str) -> str:
 
 
 def feedback_notebook(graded: Graded, page: str) -> str:
-    """Return the feedback on one page as a notebook, with the learner's answers as cells.
-
-    Args:
-        graded: What was found.
-        page: The lesson's name.
-    """
+    """Return the feedback on one page as a notebook, with the learner's answers as cells."""
     marks = [mark for mark in graded.marks if mark.page == page]
     reached, out_of = sum(mark.points for mark in marks), sum(mark.out_of for mark in marks)
     title = f"Feedback: {page_title(page)}: {points_of(reached, out_of)}{so_far(marks)}"

@@ -41,7 +41,6 @@ class Group:
     """Hold answers to one exercise that are alike, with equal outcomes.
 
     Attributes:
-        exercise: The exercise's id.
         members: Whose they are, and their marks.
         solution: What they have to do with the published solution: `EQUAL`, `NEARLY` or empty.
     """
@@ -156,9 +155,6 @@ def groups_of(book: Gradebook) -> tuple[Group, ...]:
 
     Within an exercise come first those that wait for a person, then those that failed; large groups
     come before small ones. Pages that were not handed in are left out.
-
-    Args:
-        book: The class, before anything was given by hand.
     """
     solutions = {one.exercise: shape_of(one.source) for one in book.solutions}
     found: dict[tuple[str, ...], list[tuple[Graded, Mark]]] = {}

@@ -23,7 +23,6 @@ class Job:
     """Describe one answer to observe.
 
     Attributes:
-        exercise: The exercise's id.
         subject: The expression that the check cell hands over, such as `HumiditySensor`.
         answer: The text of the learner's cell; the last one, if the exercise has several.
         parts: The texts of those before.
@@ -61,9 +60,7 @@ class Evidence:
         number: The exit code, or the number of the signal.
         seen: What `exercises.evidence.to_json` wrote there, or empty.
         raised: If the answer's own cell could not be run: the exception's class name.
-        text: Its message.
         line: The line of the cell, or 0.
-        code: That line.
         output: What was printed, cut off.
         seconds: How long it took, by the clock on the wall.
     """

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import gc
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
@@ -44,26 +44,14 @@ _UNREAD = {
 
 
 def judge(exercise: Exercise[Any], evidence: Evidence, seed: int = PAGE) -> Outcome:
-    """Say what an answer is worth.
-
-    Args:
-        exercise: The exercise.
-        evidence: What came out of the sandbox; not trusted.
-        seed: From what the inputs of the scenario were drawn; 0 on a page.
-    """
+    """Say what an answer is worth."""
     return judge_and_trace(exercise, evidence, seed)[0]
 
 
 def judge_and_trace(
     exercise: Exercise[Any], evidence: Evidence, seed: int = PAGE
 ) -> tuple[Outcome, str]:
-    """Return what an answer is worth, and its trace for pages that show what it did.
-
-    Args:
-        exercise: The exercise.
-        evidence: What came out of the sandbox; not trusted.
-        seed: From what the inputs of the scenario were drawn; 0 on a page.
-    """
+    """Return what an answer is worth, and its trace for pages that show what it did."""
     early = _before_reading(exercise, evidence)
     outcome, trace = (early, "") if early else _read(exercise, evidence, seed)
     return replace(outcome, out_of=exercise.points), trace
@@ -75,7 +63,7 @@ def _before_reading(exercise: Exercise[Any], evidence: Evidence) -> Outcome | No
         return None
     if evidence.how == "ended" and evidence.raised:
         return _raised(exercise, evidence)
-    return _ENDINGS.get(evidence.how, _left)(exercise.id, evidence)
+    return _ended(exercise.id, evidence)
 
 
 def _read(exercise: Exercise[Any], evidence: Evidence, seed: int) -> tuple[Outcome, str]:
@@ -108,7 +96,7 @@ def _uncollected() -> Iterator[None]:
 def _raised(exercise: Exercise[Any], evidence: Evidence) -> Outcome:
     """Say of a cell that could not be run what is said of any exception."""
     if evidence.raised == "KeyboardInterrupt":  # it was interrupted before it came to the class
-        return _too_long(exercise.id, evidence)
+        return failed(exercise.id, *_ENDINGS["deadline"])
     if evidence.raised in _UNREAD:
         return _unread(exercise.id, evidence)
     fault = Fault(
@@ -140,57 +128,46 @@ def _forged(exercise: str, why: str) -> Outcome:
     )
 
 
-def _too_long(exercise: str, _: Evidence) -> Outcome:
-    return failed(
-        exercise,
+_TOO_MUCH = (
+    "The answer used too much output.",
+    "Look for a loop that prints or publishes without end.",
+    OUTPUT,
+)
+#: What is said of runs that did not come to their end: evidence, hint, mistake.
+_ENDINGS = {
+    "deadline": (
         "The answer does not come to an end, and was stopped.",
         "Look for a loop that nothing ends, or a call that waits: spin, sleep, input.",
         TIME,
-    )
-
-
-def _too_large(exercise: str, evidence: Evidence) -> Outcome:
-    what, where = ("memory", "a list that only grows, or a loop that makes nodes")
-    if evidence.how != "memory":
-        what, where = ("output", "a loop that prints or publishes without end")
-    name = MEMORY if evidence.how == "memory" else OUTPUT
-    return failed(exercise, f"The answer used too much {what}.", f"Look for {where}.", name)
-
-
-def _by_signal(exercise: str, evidence: Evidence) -> Outcome:
-    if evidence.number == signal.SIGXCPU:
-        return _too_long(exercise, evidence)
-    try:
-        name = signal.Signals(evidence.number).name
-    except ValueError:
-        name = f"signal {evidence.number}"
-    hint = "Something ended the process from below Python, or the answer ended it itself."
-    return failed(exercise, f"The process of the answer died ({name}).", hint, CRASH)
-
-
-def _left(exercise: str, evidence: Evidence) -> Outcome:
-    how = (
-        f"with exit code {evidence.number}" if evidence.number else "before anything could be seen"
-    )
-    hint = "Take out what ends the program: exit, quit, os._exit. The check runs the node."
-    return failed(exercise, f"The answer ended its process {how}.", hint, LEFT)
-
-
-def _lost(exercise: str, _: Evidence) -> Outcome:
-    hint = "It was tried more than once. Your instructor can look at it."
-    return failed(exercise, WATCHER_LOST, hint, CRASH)
-
-
-_ENDINGS: dict[str, Callable[[str, Evidence], Outcome]] = {
-    "deadline": _too_long,
-    "memory": _too_large,
-    "output": _too_large,
-    "result": _too_large,
-    "signal": _by_signal,
-    "exit": _left,
-    FORGED: lambda exercise, _: _forged(exercise, "it bears no seal"),
-    LOST: _lost,
+    ),
+    "memory": (
+        "The answer used too much memory.",
+        "Look for a list that only grows, or a loop that makes nodes.",
+        MEMORY,
+    ),
+    "output": _TOO_MUCH,
+    "result": _TOO_MUCH,
+    LOST: (WATCHER_LOST, "It was tried more than once. Your instructor can look at it.", CRASH),
 }
+
+
+def _ended(exercise: str, evidence: Evidence) -> Outcome:
+    """Say why there is no evidence, by how the run ended."""
+    how, number = evidence.how, evidence.number
+    if how == FORGED:
+        return _forged(exercise, "it bears no seal")
+    if how == "signal" and number == signal.SIGXCPU:
+        how = "deadline"
+    if how in _ENDINGS:
+        return failed(exercise, *_ENDINGS[how])
+    if how == "signal":
+        known = [one.name for one in signal.Signals if one == number]
+        said = f"The process of the answer died ({known[0] if known else f'signal {number}'})."
+        hint = "Something ended the process from below Python, or the answer ended it itself."
+        return failed(exercise, said, hint, CRASH)
+    left = f"with exit code {number}" if number else "before anything could be seen"
+    hint = "Take out what ends the program: exit, quit, os._exit. The check runs the node."
+    return failed(exercise, f"The answer ended its process {left}.", hint, LEFT)
 
 
 def untouched(exercise: Exercise[Any]) -> Outcome:

@@ -15,7 +15,6 @@ import secrets
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
-from types import TracebackType
 from typing import BinaryIO
 
 from rosbeat.errors import GradingError, RecordError
@@ -45,12 +44,7 @@ def course_version() -> str:
 
 
 def key_of(job: Job, version: str) -> str:
-    """Return what an answer is known by.
-
-    Args:
-        job: All that decides what is observed.
-        version: The version of the course that judges.
-    """
+    """Return what an answer is known by."""
     return sha256(f"{version}\n{to_line(job)}".encode("utf-8", "backslashreplace")).hexdigest()
 
 
@@ -59,9 +53,6 @@ def seed_of(folder: Path) -> int:
 
     It is made at the first run and kept: with another one, all answers would have to be observed
     again. It is nobody's business but the instructor's: whoever knows it could prepare evidence.
-
-    Args:
-        folder: The folder of results; it is made if it is not there.
 
     Raises:
         GradingError: If the seed cannot be read or written.
@@ -112,9 +103,6 @@ class _Entry:
 class Ledger:
     """Keep outcomes by key, in a file; usable in a `with` block.
 
-    Args:
-        path: The file; it is made if it is not there.
-
     Raises:
         GradingError: If it cannot be read or written.
     """
@@ -133,12 +121,7 @@ class Ledger:
     def __enter__(self) -> Ledger:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._file.close()
 
     def __len__(self) -> int:

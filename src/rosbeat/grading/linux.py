@@ -1,5 +1,7 @@
 """Wrap Linux system calls that Python does not provide, with names and errors in Python's style.
 
+Every function that makes a call raises OSError if the kernel refuses.
+
 Sources: the Linux manual pages unshare(2), pidfd_open(2), mount(2), umount2(2), pivot_root(2),
 prctl(2), capset(2), seccomp(2), netdevice(7), and linux/filter.h for the few instructions of a
 filter; numbers that differ between architectures are in `_NUMBERS`.
@@ -36,14 +38,7 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 
 def unshare(flags: int) -> None:
-    """Leave namespaces and begin new ones.
-
-    Args:
-        flags: Which, of `CLONE_NEW...`.
-
-    Raises:
-        OSError: If the kernel refuses.
-    """
+    """Leave namespaces and begin new ones."""
     _checked(_libc.unshare(flags), "unshare")
 
 
@@ -51,9 +46,6 @@ def pidfd_open(process: int) -> int:
     """Return a descriptor of a process, which can be read from when that has ended.
 
     As `os.pidfd_open`, which not every build of Python has.
-
-    Args:
-        process: Its number.
 
     Raises:
         OSError: If the kernel refuses, or is older than 5.3.
@@ -72,9 +64,6 @@ def mount(source: str, target: str, kind: str = "", flags: int = 0, options: str
         kind: The file system's name, such as `tmpfs`; empty for binds and remounts.
         flags: Of `MS_...`.
         options: What that file system takes, such as `size=1m`.
-
-    Raises:
-        OSError: If the kernel refuses.
     """
     texts = [os.fsencode(one) if one else None for one in (source, target, kind)]
     result = _libc.mount(*texts, ctypes.c_ulong(flags), os.fsencode(options) or None)
@@ -82,11 +71,7 @@ def mount(source: str, target: str, kind: str = "", flags: int = 0, options: str
 
 
 def unmount(target: str) -> None:
-    """Take a mount and all below it away, as soon as nobody uses it.
-
-    Raises:
-        OSError: If the kernel refuses.
-    """
+    """Take a mount and all below it away, as soon as nobody uses it."""
     _checked(_libc.umount2(os.fsencode(target), _MNT_DETACH), f"umount {target}")
 
 
@@ -102,26 +87,13 @@ def pivot_root(new: str, old: str) -> None:
 
 
 def prctl(option: int, value: int, further: int = 0) -> None:
-    """Change something about this process.
-
-    Args:
-        option: What, of `PR_...`.
-        value: What it becomes.
-        further: A second value, for the options that take one.
-
-    Raises:
-        OSError: If the kernel refuses.
-    """
+    """Change something about this process."""
     words = [ctypes.c_ulong(one) for one in (value, further, 0, 0)]
     _checked(_libc.prctl(option, *words), f"prctl {option}")
 
 
 def drop_capabilities() -> None:
-    """Give up every capability, for good: no program that is started gets one back.
-
-    Raises:
-        OSError: If the kernel refuses.
-    """
+    """Give up every capability, for good: no program that is started gets one back."""
     for number in range(64):
         try:
             prctl(_PR_CAPBSET_DROP, number)
@@ -133,11 +105,7 @@ def drop_capabilities() -> None:
 
 
 def loopback_up() -> None:
-    """Switch on the loopback interface of a new network namespace.
-
-    Raises:
-        OSError: If the kernel refuses.
-    """
+    """Switch on the loopback interface of a new network namespace."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
         request = struct.pack("16sH14s", b"lo", 0, b"")
         (flags,) = struct.unpack("16xH14x", fcntl.ioctl(sock, _SIOCGIFFLAGS, request))
@@ -235,9 +203,6 @@ _FILTER = 2
 
 def number_of(call: str) -> int:
     """Return the number of a system call on this machine.
-
-    Args:
-        call: Its name, such as one of `REFUSED`.
 
     Raises:
         OSError: If this machine's numbers are not known here.

@@ -28,15 +28,7 @@ _LOOKED_AT = "Looked at by the instructor."
 
 @dataclass(frozen=True)
 class Line:
-    """Hold one line of the file, as it is there.
-
-    Attributes:
-        number: Which line of the file it is, from 1.
-        learner: Whom it is about.
-        exercise: The exercise, or empty.
-        points: The points, or empty.
-        comment: What to tell the learner, or empty.
-    """
+    """Hold one line of the file, as it is there."""
 
     number: int
     learner: str
@@ -47,12 +39,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Manual:
-    """Hold all that is in the file.
-
-    Attributes:
-        lines: Its lines, those without points and comment left out.
-        remarks: What could not be read.
-    """
+    """Hold all that is in the file."""
 
     lines: tuple[Line, ...] = ()
     remarks: tuple[Remark, ...] = ()
@@ -60,9 +47,6 @@ class Manual:
 
 def read_manual(path: Path) -> Manual:
     """Read what was given by hand; nothing, if there is no file.
-
-    Args:
-        path: The file `manual.csv`.
 
     Raises:
         GradingError: If there is such a file and it cannot be read.
@@ -178,10 +162,6 @@ def _read(line: Line, mark: Mark | None, remarks: list[Remark]) -> _Given:
 def points_by_hand(text: str, mark: Mark | None) -> float:
     """Return points that a person has written for an exercise.
 
-    Args:
-        text: What was written.
-        mark: The exercise; None if none was named.
-
     Raises:
         UnusableError: If it is no number of points that the exercise can have.
     """
@@ -236,11 +216,7 @@ def _marked(mark: Mark, given: _Given) -> Mark:
 
 
 def template(gradebook: Gradebook) -> str:
-    """Return a file to fill in, with a line for each exercise that is held.
-
-    Args:
-        gradebook: What was judged.
-    """
+    """Return a file to fill in, with a line for each exercise that is held."""
     rows: list[tuple[str, ...]] = [_TEMPLATE]
     for graded in gradebook.learners:
         held = [mark for mark in graded.marks if mark.status == HELD]
@@ -250,10 +226,6 @@ def template(gradebook: Gradebook) -> str:
 
 def write_template(path: Path, gradebook: Gradebook) -> bool:
     """Write the template, unless a person has written something into the file.
-
-    Args:
-        path: The file `manual.csv`.
-        gradebook: What was judged.
 
     Returns:
         Whether the file is now the template.

@@ -23,14 +23,12 @@ class Mark:
 
     Attributes:
         exercise: The exercise's id, such as `03a`.
-        title: What the exercise is about.
         page: The lesson's name, such as `03_write_a_publisher`.
         status: `passed`, `failed`, `not attempted`, `missing`, `held` or `looked at`.
         points: Points that count, a manual mark included.
         out_of: Points that there are.
         cause: Why these points, one sentence for a table.
         mistake: Id of the mistake, empty if there is none.
-        evidence: What was observed.
         hint: What to think about next.
         remarks: What is worth knowing although the answer is right.
         parts: The requirements, if there are points for each.
@@ -82,7 +80,6 @@ class Graded:
 
     Attributes:
         learner: What tells this learner from others.
-        name: What the learner is called.
         system: Where the submission came from: `moodle`, `canvas` or `folder`.
         marks: One for each exercise that was graded for, in the order of the course.
         remarks: What is worth telling about the files.
@@ -128,13 +125,7 @@ class Graded:
 
 @dataclass(frozen=True)
 class Solution:
-    """Hold the published solution of one exercise, observed as an answer is.
-
-    Attributes:
-        exercise: The exercise's id.
-        source: Its text.
-        trace: What it did over time, on the input that the class's answers had.
-    """
+    """Hold the published solution of one exercise, observed as an answer is."""
 
     exercise: str
     source: str

@@ -1,7 +1,7 @@
 """Read a submitted notebook as untrusted input, and repair it where that is fair.
 
-Nothing is executed. Outputs are dropped before anything else, however large they are, and the only
-metadata that is read identifies the page and the exercise of a cell.
+Nothing is executed. Outputs are dropped, however large they are, and the only metadata that is read
+identifies the page and the exercise of a cell.
 """
 
 from __future__ import annotations
@@ -13,13 +13,9 @@ from typing import Any
 
 #: Cells of a notebook that are looked at; a page has fewer than fifty.
 MOST_CELLS = 2_000
-#: Characters of one cell, and bytes of a notebook without its outputs.
-MOST_OF_A_CELL, MOST_BYTES = 1_000_000, 10_000_000
-#: Bytes from which on outputs are cut out of the text; what is smaller is parsed with them.
-_LARGE = 2_000_000
-#: What is cut out: outputs, pasted pictures, and the state of widgets, which may show outputs.
-_DROPPED = re.compile(rb'"(?:outputs|attachments|widgets)"\s*:\s*[\[{]')
-_TOKEN = re.compile(rb'"[^"]*"|[\[\]{}]')
+#: Characters of one cell, and values of a notebook, outputs included: each takes memory when it is
+#: parsed. A print loop of 24 MB has three million lines.
+MOST_OF_A_CELL, MOST_VALUES = 1_000_000, 10_000_000
 
 
 @dataclass(frozen=True)
@@ -29,7 +25,6 @@ class Cell:
     Attributes:
         place: Its place on the page, from 0.
         sort: `code`, `markdown` or `raw`.
-        source: Its text.
         id: Its id, or empty.
         exercise: The exercise whose answer it says it is, or empty.
         check: The exercise whose check it says it is, or empty.
@@ -48,7 +43,6 @@ class Notebook:
     """Hold what could be read of a notebook.
 
     Attributes:
-        cells: Its cells, in order.
         lesson: The page that it says it is, such as `03_write_a_publisher`; or empty.
         repairs: What was repaired to read it, a sentence each.
         problem: Why nothing could be read, a sentence; or empty.
@@ -63,70 +57,24 @@ class Notebook:
 
 
 def read_notebook(data: bytes) -> Notebook:
-    """Read a notebook.
-
-    Args:
-        data: The file.
-
-    Returns:
-        The notebook; one with a `problem` and no cells if nothing can be read.
-    """
+    """Return what can be read of the file; with a `problem` and no cells if nothing can."""
     if not data.strip(b"\0 \t\r\n"):
         return Notebook(problem="The file is empty.")
-    if len(data) > _LARGE:
-        data = without_outputs(data)
-    if len(data) > MOST_BYTES:
-        size = f"{len(data) / 1e6:.0f} MB"
-        return Notebook(problem=f"The file has {size} without its outputs, more than any page.")
+    if sum(map(data.count, (b",", b"[", b"{"))) > MOST_VALUES:
+        return Notebook(problem="The file has millions of values, more than any page.")
     repairs: list[str] = []
-    text = _text(data, repairs)
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("utf-8", "replace")
+        repairs.append("Its text is not UTF-8; what cannot be read was replaced.")
     try:
         whole = json.loads(text)
     except (ValueError, RecursionError):
         return _salvaged(text, repairs)
-    cells = _cells_of(whole)
-    if cells is None:
+    if not isinstance(whole, dict) or not isinstance(whole.get("cells"), list):
         return Notebook(problem="The file is JSON, but not a notebook: it has no cells.")
-    if "cells" not in whole:
-        repairs.append("It was saved in notebook format 3, and was read as such.")
-    return _made(cells, _lesson(whole), repairs)
-
-
-def without_outputs(data: bytes) -> bytes:
-    """Return a notebook's text without outputs, attachments and the state of widgets.
-
-    The text is not parsed: that of a print loop can have 20 MB in two million lines.
-
-    Args:
-        data: JSON in an encoding that contains ASCII. Anything else comes back as it is, or cut
-            in a place where it cannot be read anyway.
-    """
-    # Escaped backslashes and quotation marks are blanked: every other one is a delimiter then, and
-    # what looks like a key inside a string does not any more.
-    plain = data.replace(rb"\\", b"  ").replace(rb"\"", b"  ")
-    kept: list[bytes] = []
-    start = 0
-    while found := _DROPPED.search(plain, start):
-        kept.append(data[start : found.end()])
-        start = _closing(plain, found.end())
-    return b"".join((*kept, data[start:]))
-
-
-def _closing(text: bytes, place: int) -> int:
-    """Return where the bracket that is open at a place is closed; the end if it is not."""
-    depth = 1
-    for token in _TOKEN.finditer(text, place):
-        if token[0] in (b"[", b"{"):
-            depth += 1
-        elif token[0] in (b"]", b"}"):
-            depth -= 1
-            if depth == 0:
-                return token.start()
-    return len(text)
-
-
-def _lesson(whole: dict[str, Any]) -> str:
-    return _name(_ours(whole).get("lesson"))
+    return _made(whole["cells"], _name(_ours(whole).get("lesson")), repairs)
 
 
 def _ours(of: dict[str, Any]) -> dict[str, Any]:
@@ -134,29 +82,6 @@ def _ours(of: dict[str, Any]) -> dict[str, Any]:
     metadata = of.get("metadata")
     ours = metadata.get("rosbeat") if isinstance(metadata, dict) else None
     return ours if isinstance(ours, dict) else {}
-
-
-def _text(data: bytes, repairs: list[str]) -> str:
-    for name in ("utf-8-sig", "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"):
-        try:
-            return data.decode(name)
-        except UnicodeDecodeError:
-            continue
-    repairs.append("Its text is not UTF-8; what cannot be read was replaced.")
-    return data.decode("utf-8", "replace")
-
-
-def _cells_of(whole: Any) -> list[Any] | None:  # noqa: ANN401 - unchecked
-    if not isinstance(whole, dict):
-        return None
-    if isinstance(whole.get("cells"), list):
-        found: list[Any] = whole["cells"]
-        return found
-    sheets = whole.get("worksheets")  # notebook format 3
-    if not isinstance(sheets, list):
-        return None
-    lists = [one.get("cells") for one in sheets if isinstance(one, dict)]
-    return [cell for cells in lists if isinstance(cells, list) for cell in cells]
 
 
 def _salvaged(text: str, repairs: list[str]) -> Notebook:
@@ -210,7 +135,7 @@ def _read_cell(place: int, cell: Any, repairs: list[str]) -> Cell | None:  # noq
     return Cell(
         place,
         sort if sort in ("code", "markdown", "raw") else "raw",
-        _source(cell.get("source", cell.get("input", ""))),
+        _source(cell.get("source")),
         _name(cell.get("id")),
         _name(names.get("exercise")),
         _name(names.get("check")),

@@ -120,13 +120,7 @@ def _stopped_after(patience: float) -> Iterator[None]:
 
 
 def fault_of(error: BaseException, answer: str, cell: str = CELL) -> dict[str, Any]:
-    """Return what went wrong in a cell, as plain data.
-
-    Args:
-        error: What it raised.
-        answer: Its text.
-        cell: Its file name.
-    """
+    """Return what went wrong in a cell, as plain data."""
     line = _line(error, cell)
     lines = answer.splitlines()
     code = lines[line - 1].strip() if 0 < line <= len(lines) else ""
@@ -224,12 +218,7 @@ class StandIn:
 
 
 def run_imports(cell: str, space: dict[str, Any]) -> None:
-    """Run a cell of imports; names of the course that do not belong here become stand-ins.
-
-    Args:
-        cell: The cell.
-        space: Where the names go.
-    """
+    """Run a cell of imports; names of the course that do not belong here become stand-ins."""
     tree = ast.parse(cell)
     ours = [one for one in tree.body if _is_ours(one)]
     tree.body = [one for one in tree.body if one not in ours]

@@ -135,15 +135,11 @@ def _read_marker(path: Path) -> History | None:
         found = from_json(_Marker, path.read_bytes(), "release")
     except (OSError, RecordError):
         return None
-    return {name: digests for name, digests in found.files.items() if is_inside(name)}
+    return {name: digests for name, digests in found.files.items() if _is_inside(name)}
 
 
-def is_inside(name: str) -> bool:
-    """Return whether a path stays within the folder that it starts from.
-
-    Args:
-        name: A path with slashes.
-    """
+def _is_inside(name: str) -> bool:
+    """Return whether a path stays within the folder that it starts from."""
     path = PurePosixPath(name)
     return bool(name) and not path.is_absolute() and ".." not in path.parts and "\0" not in name
 
@@ -252,12 +248,7 @@ _OTHER_POINTS = (
 
 @dataclass(frozen=True)
 class File:
-    """Hold a file of a release.
-
-    Attributes:
-        content: What is in it.
-        is_program: Whether it can be executed.
-    """
+    """Hold a file of a release."""
 
     content: bytes
     is_program: bool = False
@@ -280,7 +271,10 @@ def release_files(
     Raises:
         GradingError: If somebody has worked in a page.
     """
-    found = {path: _file(root / path) for path in sorted(_paths(root, catches_up(pages)))}
+    paths = {name: root / name for name in sorted(_paths(root, catches_up(pages)))}
+    found = {
+        name: File(path.read_bytes(), os.access(path, os.X_OK)) for name, path in paths.items()
+    }
     released = {page.lesson for page in pages}
     notebooks = page_bytes(root / "notebooks", pages, released)
     found.update({f"notebooks/{name}": File(data) for name, data in notebooks.items()})
@@ -291,16 +285,8 @@ def release_files(
 
 
 def catches_up(pages: Iterable[CoursePage]) -> bool:
-    """Return whether a release has a page that begins with what earlier pages leave.
-
-    Args:
-        pages: The pages to release.
-    """
+    """Return whether a release has a page that begins with what earlier pages leave."""
     return any(page.number >= FIRST_TO_CATCH_UP for page in pages)
-
-
-def _file(path: Path) -> File:
-    return File(path.read_bytes(), os.access(path, os.X_OK))
 
 
 def _paths(root: Path, to_begin_with: bool) -> Iterator[str]:
@@ -327,12 +313,7 @@ def _walk(folder: Path) -> Iterator[Path]:
 
 
 def readme(pages: Sequence[CoursePage], points: Points) -> str:
-    """Return the first file that a learner reads.
-
-    Args:
-        pages: The pages of the release.
-        points: What their exercises are worth.
-    """
+    """Return the first file that a learner reads."""
     text = (files("rosbeat.grading") / "release_readme.md").read_text(encoding="utf-8")
     rows = [_row(page, points) for page in pages]
     rows += ["", _OTHER_POINTS] if points.by_exercise else []
@@ -350,11 +331,7 @@ def _row(page: CoursePage, points: Points) -> str:
 
 
 def workflow(pages: Iterable[CoursePage]) -> str:
-    """Return a GitHub workflow that checks each page on each push, a step for each page.
-
-    Args:
-        pages: The pages of the release.
-    """
+    """Return a GitHub workflow that checks each page on each push, a step for each page."""
     text = (files("rosbeat.grading") / "release_workflow.yml").read_text(encoding="utf-8")
     return text + "".join(map(_step, pages))
 
@@ -384,11 +361,6 @@ def page_bytes(
 
     The page that shows the whole course comes with them, if there is one.
 
-    Args:
-        folder: The folder `notebooks` of the course.
-        pages: Those to release.
-        released: Names of all lessons that the release has.
-
     Returns:
         The files by their names.
 
@@ -408,12 +380,7 @@ def page_bytes(
 
 
 def worked_in(name: str, data: bytes) -> list[str]:
-    """Say where somebody has worked in a page: what was filled in, or has an output.
-
-    Args:
-        name: The page's file name.
-        data: The file.
-    """
+    """Say where somebody has worked in a page: what was filled in, or has an output."""
     said = [
         f"{name} has no blank in exercise {cell.exercise}"
         for cell in read_notebook(data).cells
@@ -427,12 +394,7 @@ def worked_in(name: str, data: bytes) -> list[str]:
 
 
 def without_links(data: bytes, released: Collection[str]) -> bytes:
-    """Turn links to pages that are not released into plain text.
-
-    Args:
-        data: A page's file.
-        released: Names of the lessons that are.
-    """
+    """Turn links to pages that are not released into plain text."""
 
     def kept(link: re.Match[str]) -> str:
         return link[0] if link[2] in released else link[1]

@@ -34,10 +34,6 @@ def printable(name: str, most: int = _MOST) -> str:
     r"""Return a name without characters that would change a terminal or the direction of text.
 
     Control, format and unassigned characters (Unicode categories C*) are written as `\u....`.
-
-    Args:
-        name: Any text, such as the name of a file that a stranger has chosen.
-        most: Characters to show at most.
     """
     shown = name[: most + 1]
     if not shown.isprintable():  # most names are, and the rest takes its time

@@ -9,6 +9,7 @@ colours are in `style.css`.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -83,22 +84,14 @@ class Segment:
 
 
 def segments_of(statuses: Iterable[str], of_class: bool = False) -> list[Segment]:
-    """Return the parts of a bar that counts statuses, without those that do not occur.
-
-    Args:
-        statuses: The statuses to count.
-        of_class: Whether an instructor reads it, and not a learner.
-    """
-    found = list(statuses)
+    """Return the parts of a bar that counts statuses, without those that do not occur."""
+    found = Counter(statuses)
+    words = {status: look.of_class if of_class else look.word for status, look in STATUSES.items()}
     return [
-        Segment(look.kind, found.count(status), f"{look.sign} {_word(look, of_class)}")
+        Segment(look.kind, found[status], f"{look.sign} {words[status]}")
         for status, look in STATUSES.items()
         if status in found
     ]
-
-
-def _word(look: Look, of_class: bool) -> str:
-    return look.of_class if of_class else look.word
 
 
 def in_words(segments: Sequence[Segment]) -> str:
@@ -175,11 +168,7 @@ def points_of(points: float, out_of: float) -> str:
 
 
 def page_title(page: str) -> str:
-    """Return the title of a page with its number; its name if the course has no title for it.
-
-    Args:
-        page: The lesson's name, such as `03_write_a_publisher`.
-    """
+    """Return the title of a page with its number; its name if the course has no title for it."""
     return _TITLES.get(page[:2]) or page
 
 
@@ -213,10 +202,6 @@ def _environment() -> Environment:
 
 def render(template: str, **values: Any) -> str:  # noqa: ANN401 - whatever the template shows
     """Render a page.
-
-    Args:
-        template: The name of a file in `templates`.
-        values: What it shows. Texts are escaped; only `Markup` is taken for HTML.
 
     Returns:
         A whole HTML document, the same for the same values.

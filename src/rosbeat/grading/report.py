@@ -50,8 +50,6 @@ _ABOUT = {
     "mended": "Files that were mended to be read",
     "wrong-course": "Notebooks of another course",
     "unreadable": "Files that cannot be read",
-    "too-large": "Files that are too large",
-    "refused": "Files that were refused",
     "left-out": "Files that were left out",
     "reaches-inside": "Answers that reach for what observes them; their marks stand",
     "manual": "Lines of manual.csv that need a look",
@@ -61,14 +59,7 @@ _Rows = list[tuple[str, ...]]
 
 
 def class_report(book: Gradebook) -> str:
-    """Return the report of a class.
-
-    Args:
-        book: The class.
-
-    Returns:
-        A whole HTML document, the same for the same input; it needs no network and no script.
-    """
+    """Return the report of a class: a whole HTML document that needs no network and no script."""
     exercises, mistakes = tally_exercises(book), tally_mistakes(book)
     signs = ", ".join(f"{look.sign} {look.of_class}" for look in STATUSES.values())
     return render(
@@ -170,14 +161,7 @@ def _is_not_there(mark: Mark) -> bool:
 
 @dataclass(frozen=True)
 class ExerciseTally:
-    """Hold how one exercise went in a class.
-
-    Attributes:
-        exercise: Its id.
-        title: What it is about.
-        page: The lesson's name.
-        counts: How many learners there are of each status.
-    """
+    """Hold how one exercise went in a class."""
 
     exercise: str
     title: str
@@ -200,7 +184,6 @@ class MistakeTally:
     """Hold how often one mistake was made in a class.
 
     Attributes:
-        mistake: Its id.
         count: In how many answers it was found.
         learners: How many learners made it.
         places: The exercises in which it was found, with how often, most frequent first.
@@ -241,13 +224,7 @@ class MistakeTally:
 
 @dataclass(frozen=True)
 class PointsTally:
-    """Hold the points of a class, in per cent of what each learner could reach.
-
-    Attributes:
-        steps: For each step its name, such as `50 to 59 %`, and how many learners are in it.
-        median: The median in per cent.
-        mean: The mean in per cent.
-    """
+    """Hold the points of a class, in per cent of what each learner could reach."""
 
     steps: tuple[tuple[str, int], ...]
     median: float
@@ -313,11 +290,7 @@ def _first(ranked: Sequence[tuple[str, int]]) -> str:
 
 
 def tally_points(book: Gradebook) -> PointsTally:
-    """Sort the learners into steps by their share of the points.
-
-    Args:
-        book: The class; learners without points or without a grade are left out.
-    """
+    """Sort the learners with points and a grade into steps by their share of the points."""
     counted = [one for one in book.learners if one.out_of > 0 and not one.excused]
     shares = [100 * one.points / one.out_of for one in counted]
     steps = Counter(int(min(max(share, 0.0), 100.0) // STEP) for share in shares)

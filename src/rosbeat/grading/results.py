@@ -60,9 +60,6 @@ _MOST_NAMED = 5
 def require_folder(out: Path) -> None:
     """Refuse a place for results that is a file, or lies in one.
 
-    Args:
-        out: The folder, which need not be there yet.
-
     Raises:
         GradingError: If there is a file in its place.
     """
@@ -79,11 +76,6 @@ def write_results(out: Path, gradebook: Gradebook, assignment: str = "rosbeat") 
     """Write every file of results; what is equal already is not touched.
 
     Pages of learners who were there the last time and are not any more are taken away.
-
-    Args:
-        out: The folder.
-        gradebook: The class.
-        assignment: What the assignment is called in Canvas.
 
     Raises:
         GradingError: If one cannot be written.
@@ -119,11 +111,7 @@ def _write(path: Path, content: str | bytes) -> None:
 
 
 def previous_results(out: Path) -> Gradebook:
-    """Read what was written the last time; nothing, if there is nothing that can be read.
-
-    Args:
-        out: The folder.
-    """
+    """Read what was written the last time; nothing, if there is nothing that can be read."""
     with suppress(OSError, RecordError, GradingError, ValueError):
         return from_results((out / RESULTS).read_text(encoding="utf-8"))
     return Gradebook("", ())
@@ -133,11 +121,7 @@ def previous_results(out: Path) -> Gradebook:
 
 
 def to_results(gradebook: Gradebook) -> str:
-    """Write a gradebook as JSON, in ASCII, learners sorted.
-
-    Args:
-        gradebook: A class.
-    """
+    """Write a gradebook as JSON, in ASCII, learners sorted."""
     document = {"format": FORMAT, "version": VERSION, **as_data(gradebook)}
     _leave_out(document, "class")
     document["learners"] = sorted(document["learners"], key=lambda graded: graded["learner"])
@@ -158,9 +142,6 @@ def _leave_out(document: dict[str, Any], kind: str) -> None:
 def from_results(text: str) -> Gradebook:
     """Read what `to_results` wrote; what it leaves out is empty.
 
-    Args:
-        text: The file.
-
     Raises:
         RecordError: If it is not JSON, of another format or version, or if any field is missing or
             of another type.
@@ -173,12 +154,7 @@ def from_results(text: str) -> Gradebook:
 
 
 def summary(gradebook: Gradebook, out: Path) -> str:
-    """Say what has come out, a few lines for a terminal.
-
-    Args:
-        gradebook: A class.
-        out: The folder with the results.
-    """
+    """Say what has come out, a few lines for a terminal."""
     return "\n".join(_lines(gradebook, out))
 
 

@@ -46,11 +46,6 @@ _MOST_SENT = 1 << 20
 def review(out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> None:
     """Serve the review of a class until a person stops it (Ctrl-C).
 
-    Args:
-        out: The folder of results.
-        judged: The class, before anything was given by hand.
-        write: Writes all results of a gradebook.
-
     Raises:
         GradingError: If no address on this computer is free.
     """
@@ -68,13 +63,7 @@ def review(out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> 
 
 @dataclass(frozen=True)
 class Given:
-    """Hold what a person gives for some answers.
-
-    Attributes:
-        members: The places in the group of the answers that get it.
-        points: The points; empty for those of the judge.
-        comment: What to tell the learners; empty for nothing.
-    """
+    """Hold what a person gives for some answers."""
 
     members: frozenset[int]
     points: str
@@ -82,13 +71,7 @@ class Given:
 
 
 class Review:
-    """Hold a class that is being reviewed, and what was given by hand.
-
-    Args:
-        out: The folder of results.
-        judged: The class, before anything was given by hand.
-        write: Writes all results of a gradebook.
-    """
+    """Hold a class that is being reviewed, and what was given by hand."""
 
     def __init__(self, out: Path, judged: Gradebook, write: Callable[[Gradebook], None]) -> None:
         self.out, self._judged, self._write = out, judged, write
@@ -132,10 +115,6 @@ class Review:
     def give(self, group: Group, given: Given) -> None:
         """Write points and a comment for answers of a group into manual.csv.
 
-        Args:
-            group: The group.
-            given: What is given; answers without points and comment are as they were judged again.
-
         Raises:
             UnusableError: If the points are none, nobody is chosen, or the file cannot be read.
             GradingError: If the file cannot be written.
@@ -163,8 +142,11 @@ class Review:
     def _write_manual(self, exercise: str, members: Mapping[str, Graded], given: Given) -> None:
         path = self.out / FILE
         gone = {(learner, exercise) for learner in members}
-        rows = [_row(line, self._named(line.learner)) for line in self._manual.lines
-                if self._place(line) not in gone]  # fmt: skip
+        rows = []
+        for line in self._manual.lines:
+            whose, place = self._place(line)
+            if place not in gone:
+                rows.append((line.learner, whose, line.exercise, line.points, line.comment))
         if given.points or given.comment:
             rows += [
                 (learner, one.name, exercise, given.points.replace(",", "."), given.comment)
@@ -175,20 +157,15 @@ class Review:
             write_whole(kept, path.read_bytes())
         write_whole(path, _csv([_COLUMNS, *rows]))
 
-    def _place(self, line: Line) -> tuple[str, str]:
-        """Return whom and what a line is about; what nobody understands is about nobody."""
+    def _place(self, line: Line) -> tuple[str, tuple[str, str]]:
+        """Return a learner's name, and whom and what a line is about; empty for nobody."""
         exercise = line.exercise.strip("' ").casefold()
         exercise = exercise if exercise in EXERCISES else f"0{exercise}"  # 3a and 03a
         try:
-            return self._lookup.find(line.learner).learner, exercise
+            found = self._lookup.find(line.learner)
         except UnusableError:
-            return "", exercise
-
-    def _named(self, learner: str) -> str:
-        try:
-            return self._lookup.find(learner).name
-        except UnusableError:
-            return ""
+            return "", ("", exercise)
+        return found.name, (found.learner, exercise)
 
     def regrade(self) -> None:
         """Write all results anew, with what was given by hand.
@@ -200,10 +177,6 @@ class Review:
             self._read()
             self._write(self._book)
             self.is_written, self.said = True, summary(self._book, self.out)
-
-
-def _row(line: Line, name: str) -> tuple[str, ...]:
-    return line.learner, name, line.exercise, line.points, line.comment
 
 
 def _csv(rows: Iterable[Iterable[str]]) -> str:
@@ -284,9 +257,6 @@ def _shared(review: Review, root: str, nonce: str) -> dict[str, Any]:
 
 class ReviewServer(LocalServer):
     """Serve a review on the loopback interface, at an address that nobody can guess.
-
-    Args:
-        review: The class.
 
     Raises:
         GradingError: If no address on this computer is free.

@@ -10,34 +10,19 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Generic, Protocol, TypeVar
+from typing import Generic, TypeVar
 
 from rosbeat.errors import GradingError
 from rosbeat.grading.csv_table import Row, cell, read_table
 from rosbeat.grading.deadlines import read_extension
+from rosbeat.grading.marks import Graded
 from rosbeat.grading.remarks import Remark, printable
 from rosbeat.grading.submissions import Collection, Submission
 
 # Finding a learner.
 
 
-class Named(Protocol):
-    """Describe what has a learner's id and name: a submission, or a row of the gradebook."""
-
-    @property
-    def learner(self) -> str:
-        """Return what tells this learner from others."""
-
-    @property
-    def name(self) -> str:
-        """Return what the learner is called."""
-
-    @property
-    def system(self) -> str:
-        """Return where the submission came from."""
-
-
-Learner = TypeVar("Learner", bound=Named)
+Learner = TypeVar("Learner", Submission, Graded)
 
 
 class UnusableError(ValueError):
@@ -57,29 +42,15 @@ _LOOK_UP = "Write the learner as in the column learner of grades.csv."
 
 
 class Lookup(Generic[Learner]):
-    """Find a learner by what a person, or a spreadsheet on the way, made of the id or the name.
-
-    Args:
-        learners: The class.
-    """
+    """Find a learner by what a person, or a spreadsheet on the way, made of the id or the name."""
 
     def __init__(self, learners: Iterable[Learner]) -> None:
-        self._indexes: tuple[dict[str, list[Learner]], ...] = ({}, {}, {}, {}, {})
-        for one in learners:
-            called = [_plain(one.name)]
-            if one.system == "moodle":  # as in the column Identifier of moodle.csv
-                called.append(_plain(f"Participant {one.learner}"))
-            forms = [[one.learner], [cell(one.learner)], [_plain(one.learner)], called,
-                     [_joined(one.name)]]  # fmt: skip
-            for index, known in zip(self._indexes, forms, strict=True):
-                for form in filter(None, dict.fromkeys(known)):
-                    index.setdefault(form, []).append(one)
+        self._forms: list[tuple[Learner, tuple[set[str], ...]]] = [
+            (one, _forms(one.learner, one.name, one.system)) for one in learners
+        ]
 
     def find(self, text: str) -> Learner:
         """Return the learner that is meant: by id, by the id as tables show it, or by name.
-
-        Args:
-            text: What stands in the table.
 
         Raises:
             UnusableError: If there is no such learner, or more than one.
@@ -95,19 +66,21 @@ class Lookup(Generic[Learner]):
         return found[0]
 
     def all(self, text: str) -> list[Learner]:
-        """Return every learner that may be meant.
-
-        Args:
-            text: An id or a name.
-        """
-        if not text:
-            return []
-        forms = [[text], [text], [_plain(text)], [_plain(text)], _orders(text)]
-        for index, known in zip(self._indexes, forms, strict=True):
-            found = [one for form in known for one in index.get(form, [])]
+        """Return every learner that may be meant."""
+        plain = {_plain(text)}
+        for place, wanted in enumerate(({text}, {text}, plain, plain, _orders(text))):
+            found = [one for one, forms in self._forms if forms[place] & wanted - {""}]
             if found:
                 return found
         return []
+
+
+def _forms(learner: str, name: str, system: str) -> tuple[set[str], ...]:
+    """Return what a learner may be called in a table, the most certain first."""
+    names = {_plain(name)}
+    if system == "moodle":  # as in the column Identifier of moodle.csv
+        names.add(_plain(f"Participant {learner}"))
+    return {learner}, {cell(learner)}, {_plain(learner)}, names, {"".join(_words(name))}
 
 
 def _plain(text: str) -> str:
@@ -116,16 +89,16 @@ def _plain(text: str) -> str:
     return (plain.lstrip("0") or "0") if plain.isdigit() else plain
 
 
-def _joined(name: str) -> str:
-    """Return the letters and digits of a name, as Canvas writes them into names of files."""
-    return "".join(re.findall(r"[^\W_]+", name.casefold()))
+def _words(name: str) -> list[str]:
+    """Return the words of a name; Canvas joins them in names of files."""
+    return re.findall(r"[^\W_]+", name.casefold())
 
 
-def _orders(name: str) -> list[str]:
+def _orders(name: str) -> set[str]:
     """Return a name's letters with the first or the last word at the other end, too."""
-    words = re.findall(r"[^\W_]+", name.casefold())
+    words = _words(name)
     orders = (words, words[-1:] + words[:-1], words[1:] + words[:1])
-    return list(dict.fromkeys("".join(one) for one in orders))
+    return {"".join(one) for one in orders}
 
 
 # The roster.
@@ -159,13 +132,7 @@ class Person:
 
 @dataclass(frozen=True)
 class Roster:
-    """Hold who is in the class.
-
-    Attributes:
-        people: The learners, in the order of the file.
-        system: `moodle` or `canvas` if the file is an export that has their ids; or empty.
-        file: What the file is called.
-    """
+    """Hold who is in the class."""
 
     people: tuple[Person, ...]
     system: str = ""

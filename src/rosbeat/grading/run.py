@@ -20,14 +20,14 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
-from queue import Full, Queue, SimpleQueue
+from queue import Empty, SimpleQueue
 from types import MappingProxyType
-from typing import Generic, TypeVar
+from typing import TypeVar
 
 from rosbeat.diagnosis.mistakes import MISTAKES
 from rosbeat.errors import GradingError
 from rosbeat.exercises.evidence import from_json
-from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED, Exercise
+from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.answers import NOT_THERE, Answer, answers_on
 from rosbeat.grading.course_pages import CoursePage
@@ -44,6 +44,8 @@ from rosbeat.records import Observation, Outcome
 from rosbeat.workspace.catching_up import catch_up
 
 Key = TypeVar("Key")
+#: Why an exercise is held whose cell is not in the part of its file that can be read.
+_CUT = "The file stops before this exercise: hand it in again."
 #: Has the jobs of submissions done, and gives evidence as it comes.
 Observe = Callable[[Iterable[Sequence[tuple[str, Job]]]], Iterator[tuple[str, Evidence]]]
 #: Is told how many answers are judged, of how many; first, how many were judged in earlier runs.
@@ -82,13 +84,6 @@ def grade(
 ) -> Gradebook:
     """Judge every exercise of every submission.
 
-    Args:
-        collection: What was handed in.
-        plan: How it is graded.
-        ledger: What has been judged already; what is judged now is added.
-        observe: Has jobs done.
-        tell: Is told how far it is.
-
     Raises:
         GradingError: If no sandbox can be made, or the ledger cannot be written.
     """
@@ -103,7 +98,7 @@ def grade(
     _judge_new([some for some in todo if some], sum(map(len, jobs)), plan, ledger, observe, tell)
     learners = tuple(_graded(one, answers, plan, ledger) for one in collection.submissions)
     solutions = tuple(
-        Solution(one.exercise, one.source, _trace(one, plan, ledger)) for one in published
+        Solution(one.exercise, one.source, ledger.trace(_key(one, plan))) for one in published
     )
     return Gradebook(plan.version, learners, collection.remarks, solutions)
 
@@ -114,17 +109,13 @@ def _published(page: CoursePage, plan: Plan) -> tuple[Answer, ...]:
     return tuple(one for one in found if plan.out_of(one.exercise) > 0 and one.job)
 
 
-def _trace(answer: Answer, plan: Plan, ledger: Ledger) -> str:
-    return ledger.trace(key_of(answer.job, plan.version)) if answer.job else ""
+def _key(answer: Answer, plan: Plan) -> str:
+    """Return what an answer is known by in the ledger; empty if nothing has to be observed."""
+    return key_of(answer.job, plan.version) if answer.job else ""
 
 
 def all_answers(collection: Collection, plan: Plan) -> Answers:
-    """Return the answers by learner and page; exercises without points are left out.
-
-    Args:
-        collection: What was handed in.
-        plan: How it is graded.
-    """
+    """Return the answers by learner and page; exercises without points are left out."""
     pages = {page.lesson: page for page in plan.pages}
     return {
         (one.learner, handed.page): tuple(
@@ -147,7 +138,7 @@ def _different_jobs(
     known: set[str] = set()
     found: list[list[tuple[str, Job]]] = []
     for answers in submissions:
-        jobs = {key_of(one.job, plan.version): one.job for one in answers if one.job is not None}
+        jobs = {_key(one, plan): one.job for one in answers if one.job is not None}
         found.append([(key, job) for key, job in jobs.items() if key not in known])
         known.update(jobs)
     return found
@@ -206,46 +197,47 @@ def _remarks(one: Submission, answers: Answers) -> Iterator[Remark]:
 def _marks(
     page: CoursePage, handed: HandedIn, answers: Sequence[Answer], plan: Plan, ledger: Ledger
 ) -> Iterator[Mark]:
+    """Yield the marks of a page; what no machine could read or watch is held: it may be right."""
     for answer in answers:
-        exercise = EXERCISES[answer.exercise]
-        out_of = plan.out_of(answer.exercise)
-        known = ledger.get(key_of(answer.job, plan.version)) if answer.job else None
+        exercise, key = EXERCISES[answer.exercise], _key(answer, plan)
+        held = Mark(
+            *(exercise.id, exercise.title, page.lesson, HELD, 0.0, plan.out_of(exercise.id), _CUT),
+            evidence=_CUT,
+            late=handed.late,
+            file=handed.path,
+            source=answer.source,
+        )
+        outcome = ledger.get(key) or untouched(exercise)
         if answer.cut:
-            yield _held(page, exercise, answer, out_of, handed, _CUT)
-        elif known and known.evidence == WATCHER_LOST:
-            yield _held(page, exercise, answer, out_of, handed, WATCHER_LOST)
+            yield held
+        elif outcome.evidence == WATCHER_LOST:
+            yield replace(
+                held,
+                cause=f"Held for a person to look at: {WATCHER_LOST}",
+                evidence=WATCHER_LOST,
+                hint="It was tried more than once. Your instructor looks at it.",
+                repairs=answer.repairs,
+                answer=answer.source,
+            )
         else:
-            outcome = known or _untried(exercise, answer)
-            mark = _mark(page, exercise, answer, outcome, out_of, handed.late)
-            yield replace(mark, source=answer.source, trace=_trace(answer, plan, ledger))
-
-
-def _untried(exercise: Exercise[object], answer: Answer) -> Outcome:
-    outcome = untouched(exercise)
-    return replace(outcome, evidence=NOT_THERE) if NOT_THERE in answer.repairs else outcome
-
-
-def _mark(
-    page: CoursePage,
-    exercise: Exercise[object],
-    answer: Answer,
-    outcome: Outcome,
-    out_of: float,
-    late: bool,
-) -> Mark:
-    points = scaled(outcome, out_of)
-    return Mark(
-        *(exercise.id, exercise.title, page.lesson, outcome.status, points, out_of),
-        cause=cause_of(outcome),
-        mistake=outcome.mistake,
-        evidence=outcome.evidence,
-        hint=outcome.hint,
-        remarks=outcome.remarks,
-        parts=outcome.parts,
-        repairs=answer.repairs,
-        judged=points,
-        late=late,
-    )
+            if outcome.status == NOT_ATTEMPTED and NOT_THERE in answer.repairs:
+                outcome = replace(outcome, evidence=NOT_THERE)
+            points = scaled(outcome, held.out_of)
+            yield replace(
+                held,
+                status=outcome.status,
+                points=points,
+                judged=points,
+                file="",
+                cause=cause_of(outcome),
+                mistake=outcome.mistake,
+                evidence=outcome.evidence,
+                hint=outcome.hint,
+                remarks=outcome.remarks,
+                parts=outcome.parts,
+                repairs=answer.repairs,
+                trace=ledger.trace(key),
+            )
 
 
 def cause_of(outcome: Outcome) -> str:
@@ -261,37 +253,6 @@ def cause_of(outcome: Outcome) -> str:
         first = f"{met} of {len(outcome.parts)} requirements are met."
     named = f"{known.heading}: {first}" if known else first
     return printable(named, 400) if outcome.status == FAILED else named
-
-
-_CUT = "The file stops before this exercise: hand it in again."
-
-
-def _held(
-    page: CoursePage,
-    exercise: Exercise[object],
-    answer: Answer,
-    out_of: float,
-    handed: HandedIn,
-    why: str,
-) -> Mark:
-    """Hold what no machine could read or watch: it may be right. The next run tries it again."""
-    mark = Mark(
-        *(exercise.id, exercise.title, page.lesson, HELD, 0.0, out_of),
-        cause=why,
-        evidence=why,
-        late=handed.late,
-        file=handed.path,
-        source=answer.source,
-    )
-    if why == _CUT:
-        return mark
-    return replace(
-        mark,
-        cause=f"Held for a person to look at: {why}",
-        hint="It was tried more than once. Your instructor looks at it.",
-        repairs=answer.repairs,
-        answer=answer.source,
-    )
 
 
 def _missing(page: CoursePage, plan: Plan) -> Iterator[Mark]:
@@ -311,9 +272,6 @@ _ONE_AT_A_TIME = threading.Lock()
 def with_files(job: Job) -> Job:
     """Return a job as it is sent: a page of terminals with the workspace that it starts from.
 
-    Args:
-        job: The job.
-
     Raises:
         GradingError: If the workspace cannot be made on this machine.
     """
@@ -326,9 +284,6 @@ def with_files(job: Job) -> Job:
 @cache
 def files_before(page: str) -> Mapping[str, str]:
     """Make what the pages before this one leave, somewhere else, and read it.
-
-    Args:
-        page: The page's number, such as `05`.
 
     Returns:
         Content in Latin-1 by path in the workspace; a folder's path ends with `/` and has none. It
@@ -510,29 +465,6 @@ def _failed(evidence: Evidence) -> str:
     return "" if found.logs else "a node does not hear what it publishes"
 
 
-@dataclass
-class _Queue(Generic[Key]):
-    """Hold submissions that wait for workers, and what has come of them.
-
-    Attributes:
-        waiting: The submissions.
-        results: Evidence by key; what went wrong; None from each thread that is done. It holds only
-            a few, so that no submission is read long before its turn.
-        lock: Held by whoever takes the next submission.
-        is_given_up: Whether nobody takes results any more.
-    """
-
-    waiting: Iterator[Sequence[tuple[Key, Job]]]
-    results: Queue[tuple[Key, Evidence] | BaseException | None]
-    lock: threading.Lock = field(default_factory=threading.Lock)
-    is_given_up: bool = False
-
-    def next(self) -> list[tuple[Key, Job]]:
-        """Return the next submission; an empty one if there is none."""
-        with self.lock:
-            return list(next(self.waiting, ()))
-
-
 class Pool:
     """Have submissions observed by several workers; usable in a `with` block.
 
@@ -571,57 +503,59 @@ class Pool:
     ) -> Iterator[tuple[Key, Evidence]]:
         """Have submissions observed, several at a time; evidence comes as it is ready.
 
-        Args:
-            submissions: The jobs of each, with something to know them by.
-
         Raises:
             GradingError: If no sandbox can be made.
         """
-        queue: _Queue[Key] = _Queue(iter(submissions), Queue(self.size))
-        threads = [threading.Thread(target=self._serve, args=(queue,)) for _ in range(self.size)]
+        waiting: SimpleQueue[list[tuple[Key, Job]]] = SimpleQueue()
+        results: SimpleQueue[tuple[Key, Evidence] | BaseException | None] = SimpleQueue()
+        for one in submissions:
+            waiting.put(list(one))
+        threads = [
+            threading.Thread(target=self._serve, args=(waiting, results)) for _ in range(self.size)
+        ]
         with self._lock:
             self._threads = [one for one in self._threads if one.is_alive()] + threads
             for thread in threads:
                 thread.start()
         left = len(threads)
-        try:
-            while left:
-                found = queue.results.get()
-                if isinstance(found, BaseException):
-                    raise found
-                if found is None:
-                    left -= 1
-                else:
-                    yield found
-        finally:
-            queue.waiting, queue.is_given_up = iter(()), True
+        while left:
+            found = results.get()
+            if isinstance(found, BaseException):
+                raise found
+            if found is None:
+                left -= 1
+            else:
+                yield found
 
-    def _serve(self, queue: _Queue[Key]) -> None:
-        """Observe submissions with one worker, or those that come after it, until there is none."""
+    def _serve(
+        self,
+        waiting: SimpleQueue[list[tuple[Key, Job]]],
+        results: SimpleQueue[tuple[Key, Evidence] | BaseException | None],
+    ) -> None:
+        """Observe submissions with one worker, or those that come after it, until there is none.
+
+        Into the results goes evidence by key, what went wrong, and None when this thread is done.
+        """
         worker, tries = self._idle.get(), 0
         try:
-            while (left := queue.next()) and not self._is_closed:
+            while not self._is_closed:
+                left = waiting.get_nowait()
                 while left and not self._is_closed:
                     for evidence in worker.observe([job for _, job in left]):
-                        self._put(queue, (left.pop(0)[0], evidence))
+                        results.put((left.pop(0)[0], evidence))
                         tries = 0
                     if left:
                         worker, tries = self._replaced(worker), tries + 1
                     if left and tries == _TRIES:
-                        self._put(queue, (left.pop(0)[0], Evidence(LOST)))
+                        results.put((left.pop(0)[0], Evidence(LOST)))
                         tries = 0
+        except Empty:
+            pass
         except BaseException as error:
-            self._put(queue, error)
+            results.put(error)
         finally:
             self._idle.put(worker)
-            self._put(queue, None)
-
-    def _put(self, queue: _Queue[Key], result: tuple[Key, Evidence] | BaseException | None) -> None:
-        """Add a result, as soon as there is room for it; drop it if nobody takes any more."""
-        while not (queue.is_given_up or self._is_closed):
-            with suppress(Full):
-                queue.results.put(result, timeout=0.1)
-                return
+            results.put(None)
 
     def _new_worker(self) -> Worker:
         worker = Worker(self._unsafe, self._patience)

@@ -153,11 +153,7 @@ def become_able() -> None:
 
 
 def cannot_be_made(why: str) -> GradingError:
-    """Return the error for a machine on which no sandbox can be made.
-
-    Args:
-        why: What the kernel said.
-    """
+    """Return the error for a machine on which no sandbox can be made."""
     return GradingError(
         f"This machine does not let the sandbox be made: {why}.",
         "Other people's code would run here with all that you may do, so nothing was run.",
@@ -230,10 +226,6 @@ class Sandbox:
 
     def run(self, work: Work, limits: Limits) -> Ending:
         """Run a function in a fork, and end all that it leaves behind.
-
-        Args:
-            work: What to run.
-            limits: What it may use.
 
         Raises:
             GradingError: If the sandbox cannot be made on this machine.
@@ -464,11 +456,7 @@ class _Pipe:
 
 
 class _Watch:
-    """Watch a run while it goes on.
-
-    Args:
-        limits: What it may use.
-    """
+    """Watch a run while it goes on."""
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
@@ -488,12 +476,7 @@ class _Watch:
             os.close(end)
 
     def listen(self, process: int, memory: Callable[[], int]) -> None:
-        """Read the pipes until the process has ended, or something is used up.
-
-        Args:
-            process: A descriptor of the process.
-            memory: Returns how much is used.
-        """
+        """Read the pipes until the process has ended, or something is used up."""
         with selectors.DefaultSelector() as selector:
             selector.register(process, selectors.EVENT_READ)
             for pipe in self._pipes:
@@ -830,9 +813,6 @@ class MemoryGroup:
     may make one there: as root on most machines, and under `systemd-run --user --scope`. Elsewhere
     the keeper adds up what `/proc` shows, twenty times a second, and calls whose memory would not
     be seen there are refused (see `linux.REFUSED`) anyway.
-
-    Args:
-        folder: A descriptor of its folder.
     """
 
     def __init__(self, folder: int) -> None:
@@ -841,12 +821,7 @@ class MemoryGroup:
 
     @classmethod
     def of(cls, keeper: int, root: str = _CGROUPS) -> MemoryGroup | None:
-        """Make the group of a keeper; None if it cannot be had.
-
-        Args:
-            keeper: The number of its process.
-            root: Where groups are.
-        """
+        """Make the group of a keeper; None if it cannot be had."""
         path = cls._path(keeper, root)
         if not path:
             return None

@@ -31,7 +31,6 @@ class HandedIn:
 
     Attributes:
         page: The lesson's name, such as `03_write_a_publisher`.
-        path: Where it was found.
         notebook: What could be read of it. If it has a `problem`, nothing could.
         late: Whether the system marked it as late, or it is newer than the deadline.
         modified: When it was last changed, in seconds since 1970; 0 if unknown.
@@ -52,7 +51,6 @@ class Submission:
 
     Attributes:
         learner: What tells this learner from others.
-        name: What the learner is called.
         system: Where it came from: `moodle`, `canvas` or `folder`.
         pages: One for each page of the course that was handed in, in the order of the course.
         remarks: What is worth telling about these files.
@@ -74,12 +72,7 @@ class Submission:
 
 @dataclass(frozen=True)
 class Collection:
-    """Hold what a class handed in.
-
-    Attributes:
-        submissions: One for each learner, sorted by `learner`.
-        remarks: About files that belong to no learner.
-    """
+    """Hold what a class handed in."""
 
     submissions: tuple[Submission, ...]
     remarks: tuple[Remark, ...] = ()
@@ -135,7 +128,6 @@ class Owner:
 
     Attributes:
         id: What tells a learner from others: the number that the system gave, or the folder's name.
-        name: What the learner is called.
         file: The file's own name, path included, without what the system added.
         system: `moodle`, `canvas` or `folder`.
         late: Whether the system marked it as late.
@@ -203,11 +195,7 @@ def _of_folder(parts: tuple[str, ...]) -> Owner | None:
 
 
 def own_path(path: str) -> str:
-    """Return a file's path as its learner knows it, without what the system added.
-
-    Args:
-        path: Where it was found, with slashes; it stays if it does not tell whose it is.
-    """
+    """Return a file's path as its learner knows it, without what the system added."""
     owner = owner_of(tuple(path.split("/")))
     return (owner.file if owner else "") or path
 
@@ -232,13 +220,6 @@ def _wrappers(paths: Sequence[tuple[str, ...]]) -> int:
 
 # What one learner handed in.
 
-#: Why one of several files of a page counts, in the order in which `_rank` compares them.
-_DECIDES = (
-    "of the other one nothing can be read",
-    "it is the last attempt",
-    "it is the newest, by the date of the file",
-    "the dates are the same, and it has more cells",
-)
 #: Remarks about files that are left out, one by one; of more, only the number is told.
 _MOST_LEFT_OUT = 20
 _Found = tuple["Owner", HandedIn]
@@ -323,7 +304,6 @@ class _Reader:
     ) -> None:
         name = file.parts[-1].lower()
         is_attempt = ".ipynb" in name or name.endswith((".zip", *OTHER_ARCHIVES)) or not name
-        named = named or (self._numbered(name) if is_attempt else None)
         if named is None and not is_attempt:
             self._leave_out(file, f"It is left out. {notebook.problem}")
             return
@@ -334,12 +314,6 @@ class _Reader:
             self.unread.append(remark)
         else:
             self._keep(owner, file, notebook, named)
-
-    def _numbered(self, name: str) -> CoursePage | None:
-        """Return the page that an unreadable `03.ipynb` or `03 final.zip` is meant to be."""
-        number = re.match(r"(\d\d)(?!\d)", name)
-        known = (page for page in self._pages if number and number[1] == page.number)
-        return next(known, None)
 
     def _page(self, owner: Owner, file: File, notebook: Notebook, page: CoursePage) -> None:
         there = {cell.id for cell in notebook.cells} & page.ids
@@ -363,26 +337,18 @@ class _Reader:
 
 def _chosen(found: Sequence[_Found], remarks: list[Remark]) -> HandedIn:
     """Return the last readable attempt; then the newest; then the one with most cells."""
-    best = max(found, key=_rank)
-    for one in found:
-        if one is not best:
-            text = f"The page is there {len(found)} times; {own_path(best[1].path)} counts: "
-            text += f"{_why(_rank(best), _rank(one))}."
-            remarks.append(Remark("duplicate", one[1].path, text))
-    return best[1]
+    best = max(found, key=_rank)[1]
+    text = (
+        f"The page is there {len(found)} times; {own_path(best.path)} counts: of those that can be "
+        "read the last attempt, then the newest, then the one with most cells."
+    )
+    remarks += [Remark("duplicate", one.path, text) for _, one in found if one is not best]
+    return best
 
 
 def _rank(one: _Found) -> tuple[bool, int, float, int]:
     cells = one[1].notebook.cells
     return bool(cells), one[0].attempt, one[1].modified, len(cells)
-
-
-def _why(best: tuple[float, ...], other: tuple[float, ...]) -> str:
-    """Return what decided between two files; see `_rank`."""
-    for why, mine, its in zip(_DECIDES, best, other, strict=True):
-        if mine != its:
-            return why
-    return "nothing tells them apart, and it is the first by name"
 
 
 # What cannot be submissions.
@@ -424,10 +390,6 @@ def require_submissions(source: Path, found: Collection, is_known: bool) -> None
 
 def require_apart(source: Path, out: Path) -> None:
     """Refuse a folder of results among the submissions: the next run would take it for a learner.
-
-    Args:
-        source: The submissions.
-        out: The folder for results.
 
     Raises:
         GradingError: If one is in the other's place, or in it.

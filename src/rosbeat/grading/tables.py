@@ -55,9 +55,6 @@ def grades_csv(gradebook: Gradebook) -> str:
     """Return a row for each learner and exercise, with the cause, to open in a spreadsheet.
 
     It begins with a byte order mark: without one, Excel shows every name that is not ASCII wrong.
-
-    Args:
-        gradebook: A class.
     """
     rows = [_GRADES, *(_row(one, mark) for one in gradebook.learners for mark in one.marks)]
     return _BYTE_ORDER_MARK + csv_text(rows)
@@ -88,9 +85,6 @@ def moodle_csv(gradebook: Gradebook) -> str:
     Moodle has to be shown in English, the assignment's maximum grade has to be the learner's
     `out_of`, and for a second upload the instructor allows Moodle to update records that are newer.
     A learner with an exercise that is held has no grade yet; Moodle leaves such a row alone.
-
-    Args:
-        gradebook: A class.
 
     Returns:
         The file; empty if nobody's submission came from Moodle.

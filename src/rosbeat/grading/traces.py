@@ -73,9 +73,6 @@ def trace_of(seen: Any) -> str:  # noqa: ANN401 - any kind of evidence
     """Return the trace of an answer as JSON; empty if there is nothing to show.
 
     Evidence that somebody has forged may hold numbers that are none of ROS; it has no trace.
-
-    Args:
-        seen: The evidence, as `exercises.evidence.from_json` returns it.
     """
     try:
         trace = _trace(seen)
@@ -174,7 +171,6 @@ class Band:
 
     Attributes:
         kind: `own`, `expected` or `input`; the name of its colour and of its mark.
-        label: Whose it is.
         top: Where it begins, in units of the picture.
         height: Its height.
         points: Where its marks are, and whether the published solution says something else then.
@@ -206,7 +202,6 @@ class Picture:
     Attributes:
         height: Its height; its width is 640.
         headings: What each lane shows, with the height at which it is written.
-        bands: The strips.
         ticks: The time axis: places and labels.
         said: What it shows, in words.
         own: What a terminal shows after this answer.
@@ -229,10 +224,6 @@ class Picture:
 
 def picture(own: str, expected: str = "") -> Picture | None:
     """Return the picture of an answer beside that of the published solution.
-
-    Args:
-        own: The answer's trace, as `trace_of` wrote it.
-        expected: The published solution's.
 
     Returns:
         The picture; None if there is nothing to show.

@@ -49,10 +49,6 @@ _DEEP = f"It lies in more than {MOST_DEPTH} folders, one in another, so it was n
 _ENTRY = b"PK\1\2"
 
 
-def _no_bytes() -> bytes:
-    return b""
-
-
 @dataclass(frozen=True)
 class File:
     """Hold one file of an upload.
@@ -69,7 +65,7 @@ class File:
     parts: tuple[str, ...]
     size: int = 0
     modified: float = 0.0
-    read: Callable[[], bytes] = _no_bytes
+    read: Callable[[], bytes] = bytes
     problem: str = ""
 
     @property
@@ -85,21 +81,13 @@ class File:
 
 @dataclass
 class Allowance:
-    """Count what may still be read for one learner.
-
-    Attributes:
-        size: Bytes.
-        files: Files.
-    """
+    """Count what may still be read for one learner."""
 
     size: int = field(default_factory=lambda: MOST_OF_A_LEARNER)
     files: int = field(default_factory=lambda: MOST_FILES)
 
     def read(self, file: File) -> bytes:
         """Return the bytes of a file.
-
-        Args:
-            file: The file.
 
         Raises:
             OSError: If it cannot be read, or if the learner has used up the allowance. The text is
@@ -121,9 +109,6 @@ class Allowance:
 def open_upload(source: Path) -> Iterator[list[File]]:
     """Open a folder or a zip file.
 
-    Args:
-        source: The folder or the zip file.
-
     Yields:
         Its files, sorted by path. They can be read until the context ends; zip files among them
         are not opened, see `opened`.
@@ -137,27 +122,18 @@ def open_upload(source: Path) -> Iterator[list[File]]:
     try:
         archive = zipfile.ZipFile(source)
     except Exception as error:  # zipfile raises a dozen types for damaged archives
-        raise _no_source(source) from error
+        found = "is not a zip file that can be read" if source.is_file() else "does not exist"
+        raise GradingError(
+            f"{printable(str(source), 1000)} {found}.",
+            "Submissions are a folder, or one zip file as a learning management system makes it.",
+            "Give the folder or the zip file that you downloaded.",
+        ) from error
     with archive:
         yield sorted(_files_of_zip(archive, ()), key=lambda one: one.parts)
 
 
-def _no_source(source: Path) -> GradingError:
-    found = "is not a zip file that can be read" if source.is_file() else "does not exist"
-    return GradingError(
-        f"{printable(str(source), 1000)} {found}.",
-        "Submissions are a folder, or one zip file as a learning management system makes it.",
-        "Give the folder or the zip file that you downloaded.",
-    )
-
-
 def opened(file: File, allowed: Allowance, level: int = 0) -> Iterator[File]:
     """Open a zip file of a learner; any other file is yielded as it is.
-
-    Args:
-        file: The file.
-        allowed: What may still be read for this learner; counted down.
-        level: How many zip files the file is inside of.
 
     Yields:
         Files. A zip file that cannot be opened is yielded itself, with its problem.

@@ -47,22 +47,12 @@ class Points:
     by_exercise: dict[str, float] = field(default_factory=dict)
 
     def of(self, exercise: str, default: float) -> float:
-        """Return what an exercise is worth; with 0 points it is not graded.
-
-        Args:
-            exercise: Its id.
-            default: Its points in the course.
-        """
+        """Return what an exercise is worth; with 0 points it is not graded."""
         return self.by_exercise.get(exercise, float(default))
 
 
 def without_effect(points: Points, graded: Collection[str], pages: Sequence[Page] = PAGES) -> str:
     """Say which points change nothing, because their pages are not graded.
-
-    Args:
-        points: What an instructor wants.
-        graded: The numbers of the pages that are graded.
-        pages: The pages of the course.
 
     Returns:
         One line; empty if all points count.
@@ -98,10 +88,6 @@ def scaled(outcome: Outcome, out_of: float) -> float:
 
 def read_points(path: Path, pages: Sequence[Page] = PAGES) -> Points:
     """Read what exercises are worth.
-
-    Args:
-        path: The file, as a spreadsheet or an editor saves CSV.
-        pages: The pages of the course.
 
     Raises:
         GradingError: If it cannot be read, or if any line cannot be used; all such lines are named.

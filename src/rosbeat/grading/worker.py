@@ -24,13 +24,13 @@ import secrets
 import select
 import signal
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
-from rosbeat.errors import GradingError
+from rosbeat.errors import GradingError, RecordError
 from rosbeat.grading import linux
 from rosbeat.grading.jobs import FORGED, Evidence, Job, read_job, to_line
 from rosbeat.grading.sandbox import (
@@ -42,6 +42,7 @@ from rosbeat.grading.sandbox import (
     become_able,
     python_folders,
 )
+from rosbeat.records_json import from_json
 
 #: What makes a worker run answers without a sandbox.
 UNSAFE = "--unsafe-no-sandbox"
@@ -95,11 +96,7 @@ def environment() -> dict[str, str]:
 
 
 def main(options: Sequence[str]) -> None:
-    """Observe submissions until there are no more.
-
-    Args:
-        options: `UNSAFE`, or nothing.
-    """
+    """Observe submissions until there are no more."""
     isolated = UNSAFE not in options
     if isolated:
         # It works only while there is one thread, and importing ROS starts more. If it is refused,
@@ -221,41 +218,38 @@ def _observed(job: Job, sandbox: Sandbox, limits: Limits) -> Evidence:
     return _read(ending, seal)
 
 
+@dataclass(frozen=True)
+class _Said:
+    """Hold what `observing.observe` writes, or what looks like it."""
+
+    seen: str = ""
+    raised: str = ""
+    text: str = ""
+    line: int = 0
+    code: str = ""
+
+
 def _read(ending: Ending, seal: str) -> Evidence:
-    said, forged = _said(ending.result, seal)
+    result = ending.result.decode("utf-8", "replace")
+    how, said = ending.how, _Said()
+    if result.startswith(seal):
+        try:
+            said = from_json(_Said, result.removeprefix(seal), "result")
+        except RecordError:
+            how = FORGED
+    elif result:
+        how = FORGED
     return Evidence(
-        FORGED if forged else ending.how,
+        how,
         ending.number,
-        _word(said, "seen", None),
-        _word(said, "raised"),
-        _word(said, "text"),
-        _line_number(said),
-        _word(said, "code"),
-        ending.output[:2_000].decode("utf-8", "replace"),
+        said.seen,
+        said.raised[:_MOST],
+        said.text[:_MOST],
+        said.line if 0 <= said.line < _MOST_LINES else 0,
+        said.code[:_MOST],
+        ending.output[:_MOST].decode("utf-8", "replace"),
         round(ending.seconds, 3),
     )
-
-
-def _said(result: bytes, seal: str) -> tuple[Mapping[str, Any], bool]:
-    """Return what was written, and whether somebody else has written it."""
-    text = result.decode("utf-8", "replace")
-    if not text:
-        return {}, False
-    try:
-        found = json.loads(text.removeprefix(seal)) if text.startswith(seal) else None
-    except (ValueError, RecursionError):
-        found = None
-    return (found, False) if isinstance(found, dict) else ({}, True)
-
-
-def _word(said: Mapping[str, Any], name: str, most: int | None = _MOST) -> str:
-    found = said.get(name, "")
-    return found[:most] if isinstance(found, str) else ""
-
-
-def _line_number(said: Mapping[str, Any]) -> int:
-    found = said.get("line")
-    return found if type(found) is int and 0 <= found < _MOST_LINES else 0
 
 
 if __name__ == "__main__":

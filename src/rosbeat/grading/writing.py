@@ -81,10 +81,6 @@ def file_name(learner: str, name: str = "") -> str:
     It depends on this learner alone, so it stays the same whoever else is in the class. Unless the
     id is such a name already, a digest of it makes the name this learner's own: `Ana`, `ana` and
     `../ana` are three.
-
-    Args:
-        learner: What tells this learner from others.
-        name: What the learner is called, for people who look for the file.
     """
     front = _slug(name) if name != learner else ""
     if _is_plain(learner):
@@ -94,21 +90,8 @@ def file_name(learner: str, name: str = "") -> str:
 
 
 def file_names(learners: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Return a file name for each learner of a class, no two the same.
-
-    Args:
-        learners: Of each, what tells this learner from others, and the name.
-
-    Returns:
-        The file names, without a suffix, by learner.
-    """
-    names = {learner: file_name(learner, name) for learner, name in learners}
-    given = list(names.values())
-    for learner, name in names.items():
-        if given.count(name) > 1:  # nobody gets there by chance: a name was made to fit
-            whole = sha256(learner.encode("utf-8", "surrogatepass")).hexdigest()
-            names[learner] = f"learner-{whole}"
-    return names
+    """Return a file name without suffix for each learner, given by id and name; no two the same."""
+    return {learner: file_name(learner, name) for learner, name in learners}
 
 
 def _slug(text: str) -> str:

@@ -42,8 +42,10 @@ def answers(pages):
 
 
 def test_an_answer_becomes_a_job(answers):
+    (one,) = answers(text=page(source=f"!pip install x\n{DONE}"))
+    assert one.repairs == ("Line 1 was left out, a command of IPython: !pip install x",)
     (one,) = answers(text=page(source=DONE))
-    assert (one.exercise, one.remarks, one.repairs) == ("03a", (), ())
+    assert (one.exercise, one.remarks, one.repairs, one.source) == ("03a", (), (), DONE)
     assert (one.job.answer, one.job.subject, one.job.replay) == (DONE, "Beat", ())
     assert json.loads(one.job.given) == EXERCISES["03a"].given()
 
@@ -54,70 +56,33 @@ def test_what_nobody_has_touched_is_not_observed(answers, source):
     assert (one.job, one.remarks) == (None, ())
 
 
-def test_a_page_without_the_cell_says_so(answers):
-    (one,) = answers(cell("a = 1"))
-    assert one.job is None
-    assert "not on the page" in " ".join(one.repairs)
-
-
-def test_an_exercise_behind_the_end_of_its_file_is_lost(pages):
-    (course,) = pages[:1]
-    before = course.cells[:2]
-    (one,) = answers_on(course, before, cut=True)
-    assert (one.cut, one.job, one.remarks, one.repairs) == (True, None, (), ())
-    (one,) = answers_on(course, before)
-    assert not one.cut
-
-
-def test_an_exercise_before_the_end_of_its_file_is_there_or_not(pages):
-    (course,) = pages[:1]
-    (one,) = answers_on(course, read_notebook(page(source=DONE).encode()).cells[:3], cut=True)
-    assert (one.cut, one.job is None) == (False, False)
-    taken_out = (*course.cells[:2], *course.cells[3:])
-    (one,) = answers_on(course, taken_out, cut=True)
-    assert not one.cut
-    assert "not on the page" in one.repairs[0]
-
-
-def test_a_cell_that_is_merely_alike_is_no_answer_where_the_file_breaks_off(pages):
-    (course,) = pages[:1]
-    scratch = cell("class Beat(Node):\n    pass")
-    made = read_notebook(notebook(scratch).encode()).cells
-    given = tuple(replace(one, place=one.place + 1) for one in course.cells[:2])
-    (one,) = answers_on(course, (*made, *given), cut=True)
-    assert one.cut
-    (one,) = answers_on(course, made, cut=True)  # of a page without any ids nothing is known
-    assert not one.cut
+CUT_OFF = page(source=DONE)
+SCRATCH = cell("class Beat(Node):\n    pass")
 
 
 @pytest.mark.parametrize(
-    "above",
+    ("there", "is_lost"),
     [
-        "import os",
-        "import signal",
-        "import pandas",
-        "%%time",
-        "!ls",
-        "%matplotlib inline",
-        "import gc",
-        "import ctypes",
-        "eval('1')",
-        "open",
-        "get_ipython",
-        "Node.create_timer = None",
-        "%%timeit -n1",
+        (slice(0, 2), True),
+        (slice(0, 3), False),  # it is the last one that is there
+        (slice(3, 4), False),  # what comes behind it is there: it was taken out
     ],
 )
-def test_no_answer_is_held_for_what_it_names(answers, above):
-    (one,) = answers(text=page(source=f"{above}\n{DONE}"))
-    assert one.job is not None
-    assert "class Beat" in one.job.answer
-    assert one.source == f"{above}\n{DONE}"
+def test_an_exercise_behind_the_end_of_its_file_is_lost(pages, there, is_lost):
+    cells = read_notebook(CUT_OFF.encode()).cells[there]
+    (one,) = answers_on(pages[0], cells, cut=True)
+    assert one.cut == is_lost
+    assert not one.cut or (one.job, one.remarks, one.repairs) == (None, (), ())
+    assert not answers_on(pages[0], cells)[0].cut
 
 
-def test_a_text_that_is_no_python_is_observed_all_the_same(answers):
-    (one,) = answers(text=page(source="class Beat(Node:\n    pass"))
-    assert one.job is not None
+def test_a_cell_that_is_merely_alike_is_no_answer_where_the_file_breaks_off(pages):
+    made = read_notebook(notebook(SCRATCH).encode()).cells
+    given = tuple(replace(one, place=one.place + 1) for one in pages[0].cells[:2])
+    (one,) = answers_on(pages[0], (*made, *given), cut=True)
+    assert one.cut
+    (one,) = answers_on(pages[0], made, cut=True)  # of a page without any ids nothing is known
+    assert not one.cut
 
 
 def test_what_the_check_cell_was_changed_to_does_not_count(answers):
@@ -139,11 +104,11 @@ def test_what_an_answer_needs_of_earlier_cells_is_the_learners_first_then_the_co
     assert set(one.job.earlier) == {"FIRST = 7", "import rclpy"}
 
 
-def test_magics_of_an_earlier_cell_cost_nothing(answers):
+@pytest.mark.parametrize("above", ["%matplotlib inline\n!ls\nPERIOD = 2.0", "%%time\nPERIOD = 2.0"])
+def test_magics_of_an_earlier_cell_cost_nothing(answers, above):
     made = cell(DONE.replace("1.0", "PERIOD"), id="03a-cell", exercise="03a")
-    (one,) = answers(cell("%matplotlib inline\n!ls\nPERIOD = 2.0"), made)
-    (other,) = answers(cell("%%time\nPERIOD = 2.0"), made)
-    assert one.job.earlier == other.job.earlier == ("PERIOD = 2.0",)
+    (one,) = answers(cell(above), made)
+    assert one.job.earlier == ("PERIOD = 2.0",)
 
 
 def test_what_an_answer_needs_of_another_cell_is_remarked_too(answers):
@@ -153,13 +118,6 @@ def test_what_an_answer_needs_of_another_cell_is_remarked_too(answers):
     (beside,) = answers(cell("x = f.__globals__"), cell("PERIOD = 1.0"), made)
     assert (plain.remarks, beside.remarks) == ((), ())
     assert sly.remarks == ("of another cell that it needs, line 1 uses __globals__",)
-
-
-def test_the_seed_is_part_of_the_job(pages):
-    cells = read_notebook(page(source=DONE).encode()).cells
-    (one,), (other,) = (answers_on(pages[0], cells, seed=seed) for seed in (0, 5))
-    assert (one.job.seed, other.job.seed) == (0, 5)
-    assert one.job == replace(other.job, seed=0)
 
 
 def test_equal_answers_are_equal_jobs_wherever_they_stand(answers):
@@ -227,7 +185,6 @@ OTHER = DONE.replace("Beat", "Ear")
 WANTED = (
     Wanted("03a", "one", BLANK),
     Wanted("03b", "two", BLANK.replace("Beat", "Ear")),
-    Wanted("03c", "three", "# a\nx = 1\ny = 2\nz = ____\n"),
 )
 
 
@@ -264,14 +221,23 @@ def test_a_cell_that_lost_something_is_found(made, words):
     assert words in " ".join(one.repairs)
 
 
-def test_a_deleted_cell_is_missing():
-    one = found({"source": "a = 1"}, {"source": "check('03a', Beat)", "check": "03a"})
+@pytest.mark.parametrize("check", [{}, {"id": "one", "check": "03a"}])
+def test_a_deleted_cell_is_missing_and_a_check_is_no_answer(check):
+    one = found({"source": "a = 1"}, {"source": DONE if check else "b = 2", **check})
     assert (one.source, one.place) == ("", -1)
     assert "not on the page" in one.repairs[0]
 
 
-def test_a_check_cell_is_never_an_answer():
-    assert found({"source": DONE, "id": "one", "check": "03a"}).place == -1
+@pytest.mark.parametrize(
+    ("made", "places"),
+    [
+        (({"id": "one"}, {"source": OTHER}), [0, 1]),
+        (({"id": "two", "source": OTHER},), [-1, 0]),
+        (({"id": "two", "source": DONE},), [-1, 0]),  # a copied id
+    ],
+)
+def test_no_cell_answers_two_exercises(made, places):
+    assert [one.place for one in find_cells(WANTED, cells(*made))] == places
 
 
 def test_of_several_the_last_that_is_filled_counts():
@@ -279,40 +245,6 @@ def test_of_several_the_last_that_is_filled_counts():
                 {"exercise": "03a", "source": BLANK})  # fmt: skip
     assert one.place == 1
     assert "3 times" in one.repairs[0]
-
-
-def test_an_untouched_copy_counts_if_there_is_no_other():
-    assert found({"id": "one", "source": BLANK}, {"id": "one", "source": BLANK}).place == 1
-
-
-def test_a_cell_that_was_split_is_put_together():
-    lines = DONE.splitlines(keepends=True)
-    one = found({"id": "one", "source": "".join(lines[:2])}, {"source": "".join(lines[2:])})
-    assert "\n".join(one.source.split("\n\n")).split() == DONE.split()
-    assert "put together" in one.repairs[-1]
-
-
-def test_a_cell_with_a_mistake_is_not_joined_with_what_follows():
-    one = found({"id": "one", "source": "class Beat(Node:\n    pass"}, {"source": "a = 1"})
-    assert one.source == "class Beat(Node:\n    pass"
-
-
-def test_no_cell_answers_two_exercises():
-    answers = find_cells(WANTED[:2], cells({"id": "one"}, {"source": OTHER}))
-    assert [one.place for one in answers] == [0, 1]
-    answers = find_cells(WANTED[:2], cells({"id": "two", "source": OTHER}))
-    assert [one.place for one in answers] == [-1, 0]
-
-
-def test_a_copied_id_of_another_exercise_is_not_taken():
-    answers = find_cells(WANTED[:2], cells({"id": "two", "source": DONE}))
-    assert answers[0].place == -1
-
-
-def test_a_cell_without_a_definition_is_found_by_likeness():
-    one = found({"source": "# a\nx = 1\ny = 2\nz = 3\n"}, wanted=WANTED[2:])
-    assert one.place == 0
-    assert found({"source": "a = 1"}, wanted=WANTED[2:]).place == -1
 
 
 @pytest.mark.parametrize("source", ["\0", "(" * 10_000, "x = '\ud800'", "%%terminal a\nls ("])
@@ -389,56 +321,35 @@ def test_commands_of_ipython_run_their_body_or_are_left_out(source, plain, said)
     assert all(2 < len(one) < 120 for one in sentences)
 
 
-def test_what_was_left_out_is_said_on_the_mark(answers):
-    (one,) = answers(text=page(source=f"!pip install x\n{DONE}"))
-    assert one.repairs == ("Line 1 was left out, a command of IPython: !pip install x",)
-
-
 # Statements of other cells.
 
-
-def needed(text, *cells, names=()):
-    return list(statements_needed([text], cells, {*names, *dir(builtins)}))
-
-
-def test_only_what_is_needed_is_there():
-    assert needed("print(A + 1)", "A = 1\nB = 2\nboom()", "C = 3") == ["A = 1"]
+HELPERS = ("def twice(x):\n    return x * FACTOR", "import math\nFACTOR = math.floor(2.5)")
+MUTUAL = "def even(n):\n    return n == 0 or odd(n - 1)\ndef odd(n):\n    return even(n - 1)"
+DEFINITIONS = "import a\nfrom b import c as d\nx: int = 1\ny, z = 1, 2\nprint(x)\nclass E: pass"
 
 
-def test_what_is_needed_may_need_more():
-    cells = ("def twice(x):\n    return x * FACTOR", "import math\nFACTOR = math.floor(2.5)")
-    assert [one.split()[0] for one in needed("y = twice(3)", *cells)] == ["import", "FACTOR", "def"]
-
-
-def test_cells_that_come_first_count_more_and_the_last_line_of_a_cell():
-    assert needed("A", "A = 1\nA = 2", "A = 3") == ["A = 2"]
-
-
-@pytest.mark.parametrize("text", ["A = 5\nprint(A)", "def A(): pass\nA()", "import x as A\nA.b"])
-def test_what_a_cell_defines_itself_is_its_own(text):
-    assert needed(text, "A = 1") == []
-
-
-def test_what_is_there_already_stays():
-    assert needed("print(A)", "A = 1", names=["A"]) == []
-    assert needed("print(len([]))", "len = 1") == []
-
-
-@pytest.mark.parametrize("text", ["no python (", "\0", ""])
-def test_texts_that_are_no_programs_need_nothing(text):
-    assert needed(text, "A = 1") == []
-    assert needed("A", text, "A = 1") == ["A = 1"]
-
-
-def test_two_that_need_each_other_are_both_there():
-    cells = ("def even(n):\n    return n == 0 or odd(n - 1)\ndef odd(n):\n    return even(n - 1)",)
-    assert len(needed("even(2)", *cells)) == 2
-
-
-def test_only_definitions_are_offered():
-    cell = "import a\nfrom b import c as d\nx: int = 1\ny, z = 1, 2\nprint(x)\nclass E: pass"
-    found = [needed(name, cell) for name in ("a", "d", "x", "y", "z", "E", "f")]
-    assert [len(one) for one in found] == [1, 1, 1, 1, 1, 1, 0]
+@pytest.mark.parametrize(
+    ("text", "cells", "begin"),
+    [
+        ("print(A + 1)", ("A = 1\nB = 2\nboom()", "C = 3"), ["A = 1"]),
+        ("y = twice(3)", HELPERS, ["import math", "FACTOR = ", "def twice"]),
+        ("A", ("A = 1\nA = 2", "A = 3"), ["A = 2"]),
+        ("A = 5\nprint(A)", ("A = 1",), []),
+        ("def A(): pass\nA()", ("A = 1",), []),
+        ("import x as A\nA.b", ("A = 1",), []),
+        ("print(KNOWN)", ("KNOWN = 1",), []),
+        ("print(len([]))", ("len = 1",), []),
+        ("no python (", ("A = 1",), []),
+        ("A", ("no python (", "\0", "A = 1"), ["A = 1"]),
+        ("even(2)", (MUTUAL,), ["def odd", "def even"]),
+        ("a, d, f", (DEFINITIONS,), ["from b import c as d", "import a"]),
+        ("E, x, y", (DEFINITIONS,), ["y, z = ", "x: int", "class E"]),
+    ],
+)  # fmt: skip
+def test_statements_that_an_answer_needs_come_in_the_order_to_run_them(text, cells, begin):
+    found = statements_needed([text], cells, {"KNOWN", *dir(builtins)})
+    assert len(found) == len(begin)
+    assert all(map(str.startswith, found, begin)), found
 
 
 # Remarks for an instructor.
@@ -452,43 +363,28 @@ from std_msgs.msg import Float32
 
 
 @pytest.mark.parametrize(
-    "answer",
-    [
-        "",
-        "import os, math, signal, subprocess\nimport numpy as np\nx = np.clip(1, 0, 2)",
-        "from std_msgs.msg import String as Word\nmsg = Float32\nmsg.data = 1.0",
-        "class A:\n    def f(self): return getattr(self, 'on_' + self.kind)",
-        "eval('1')\nopen('x')\nvars(self)\nself.signal = 1",
-        "from rosbeat import Session, clinic\nclinic.Ward(7)",
-        "x = {}\nx['a'] = 1\nx.y = 2\ndel x['a']\nself.publisher.count = 3",
-        "this is no python (",
-        "x = '\0'",
-        "(" * 5_000,
-    ],
-    ids=range(10),
-)
-def test_ordinary_programs_are_not_remarked(answer):
-    assert remarks_on(answer, IMPORTS) == ()
-
-
-@pytest.mark.parametrize(
     ("answer", "words"),
     [
+        ("import os, math, signal, subprocess\nimport numpy as np\nx = np.clip(1, 0, 2)", ""),
+        ("from std_msgs.msg import String as Word\nmsg = Float32\nmsg.data = 1.0", ""),
+        ("eval('1')\nopen('x')\nvars(self)\nself.signal = 1", ""),
+        ("from rosbeat import Session, clinic\nclinic.Ward(7)", ""),
+        ("x = {}\nx['a'] = 1\nx.y = 2\ndel x['a']\nself.publisher.count = 3", ""),
+        ("this is no python (", ""),
+        ("(" * 5_000, ""),
         ("def f():\n    import ctypes", "line 2 imports ctypes"),
-        ("import gc", "line 1 imports gc"),
-        ("from rosbeat.exercises import page_03", "imports rosbeat.exercises"),
-        ("from rosbeat.clinic.ward import Ward", "imports rosbeat.clinic.ward"),
+        ("from rosbeat.exercises import page_03", "line 1 imports rosbeat.exercises"),
         ("import sys\nsys._getframe()", "line 2 uses _getframe"),
-        ("f.__globals__", "uses __globals__"),
-        ("getattr(x, '__globals__')", "uses __globals__"),
-        ("self.context.watcher", "uses watcher"),
-        ("rclpy.spin = print", "changes rclpy"),
-        ("Node.publish = print", "changes Node"),
-        ("del rclpy.spin", "changes rclpy"),
-        ("rclpy.x += 1", "changes rclpy"),
+        ("f.__globals__", "line 1 uses __globals__"),
+        ("getattr(x, '__globals__')", "line 1 uses __globals__"),
+        ("self.context.watcher", "line 1 uses watcher"),
+        ("rclpy.spin = print", "line 1 changes rclpy"),
+        ("del rclpy.spin", "line 1 changes rclpy"),
+        ("rclpy.x += 1", "line 1 changes rclpy"),
         ("import json\njson.dumps = 3", "line 2 changes json"),
-        ("import sys\nsys.modules['json'] = 1", "changes sys"),
+        ("import sys\nsys.modules['json'] = 1", "line 2 changes sys"),
     ],
+    ids=range(18),
 )
 def test_what_reaches_for_the_observer_is_remarked_with_its_line(answer, words):
-    assert words in " ".join(remarks_on(answer, IMPORTS))
+    assert remarks_on(answer, IMPORTS) == ((words,) if words else ())

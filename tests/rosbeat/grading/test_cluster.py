@@ -24,7 +24,6 @@ from rosbeat.grading.run import Plan, Pool, grade
 from rosbeat.grading.weights import Points
 
 dask = pytest.importorskip("distributed")
-config = pytest.importorskip("dask.config")
 
 EXERCISES = ("03a", "04a")
 #: Nothing listens there: only the system's own programs may use the port.
@@ -48,12 +47,12 @@ def cluster():
 
 
 def answers_to(exercise):
-    """Four answers, right and wrong, that define what the page's check hands over."""
+    """A right and a wrong answer that define what the page's check hands over."""
     usual = subject(exercise)
     named = [one for one in answers() if (one.exercise, one.subject) == (exercise, usual)]
-    right = [one.text for one in named if one.status == "passed"][:2]
+    right = [one.text for one in named if one.status == "passed"][:1]
     wrong = [one.text for one in named if one.status == "failed" and "sleep" not in one.text]
-    return [*right, *wrong[:2]]
+    return [*right, *wrong[:1]]
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +106,7 @@ def test_same_results_as_on_one_machine_with_a_worker_killed(
     found = results(course_and_class, tmp_path / "there", on_the_cluster(cluster, killed))
     assert killed
     assert found == expected
-    assert found.count('"status": "passed"') == found.count('"status": "failed"') == 4
+    assert found.count('"status": "passed"') == found.count('"status": "failed"') == 2
 
 
 @contextmanager
@@ -134,6 +133,9 @@ def test_all_workers_killed_and_the_next_run_goes_on_with_another(
                 yield result
 
     with local(0) as own:
+        with pytest.raises(GradingError) as caught:
+            Cluster(own.scheduler_address, patience=0.3)
+        says(caught.value, "no worker", "dask worker tcp://")
         with worker_of(own) as worker, pytest.raises(GradingError) as caught:
             results(course_and_class, tmp_path, lambda jobs: observed(own, jobs, worker.kill))
         says(caught.value, "no worker", "stays graded")
@@ -144,30 +146,6 @@ def test_all_workers_killed_and_the_next_run_goes_on_with_another(
                 course_and_class, tmp_path, lambda jobs: observed(own, jobs, lambda: None)
             )
     assert found == expected
-
-
-@pytest.mark.ros
-def test_what_is_lost_with_its_worker_before_it_is_fetched_is_observed_again(
-    monkeypatch, eventually
-):
-    submissions = [[(n, Job("03a", "Beat", f"x = {n}"))] for n in range(2)]
-    with local(1) as own, Cluster(own.scheduler_address) as found:
-
-        def statuses():
-            return {one.status for one in found._client.futures.values()}
-
-        def all_done(futures):
-            eventually(lambda: statuses() == {"finished"}, 60)
-            return done(futures)
-
-        done = found._done
-        monkeypatch.setattr(found, "_done", all_done)
-        observing = found.observe(submissions)
-        first, _ = next(observing)
-        monkeypatch.undo()
-        os.kill(*found._client.run(os.getpid).values(), signal.SIGKILL)
-        eventually(lambda: statuses() == {"lost"}, 30)
-        assert {first, *(key for key, _ in observing)} == {0, 1}
 
 
 def prepared_processes(worker):
@@ -197,26 +175,7 @@ def test_a_job_that_costs_workers_is_given_up(cluster, monkeypatch):
         assert [(key, one.how) for key, one in found.observe([jobs])] == [("a", LOST), ("b", LOST)]
 
 
-def test_a_scheduler_that_goes_away_is_said(says):
-    quick = {"distributed.comm.timeouts.connect": "1s"}
-    with config.set(quick), local(1) as own:
-        found = Cluster(own.scheduler_address, patience=2)
-        observing = found.observe([(n, Job("03a", "Beat", f"x = {n}"))] for n in range(50))
-        next(observing)
-    with found, pytest.raises(GradingError) as caught:
-        list(observing)
-    says(caught.value, "cluster", "run the command again")
-
-
-def test_a_scheduler_without_workers_is_said(says):
-    with local(0) as own, pytest.raises(GradingError) as caught:
-        Cluster(own.scheduler_address, patience=0.3)
-    says(caught.value, "no worker", "dask worker tcp://")
-
-
-@pytest.mark.parametrize(
-    "address", [NOBODY, "tls://127.0.0.1:1", "nonsense://x", "127.0.0.1", "\x1b[31m:1"]
-)
+@pytest.mark.parametrize("address", [NOBODY, "nonsense://x", "\x1b[31m:1"])
 def test_where_no_scheduler_is(address, says):
     with pytest.raises(GradingError) as caught:
         Cluster(address, patience=0.5)

@@ -1,6 +1,5 @@
 """What has been judged is not judged again, whatever became of the file meanwhile."""
 
-import os
 from dataclasses import replace
 
 import pytest
@@ -32,20 +31,11 @@ def test_what_is_added_is_there_now_and_later(path):
         assert ledger.get("a") is None
         ledger.add("a", OUTCOME)
         assert (ledger.get("a"), len(ledger)) == (OUTCOME, 1)
-    assert kept(path) == {"a": OUTCOME}
-
-
-def test_what_does_not_stay_is_there_for_this_run_only(path):
-    with Ledger(path) as ledger:
-        ledger.add("a", OUTCOME, stays=False)
-        assert ledger.get("a") == OUTCOME
-    assert kept(path) == {}
-
-
-def test_it_is_on_the_disk_before_the_next_answer(path):
-    with Ledger(path) as ledger:
-        ledger.add("a", OUTCOME)
-        assert kept(path) == {"a": OUTCOME}
+        assert kept(path) == {"a": OUTCOME}  # it is on the disk before the next answer
+        ledger.add("b", OUTCOME, stays=False)
+        assert ledger.get("b") == OUTCOME
+        ledger.add("a", replace(OUTCOME, points=2))
+    assert kept(path) == {"a": replace(OUTCOME, points=2)}
 
 
 def test_half_a_line_at_the_end_costs_that_line_only(path):
@@ -61,7 +51,7 @@ def test_half_a_line_at_the_end_costs_that_line_only(path):
 
 def damaged(data):
     """What may become of a file: cut at any place, one bit of any byte turned, a piece missing."""
-    for place in range(len(data)):
+    for place in range(0, len(data), 7):
         yield data[:place]
         yield data[place:]
         yield data[:place] + bytes([data[place] ^ 1 << place % 8]) + data[place + 1 :]
@@ -82,37 +72,20 @@ def test_nothing_damaged_is_taken_for_an_outcome(path):
                 assert found in ((outcome, f"trace of {key}"), (None, "")), data
                 lost += found[0] is None
             assert len(ledger) <= len(known)
-    assert lost > len(whole)
+    assert lost > len(whole) // 7
 
 
 @pytest.mark.parametrize(
     "line",
-    [b"", b"[]", b"[1]", b'["key"]', b"5", b"null", b'"key"', b"{}", b'{"key": "a"}', b"\xff\0",
-     b"{" * 100_000, b"[" * 100_000, b'{"key": 5, "exercise": "03a"}',
+    [b"", b"[]", b'{"key": "a"}', b"\xff\0", b"[" * 100_000,
      module._with_digest(b"[" * 100_000)[:-1], module._with_digest(b'{"key": "b"}')[:-1]],
-    ids=range(15),
+    ids=range(7),
 )  # fmt: skip
 def test_lines_of_another_version_are_left_out(path, line):
     with Ledger(path) as ledger:
         ledger.add("a", OUTCOME)
     path.write_bytes(line + b"\n" + path.read_bytes())
     assert kept(path) == {"a": OUTCOME}
-
-
-def test_of_two_lines_the_later_counts(path):
-    with Ledger(path) as ledger:
-        ledger.add("a", OUTCOME)
-        ledger.add("a", replace(OUTCOME, points=2))
-        assert len(ledger) == 1
-    assert kept(path)["a"].points == 2
-
-
-def test_two_runs_on_one_folder_lose_nothing(path):
-    with Ledger(path) as one, Ledger(path) as other:
-        for number in range(20):
-            one.add(f"a{number}", OUTCOME)
-            other.add(f"b{number}", OUTCOME)
-    assert len(kept(path)) == 40
 
 
 def test_a_full_disk_is_said(path, monkeypatch, says):
@@ -137,14 +110,6 @@ def test_a_place_that_cannot_be_written_is_said(tmp_path, in_the_way, says):
     with pytest.raises(GradingError) as caught:
         Ledger(tmp_path / "out" / FILE)
     says(caught.value, FILE, "--out")
-
-
-@pytest.mark.skipif(os.getuid() == 0, reason="root may write everywhere")
-def test_a_folder_without_the_right_to_write_is_said(tmp_path, says):
-    tmp_path.chmod(0o500)
-    with pytest.raises(GradingError) as caught:
-        Ledger(tmp_path / FILE)
-    says(caught.value, "Permission denied")
 
 
 def test_a_key_is_all_that_decides():
@@ -173,26 +138,15 @@ def test_the_version_is_another_one_with_another_judge(tmp_path, monkeypatch):
     assert len({first, second, course_version()}) == 3
 
 
-def test_a_class_has_a_seed_of_its_own_that_stays(tmp_path):
+def test_a_class_has_a_seed_of_its_own_that_stays(tmp_path, says):
     one, other = (seed_of(tmp_path / name) for name in "ab")
     assert one != other
     assert seed_of(tmp_path / "a") == one > 0
     path = tmp_path / "a" / SEED_FILE
     assert path.stat().st_mode & 0o777 == 0o600
     assert [one.name for one in path.parent.iterdir()] == [SEED_FILE]
-
-
-def test_a_seed_that_cannot_be_read_is_said_and_stays(tmp_path, says):
-    (tmp_path / SEED_FILE).write_text("no number")
+    path.write_text("no number")
     with pytest.raises(GradingError) as caught:
-        seed_of(tmp_path)
+        seed_of(path.parent)
     says(caught.value, SEED_FILE, "--out")
-    assert (tmp_path / SEED_FILE).read_text() == "no number"
-
-
-def test_a_disk_without_links_has_a_seed_too(tmp_path, monkeypatch):
-    def refuses(*_):
-        raise PermissionError
-
-    monkeypatch.setattr(module.os, "link", refuses)
-    assert seed_of(tmp_path) == seed_of(tmp_path)
+    assert path.read_text() == "no number"

@@ -8,7 +8,7 @@ import pytest
 
 from grading_files import PAGE_03
 from rosbeat.errors import GradingError
-from rosbeat.exercises.exercise import FAILED, NOT_ATTEMPTED, PASSED
+from rosbeat.exercises.exercise import FAILED, PASSED
 from rosbeat.exercises.registry import EXERCISES
 from rosbeat.grading.deadlines import LateRule, mark_late, read_due, read_late_rule
 from rosbeat.grading.marks import Gradebook, Graded, Mark, settle
@@ -51,26 +51,21 @@ def read(tmp_path):
     ("text", "wanted"),
     [
         ("exercise,points\n03a,4\n", {"03a": 4}),
-        ("exercise;points\n03a;1,5\n", {"03a": 1.5}),
         ("03a,4\nsystem,0\n", {"03a": 4, "system": 0}),
         ("\ufeffExercise,Points\r\n 3A , 4 \r\n", {"03a": 4}),
         ("exercise,points\n03,16\n", {"03a": 4, "03b": 4, "03c": 8}),
         ("exercise,points\n3,16\n03c,0\n", {"03a": 8, "03b": 8, "03c": 0}),
         ("03_write_a_publisher,10\n03a,1\n03b,1\n03c,3\n", {"03a": 2, "03b": 2, "03c": 6}),
-        ("04,10\n", {"04a": 10}),
         ("03,0\n", {"03a": 0, "03b": 0, "03c": 0}),
         ("03,1\n03b,0\n03c,1\n", {"03a": 0.67, "03b": 0, "03c": 0.33}),
-        ("03a,-0\n", {"03a": 0}),
         ("exercise,points\n", {}),
-        ("", {}),
-        ("exercise,why,points\n03a,\"so, yes\",4\n", {"03a": 4}),
     ],
 )  # fmt: skip
 def test_points_are_read(read, text, wanted):
     assert read(text) == wanted
 
 
-@pytest.mark.parametrize("whole", ["10", "7.77", "0.05", "9999.99", "1", "33.34"])
+@pytest.mark.parametrize("whole", ["7.77", "0.05", "9999.99"])
 def test_shares_of_a_page_are_hundredths_and_add_up(read, whole):
     shares = read(f"03,{whole}\n").values()
     assert all(round(one, 2) == one for one in shares)
@@ -82,16 +77,11 @@ def test_shares_of_a_page_are_hundredths_and_add_up(read, whole):
     [
         ("exercise,points\n03x,4\n", 2, "no exercise or page '03x'; did you mean 03"),
         ("exercise,points\n03a,4\n03a,5\n", 3, "03a is in line 2 already"),
-        ("exercise,points\n03a,4\n3a,5\n", 3, "line 2 already"),
         ("exercise,points\n03a,-1\n", 2, "from 0 to"),
         ("exercise,points\n03a,0.001\n", 2, "at least 0.01"),
         ("exercise,points\n03,0.02\n", 2, "too few points for all exercises of 03"),
         ("exercise,points\n03a,nan\n", 2, "from 0 to"),
-        ("exercise,points\n03a,inf\n", 2, "from 0 to"),
-        ("exercise,points\n03a,1e300\n", 2, "from 0 to"),
         ("exercise,points\n03a,four\n", 2, "'four' is not a number"),
-        ("exercise,points\n03a,\n", 2, "not a number"),
-        ("exercise,points\n03a\n", 2, "not a number"),
         ("exercise,points\n,4\n", 2, "names no exercise"),
         ("exercise,weight\n03a,4\n", 1, "no column points"),
         ("03a,0\n03b,0\n03c,0\n03,10\n", 4, "none of the exercises of 03"),
@@ -119,19 +109,6 @@ def test_all_slips_are_told_at_once_but_not_a_hundred(read):
     assert "and 95 more" in caught.value.what
 
 
-def test_a_file_that_is_not_there_is_told(tmp_path):
-    with pytest.raises(GradingError, match="cannot be read") as caught:
-        read_points(tmp_path / "no\x1b.csv")
-    assert "\x1b" not in str(caught.value)
-
-
-@pytest.mark.parametrize("data", [b"exercise,points\n03a,\xff\n", b'exercise,points\n03a,"4\n'])
-def test_a_file_that_is_not_utf_8_or_not_csv_is_refused(read, data, says):
-    with pytest.raises(GradingError) as caught:
-        read(data)
-    says(caught.value, 'Save it as "CSV UTF-8"')
-
-
 def test_the_course_s_own_exercises_and_pages_are_known(tmp_path):
     path = tmp_path / "points.csv"
     path.write_text("".join(f"{name},{one.points}\n" for name, one in EXERCISES.items()))
@@ -139,24 +116,13 @@ def test_the_course_s_own_exercises_and_pages_are_known(tmp_path):
     assert points.by_exercise == {name: one.points for name, one in EXERCISES.items()}
 
 
-def test_what_is_not_named_keeps_its_points():
-    points = Points({"03a": 4.5, "03b": 0.0})
-    assert points.of("03a", 2) == 4.5
-    assert points.of("03b", 2) == 0
-    assert points.of("04a", 1) == 1
-    assert Points().of("04a", 3) == 3
-
-
 @pytest.mark.parametrize(
     ("status", "points", "out_of", "worth", "wanted"),
     [
         (PASSED, 2, 2, 5.0, 5.0),
-        (PASSED, 2, 2, 2.0, 2.0),
-        (FAILED, 0, 2, 5.0, 0.0),
         (FAILED, 5, 20, 10.0, 2.5),
         (FAILED, 1, 3, 1.0, 0.33),
         (PASSED, 20, 20, 0.0, 0.0),
-        (NOT_ATTEMPTED, 0, 4, 8.0, 0.0),
         (PASSED, 25, 20, 10.0, 10.0),
         (FAILED, -3, 20, 10.0, 0.0),
         (PASSED, 0, 0, 3.0, 3.0),
@@ -179,12 +145,9 @@ def test_points_of_pages_that_are_not_graded_are_told():
 # Deadlines.
 
 
-def test_a_day_ends_at_midnight():
+def test_a_day_ends_at_midnight_and_a_time_is_of_this_computer_or_names_its_zone():
     last = datetime(2026, 11, 30, 23, 59, 59).timestamp()
     assert last < read_due("2026-11-30") < datetime(2026, 12, 1).timestamp()
-
-
-def test_a_time_is_that_of_this_computer_or_names_its_zone():
     assert read_due(" 2026-11-30 18:00 ") == datetime(2026, 11, 30, 18).timestamp()
     assert read_due("2026-11-30T18:00:30") == datetime(2026, 11, 30, 18, 0, 30).timestamp()
     moment = datetime(2026, 11, 30, 17, tzinfo=timezone.utc).timestamp()
@@ -192,9 +155,7 @@ def test_a_time_is_that_of_this_computer_or_names_its_zone():
     assert read_due("2026-11-30T17:00Z") == moment
 
 
-@pytest.mark.parametrize(
-    "text", ["", "tomorrow", "30.11.2026", "2026-13-01", "nan", "\x1b[31m", "Z"]
-)
+@pytest.mark.parametrize("text", ["", "30.11.2026", "2026-13-01", "\x1b[31m", "Z"])
 def test_what_is_not_a_deadline_is_refused(text, says):
     with pytest.raises(GradingError) as caught:
         read_due(text)
@@ -223,7 +184,7 @@ def test_a_rule_says_what_is_taken_off(text, late_by, off):
     assert read_late_rule(text).off(late_by) == pytest.approx(off)
 
 
-@pytest.mark.parametrize("text", ["", "10", "day", "-10%/day", "110%", "10%/week", "nan%", "\x1b"])
+@pytest.mark.parametrize("text", ["", "10", "-10%/day", "110%", "10%/week", "\x1b"])
 def test_what_is_no_rule_is_refused(text, says):
     with pytest.raises(GradingError) as caught:
         read_late_rule(text)
@@ -295,23 +256,18 @@ def test_points_are_taken_off_late_pages_and_the_remark_says_it_once(settled):
     assert "is 1 day 12 h after the deadline. 20% of the points of this page are taken off." in said
 
 
-def test_without_a_rule_late_is_only_a_word(settled):
-    found = settled({"ana/03_write.ipynb": PAGE_03})["ana"]
-    assert found.marks[0].points == 3.0
-    assert [one.about for one in found.remarks] == ["late"]
+def test_canvas_dates_its_files_at_the_download_so_only_its_mark_makes_them_late(settled):
+    files = {"a_LATE_1_9_03_write.ipynb": PAGE_03, "b_2_9_03_write.ipynb": PAGE_03}
+    found = settled(files, LateRule(0.5))
+    assert (found["1"].points, found["2"].points) == (1.5, 3.0)
+    found = settled(files)  # without a rule, late is only a word
+    assert (found["1"].points, [one.about for one in found["1"].remarks]) == (3.0, ["late"])
 
 
 def test_where_it_is_not_known_how_late_a_page_is_a_person_decides(settled):
     found = settled({"a_LATE_1_9_03_write.ipynb": PAGE_03}, LateRule(0.1, DAY))["1"]
     assert found.marks[0].points == 3.0
     assert "How late is not known, so nothing is taken off" in found.remarks[0].text
-    assert settled({"a_LATE_1_9_03_write.ipynb": PAGE_03}, LateRule(0.5))["1"].points == 1.5
-
-
-def test_canvas_dates_its_files_at_the_download_so_only_its_mark_makes_them_late(settled):
-    files = {"a_LATE_1_9_03_write.ipynb": PAGE_03, "b_2_9_03_write.ipynb": PAGE_03}
-    found = settled(files, LateRule(0.5))
-    assert (found["1"].points, found["2"].points) == (1.5, 3.0)
 
 
 def test_a_date_beyond_all_calendars_is_late_and_stops_nothing():

@@ -14,63 +14,44 @@ class Terminal(io.StringIO):
 
 
 @pytest.fixture
-def clock(monkeypatch):
-    """A clock that the test moves."""
+def told(monkeypatch):
+    """The lines of a log; each step is how long it took, how many are done, and of how many."""
     now = [100.0]
     monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
-    return now
+
+    def told(*steps):
+        log = io.StringIO()
+        with progress_bar(log) as tell:
+            for seconds, done, total in steps:
+                now[0] += seconds
+                tell(done, total)
+        return log.getvalue().splitlines()
+
+    return told
 
 
-def test_a_log_gets_a_line_now_and_then_and_one_at_the_end(clock):
-    log = io.StringIO()
-    with progress_bar(log) as tell:
-        tell(0, 100)
-        for done in range(1, 101):
-            clock[0] += 1.0
-            tell(done, 100)
-    lines = log.getvalue().splitlines()
+def test_a_log_gets_a_line_now_and_then_and_one_at_the_end(told):
+    lines = told((0, 0, 100), *((1.0, done, 100) for done in range(1, 101)))
     assert lines[0] == "100 different answers; preparing sandboxes, trying the first ..."
     assert lines[1] == "10 of 100 judged, 90 s left"
     assert lines[-1] == "100 of 100 judged"
     assert len(lines) == 11
 
 
-def test_the_time_for_preparing_is_not_that_of_answers(clock):
-    log = io.StringIO()
-    with progress_bar(log) as tell:
-        tell(0, 11)
-        for seconds, done in ((60.0, 1), (6.0, 2), (6.0, 3)):
-            clock[0] += seconds
-            tell(done, 11)
-    assert log.getvalue().splitlines()[1:] == ["1 of 11 judged", "3 of 11 judged, 48 s left"]
-
-
-def test_what_was_judged_in_earlier_runs_is_said_and_takes_no_time(clock):
-    log = io.StringIO()
-    with progress_bar(log) as tell:
-        tell(80, 100)
-        for done in range(81, 101):
-            clock[0] += 1.0
-            tell(done, 100)
-    lines = log.getvalue().splitlines()
+def test_neither_preparing_nor_earlier_runs_count_for_the_time_that_is_left(told):
+    lines = told((0, 0, 11), (60.0, 1, 11), (6.0, 2, 11), (6.0, 3, 11))
+    assert lines[1:] == ["1 of 11 judged", "3 of 11 judged, 48 s left"]
+    lines = told((0, 80, 100), *((1.0, done, 100) for done in range(81, 101)))
     assert lines[0].startswith("100 different answers, 80 of them judged already; ")
     assert lines[1:] == ["90 of 100 judged, 10 s left", "100 of 100 judged"]
 
 
-def test_nothing_to_do_is_not_worth_a_line(clock):
-    log = io.StringIO()
-    with progress_bar(log) as tell:
+def test_nothing_to_do_is_not_worth_a_line(told):
+    assert told((0, 7, 7)) == []
+    terminal = Terminal()
+    with progress_bar(terminal) as tell:
         tell(7, 7)
-    assert log.getvalue() == ""
-
-
-def test_nothing_done_yet_has_no_time_left(clock):
-    log = io.StringIO()
-    with progress_bar(log) as tell:
-        clock[0] += 60
-        tell(0, 5)
-    (line,) = log.getvalue().splitlines()
-    assert line == "5 different answers; preparing sandboxes, trying the first ..."
+    assert "judging" not in terminal.getvalue()
 
 
 def test_a_terminal_gets_a_bar():
@@ -83,11 +64,3 @@ def test_a_terminal_gets_a_bar():
     assert "7 different answers, 3 of them judged already." in shown
     assert shown.index("preparing sandboxes") < shown.index("judging") < shown.index("7/7")
     assert "0:0" in shown
-
-
-def test_a_terminal_shows_no_bar_if_nothing_is_to_do():
-    terminal = Terminal()
-    with progress_bar(terminal) as tell:
-        tell(7, 7)
-    assert "judging" not in terminal.getvalue()
-    assert "preparing" not in terminal.getvalue()

@@ -60,13 +60,9 @@ def read(tmp_path):
          "moodle participants", "canvas"],
 )  # fmt: skip
 def test_a_roster_is_read_as_it_is(read, text, people):
-    assert [(one.id, one.name) for one in read(text).people] == people
-
-
-def test_an_export_with_ids_says_where_it_is_from(read):
-    assert [read(one).system for one in (MOODLE, CANVAS, MOODLE_PEOPLE, "a\n")] == [
-        "moodle", "canvas", "", ""
-    ]  # fmt: skip
+    found = read(text)
+    assert [(one.id, one.name) for one in found.people] == people
+    assert found.system == {MOODLE: "moodle", CANVAS: "canvas"}.get(text, "")
 
 
 @pytest.mark.parametrize(
@@ -75,17 +71,15 @@ def test_an_export_with_ids_says_where_it_is_from(read):
         ("", "names no learner"),
         ("id,name\n", "names no learner"),
         ("Nom,Courriel,Groupe\nAna,a@x,A\n", "names no learner"),
-        ("Ana Müller\n".encode("latin-1"), "it is not UTF-8"),
-        ("ana\n".encode("utf-16"), "it is not UTF-8"),
-        (b"PK\x03\x04\0\0", "it is not text"),
         ('name\n"Ana\nBen\n', "line 2 is not CSV"),
         ("name,due\nAna,soon\n", "line 2: 'soon' is neither a day nor a time"),
         ("name,extension\nAna,3 moons\n", "line 2: '3 moons' is neither"),
+        ("id,extension\nana,3\n", "Give it with --due"),
     ],
 )
 def test_what_cannot_be_used_is_refused_with_a_sentence(read, text, said, says):
     with pytest.raises(GradingError) as caught:
-        read(text)
+        read(text, due=None if "--due" in said else DUE)
     says(caught.value, said)
 
 
@@ -96,7 +90,6 @@ def test_what_cannot_be_used_is_refused_with_a_sentence(read, text, said, says):
         ("due", "", None),
         ("extension", "2026-12-05 12:00", datetime(2026, 12, 5, 12).timestamp()),
         ("extension", "3", DUE + 3 * 86_400),
-        ("extension", "2 days", DUE + 2 * 86_400),
         ("extension", "+1.5 d", DUE + 36 * 3_600),
         ("extension", "12h", DUE + 12 * 3_600),
         ("extension", "1 week", DUE + 7 * 86_400),
@@ -104,12 +97,6 @@ def test_what_cannot_be_used_is_refused_with_a_sentence(read, text, said, says):
 )
 def test_a_learner_may_have_another_deadline(read, column, text, due):
     assert read(f"id,{column}\nana,{text}\n").people == (Person(2, "ana", "", due),)
-
-
-def test_an_extension_needs_the_deadline_of_the_class(read, says):
-    with pytest.raises(GradingError) as caught:
-        read("id,extension\nana,3\n", due=None)
-    says(caught.value, "Give it with --due")
 
 
 # With what was handed in.
@@ -205,11 +192,9 @@ CLASS = lookup(
         ("Ana Muster", "0047"),
         ("Muster, Ana", "0047"),
         (" ana   muster ", "0047"),
-        ("BEN", "ben"),
         ("'ben", "ben"),
         ("Cy", "Cy"),
         ("cy", "cy"),
-        ("Cy Two", "cy"),
         ("0", "0"),
         ("00", "0"),
         (FORMULA, FORMULA),
@@ -230,7 +215,6 @@ def test_a_learner_is_found(text, learner):
         ("CY", "2 learners; write the id"),
         ("Kim Twin", "2 learners; write the id"),
         ("48", "There is no learner"),
-        ("ban", "There is no learner"),
         ("x\x1b" * 9_999, "\\\\u001b"),
     ],
 )
@@ -241,12 +225,6 @@ def test_whoever_is_not_there_or_not_one_is_told(text, said):
     assert "\x1b" not in str(caught.value)
     assert len(str(caught.value)) < 120
     assert "the column learner of grades.csv" in caught.value.to_try
-
-
-def test_an_id_comes_before_the_name_of_another():
-    both = lookup(("1", "2"), ("2", "1"))
-    assert both.find("1").learner == "1"
-    assert both.find("2").learner == "2"
 
 
 def test_a_learner_is_found_by_what_moodle_s_worksheet_says():
@@ -267,14 +245,10 @@ def test_whoever_calls_himself_a_participant_is_not_taken_for_another():
     assert Lookup([same]).find("Participant 11") is same
 
 
-def test_an_empty_name_is_nobody_s():
-    nameless = lookup(("x", ""), ("y", "'"))
+def test_an_id_comes_first_as_a_table_shows_it_and_an_empty_name_is_nobody_s():
+    both = lookup(("1", "2"), ("2", "1"), ("=A", ""), ("=a", ""), ("y", "'"))
+    for text, learner in (("1", "1"), ("2", "2"), ("'=A", "=A"), ("'=a", "=a")):
+        assert both.find(text).learner == learner
     for text in ("0", "00", "'", "' '"):
         with pytest.raises(UnusableError, match="There is no learner"):
-            nameless.find(text)
-
-
-def test_an_id_as_a_table_shows_it_comes_before_one_that_is_only_alike():
-    both = lookup(("=A", ""), ("=a", ""))
-    assert both.find("'=A").learner == "=A"
-    assert both.find("'=a").learner == "=a"
+            both.find(text)

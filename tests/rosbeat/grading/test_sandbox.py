@@ -113,6 +113,8 @@ def test_the_ending_says_more(seen):
     assert seen["crashes"]["number"] == 11
     assert seen["leaves_with_a_code"]["number"] == 7
     assert "ValueError: no" in seen["raises"]["output"]
+    assert seen["prints"]["read"] == 64_000
+    assert seen["answers_too_much"]["told"] == Limits().result
 
 
 def test_the_first_process_cannot_be_looked_into_or_ended(seen):
@@ -120,6 +122,11 @@ def test_the_first_process_cannot_be_looked_into_or_ended(seen):
     assert told["root"] == told["environment"] == told["memory"] == "PermissionError"
     assert told["alive"] == told["signal"] == "done"  # it hears no signal from in there
     assert told["session"]
+    assert told["python"] in ("OSError", "PermissionError")  # it stays as it is
+    assert set(told["descriptors"]) <= {0, 1, 2, 3, 4}  # one is the listing
+    mounts = set(told["mounts"])
+    assert mounts.isdisjoint({"/old", "/fresh", "/home", "/root", "/sys", "/dev", "/boot", "/var"})
+    assert {"/", "/tmp", "/dev/shm", "/usr"} <= mounts
 
 
 def test_what_may_be_read_may_lie_where_everything_else_is_thrown_away(seen):
@@ -143,14 +150,11 @@ def test_sockets_reach_this_machine_only(seen):
     assert {"vsock", "packet", "alg", "netlink of another kind"} <= set(told)
 
 
-def test_what_an_answer_has_written_is_gone_for_the_next(seen):
-    assert seen["leaves_files"]["how"] == "ended"
+def test_nothing_is_left_for_the_next_answer_or_behind(deeds, seen):
+    assert seen["leaves_files"]["how"] == seen["leaves_queues"]["how"] == "ended"
     assert "left" not in seen["finds_files"]["told"]["found"]
-
-
-def test_queues_and_semaphores_are_not_left_for_the_next(seen):
-    assert seen["leaves_queues"]["how"] == "ended"
     assert set(seen["finds_queues"]["told"].values()) == {-1}
+    assert deeds["left"] == []
 
 
 def test_little_waits_in_sockets_and_nothing_in_pipes_but_what_was_written(seen):
@@ -178,29 +182,6 @@ def test_the_first_process_cannot_be_starved_or_slowed(seen):
 def test_files_are_opened_by_their_names_and_held_from_nobody(seen):
     assert seen["opens_by_handle"]["told"]["opened"] == -1
     assert seen["holds_a_lease"]["told"] == {"lease": "PermissionError", "lock": "done"}
-
-
-def test_python_itself_stays_as_it_is(seen):
-    assert seen["looks_around"]["told"]["python"] in ("OSError", "PermissionError")
-
-
-def test_nothing_of_whoever_started_it_is_open(seen):
-    assert set(seen["looks_around"]["told"]["descriptors"]) <= {0, 1, 2, 3, 4}  # one is the listing
-
-
-def test_nothing_of_the_machine_is_mounted_where_it_could_be_seen(seen):
-    mounts = set(seen["looks_around"]["told"]["mounts"])
-    assert mounts.isdisjoint({"/old", "/fresh", "/home", "/root", "/sys", "/dev", "/boot", "/var"})
-    assert {"/", "/tmp", "/dev/shm", "/usr"} <= mounts
-
-
-def test_no_more_is_read_than_was_allowed(seen):
-    assert seen["prints"]["read"] == 64_000
-    assert seen["answers_too_much"]["told"] == Limits().result
-
-
-def test_nothing_is_left_behind(deeds):
-    assert deeds["left"] == []
 
 
 def test_why_none_can_be_made_is_said_in_three_parts(says):
@@ -261,18 +242,9 @@ def test_it_has_a_folder_and_an_environment_of_its_own(bare):
     assert environment == {"A": "b", "HOME": folder, "TMPDIR": folder}
     assert folder != bare["here"]
     assert not bare["folder"]  # it is gone afterwards
-
-
-def test_limits_hold(bare):
     assert bare["loops"][0] == "deadline"
     assert bare["eats"][0] in ("memory", "exit")
-
-
-def test_an_exit_code_is_no_refusal(bare):
-    assert bare["leaves"][:2] == ["exit", 113]
-
-
-def test_what_is_left_behind_is_ended(bare):
+    assert bare["leaves"][:2] == ["exit", 113]  # an exit code is no refusal
     assert bare["stays_behind"][0] == "ended"
     assert bare["left"] is False
 
@@ -319,11 +291,6 @@ def test_limits_are_set_and_never_wider_than_before():
         [sys.executable, "-c", LIMITED], capture_output=True, text=True, check=True, timeout=60
     )
     assert done.stdout.split("\n")[:2] == ["(7, 7) (55, 55)", "(1000, 1000) (0, 0)"]
-
-
-def test_the_defaults_leave_room_for_ros():
-    assert Limits().address_space > 2_000_000_000
-    assert Limits().processes >= 64
 
 
 # Groups of the kernel, on a folder that stands for them: what is read and written.

@@ -105,11 +105,10 @@ def home(learner, files=BOTH):
     }
 
 
-@pytest.mark.parametrize("learners", [("ana",), ("ana", "ben")])
-def test_the_homes_of_a_hub_are_a_class(handed_in, pages, learners):
-    source = handed_in({path: text for one in learners for path, text in home(one).items()})
-    found = collect(source, pages)
-    assert summary(found) == {one: ["03", "04"] for one in learners}
+def test_the_homes_of_a_hub_are_a_class(handed_in, pages):
+    found = collect(handed_in({**home("ana"), **home("ben"), **home("cy", {})}), pages)
+    assert summary(found) == {"ana": ["03", "04"], "ben": ["03", "04"], "cy": []}
+    assert abouts(found, "cy") == ["empty"]
     assert [page.path for page in only(found, "ana").pages] == [f"ana/{name}" for name in BOTH]
     assert found.remarks == only(found, "ana").remarks == ()
 
@@ -119,12 +118,6 @@ def test_a_home_in_which_nobody_opened_the_course_is_no_learners(handed_in, page
     assert summary(found) == {"ana": ["03", "04"]}
     (remark,) = found.remarks
     assert (remark.path, remark.text) == ("admin", "Nobody has opened the course in this home.")
-
-
-def test_a_home_without_pages_is_a_learners(handed_in, pages):
-    found = collect(handed_in({**home("ana"), **home("ben", {})}), pages)
-    assert summary(found) == {"ana": ["03", "04"], "ben": []}
-    assert abouts(found, "ben") == ["empty"]
 
 
 @pytest.mark.parametrize("place", ["my_course/03_write.ipynb", "my_course", "my_course/.rosbeat"])
@@ -188,21 +181,7 @@ def test_a_home_that_cannot_be_read_is_said(handed_in, pages, monkeypatch):
 )
 def test_a_path_tells_whose_a_file_is(path, wanted):
     assert owner_of(tuple(path.split("/"))) == (Owner(*wanted) if wanted else None)
-
-
-@pytest.mark.parametrize(
-    ("path", "own"),
-    [
-        ("Ana_4711_assignsubmission_file_/a/03.ipynb", "a/03.ipynb"),
-        ("ana_LATE_4711_998877_03-1.ipynb", "03.ipynb"),
-        ("ana/03.ipynb", "03.ipynb"),
-        ("stray.ipynb", "stray.ipynb"),
-        ("Ana_4711_assignsubmission_file_", "Ana_4711_assignsubmission_file_"),
-        ("", ""),
-    ],
-)
-def test_a_path_can_be_told_as_its_learner_knows_it(path, own):
-    assert own_path(path) == own
+    assert own_path(path) == (wanted[2] if wanted else path)
 
 
 @pytest.mark.parametrize(
@@ -289,53 +268,6 @@ def test_an_empty_folder_is_a_learner_in_a_zip_file_too(tmp_path, pages):
     assert abouts(found, "ben") == ["empty"]
 
 
-def test_a_folder_with_only_clutter_is_an_empty_one(handed_in, pages):
-    files = {"ana/03.ipynb": PAGE_03, "ben/.DS_Store": "x", "cy/.ipynb_checkpoints/03.ipynb": "x"}
-    found = collect(handed_in(files), pages)
-    assert summary(found) == {"ana": ["03"], "ben": [], "cy": []}
-
-
-def test_of_a_file_that_breaks_off_it_is_said_how_much_is_there(handed_in, pages):
-    half = PAGE_03[: int(len(PAGE_03) * 0.8)]
-    (one,) = collect(handed_in({"dan/03_write.ipynb": half}), pages).submissions
-    (remark,) = one.remarks
-    assert remark.text == "The file is not whole: 3 of the page's 4 cells are there."
-    assert one.pages[0].notebook.cut
-
-
-def test_a_damaged_end_behind_all_cells_costs_nothing(handed_in, pages):
-    files = {"dan/03_write.ipynb": PAGE_03[:-20]}
-    (one,) = collect(handed_in(files), pages).submissions
-    (remark,) = one.remarks
-    assert (remark.about, remark.text) == (
-        "mended", "The end of the file is damaged; all cells of the page are there."
-    )  # fmt: skip
-    assert not one.pages[0].notebook.cut
-
-
-def test_a_file_of_which_nothing_can_be_read_never_takes_the_place_of_another(handed_in, pages):
-    files = {"eve/03_write (1).ipynb": '{"cells": [{"sou', "eve/03_write.ipynb": PAGE_03}
-    root = handed_in(files)
-    os.utime(root / "eve/03_write.ipynb", (1000, 1000))
-    (one,) = collect(root, pages).submissions
-    assert one.pages[0].path == "eve/03_write.ipynb"
-
-
-def test_outputs_are_dropped_before_size_is_judged(handed_in, pages, monkeypatch):
-    monkeypatch.setattr("rosbeat.grading.notebook._LARGE", 1000)
-    monkeypatch.setattr("rosbeat.grading.notebook.MOST_BYTES", 5000)
-    whole = json.loads(PAGE_03)
-    whole["cells"][2]["outputs"] = [{"output_type": "stream", "text": ["tick\n"] * 5000}]
-    large = json.dumps(whole)
-    files = {"ana/03_write.ipynb": large, "ben.zip": zipped({"03_write.ipynb": large})}
-    found = collect(handed_in(files), pages)
-    plain = collect(handed_in({"cy/03_write.ipynb": PAGE_03}), pages)
-    cells = only(plain, "cy").pages[0].notebook.cells
-    for learner in ("ana", "ben"):
-        assert only(found, learner).pages[0].notebook.cells == cells
-        assert abouts(found, learner) == []
-
-
 def test_what_is_read_for_one_learner_has_an_end_and_costs_no_other(handed_in, pages, monkeypatch):
     monkeypatch.setattr(uploads, "MOST_OF_A_LEARNER", 2 * len(PAGE_03))
     monkeypatch.setattr(uploads, "MOST_FILES", 6)
@@ -348,62 +280,59 @@ def test_what_is_read_for_one_learner_has_an_end_and_costs_no_other(handed_in, p
     assert summary(found)["cy"] == ["03"]
 
 
-def test_a_text_that_was_typed_in_is_called_so(handed_in, pages):
-    files = {"Jo Kim_7_assignsubmission_onlinetext_/onlinetext.html": "<p>Sorry</p>"}
-    (one,) = collect(handed_in(files), pages).submissions
-    assert one.remarks[0].text == "It is text that was typed into Moodle, so it is left out."
-
-
-def test_many_files_of_another_kind_are_counted(handed_in, pages):
-    files = {f"ana/{n:03}.txt": "x" for n in range(50)}
-    (one,) = collect(handed_in(files), pages).submissions
-    assert len(one.remarks) == 21
-    assert one.remarks[-1].text == "30 more files are not notebooks."
-
-
-def test_what_was_mended_is_not_called_half(handed_in, pages):
-    (one,) = collect(
-        handed_in({"ana/03_write.ipynb": PAGE_03.replace('"cells": [', '"cells": [3, ')}), pages
-    ).submissions
-    assert [remark.about for remark in one.remarks] == ["mended"]
-
-
 # Which of several counts.
 
 
-def test_the_newest_of_two_counts(handed_in, pages):
-    newer = PAGE_03.replace("1.0", "2.0")
-    root = handed_in({"ana/03_write (1).ipynb": newer, "ana/03_write.ipynb": PAGE_03})
-    os.utime(root / "ana/03_write.ipynb", (1000, 1000))
-    (one,) = collect(root, pages).submissions
-    assert one.pages[0].path == "ana/03_write (1).ipynb"
-    assert [remark.about for remark in one.remarks] == ["duplicate"]
-    assert "counts: it is the newest, by the date of the file." in one.remarks[0].text
-
-
-@pytest.mark.parametrize(
-    ("files", "why"),
-    [
-        ({"a_1_9_03_write-2.ipynb": PAGE_03, "a_1_9_03_write.ipynb": PAGE_03}, "last attempt"),
-        ({"ana/a.ipynb": PAGE_03, "ana/b.ipynb": MORE_03}, "and it has more cells"),
-        ({"ana/a.ipynb": PAGE_03, "ana/b.ipynb": PAGE_03}, "the first by name"),
-    ],
+SEVERAL = (
+    ({"a_1_9_03_write-2.ipynb": (PAGE_03, 1), "a_1_8_03_write.ipynb": (PAGE_03, 9)}, 0),
+    ({"ana/a.ipynb": (PAGE_03, 1), "ana/b.ipynb": (PAGE_03.replace("1.0", "2"), 2)}, 1),
+    ({"ana/a.ipynb": (PAGE_03, 1), "ana/b.ipynb": (MORE_03, 1)}, 1),
+    ({"ana/a.ipynb": (PAGE_03, 1), "ana/b.ipynb": (PAGE_03, 1)}, 0),
+    ({"ana/03_write.ipynb": ('{"cells": [{"sou', 9), "ana/b.ipynb": (PAGE_03, 1)}, 1),
 )
-def test_it_is_said_why_one_of_two_counts(handed_in, pages, files, why):
-    root = handed_in(files)
-    for name in files:
-        os.utime(root / name, (1000, 1000))
+
+
+@pytest.mark.parametrize(("files", "best"), SEVERAL, ids=range(len(SEVERAL)))
+def test_the_last_attempt_counts_then_the_newest_then_the_longest(handed_in, pages, files, best):
+    root = handed_in({name: text for name, (text, _) in files.items()})
+    for name, (_, date) in files.items():
+        os.utime(root / name, (1000 * date, 1000 * date))
     (one,) = collect(root, pages).submissions
+    assert one.pages[0].path == list(files)[best]
     (said,) = [remark.text for remark in one.remarks if remark.about == "duplicate"]
-    assert why in said
+    assert said.startswith(f"The page is there 2 times; {own_path(list(files)[best])} counts: ")
 
 
-def test_the_last_attempt_counts_whenever_it_was_unpacked(handed_in, pages):
-    names = ("ana_1_9_03_write-2.ipynb", "ana_1_8_03_write.ipynb", "ana_1_7_x-1.ipynb")
-    root = handed_in(dict.fromkeys(names, PAGE_03))
-    os.utime(root / "ana_1_9_03_write-2.ipynb", (1000, 1000))
-    (one,) = collect(root, pages).submissions
-    assert one.pages[0].path == "ana_1_9_03_write-2.ipynb"
+FILES = (
+    ("ana/03_write.ipynb", PAGE_03[: int(len(PAGE_03) * 0.8)], True,
+     "The file is not whole: 3 of the page's 4 cells are there."),
+    ("ana/03_write.ipynb", PAGE_03[:-20], False,
+     "The end of the file is damaged; all cells of the page are there."),
+    ("ana/03_write.ipynb", PAGE_03.replace('"cells": [', '"cells": [3, '), False,
+     "Cell 1 is not a cell, and was left out."),
+    ("Jo Kim_7_assignsubmission_onlinetext_/onlinetext.html", "<p>Sorry</p>", False,
+     "It is text that was typed into Moodle, so it is left out."),
+    ("ana/\x1b[31m.ipynb", "", False, "The file is empty."),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "text", "is_cut", "said"), FILES, ids=range(len(FILES)))
+def test_what_is_said_of_a_file(handed_in, pages, name, text, is_cut, said):
+    (one,) = collect(handed_in({name: text}), pages).submissions
+    (remark,) = one.remarks
+    assert remark.text == said
+    assert remark.path.isprintable()
+    assert any(page.notebook.cut for page in one.pages) == is_cut
+
+
+def test_clutter_is_nothing_and_of_many_files_only_the_number_is_said(handed_in, pages):
+    many = {f"ana/{n:03}.txt": "x" for n in range(50)}
+    found = collect(handed_in({"ben/.DS_Store": "x", "cy/.git/03.ipynb": "x", **many}), pages)
+    assert summary(found) == {"ana": [], "ben": [], "cy": []}
+    assert [abouts(found, name) for name in ("ben", "cy")] == [["empty"], ["empty"]]
+    remarks = only(found, "ana").remarks
+    assert len(remarks) == 21
+    assert remarks[-1].text == "30 more files are not notebooks."
 
 
 # Dates.
@@ -420,20 +349,15 @@ def test_the_date_in_a_zip_file_is_that_of_this_computer_as_a_deadline_is(tmp_pa
         assert one.pages[0].late == is_late
 
 
-def test_late_is_what_the_system_says_or_what_the_clock_says(handed_in, pages):
-    root = handed_in(
-        {"a_LATE_1_9_03_write.ipynb": PAGE_03, "b_2_assignsubmission_file_/x.ipynb": PAGE_03}
-    )
-    os.utime(root / "b_2_assignsubmission_file_/x.ipynb", (1000, 1000))
+def test_what_is_marked_as_late_is_late_whatever_the_clock_says(handed_in, pages):
+    root = handed_in({"a_LATE_1_9_03_write.ipynb": PAGE_03, "ana/x.ipynb": PAGE_03})
+    os.utime(root / "ana/x.ipynb", (1000, 1000))
     assert [one.pages[0].late for one in collect(root, pages).submissions] == [True, False]
     found = mark_late(collect(root, pages), lambda _: 40).submissions
-    assert [one.pages[0].late for one in found] == [True, True]
     said = [remark.text for one in found for remark in one.remarks if remark.about == "late"]
     date = f"{datetime.fromtimestamp(1000):%Y-%m-%d %H:%M}"
-    assert said == [
-        "It is marked as late.",
-        f"The date of the file, {date}, is 16 min after the deadline.",
-    ]
+    after = f"The date of the file, {date}, is 16 min after the deadline."
+    assert said == ["It is marked as late.", after]
 
 
 # Broken archives and names: nothing is written, nobody else is harmed, nobody vanishes.
@@ -476,7 +400,7 @@ def nested(levels):
 
 SOUND = zipped({"03_write.ipynb": PAGE_03})
 BROKEN = {
-    **{f"cut at {n}": SOUND[: len(SOUND) * n // 24] for n in range(24)},
+    **{f"cut at {n}": SOUND[: len(SOUND) * n // 8] for n in range(8)},
     "no end": SOUND[:-10],
     "garbage in front": b"#!/bin/sh\n" * 40 + SOUND,
     "garbage behind": SOUND + b"\0" * 400,
@@ -485,10 +409,7 @@ BROKEN = {
     "text": b"This is no zip file.",
     "an end that lies": SOUND[:-22] + b"PK\x05\x06" + b"\xff" * 18,
     "encrypted": patched(8, b"\x01\x00"),
-    "strong encryption": patched(8, b"\x41\x00"),
     "method 99": patched(10, struct.pack("<H", 99)),
-    "method lzma": patched(10, struct.pack("<H", 14)),
-    "method bzip2": patched(10, struct.pack("<H", 12)),
     "method stored": patched(10, struct.pack("<H", 0)),
     "another checksum": patched(16, b"\0\0\0\0"),
     "claims 4 GB": patched(24, b"\xfe\xff\xff\xff"),
@@ -500,20 +421,21 @@ BROKEN = {
     "version 99": patched(6, b"\xff\x00"),
     "a link": linked(),
     "three deep": nested(3),
-    "five deep": nested(5),
     "a bomb": zipped({"03_write.ipynb": b" " * 70_000_000}),
-    "a bomb of zip files": zipped(dict.fromkeys((f"{n}.zip" for n in range(50)),
-                                                zipped({"x.ipynb": b" " * 10_000_000}))),
     "7z": b"7z\xbc\xaf\x27\x1c",
 }  # fmt: skip
 NAMES = (
-    *("../03.ipynb", "../../03.ipynb", "/03.ipynb", "//03.ipynb", "/etc/cron.d/03.ipynb"),
-    *("..\\03.ipynb", "C:\\03.ipynb", "C:/03.ipynb", "c:03.ipynb", "\\\\server\\share\\03.ipynb"),
-    *("a/../../03.ipynb", "./03.ipynb", "a/./../03.ipynb", "....//03.ipynb", " /03.ipynb"),
-    *("\x1b[31m.ipynb", "\x07.ipynb", "a\nb.ipynb", "\u202egnp.ipynb", "\u200b.ipynb"),
-    *('=HYPERLINK("x").ipynb', "-rf.ipynb", "@SUM(A1).ipynb", "|cmd.ipynb", "%s%n.ipynb"),
-    *("<script>alert(1)<.ipynb", "'\"><img src=x>.ipynb", "con.ipynb", "nul", "W" * 300 + ".ipynb"),
-    *(".ipynb", "..ipynb", "\ud83d.ipynb", "03_write.ipynb/", "../", "a/" * 200 + "03.ipynb"),
+    *("../../03.ipynb", "/03.ipynb", "/etc/cron.d/03.ipynb", "..\\03.ipynb", "C:\\03.ipynb"),
+    *("c:03.ipynb", "\\\\server\\share\\03.ipynb", "a/../../03.ipynb", "....//03.ipynb"),
+    *("\x1b[31m.ipynb", "a\nb.ipynb", "\u202egnp.ipynb", "\u200b.ipynb", "\ud83d.ipynb"),
+    *(
+        '=HYPERLINK("x").ipynb',
+        "%s%n.ipynb",
+        "<script>alert(1)<.ipynb",
+        "nul",
+        "W" * 300 + ".ipynb",
+    ),
+    *(".ipynb", "03_write.ipynb/", "../", "a/" * 200 + "03.ipynb"),
 )
 ARCHIVES = BROKEN | {
     f"name {n}": zipped({"a": ""}) if "\ud83d" in name else raw([name])
@@ -525,18 +447,19 @@ def everything(folder):
     return sorted((str(path), path.lstat().st_size) for path in folder.rglob("*"))
 
 
-def test_there_are_enough_of_them():
-    assert len(ARCHIVES) >= 85
+# Flags, method, checksum, sizes, offset. Damage that moves later members is the system's, not a
+# learner's, and then the whole file is refused.
+
+
+#: Names by which the class's own zip file has its learners.
+BEN, ANA = "Ben B_12_assignsubmission_file_", "Ana A_11_assignsubmission_file_"
 
 
 @pytest.mark.parametrize("packed", [False, True], ids=["folder", "zip"])
-@pytest.mark.parametrize("name", ARCHIVES)
-def test_a_broken_archive_costs_only_its_learner(name, packed, handed_in, pages, tmp_path):
-    kind = ".7z" if name == "7z" else ".zip"
-    files = {"ana/03_write.ipynb": PAGE_03, f"ben{kind}": ARCHIVES[name],
-             "cy/03_write.ipynb": PAGE_03}  # fmt: skip
-    if name == "7z":
-        files["ben/all.7z"] = files.pop("ben.7z")
+def test_a_broken_archive_costs_only_its_learner(packed, handed_in, pages, tmp_path):
+    files = {f"{ANA}/03_write.ipynb": PAGE_03, "zoe/all.7z": b"7z\xbc\xaf\x27\x1c"}
+    folders = {f"{BEN.replace('12', str(100 + n))}/": name for n, name in enumerate(ARCHIVES)}
+    files |= {f"{folder}all.zip": ARCHIVES[name] for folder, name in folders.items()}
     source = handed_in(files)
     if packed:
         source = tmp_path / "all.zip"
@@ -544,29 +467,27 @@ def test_a_broken_archive_costs_only_its_learner(name, packed, handed_in, pages,
     before = everything(tmp_path)
     found = collect(source, pages)
     assert everything(tmp_path) == before
-    assert {"ana", "ben", "cy"} == set(summary(found))
-    assert summary(found)["ana"] == summary(found)["cy"] == ["03"]
-    for remark in (*found.remarks, *only(found, "ben").remarks):
-        assert remark.path.isprintable()
-        assert remark.text.isprintable()
-        assert len(remark.text) < 600
-    if name in BROKEN and name not in ("an end alone", "claims nothing"):
-        ben = only(found, "ben")
-        assert ben.pages or ben.unread, ben  # never a final 0
+    assert len(found.submissions) == len(files)
+    assert summary(found)["11"] == ["03"]
+    for folder, name in folders.items():
+        ben = only(found, folder.split("_")[1])
+        for remark in ben.remarks:
+            assert remark.path.isprintable(), name
+            assert remark.text.isprintable(), name
+            assert len(remark.text) < 600, name
+        if name in BROKEN and name not in ("an end alone", "claims nothing"):
+            assert ben.pages or ben.unread, name  # never a final 0
 
 
 # Flags, method, checksum, sizes, offset. Damage that moves later members is the system's, not a
 # learner's, and then the whole file is refused.
 @pytest.mark.parametrize("place", [8, 10, 16, 20, 24, 42])
-@pytest.mark.parametrize("new", [b"\xff\xff", b"\x01\x00", b"\0\0"])
-def test_a_bad_entry_in_the_class_s_zip_costs_only_its_learner(place, new, tmp_path, pages):
-    files = {"Ben B_12_assignsubmission_file_/03_write.ipynb": PAGE_03,
-             "Ana A_11_assignsubmission_file_/03_write.ipynb": PAGE_03}  # fmt: skip
-    path = tmp_path / "all.zip"
-    path.write_bytes(patched(place, new, zipped(files)))
-    found = collect(path, pages)
-    assert summary(found)["11"] == ["03"]
-    assert summary(found)["12"] == ["03"], found
+def test_a_bad_entry_in_the_class_s_zip_costs_only_its_learner(place, tmp_path, pages):
+    files = {f"{BEN}/03_write.ipynb": PAGE_03, f"{ANA}/03_write.ipynb": PAGE_03}
+    for new in (b"\xff\xff", b"\x01\x00", b"\0\0"):
+        (tmp_path / "all.zip").write_bytes(patched(place, new, zipped(files)))
+        found = collect(tmp_path / "all.zip", pages)
+        assert summary(found) == {"11": ["03"], "12": ["03"]}, new
 
 
 def test_links_and_pipes_are_not_followed_and_their_learner_stays(handed_in, tmp_path, pages):
@@ -585,15 +506,7 @@ def test_links_and_pipes_are_not_followed_and_their_learner_stays(handed_in, tmp
         assert "not followed" in only(found, learner).pages[0].notebook.problem
 
 
-def test_a_name_cannot_reach_the_terminal(handed_in, pages):
-    root = handed_in({"ana/\x1b[31m.ipynb": "", "ben/03_write.ipynb": PAGE_03})
-    found = collect(root, pages)
-    assert "\x1b" not in found.submissions[0].remarks[0].path
-
-
 # What cannot be submissions.
-
-MOODLE = "Ana_1_assignsubmission_file_/essay.docx"
 
 
 @pytest.fixture
@@ -603,13 +516,6 @@ def require(handed_in, pages):
         require_submissions(root, collect(root, pages), is_known)
 
     return require
-
-
-@pytest.mark.parametrize("known", [False, True])
-@pytest.mark.parametrize("more", [{}, {"ben/essay.docx": "x"}, {"03_write.ipynb": PAGE_03}])
-def test_one_page_of_one_learner_is_a_class(require, more, known):
-    require({"ana/03_write.ipynb": PAGE_03, **more}, known)
-    require({"ana/03_write.ipynb": "", **more}, known)
 
 
 @pytest.mark.parametrize(
@@ -629,11 +535,25 @@ def test_what_is_no_class_is_refused(require, files, said, known, says):
     says(caught.value, said, "Moodle or Canvas", "Nothing was written", "docs/instructors.md")
 
 
-@pytest.mark.parametrize("files", [{MOODLE: "x"}, {"ana/x.ipynb": ""}, {"ana/x.ipynb": "{"}])
-def test_whoever_tried_is_a_class_if_it_is_known_what_counts(require, files):
-    require(files, is_known=True)
-    with pytest.raises(GradingError):
-        require(files)
+@pytest.mark.parametrize(
+    ("files", "is_class", "is_known_class"),
+    [
+        ({"ana/03_write.ipynb": PAGE_03}, True, True),
+        ({"ana/03_write.ipynb": "", "ben/essay.docx": "x"}, True, True),
+        ({"Ana_1_assignsubmission_file_/essay.docx": "x"}, False, True),
+        ({"ana/x.ipynb": ""}, False, True),
+        ({"ana/x.ipynb": "{"}, False, True),
+    ],
+)
+def test_one_page_is_a_class_and_an_attempt_is_if_it_is_known_what_counts(
+    require, files, is_class, is_known_class
+):
+    for known, is_one in ((False, is_class), (True, is_known_class)):
+        if is_one:
+            require(files, known)
+        else:
+            with pytest.raises(GradingError):
+                require(files, known)
 
 
 @pytest.mark.parametrize("make", ["nothing", "text", "half"])
@@ -669,39 +589,26 @@ def page_of(text, file, pages):
     return page and page.lesson
 
 
-def test_the_pages_know_their_exercises(pages):
-    assert [(one.number, one.title) for one in pages] == [("03", "Write"), ("04", "Listen")]
-    assert [(one.exercise, one.id) for one in pages[0].wanted] == [("03a", "03a-cell")]
-    assert pages[0].wanted[0].blank == BLANK
-
-
-def test_what_a_page_is_counts_more_than_its_name(pages):
-    assert page_of(PAGE_04, "03_write.ipynb", pages) == "04_listen"
-    assert page_of(PAGE_04, "homework.ipynb", pages) == "04_listen"
+WITHOUT_METADATA = json.dumps(
+    {"cells": [one | {"metadata": {}} for one in json.loads(PAGE_04)["cells"]]}
+)
 
 
 @pytest.mark.parametrize(
-    ("text", "file"),
+    ("text", "file", "wanted"),
     [
-        (notebook(cell("x", id="04a-import")), "a"),
-        (notebook(cell("x"), lesson="04_listen"), "a"),
-        (notebook(cell("# Listen", "markdown")), "a"),
-        (notebook(cell("x")), "my_04_listen (2).ipynb"),
+        (PAGE_04, "03_write.ipynb", "04_listen"),  # what it is counts more than its name
+        (WITHOUT_METADATA, "x", "04_listen"),
+        (notebook(cell("x", id="04a-import")), "a", "04_listen"),
+        (notebook(cell("x"), lesson="04_listen"), "a", "04_listen"),
+        (notebook(cell("# Listen", "markdown")), "a", "04_listen"),
+        (notebook(cell("x")), "my_04_listen (2).ipynb", "04_listen"),
+        (notebook(cell("import pandas")), "03_other.ipynb", None),
     ],
+    ids=range(7),
 )
-def test_little_is_enough(text, file, pages):
-    assert page_of(text, file, pages) == "04_listen"
-
-
-def test_a_notebook_of_another_course_is_none(pages):
-    assert page_of(notebook(cell("import pandas")), "03_other.ipynb", pages) is None
-
-
-def test_metadata_that_is_removed_does_not_matter(pages):
-    whole = json.loads(PAGE_04)
-    for one in whole["cells"]:
-        one["metadata"] = {}
-    assert page_of(json.dumps(whole), "x", pages) == "04_listen"
+def test_little_is_enough_to_tell_which_page_a_file_is(text, file, wanted, pages):
+    assert page_of(text, file, pages) == wanted
 
 
 def test_a_folder_without_pages_is_refused(tmp_path, says):
@@ -710,28 +617,18 @@ def test_a_folder_without_pages_is_refused(tmp_path, says):
     says(caught.value, "no pages", "folder of the course")
 
 
-# Names of strangers' files, made safe to print.
-
-
 @pytest.mark.parametrize(
-    ("name", "shown"),
+    ("name", "most", "shown"),
     [
-        ("Ana Müller 03.ipynb", "Ana Müller 03.ipynb"),
-        ("a\x1b[31mred", "a\\u001b[31mred"),
-        ("a\nb\r\tc", "a\\u000ab\\u000d\\u0009c"),
-        ("abc\u202egnp.exe", "abc\\u202egnp.exe"),
-        ("zero\u200bwidth", "zero\\u200bwidth"),
-        ("lone\ud800", "lone\\ud800"),
-        ("日本語", "日本語"),
+        ("Ana Müller 日本語.ipynb", 120, "Ana Müller 日本語.ipynb"),
+        ("a\x1b[31mred", 120, "a\\u001b[31mred"),
+        ("a\nb\r\tc", 120, "a\\u000ab\\u000d\\u0009c"),
+        ("abc\u202egnp\u200b.exe", 120, "abc\\u202egnp\\u200b.exe"),
+        ("lone\ud800", 120, "lone\\ud800"),
+        ("x" * 121, 120, "x" * 117 + "..."),
+        ("x" * 120, 120, "x" * 120),
+        ("\x1b" * 10_000, 12, "\\u001b\\u0..."),
     ],
 )
-def test_no_character_of_a_name_changes_the_terminal(name, shown):
-    assert printable(name) == shown
-
-
-def test_a_long_name_is_cut():
-    assert len(printable("x" * 10_000)) == 120
-    assert printable("x" * 121) == "x" * 117 + "..."
-    assert printable("x" * 120) == "x" * 120
-    assert printable("\x1b" * 10_000, 12) == "\\u001b\\u0..."
-    assert printable("x" * 10_000, 10_000) == "x" * 10_000
+def test_no_character_of_a_name_changes_the_terminal(name, most, shown):
+    assert printable(name, most) == shown
