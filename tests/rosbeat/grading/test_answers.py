@@ -477,7 +477,7 @@ def test_ordinary_programs_are_not_remarked(answer):
         ("def f():\n    import ctypes", "line 2 imports ctypes"),
         ("import gc", "line 1 imports gc"),
         ("from rosbeat.exercises import page_03", "imports rosbeat.exercises"),
-        ("from rosbeat.clinic.ward import Ward", "imports rosbeat.clinic.ward"),
+        ("from rosbeat.clinic.patients import Ward", "imports rosbeat.clinic.patients"),
         ("import sys\nsys._getframe()", "line 2 uses _getframe"),
         ("f.__globals__", "uses __globals__"),
         ("getattr(x, '__globals__')", "uses __globals__"),
