@@ -166,14 +166,14 @@ def test_a_patient_is_the_same_each_time():
 
 @pytest.mark.ros
 def test_a_patient_runs_on_in_an_ordinary_session_that_opens_once():
-    patient = Ward(7).patient(8)
+    patient = Ward(7).patient(2)
     assert "ros" not in vars(patient)
     with patient.ros as ros:
         assert patient.ros is ros
         assert ros.time == 60.0
-        before = len(ros.messages("pool_temperature"))
+        before = len(ros.messages("cellar_temperature"))
         ros.run(seconds=10, quiet=True)
-        assert len(ros.messages("pool_temperature")) == before + 10
+        assert len(ros.messages("cellar_temperature")) == before + 10
 
 
 @pytest.mark.ros
