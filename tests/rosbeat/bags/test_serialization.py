@@ -5,7 +5,7 @@ import os
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import HealthCheck, Phase, example, given, settings
 from rclpy.serialization import deserialize_message, serialize_message
 from rosbags.interfaces import Connection, MessageDefinition, MessageDefinitionFormat
 from rosbags.typesys import TypesysError
@@ -40,6 +40,8 @@ def text(data):
     suppress_health_check=list(HealthCheck),
 )
 @given(ANY)
+@example(("std_msgs/msg/Byte", {"data": [200]}))
+@example(("std_msgs/msg/Char", {"data": 200}))
 def test_rclpy_reads_what_is_written_and_the_other_way_around(case):
     name, data = case
     message = deserialize_message(to_bytes(STORE, name, data), message_class(name))
