@@ -136,13 +136,13 @@ def drift(
         BagError: If `rate` is not a finite number, or `at` is not a number from 0 up.
     """
     _check("drift", "rate", rate, low=-inf)
-    begin, _ = _window("drift", at, None)
+    begin = _ns("drift", "at", at)
 
     def change(samples: Sequence[Sample]) -> Iterator[Sample]:
         for one in samples:
             yield _added(one, field, rate * max(0, one.time_ns - begin) / NANOSECONDS)
 
-    return _fault(f"drift of {rate:g} a second {_when(at, None)}", topic, change)
+    return _fault(f"drift of {rate:g} a second from {at:g} s on", topic, change)
 
 
 @called_as("bags.dropouts(share=0.2)")

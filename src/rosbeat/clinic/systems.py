@@ -170,10 +170,13 @@ _PLACES = {
     "seed bank": ("vault", 2.0, 4.0, 7.0, 10.0),
 }
 PLACES = tuple(_PLACES)
-_SENSORS = ("sensor", "probe", "thermometer")
-_MONITORS = ("monitor", "guard", "watch")
-_DISPLAYS = ("lamp", "display", "panel")
-_LOGGERS = ("diary", "logger", "notebook")
+#: What the nodes may be called, after the place's own word.
+_NAMES = (
+    ("sensor", "probe", "thermometer"),
+    ("monitor", "guard", "watch"),
+    ("lamp", "display", "panel"),
+    ("diary", "logger", "notebook"),
+)
 
 
 def healthy(rng: Random, place: str, burst: int = 1) -> System:
@@ -187,19 +190,17 @@ def healthy(rng: Random, place: str, burst: int = 1) -> System:
     prefix, least, low, high, most = _PLACES[place]
     topic, status = f"{prefix}_temperature", f"{prefix}_status"
     phase = rng.randrange(20)
-    sensor = NodeSpec(
-        SENSOR, f"{prefix}_{rng.choice(_SENSORS)}", publishes=topic, least=least, most=most
-    )
-    others = (
-        NodeSpec(MONITOR, f"{prefix}_{rng.choice(_MONITORS)}", topic, status),
-        NodeSpec(DISPLAY, f"{prefix}_{rng.choice(_DISPLAYS)}", status),
-        NodeSpec(LOGGER, f"{prefix}_{rng.choice(_LOGGERS)}", topic),
-    )
+    sensor, monitor, display, logger = (f"{prefix}_{rng.choice(names)}" for names in _NAMES)
     # Sixty readings, so that every reading between the limits comes, up and down.
     period = float(burst) if burst > 1 else rng.choice((0.5, 1.0))
+    nodes = (
+        NodeSpec(SENSOR, sensor, "", topic, least=least, most=most, period=period, phase=phase),
+        NodeSpec(MONITOR, monitor, topic, status),
+        NodeSpec(DISPLAY, display, status),
+        NodeSpec(LOGGER, logger, topic),
+    )
     spec = Specification(f"/{topic}", low, high, least, most, period, burst)
-    sensor = replace(sensor, period=period, phase=phase)
-    return _as_ordered(System(f"the {place}", spec, (sensor, *others)))
+    return _as_ordered(System(f"the {place}", spec, nodes))
 
 
 def in_bursts(rng: Random, place: str) -> System:
@@ -211,15 +212,8 @@ def with_humidity(rng: Random, place: str) -> System:
     """Draw a healthy system with a second sensor, which measures the humidity of the air."""
     system = healthy(rng, place)
     prefix = _PLACES[place][0]
-    hygrometer = NodeSpec(
-        *(SENSOR, f"{prefix}_hygrometer"),
-        publishes=f"{prefix}_humidity",
-        least=40.0,
-        most=70.0,
-        step=1.0,
-        period=2.0,
-        phase=9,
-    )
+    hygrometer = NodeSpec(SENSOR, f"{prefix}_hygrometer", publishes=f"{prefix}_humidity")
+    hygrometer = replace(hygrometer, least=40.0, most=70.0, step=1.0, period=2.0, phase=9)
     return _as_ordered(system.with_node(hygrometer))
 
 
