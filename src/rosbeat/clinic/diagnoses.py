@@ -208,11 +208,11 @@ def _paced(chart: Chart, one: Published) -> str:
 # Published values.
 
 
-def _values(describe: Callable[[float, float, float], str]) -> _Contradiction:
-    """The readings beside the order.
+def _values(least_over: float = 0, most_over: float = 0, note: str = "") -> _Contradiction:
+    """The readings beside the order, with a note if that alone does not speak against the fault.
 
-    `describe` adds what the order alone does not say: it is given how far the readings go over the
-    limits at most, how many degrees the limits span, and how many the readings.
+    The note is for readings that go over the limits by more than `least_over`, and by `most_over`
+    at most.
     """
 
     def contradict(chart: Chart, place: str) -> str:
@@ -221,48 +221,26 @@ def _values(describe: Callable[[float, float, float], str]) -> _Contradiction:
             if one.topic == spec.topic and one.values:
                 least, most = float(one.values[0]), float(one.values[-1])
                 over = max(spec.least - least, most - spec.most)
-                said.append(
+                text = (
                     f"{one.node} published numbers from {least:.5g} to {most:.5g} on {one.topic}, "
                     f"while the orders say {spec.least:g} to {spec.most:g}"
-                    f"{describe(over, spec.most - spec.least, most - least)}"
                 )
+                if least_over < over <= most_over:
+                    text += "; " + note.format(over=over)
+                elif note and over > _FAR:
+                    text += "; " + _far_outside(spec.most - spec.least, most - least)
+                said.append(text)
         return listing(said) or "no reading in degrees comes from that place"
 
     return contradict
 
 
-def _no_note(over: float, ordered: float, span: float) -> str:
-    return ""
-
-
-def _same_unit(over: float, ordered: float, span: float) -> str:
-    if not 0 < over <= _FAR:
-        return ""
-    return f"; they are at most {over:g} outside, but in another unit all of them would be"
-
-
-def _clamped(over: float, ordered: float, span: float) -> str:
-    if 0 < over <= STEP:
-        return f"; they are at most {over:g} outside, but unclamped readings would go farther"
-    return _far_outside(over, ordered, span)
-
-
-def _clamped_last(over: float, ordered: float, span: float) -> str:
-    if STEP < over <= _FAR:
-        return f"; they are {over:g} outside, but a clamp before the step allows one step at most"
-    return _far_outside(over, ordered, span)
-
-
-def _far_outside(over: float, ordered: float, span: float) -> str:
+def _far_outside(ordered: float, span: float) -> str:
     """Readings far beyond the limits are none that went over them a little."""
-    if over <= _FAR:
-        return ""
     # Kelvin moves all readings alike; Fahrenheit spreads them, too.
     if abs(span - ordered) < _SAME:
-        return f"; they span {ordered:g} degrees, as ordered"
-    return (
-        f"; they are more than {_FAR:g} degrees outside, as no Celsius reading of this room can be"
-    )
+        return f"they span {ordered:g} degrees, as ordered"
+    return f"they are more than {_FAR:g} degrees outside, as no Celsius reading of this room can be"
 
 
 def _boundary(chart: Chart, place: str) -> str:
@@ -293,10 +271,19 @@ _CONTRADICTIONS: dict[str, _Contradiction] = {
     "run-twice": _twice,
     "two-sources": _sources,
     "wrong-rate": _rate,
-    "wrong-unit": _values(_same_unit),
-    "never-changes": _values(_no_note),
-    "no-clamp": _values(_clamped),
-    "clamped-too-early": _values(_clamped_last),
+    "wrong-unit": _values(
+        *(0, _FAR),
+        "they are at most {over:g} outside, but in another unit all of them would be",
+    ),
+    "never-changes": _values(),
+    "no-clamp": _values(
+        *(0, STEP),
+        "they are at most {over:g} outside, but unclamped readings would go farther",
+    ),
+    "clamped-too-early": _values(
+        *(STEP, _FAR),
+        "they are {over:g} outside, but a clamp before the step allows one step at most",
+    ),
     "boundary": _boundary,
 }
 KNOWN = tuple(_CONTRADICTIONS)
