@@ -59,7 +59,7 @@ def values(ros):
 def test_news_are_told_once_and_counted_whole(instruments, live, eventually):
     live.add(partial(Talker, period=0.01, burst=5))
     live.add(Speaker)
-    counted = lambda: sum(one.count for one in instruments.news().arrivals)  # noqa: E731
+    counted = lambda: sum(count for count, _ in instruments.news().arrivals)  # noqa: E731
     total = 0
     while total < 50:
         total += counted()
@@ -68,6 +68,17 @@ def test_news_are_told_once_and_counted_whole(instruments, live, eventually):
     total += counted()
     assert total == len(live.messages("count"))
     assert instruments.news().arrivals == ()
+
+
+def test_the_newest_message_of_each_publisher(instruments, live, eventually):
+    live.add(partial(Talker, "one", period=0.01))
+    live.add(partial(Talker, "two", period=0.01))
+    eventually(lambda: len(live.messages("count")) > 10)
+    live.stop()
+    newest = {one.node: one for _, one in instruments.news().arrivals}
+    assert set(newest) == {"/one", "/two"}
+    for node, sample in newest.items():
+        assert sample == [one for one in live.messages("count") if one.node == node][-1]
 
 
 def test_exceptions_and_log_lines(instruments, live, eventually, capsys):

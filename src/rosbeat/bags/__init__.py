@@ -1,12 +1,13 @@
 """Record what a session published as rosbag2 bags; read, replay and break recordings.
 
-- `record` writes a bag, as MCAP or as SQLite, that other ROS 2 tools can open too;
-- `Bag` reads a bag from any source;
-- `replay` turns a bag into a node that publishes everything again, in virtual time;
+- `record` writes a bag, as MCAP or as SQLite, that other ROS 2 tools can open too (`recording`);
+- `Bag` reads a bag from any source (`bag`);
+- `replay` turns a bag into a node that publishes everything again, in virtual time (`replaying`);
 - `compare` lists the differences between two runs;
 - `stuck`, `drift`, `dropouts`, `with_nan`, `spikes` and `delayed` are faults, applied with `inject`
-  or on replay.
+  or on replay (`faults`).
 
+`serialization` converts messages to bytes and back; `inputs` reads what these functions are given.
 Names load when they are first used (PEP 562): only `replay` needs ROS.
 """
 
@@ -20,40 +21,23 @@ if TYPE_CHECKING:
     from rosbeat.bags.faults import delayed as delayed
     from rosbeat.bags.faults import drift as drift
     from rosbeat.bags.faults import dropouts as dropouts
+    from rosbeat.bags.faults import inject as inject
     from rosbeat.bags.faults import spikes as spikes
     from rosbeat.bags.faults import stuck as stuck
     from rosbeat.bags.faults import with_nan as with_nan
-    from rosbeat.bags.injecting import inject as inject
+    from rosbeat.bags.recording import record as record
     from rosbeat.bags.replaying import replay as replay
-    from rosbeat.bags.writing import record as record
     from rosbeat.comparisons import compare as compare
 
+_FAULTS = ("delayed", "drift", "dropouts", "inject", "spikes", "stuck", "with_nan")
 _HOMES = {
     "Bag": "rosbeat.bags.bag",
     "compare": "rosbeat.comparisons",
-    "delayed": "rosbeat.bags.faults",
-    "drift": "rosbeat.bags.faults",
-    "dropouts": "rosbeat.bags.faults",
-    "inject": "rosbeat.bags.injecting",
-    "record": "rosbeat.bags.writing",
+    "record": "rosbeat.bags.recording",
     "replay": "rosbeat.bags.replaying",
-    "spikes": "rosbeat.bags.faults",
-    "stuck": "rosbeat.bags.faults",
-    "with_nan": "rosbeat.bags.faults",
+    **dict.fromkeys(_FAULTS, "rosbeat.bags.faults"),
 }
-__all__ = [
-    "Bag",
-    "compare",
-    "delayed",
-    "drift",
-    "dropouts",
-    "inject",
-    "record",
-    "replay",
-    "spikes",
-    "stuck",
-    "with_nan",
-]
+__all__ = sorted(_HOMES)
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - the type depends on the name

@@ -1,4 +1,4 @@
-"""Define faults of sensors and connections that can be injected into a recording.
+"""Define faults of sensors and connections, and inject them into a recording.
 
 Each function returns a fault, which maps messages to messages with that fault. Times are in seconds
 of the recording. Random choices come from `seed`, and are the same on every run.
@@ -6,19 +6,92 @@ of the recording. Random choices come from `seed`, and are the same on every run
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
-from math import inf, isfinite, nan
+from collections import defaultdict, deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import deepcopy
+from dataclasses import dataclass, replace
+from math import inf, isfinite, isnan, nan
 from random import Random
+from typing import Any
 
-from rosbeat.bags import refusals
-from rosbeat.bags.injecting import InjectedFault, fault
-from rosbeat.bags.numbers import changed
-from rosbeat.errors import called_as
+from rosbeat.bags.inputs import Run, full_name, known_topic, observation_of
+from rosbeat.errors import BagError, called_as
 from rosbeat.records import NANOSECONDS, Sample
 
+#: What a fault does to the messages of one topic. Messages that are not there were lost; those in
+#: between may come at other times.
+Change = Callable[[Sequence[Sample]], Iterable[Sample]]
 #: From when (included) to when (not included), in seconds.
 Span = tuple[float, float]
+
+
+@dataclass(frozen=True, repr=False)
+class InjectedFault:
+    """Represent a fault of a sensor or of its connection, as a function from messages to messages.
+
+    The function is pure: the same messages always give the same result.
+
+    Attributes:
+        words: Short description, such as `stuck from 20 s on`.
+        topic: Full name of the only affected topic; empty for all topics.
+        change: The function that is applied to the messages of one topic.
+    """
+
+    words: str
+    topic: str
+    change: Change
+
+    def __repr__(self) -> str:
+        return f"{self.topic}: {self.words}" if self.topic else self.words
+
+    def __call__(self, samples: Sequence[Sample]) -> tuple[Sample, ...]:
+        """Inject the fault into messages, topic by topic, and keep them in order of time."""
+        groups: dict[str, list[Sample]] = defaultdict(list)
+        #: Where messages stood, so that those of one time stay in order.
+        places: dict[tuple[str, int], deque[int]] = defaultdict(deque)
+        for number, one in enumerate(samples):
+            groups[one.topic].append(one)
+            places[one.topic, one.time_ns].append(number)
+        if self.topic and groups:
+            known_topic(self.topic, groups)
+        keyed = []
+        for topic, group in groups.items():
+            for one in self.change(group) if self.topic in ("", topic) else group:
+                before = places[topic, one.time_ns]
+                keyed.append((one.time_ns, before.popleft() if before else len(samples), one))
+        return tuple(one for *_, one in sorted(keyed, key=lambda key: key[:2]))
+
+
+@called_as("bags.inject(bag, bags.stuck(at=20))")
+def inject(source: Run | Iterable[Sample], *faults: Change) -> tuple[Sample, ...]:
+    """Break a recording on purpose: the messages with some faults, one after the other.
+
+    Args:
+        source: A bag, a session, what it observed, or messages.
+        faults: Faults, such as `stuck(at=20)`, or any function from messages to messages.
+
+    Returns:
+        New messages; those in `source` stay as they are.
+
+    Raises:
+        BagError: If a fault cannot be injected into these messages.
+    """
+    if isinstance(source, (list, tuple)):
+        samples: tuple[Sample, ...] = tuple(source)
+    else:
+        samples = observation_of(source).samples
+    for one in faults:
+        if not callable(one):
+            raise BagError(
+                f"{one!r} is not a fault.",
+                "A fault is a function that takes messages and returns messages.",
+                "For example, write `faults=[stuck(at=20), dropouts(share=0.1)]`.",
+            )
+        samples = tuple(one(samples))
+    return samples
+
+
+# Faults.
 
 
 @called_as("bags.stuck(at=20)")
@@ -44,7 +117,7 @@ def stuck(
                 last = one
             yield replace(one, data=last.data)
 
-    return fault(f"stuck {_words(at, seconds)}", topic, lambda samples: list(change(samples)))
+    return _fault(f"stuck {_when(at, seconds)}", topic, change)
 
 
 @called_as("bags.drift(rate=0.1)")
@@ -62,17 +135,14 @@ def drift(
     Raises:
         BagError: If `rate` is not a finite number, or `at` is not a number from 0 up.
     """
-    _check("drift", "rate", rate, low=None)
-    begin, _ = _window("drift", at, None)
+    _check("drift", "rate", rate, low=-inf)
+    begin = _ns("drift", "at", at)
 
-    def off(one: Sample) -> float:
-        return rate * max(0, one.time_ns - begin) / NANOSECONDS
+    def change(samples: Sequence[Sample]) -> Iterator[Sample]:
+        for one in samples:
+            yield _added(one, field, rate * max(0, one.time_ns - begin) / NANOSECONDS)
 
-    return fault(
-        f"drift of {rate:g} a second {_words(at, None)}",
-        topic,
-        lambda samples: [changed(one, field, lambda x, one=one: x + off(one)) for one in samples],  # type: ignore[misc]  # mypy sees no type for `one=one`
-    )
+    return _fault(f"drift of {rate:g} a second from {at:g} s on", topic, change)
 
 
 @called_as("bags.dropouts(share=0.2)")
@@ -95,16 +165,18 @@ def dropouts(
         BagError: If `share` is not from 0 to 1, or a span is not a pair of ascending times.
     """
     _check("dropouts", "share", share, high=1)
-    gaps = [_gap(span) for span in _pairs(spans)]
+    gaps = [_gap(span) for span in (spans if isinstance(spans, Iterable) else [spans])]
 
-    def change(samples: Sequence[Sample]) -> list[Sample]:
+    def change(samples: Sequence[Sample]) -> Iterator[Sample]:
         dice = _dice(seed, samples)
-        kept = [one for one in samples if dice.random() >= share]
-        return [one for one in kept if not any(a <= one.time_ns < b for a, b in gaps)]
+        for one in samples:
+            lost = dice.random() < share
+            if not lost and not any(begin <= one.time_ns < end for begin, end in gaps):
+                yield one
 
     words = [f"{share:.0%} of the messages lost"] if share or not gaps else []
     words += [f"no messages from {a / NANOSECONDS:g} s to {b / NANOSECONDS:g} s" for a, b in gaps]
-    return fault(", ".join(words), topic, change)
+    return _fault(", ".join(words), topic, change)
 
 
 @called_as("bags.with_nan(at=20)")
@@ -127,19 +199,19 @@ def with_nan(
     Raises:
         BagError: If a time is not a number from 0 up.
     """
-    begin, end = _window("with_nan", at, seconds)
+    is_once = seconds == 0
+    begin, end = _window("with_nan", at, None if is_once else seconds)
 
-    def change(samples: Sequence[Sample]) -> list[Sample]:
-        first = next((k for k, one in enumerate(samples) if one.time_ns >= begin), None)
-        return [
-            changed(one, field, lambda _: nan)
-            if begin <= one.time_ns < end or (not seconds and seconds is not None and k == first)
-            else one
-            for k, one in enumerate(samples)
-        ]
+    def change(samples: Sequence[Sample]) -> Iterator[Sample]:
+        count = 0
+        for one in samples:
+            affected = begin <= one.time_ns < end and not (is_once and count)
+            count += affected
+            yield _added(one, field, nan) if affected else one
 
-    words = f"NaN once at {at:g} s" if seconds == 0 else f"NaN {_words(at, seconds)}"
-    return fault(words, topic, change)
+    return _fault(
+        f"NaN once at {at:g} s" if is_once else f"NaN {_when(at, seconds)}", topic, change
+    )
 
 
 @called_as("bags.spikes(share=0.1, size=5)")
@@ -164,19 +236,15 @@ def spikes(
         BagError: If `share` is not from 0 to 1, or `size` is not a finite number.
     """
     _check("spikes", "share", share, high=1)
-    _check("spikes", "size", size, low=None)
+    _check("spikes", "size", size, low=-inf)
 
     def change(samples: Sequence[Sample]) -> Iterator[Sample]:
         dice = _dice(seed, samples)
         for one in samples:
-            hit, off = dice.random() < share, dice.choice((-size, size))
-            yield changed(one, field, lambda x, off=off: x + off) if hit else one  # type: ignore[misc]  # nor for `off=off`
+            affected, error = dice.random() < share, dice.choice((-size, size))
+            yield _added(one, field, error) if affected else one
 
-    return fault(
-        f"spikes of {size:g} in {share:.0%} of the messages",
-        topic,
-        lambda samples: list(change(samples)),
-    )
+    return _fault(f"spikes of {size:g} in {share:.0%} of the messages", topic, change)
 
 
 @called_as("bags.delayed(seconds=0.5)")
@@ -196,7 +264,7 @@ def delayed(
     Raises:
         BagError: If a time is not a number from 0 up.
     """
-    later, more = (_ns("delayed", *one) for one in (("seconds", seconds), ("jitter", jitter)))
+    later, more = _ns("delayed", "seconds", seconds), _ns("delayed", "jitter", jitter)
 
     def change(samples: Sequence[Sample]) -> list[Sample]:
         dice = _dice(seed, samples)
@@ -206,10 +274,14 @@ def delayed(
         return sorted(moved, key=lambda one: one.time_ns)
 
     words = f"delayed by {seconds:g} s" + (f" and up to {jitter:g} s more" if jitter else "")
-    return fault(words, topic, change)
+    return _fault(words, topic, change)
 
 
 # How it works.
+
+
+def _fault(words: str, topic: str | None, change: Change) -> InjectedFault:
+    return InjectedFault(words, full_name(topic) if topic is not None else "", change)
 
 
 def _dice(seed: int, samples: Sequence[Sample]) -> Random:
@@ -218,13 +290,13 @@ def _dice(seed: int, samples: Sequence[Sample]) -> Random:
     return Random(f"{seed}:{topic}")
 
 
+def _when(at: float, seconds: float | None) -> str:
+    return f"from {at:g} s on" if seconds is None else f"at {at:g} s for {seconds:g} s"
+
+
 def _window(call: str, at: float, seconds: float | None) -> tuple[int, float]:
     begin = _ns(call, "at", at)
     return begin, inf if seconds is None else begin + _ns(call, "seconds", seconds)
-
-
-def _pairs(spans: object) -> Iterable[object]:
-    return spans if isinstance(spans, Iterable) else [spans]
 
 
 def _gap(span: object) -> tuple[int, int]:
@@ -232,7 +304,7 @@ def _gap(span: object) -> tuple[int, int]:
         begin, end = (_ns("dropouts", "spans", one) for one in span)
         if begin < end:
             return begin, end
-    raise refusals.bad_argument("dropouts", f"spans with {span!r}", "pairs of ascending times")
+    raise _bad_argument("dropouts", f"spans with {span!r}", "pairs of ascending times")
 
 
 def _ns(call: str, name: str, seconds: float) -> int:
@@ -240,17 +312,63 @@ def _ns(call: str, name: str, seconds: float) -> int:
     return round(seconds * NANOSECONDS)
 
 
-def _check(
-    call: str, name: str, value: object, low: float | None = 0, high: float | None = None
-) -> None:
-    least, most = -inf if low is None else low, inf if high is None else high
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if number and isfinite(value) and least <= value <= most:  # type: ignore[arg-type, operator]  # `number` says that it is one
+def _check(call: str, name: str, value: float, low: float = 0, high: float = inf) -> None:
+    """Refuse what is no finite number within these limits."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if is_number and isfinite(value) and low <= value <= high:
         return
-    reach = f"a number from 0 to {high:g}" if high is not None else "a number of 0 or more"
-    wanted = "a finite number" if low is None else reach
-    raise refusals.bad_argument(call, f"{name}={value!r}", f"{wanted} for `{name}`")
+    limited = f"a number from 0 to {high:g}" if high < inf else "a number of 0 or more"
+    wanted = "a finite number" if low == -inf else limited
+    raise _bad_argument(call, f"{name}={value!r}", f"{wanted} for `{name}`")
 
 
-def _words(at: float, seconds: float | None) -> str:
-    return f"from {at:g} s on" if seconds is None else f"at {at:g} s for {seconds:g} s"
+def _bad_argument(call: str, what: str, wanted: str) -> BagError:
+    return BagError(
+        f"{call} was given {what}.",
+        f"The function takes {wanted}.",
+        "For example, write `stuck(at=20, seconds=5)`, `drift(rate=0.1)` or `dropouts(share=0.2)`.",
+    )
+
+
+def _added(sample: Sample, field: str | None, amount: float) -> Sample:
+    """A copy of a message with something added to one number; an integer stays an integer.
+
+    `field` names the number, nested fields with dots; None if there is only one.
+    """
+    known = list(_number_fields(sample.data))
+    if field not in known and (field is not None or len(known) != 1):
+        names = ", ".join(map(repr, known))
+        where = f"the field {field!r}" if field else "one number"
+        raise BagError(
+            f"A message on {sample.topic} does not have {where} to change.",
+            f"The fields of this {sample.type_name} that hold numbers are {names}."
+            if names
+            else f"This {sample.type_name} has no field that holds a number.",
+            "Choose a field with `field=...`, or another topic with `topic=...`.",
+        )
+    *parents, name = (field or known[0]).split(".")
+    data = deepcopy(sample.data)
+    inner = data
+    for parent in parents:
+        inner = inner[parent]
+    if isinstance(inner[name], int):
+        if isnan(amount):
+            raise BagError(
+                f"Messages on {sample.topic} hold whole numbers, and NaN is not a whole number.",
+                "NaN ('not a number') is a value of floating-point types only, and this "
+                f"{sample.type_name} has no floating-point field.",
+                "Choose a topic with floating-point numbers, or another fault.",
+            )
+        inner[name] = round(inner[name] + amount)
+    else:
+        inner[name] += amount
+    return replace(sample, data=data)
+
+
+def _number_fields(data: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
+    """Dotted names of all numbers in a message, those in arrays left out."""
+    for name, value in data.items():
+        if isinstance(value, Mapping):
+            yield from _number_fields(value, f"{prefix}{name}.")
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
+            yield prefix + name

@@ -6,13 +6,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from math import isfinite
 
-from rosbeat.bags import refusals
-from rosbeat.bags.injecting import Change, inject
-from rosbeat.bags.reading import UNKNOWN
-from rosbeat.bags.sources import Run, chosen, full_name, observed, types_of
-from rosbeat.bags.types import installed_types
-from rosbeat.bags.writing import wires
-from rosbeat.errors import called_as
+from rosbeat.bags.bag import UNKNOWN
+from rosbeat.bags.faults import Change, inject
+from rosbeat.bags.inputs import Run, full_name, known_topic, observation_of, topic_types
+from rosbeat.bags.serialization import installed_types, serialized
+from rosbeat.errors import BagError, called_as
 from rosbeat.records import Observation, QoS, Sample
 from rosbeat.ros.playback import NodeFactory, PlayedStep, PlayedTopic, player
 
@@ -58,22 +56,19 @@ def replay(
             `speed` is not a number above 0, or a fault cannot be injected.
     """
     if not isinstance(speed, (int, float)) or not isfinite(speed) or speed <= 0:
-        raise refusals.no_number(speed)
-    seen = observed(source)
-    types, names = types_of(seen, topics), _renamed(seen, remap)
-    samples = sorted(inject(chosen(seen, types), *faults), key=lambda one: one.time_ns)
-    made = wires(installed_types(types.values()), samples)
+        raise BagError(
+            f"speed={speed!r} cannot be used.",
+            "The speed is a number above 0: 2 replays twice as fast, 0.5 half as fast.",
+            "Leave the speed out to replay at the original speed.",
+        )
+    seen = observation_of(source)
+    types, known = topic_types(seen, topics), topic_types(seen)
+    names = {known_topic(old, known): full_name(new) for old, new in (remap or {}).items()}
+    chosen = [one for one in seen.samples if one.topic in types]
+    samples = sorted(inject(chosen, *faults), key=lambda one: one.time_ns)
+    data = serialized(installed_types(types.values()), samples)
     played = [PlayedTopic(names.get(one, one), types[one], _offer(seen, one)) for one in types]
-    return player(name, played, _steps(samples, made, list(types), speed))
-
-
-def _renamed(seen: Observation, remap: Mapping[str, str] | None) -> dict[str, str]:
-    known = types_of(seen)
-    names = {full_name(old): full_name(new) for old, new in (remap or {}).items()}
-    for old in names:
-        if old not in known:
-            raise refusals.unknown_topic(old, known)
-    return names
+    return player(name, played, _steps(samples, data, list(types), speed))
 
 
 def _offer(seen: Observation, topic: str) -> QoS:
@@ -81,17 +76,17 @@ def _offer(seen: Observation, topic: str) -> QoS:
 
 
 def _steps(
-    samples: Sequence[Sample], made: Sequence[bytes], topics: Sequence[str], speed: float
+    samples: Sequence[Sample], data: Sequence[bytes], topics: Sequence[str], speed: float
 ) -> list[PlayedStep]:
     """What is published together: what one known node has published at one instant."""
-    places = {topic: number for number, topic in enumerate(topics)}
 
-    def step_of(item: tuple[int, tuple[Sample, bytes]]) -> tuple[int, str]:
-        number, (sample, _) = item
-        return sample.time_ns, f"?{number}" if sample.node == UNKNOWN else sample.node
+    def instant(number: int) -> tuple[int, object]:
+        one = samples[number]
+        return one.time_ns, number if one.node == UNKNOWN else one.node
 
-    pairs = enumerate(zip(samples, made, strict=True))
     return [
-        PlayedStep(round(at / speed), tuple((places[one.topic], wire) for _, (one, wire) in group))
-        for (at, _), group in groupby(pairs, step_of)
+        PlayedStep(
+            round(at / speed), tuple((topics.index(samples[k].topic), data[k]) for k in group)
+        )
+        for (at, _), group in groupby(range(len(samples)), instant)
     ]

@@ -1,81 +1,49 @@
-"""Summarize a patient's observation as a chart: plain data, small enough to be stored and judged.
+"""Summarize what the instruments show of a patient, to judge diagnoses: plain data.
 
-A chart holds what the diagnostic questions need: which nodes exist, which are connected, what was
-published, what was received, which nodes have ended. It says nothing about right or wrong.
+A chart says nothing about right or wrong, apart from the correct diagnoses that it holds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rosbeat.clinic.plans import FLOAT, STRING, Orders, Truth
+from rosbeat.clinic.faults import BrokenSystem, Truth
+from rosbeat.clinic.systems import Specification
 from rosbeat.diagnosis.qos import incompatible
-from rosbeat.records import (
-    INFRASTRUCTURE_TOPICS,
-    NANOSECONDS,
-    Endpoint,
-    Fault,
-    Observation,
-    Sample,
-)
+from rosbeat.records import INFRASTRUCTURE_TOPICS, NANOSECONDS, Endpoint, Observation
 
 
 @dataclass(frozen=True)
-class Member:
-    """Describe a node of a patient.
-
-    Attributes:
-        node: Full name of the node.
-        started: When the node logged that it had started, in seconds.
-        callbacks: How often callbacks of its timers and subscriptions ran.
-        ticks: How often its timers fired.
-        due: How often its timers should have fired.
-        spun: Whether an executor runs its callbacks.
-    """
-
-    node: str
-    started: float
-    callbacks: int
-    ticks: int
-    due: int
-    spun: bool = True
-
-
-@dataclass(frozen=True)
-class Talk:
+class Published:
     """Summarize what one node published on one topic.
 
     Attributes:
         node: Full name of the node.
         topic: Full name of the topic.
         count: Number of messages.
-        first: Time of the first message, in seconds; -1 if there was none.
         last: Time of the last message, in seconds; -1 if there was none.
-        gap: Median time between two moments at which it publishes, in seconds; 0 if unknown.
-        values: Distinct published numbers, sorted; empty if the messages are no numbers.
-        texts: Distinct published strings, sorted; empty if the messages are no strings.
+        period: Median time between two moments at which it publishes, in seconds; 0 if unknown.
+        values: Distinct published values, sorted.
     """
 
     node: str
     topic: str
     count: int
-    first: float = -1.0
     last: float = -1.0
-    gap: float = 0.0
-    values: tuple[float, ...] = ()
-    texts: tuple[str, ...] = ()
+    period: float = 0.0
+    values: tuple[float | str, ...] = ()
 
 
 @dataclass(frozen=True)
-class Hearing:
-    """Summarize what one node received on one topic.
+class Received:
+    """Summarize what one node could receive on one topic.
 
     Attributes:
         node: Full name of the node.
         topic: Full name of the topic.
-        count: How often its callback ran for this topic.
         sent: Number of messages that connected publishers sent while the node was subscribed.
         before: Number of messages that they had sent before.
         last: Time of the last callback, in seconds; -1 if it never ran.
@@ -83,7 +51,6 @@ class Hearing:
 
     node: str
     topic: str
-    count: int
     sent: int
     before: int
     last: float = -1.0
@@ -91,141 +58,102 @@ class Hearing:
 
 @dataclass(frozen=True)
 class Chart:
-    """Hold everything that the instruments show of a patient.
+    """Hold what the instruments show of a patient.
 
     Attributes:
-        number: Number of the patient.
         seconds: How long the system has run.
-        orders: The owner's specification.
-        members: The nodes, in order of creation.
-        ends: The publishers and subscriptions, in order of creation.
-        talks: Summary of the published messages, by publisher.
-        hearings: Summary of the received messages, by subscription.
-        faults: Exceptions that ended a node.
+        spec: The owner's specification.
+        callbacks: How often callbacks of timers and subscriptions ran, by full name of the node.
+        endpoints: The publishers and subscriptions, in order of creation.
+        published: Summary of the published messages, by publisher.
+        received: Summary of the received messages, by subscription.
+        ended: Full names of the nodes that an exception has ended.
         truths: The correct diagnoses.
     """
 
-    number: int
     seconds: float
-    orders: Orders
-    members: tuple[Member, ...] = ()
-    ends: tuple[Endpoint, ...] = ()
-    talks: tuple[Talk, ...] = ()
-    hearings: tuple[Hearing, ...] = ()
-    faults: tuple[Fault, ...] = ()
+    spec: Specification
+    callbacks: dict[str, int]
+    endpoints: tuple[Endpoint, ...]
+    published: tuple[Published, ...]
+    received: tuple[Received, ...]
+    ended: tuple[str, ...] = ()
     truths: tuple[Truth, ...] = ()
 
     @property
     def nodes(self) -> tuple[str, ...]:
         """Return the full names of the nodes."""
-        return tuple(one.node for one in self.members)
+        return tuple(self.callbacks)
 
     @property
     def topics(self) -> tuple[str, ...]:
         """Return the full names of the topics, sorted."""
-        return tuple(sorted({end.name for end in self.ends}))
+        return tuple(sorted({end.name for end in self.endpoints}))
 
-    def hears(self, node: str) -> tuple[Hearing, ...]:
-        """Return what a node has received, by topic."""
-        return tuple(one for one in self.hearings if one.node == node)
-
-    def at(self, place: str) -> tuple[Endpoint, ...]:
+    def at(self, place: str) -> list[Endpoint]:
         """Return the endpoints of a node or on a topic."""
-        return tuple(end for end in self.ends if place in (end.node, end.name))
+        return [end for end in self.endpoints if place in (end.node, end.name)]
+
+    def published_at(self, place: str) -> list[Published]:
+        """Return what a node has published, or what was published on a topic."""
+        return [one for one in self.published if place in (one.node, one.topic)]
+
+    def received_at(self, place: str) -> list[Received]:
+        """Return what a node has received, or what was received on a topic."""
+        return [one for one in self.received if place in (one.node, one.topic)]
 
 
-def chart(
-    observation: Observation,
-    orders: Orders,
-    unspun: Collection[str] = (),
-    number: int = 0,
-    truths: Sequence[Truth] = (),
-) -> Chart:
-    """Write down what the instruments show.
-
-    Args:
-        observation: What the session saw.
-        orders: What the owner ordered.
-        unspun: Nodes whose callbacks nobody runs.
-        number: Number of the patient.
-        truths: What is the matter.
-    """
-    ends = tuple(
+def chart_of(seen: Observation, broken: BrokenSystem) -> Chart:
+    """Summarize what a session observed of a system."""
+    endpoints = tuple(
         end
-        for end in observation.graph.endpoints
+        for end in seen.graph.endpoints
         if end.kind in ("publisher", "subscription") and end.name not in INFRASTRUCTURE_TOPICS
     )
+    ended = tuple(fault.node for fault in seen.faults)
+    ran = Counter(one.node for one in seen.callbacks if one.kind in ("timer", "subscription"))
+    starts = {node.path: node.starts_at for node in broken.system.nodes}
     return Chart(
-        number,
-        observation.time,
-        orders,
-        tuple(_members(observation, unspun)),
-        ends,
-        tuple(_talk(observation, end) for end in ends if end.kind == "publisher"),
-        tuple(_hearing(observation, end, ends) for end in ends if end.kind == "subscription"),
-        observation.faults,
-        tuple(truths),
+        seen.time,
+        broken.system.spec,
+        {node: ran[node] for node in (*seen.graph.nodes, *ended)},
+        endpoints,
+        tuple(_published(seen, end) for end in endpoints if end.kind == "publisher"),
+        tuple(
+            _received(seen, end, endpoints, starts[end.node])
+            for end in endpoints
+            if end.kind == "subscription"
+        ),
+        ended,
+        broken.truths,
     )
 
 
-def _members(seen: Observation, unspun: Collection[str]) -> Iterator[Member]:
-    ended = {fault.node: fault.time_ns for fault in seen.faults}
-    for node in dict.fromkeys((*seen.graph.nodes, *ended)):
-        born = _born(seen, node)
-        alive = ended.get(node, seen.time_ns) - born
-        timers = [one for one in seen.graph.timers if one.node == node]
-        ran = [one for one in seen.callbacks if one.node == node]
-        yield Member(
-            node,
-            born / NANOSECONDS,
-            sum(one.kind in ("timer", "subscription") for one in ran),
-            sum(one.kind == "timer" for one in ran),
-            sum(alive // one.period_ns for one in timers),
-            node not in unspun,
-        )
-
-
-def _born(seen: Observation, node: str) -> int:
-    """When a node started: every node of the clinic says so."""
-    name = node.strip("/").replace("/", ".")
-    return next((line.time_ns for line in seen.logs if line.name == name), 0)
-
-
-def _talk(seen: Observation, end: Endpoint) -> Talk:
-    said = [one for one in seen.samples if (one.node, one.topic) == (end.node, end.name)]
-    if not said:
-        return Talk(end.node, end.name, 0)
-    values = sorted({float(one.value) for one in said}) if end.type_name == FLOAT else []
-    texts = sorted({str(one.value) for one in said}) if end.type_name == STRING else []
-    return Talk(
+def _published(seen: Observation, end: Endpoint) -> Published:
+    sent = [one for one in seen.samples if (one.node, one.topic) == (end.node, end.name)]
+    times = sorted({one.time for one in sent})
+    gaps = sorted(later - earlier for earlier, later in pairwise(times))
+    return Published(
         end.node,
         end.name,
-        len(said),
-        said[0].time,
-        said[-1].time,
-        _gap(said),
-        tuple(values),
-        tuple(texts),
+        len(sent),
+        times[-1] if times else -1.0,
+        gaps[len(gaps) // 2] if gaps else 0.0,
+        tuple(sorted({one.value for one in sent})),
     )
 
 
-def _gap(said: Sequence[Sample]) -> float:
-    times = sorted({one.time_ns for one in said})
-    gaps = sorted(b - a for a, b in pairwise(times))
-    return gaps[len(gaps) // 2] / NANOSECONDS if gaps else 0.0
-
-
-def _hearing(seen: Observation, end: Endpoint, ends: Sequence[Endpoint]) -> Hearing:
+def _received(
+    seen: Observation, end: Endpoint, endpoints: Iterable[Endpoint], started: float
+) -> Received:
     connected = {
         one.node
-        for one in ends
+        for one in endpoints
         if (one.kind, one.name, one.type_name) == ("publisher", end.name, end.type_name)
         and not incompatible(one.qos, end.qos)
     }
-    born = _born(seen, end.node)
     sent = [one for one in seen.samples if one.topic == end.name and one.node in connected]
-    ran = [one for one in seen.callbacks
-           if (one.node, one.kind, one.source) == (end.node, "subscription", end.name)]  # fmt: skip
-    before = sum(one.time_ns < born for one in sent)
-    last = ran[-1].time if ran else -1.0
-    return Hearing(end.node, end.name, len(ran), len(sent) - before, before, last)
+    before = sum(one.time_ns < started * NANOSECONDS for one in sent)
+    mine = (end.node, "subscription", end.name)
+    times = [one.time for one in seen.callbacks if (one.node, one.kind, one.source) == mine]
+    return Received(end.node, end.name, len(sent) - before, before, max(times, default=-1.0))

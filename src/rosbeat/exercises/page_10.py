@@ -2,9 +2,8 @@
 
 The scenario only calls the learner's function, so no patient's fault is known where it runs. The
 judge examines the patients, where none of a learner's code runs; `rosbeat.clinic` is imported in
-its functions only. The suspects of this page are the clinic's own: its signs are models of what
-each fault shows, and what contradicts a diagnosis comes from them. What is left to judge here is
-the form of a diagnosis, and that may be anything.
+its functions only, and says what contradicts a diagnosis (`clinic/diagnoses.py`). What is left to
+judge here is the form of a diagnosis, and that may be anything.
 """
 
 from __future__ import annotations
@@ -79,7 +78,7 @@ def _misfit(value: Value, patients: Sequence[int]) -> str:
 @lru_cache(maxsize=64)
 def _chart(seed: int, number: int) -> Chart:
     """Examine a patient once: it is the same each time."""
-    from rosbeat.clinic.ward import Ward
+    from rosbeat.clinic.patients import Ward
 
     return Ward(seed).chart(number)
 
@@ -113,7 +112,7 @@ def _place(chart: Chart, name: str) -> str:
 
 def _nameless(chart: Chart, claim: Claim) -> Diagnosis | None:
     """Say if there is no such diagnosis, or no such place."""
-    from rosbeat.clinic.names import KNOWN
+    from rosbeat.clinic.diagnoses import KNOWN
 
     if claim.mistake not in KNOWN and claim.place in KNOWN:
         evidence = f"{claim.mistake!r} comes first, and {claim.place!r} second."
@@ -131,13 +130,13 @@ def _nameless(chart: Chart, claim: Claim) -> Diagnosis | None:
 
 def _refuted(chart: Chart, claim: Claim) -> Diagnosis | None:
     """Say what contradicts a diagnosis."""
-    from rosbeat.clinic import signs
+    from rosbeat.clinic.diagnoses import contradiction
 
     place = _place(chart, claim.place)
     places = [one.places for one in chart.truths if one.mistake == claim.mistake]
     if any(place in there for there in places):
         return None
-    yet = signs.against(chart, claim.mistake, place)
+    yet = contradiction(chart, claim.mistake, place)
     evidence = f"you say {claim.mistake} at {place}; yet {yet}."
     if places:
         hint = "There is such a fault, but not there. Follow the messages: how far do they get?"

@@ -3,13 +3,11 @@
 `ros.panel()` opens it. It is a widget on anywidget: Python here, one JavaScript and one CSS file
 beside it, nothing from the network.
 
-- `instruments` asks a session what happens and acts on it; nothing else here knows ROS;
-- `sampling` turns a session into frames, `traffic` decides when one may be sent;
-- `layout` places the graph as the pictures of `rosbeat.viz` do, `charts` draws values;
-- `orders` understands what comes from the browser;
-- `panel` holds it together, and has the thread that looks 20 times a second; `widget` and the
-  two files beside it are what the browser runs;
-- `still` is the picture that stands where no browser is.
+- `panel` holds it together: the thread that looks 20 times a second, the flow of frames to the
+  browser, and the picture that stands where no browser is;
+- `instruments` asks a session what happens, and does what is clicked; nothing else here knows ROS;
+- `sampling` turns a session into frames;
+- `layout` places the graph as the pictures of `rosbeat.viz` do.
 
 How it works, and why:
 

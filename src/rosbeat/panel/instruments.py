@@ -1,15 +1,15 @@
-"""A session as the panel sees it and acts on it."""
+"""Show the panel a session, and carry out what is clicked there; nothing else here knows ROS."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from math import isfinite
 from threading import RLock
 from typing import TYPE_CHECKING, Any
 
-from rosbeat.errors import SessionError
-from rosbeat.panel.charts import Arrival
+from rosbeat.errors import RosbeatError, SessionError
 from rosbeat.panel.layout import NUMERIC_TYPES
 from rosbeat.panel.sampling import News
 from rosbeat.records import GraphSnapshot
@@ -21,6 +21,10 @@ from rosbeat.ros.world import World, find, state_of
 if TYPE_CHECKING:
     from rosbeat.ros.entities import NodeState
 
+#: What a fault does to the messages of a topic.
+FAULTS = ("none", "dropout", "nan", "offset")
+#: The longest callback that the slider offers, in milliseconds.
+LONGEST_LOAD = 900.0
 #: Seconds after which the graph is looked at anew although no node has changed.
 _FRESH = 1.0
 
@@ -64,7 +68,7 @@ class SessionInstruments:
         self._messages, found = recorder.since(self._messages)
         logs, faults = recorder.logs[self._logs :], recorder.faults[self._faults :]
         self._logs, self._faults = self._logs + len(logs), self._faults + len(faults)
-        arrivals = tuple(Arrival(count, newest) for _, count, newest in found)
+        arrivals = tuple((count, newest) for _, count, newest in found)
         return News(arrivals, tuple(logs), tuple(faults))
 
     def graph(self) -> GraphSnapshot:
@@ -138,7 +142,7 @@ class SessionInstruments:
             self._injecting().repeat(topic, value)
 
     def disturb(self, topic: str, kind: str, amount: float) -> None:
-        """Inject one of the faults of `orders.FAULTS` into what nodes publish on a topic."""
+        """Inject one of the `FAULTS` into what nodes publish on a topic."""
         with self._acting():
             self._numeric_type(topic)
             fault = self._topic_faults.setdefault(topic, TopicFault(topic))
@@ -209,3 +213,51 @@ def _condition(state: NodeState) -> str:
     if state.ended or state.spinning:
         return "ended" if state.ended else "running"
     return "paused" if state.paused else "not added"
+
+
+# Clicks.
+
+
+def carry_out(order: Mapping[str, Any], instruments: SessionInstruments) -> str:
+    """Do what the browser asked for.
+
+    Args:
+        order: `do` names what; the rest depends on it.
+        instruments: The session.
+
+    Returns:
+        Empty, or what the person who clicked should read.
+    """
+    try:
+        _act(order, instruments)
+    except RosbeatError as error:
+        return " ".join(filter(None, (error.what, error.to_try)))
+    return ""
+
+
+def _act(order: Mapping[str, Any], instruments: SessionInstruments) -> None:
+    match order:
+        case {"do": "pause" | "resume" | "stop" | "start" as action, "node": str(node)}:
+            getattr(instruments, action)(node)
+        case {"do": "publish", "topic": str(topic), "value": value} if _is_finite(value):
+            instruments.publish(topic, float(value))
+        case {"do": "repeat", "topic": str(topic), "on": True, "value": value} if _is_finite(value):
+            instruments.repeat(topic, float(value))
+        case {"do": "repeat", "topic": str(topic), "on": False}:
+            instruments.repeat(topic, None)
+        case {"do": "disturb", "topic": str(topic), "kind": kind, "amount": amount} if (
+            kind in FAULTS and _is_finite(amount)
+        ):
+            instruments.disturb(topic, kind, float(amount))
+        case {"do": "load", "milliseconds": length} if _is_finite(length):
+            instruments.load(max(0.0, min(LONGEST_LOAD, float(length))))
+        case _:
+            raise SessionError(
+                f"The panel does not understand {dict(order)!r}.",
+                "It comes from a page that was opened with another version of the course.",
+                "Reload the page in the browser, and run the cell again.",
+            )
+
+
+def _is_finite(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)

@@ -1,19 +1,23 @@
-"""The instrument panel of one session."""
+"""Show the instrument panel of one session: the widget, its thread, and a picture without both."""
 
 from __future__ import annotations
 
+import os
 import time
+from collections.abc import Callable
 from contextlib import suppress
+from pathlib import Path
 from threading import Event, RLock, Thread, current_thread, main_thread
 from typing import TYPE_CHECKING, Any
 
+from anywidget import AnyWidget
+from IPython import get_ipython
 from IPython.display import display
+from traitlets import Unicode
 
-from rosbeat.panel import orders
+from rosbeat.panel.instruments import carry_out
 from rosbeat.panel.sampling import Sampler
-from rosbeat.panel.still import behind_a_view, is_for_a_browser, still, view
-from rosbeat.panel.traffic import Traffic
-from rosbeat.panel.widget import PanelWidget
+from rosbeat.records import GraphSnapshot
 
 if TYPE_CHECKING:
     from rosbeat.panel.instruments import SessionInstruments
@@ -22,16 +26,26 @@ if TYPE_CHECKING:
 PERIOD = 0.05
 #: Seconds that `close` waits for the look that is being taken.
 _PATIENCE = 2.0
-
-
-def next_look(last: float, now: float) -> float:
-    """Return when to sample the session again; missed samples are skipped.
-
-    Args:
-        last: When the previous sample was due, in seconds of a monotonic clock.
-        now: The clock's current reading.
-    """
-    return max(last + PERIOD, now)
+#: Frames on their way at most, of which the browser has said nothing yet.
+WINDOW = 6
+#: Seconds after which a beat says that the kernel is there, if no frame may go; and for how long
+#: an unanswered browser gets beats.
+BEAT, BEATS_FOR = 1.0, 600.0
+#: Seconds to wait for an answer before one more frame is tried; doubled each time.
+FIRST_WAIT, LONGEST_WAIT = 0.5, 30.0
+#: While pages are built and tested, outputs must be the same each time; a panel's own never are.
+_STEADY = "ROSBEAT_STEADY_HOME"
+_HEADING = "The instrument panel of this session."
+_HOW = "This is a still picture of the panel. Run the cell above it for the live one."
+#: JupyterLab shows an output whose widget is gone as an error, and looks at no other form of it. So
+#: the picture is an output of its own: hidden while the panel below it lives, and hiding the error
+#: when it does not.
+_ONE_OF_THEM = """<style>
+.jp-OutputArea-child:has(.rosbeat-still):has(+ * .rosbeat-panel) { display: none; }
+.jp-OutputArea-child:has(.rosbeat-still) + *:not(:has(.rosbeat-panel)) { display: none; }
+</style>
+"""
+_HERE = Path(__file__).parent
 
 
 class Panel:
@@ -47,10 +61,10 @@ class Panel:
     def __init__(self, instruments: SessionInstruments) -> None:
         self._instruments = instruments
         self._sampler = Sampler(instruments)
-        self._traffic = Traffic()
+        self._flow = FlowControl()
         self._lock = RLock()
         self._stopping = Event()
-        self._notes: list[str] = []
+        self._note: str | None = None
         self._widget: PanelWidget | None = None
         self._thread = Thread(target=self._run, name="rosbeat panel", daemon=True)
         if is_for_a_browser():
@@ -80,34 +94,35 @@ class Panel:
         picture = still(self._instruments.graph())
         if self._widget is None or self._stopping.is_set():
             display(picture, raw=True)
-        else:
-            display(behind_a_view(picture), raw=True)
-            display(view(self._widget.model_id), raw=True)
+            return
+        html = picture.get("text/html", f'<p class="rosbeat-still">{picture["text/plain"]}</p>')
+        display({**picture, "text/html": _ONE_OF_THEM + html}, raw=True)
+        view = {"version_major": 2, "version_minor": 0, "model_id": self._widget.model_id}
+        display({"application/vnd.jupyter.widget-view+json": view}, raw=True)
 
     def _run(self) -> None:
         due = time.monotonic()
         while not self._stopping.wait(max(0.0, due - time.monotonic())):
-            due = next_look(due, time.monotonic())
+            due = max(due + PERIOD, time.monotonic())  # looks that were missed are not made up for
             self._turn()
 
     def _turn(self) -> None:
         self._sampler.look()
         with self._lock:
             now = time.monotonic()
-            if self._traffic.may_send(now):
+            if self._flow.may_send(now):
                 content = self._frame(now)
-            elif self._traffic.beats(now):
+            elif self._flow.beats(now):
                 content = {"beat": True}
             else:
                 return
         self._post(content)
 
     def _frame(self, now: float) -> dict[str, Any]:
-        frame = self._sampler.frame(whole=self._traffic.asked)
-        frame["number"] = self._traffic.sent(now)
-        if self._notes:
-            frame["note"] = self._notes.pop()
-            self._notes.clear()
+        frame = self._sampler.frame(whole=self._flow.asked)
+        frame["number"] = self._flow.sent(now)
+        if self._note is not None:
+            frame["note"], self._note = self._note, None
         return frame
 
     def _post(self, content: dict[str, Any]) -> None:
@@ -119,11 +134,122 @@ class Panel:
         now = time.monotonic()
         if "got" in content:
             with self._lock:
-                self._traffic.heard(int(content["got"]), now)
+                self._flow.heard(int(content["got"]), now)
         elif content.get("do") == "open":
             with self._lock:
-                self._traffic.ask(now)
+                self._flow.ask(now)
         else:
-            note = orders.carry_out(content, self._instruments)
+            note = carry_out(content, self._instruments)
             with self._lock:
-                self._notes.append(note)
+                self._note = note
+
+
+class FlowControl:
+    """Limit the number of frames in flight.
+
+    Without a limit, a sleeping browser or a slow connection would let frames pile up in a queue for
+    hours; with it, surplus frames are skipped. An acknowledgment may also be late because the
+    kernel is busy with a cell and cannot receive it, so a frame is sent from time to time all the
+    same, and beats in between: the browser takes a silence of seconds for a kernel that is gone.
+
+    Times are seconds of a monotonic clock.
+
+    Attributes:
+        asked: Whether the browser needs a whole frame, because it was just opened or missed one.
+        number: Number of the last frame, from 1.
+    """
+
+    def __init__(self) -> None:
+        self.asked = False
+        self.number = 0
+        self._heard = 0
+        self._wait = FIRST_WAIT
+        self._sent_at = self._beat_at = self._heard_at = 0.0
+        self._is_watched = False
+
+    def may_send(self, now: float) -> bool:
+        """Return whether a frame may be sent."""
+        if not self._is_watched:
+            return False
+        return self.number - self._heard < WINDOW or now - self._sent_at >= self._wait
+
+    def sent(self, now: float) -> int:
+        """Note that a frame goes out; return its number."""
+        if self.number - self._heard >= WINDOW:
+            self._wait = min(2 * self._wait, LONGEST_WAIT)
+        self.number += 1
+        self._sent_at, self.asked = now, False
+        return self.number
+
+    def beats(self, now: float) -> bool:
+        """Return whether to send a beat, and note that it goes out."""
+        due = now - max(self._sent_at, self._beat_at) >= BEAT
+        if not (self._is_watched and due and now - self._heard_at < BEATS_FOR):
+            return False
+        self._beat_at = now
+        return True
+
+    def ask(self, now: float) -> None:
+        """Note that the browser wants a whole frame now."""
+        self._is_watched = self.asked = True
+        self.heard(self.number, now)
+
+    def heard(self, number: int, now: float) -> None:
+        """Note that the browser has received the frame with this number."""
+        if self._heard <= number <= self.number:
+            self._heard, self._heard_at, self._wait = number, now, FIRST_WAIT
+
+
+class PanelWidget(AnyWidget):
+    """Send frames to the browser, which draws them, and receive what is clicked there.
+
+    Args:
+        heard: Called with each message from the browser, in whichever thread the kernel uses.
+    """
+
+    _esm = Unicode((_HERE / "panel.js").read_text(encoding="utf-8")).tag(sync=True)
+    _css = Unicode((_HERE / "panel.css").read_text(encoding="utf-8")).tag(sync=True)
+
+    def __init__(self, heard: Callable[[dict[str, Any]], None]) -> None:
+        super().__init__()
+        _hear_at_once(self.comm)
+        self.on_msg(lambda _widget, content, _buffers: heard(content))
+
+    def close(self) -> None:
+        """Close the wire, and the one of the layout that every widget brings along."""
+        if self.comm is None:
+            return
+        layout = self.layout
+        super().close()
+        layout.close()
+
+
+def _hear_at_once(wire: Any) -> None:  # noqa: ANN401 - a kernel's own kind of wire
+    """Let clicks go where the browser sends them: to a thread of their own (a subshell).
+
+    From 7.4 on ipykernel takes them to whichever loop sent the last message instead, and that is
+    the one of the cell that runs: a click would wait until the cell has ended. Where ipykernel does
+    not route them, or has no subshells, this changes nothing.
+    """
+    if hasattr(wire, "_reply_subshell_for"):
+        wire._reply_subshell_for = lambda _content, asked_for: asked_for
+
+
+# Where no browser is.
+
+
+def is_for_a_browser() -> bool:
+    """Return whether a browser may be attached that can show a widget."""
+    shell = get_ipython()
+    return getattr(shell, "kernel", None) is not None and not os.environ.get(_STEADY)
+
+
+def still(graph: GraphSnapshot) -> dict[str, str]:
+    """Return the graph as a MIME bundle, which depends only on the graph."""
+    from rosbeat.viz.graphs import graph as draw  # matplotlib takes a while to load
+
+    if not any(graph.nodes):
+        return {"text/plain": f"{_HEADING} There are no nodes yet."}
+    picture = draw(graph)
+    html = f'<div class="rosbeat-still">{picture.html()}\n<p>{_HOW}</p></div>'
+    return {"text/html": html, "text/plain": f"{_HEADING} {picture.description}"}

@@ -1,22 +1,31 @@
-"""From a session to frames: what the browser is told, and how little of it."""
+"""Sample a session for the panel: what the browser is told, and how little of it."""
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from dataclasses import dataclass
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from rosbeat.panel.charts import Arrival, Chart
 from rosbeat.panel.layout import layout
-from rosbeat.records import NANOSECONDS, Fault, LogRecord
+from rosbeat.records import NANOSECONDS, Fault, LogRecord, Sample
+from rosbeat.viz.sources import paths
 from rosbeat.viz.wiring import Wiring, wiring
+from rosbeat.viz.words import rounded
 
 if TYPE_CHECKING:
     from rosbeat.panel.instruments import SessionInstruments
 
+#: Seconds of the strip chart, and points that it has room for: one for each look.
+SPAN, POINTS = 30.0, 640
+#: Seconds over which a rate is counted.
+_RATE_SPAN = 2.0
+#: The longest text of a message, in characters.
+_LONGEST = 120
 #: Log lines that the panel keeps, and how many it puts into one frame.
 KEPT_LINES, LINES_PER_FRAME = 500, 100
 
+Point = tuple[float, float | None]
 Line = tuple[float, str, str, str]
 
 
@@ -25,12 +34,12 @@ class News:
     """Hold what happened in a session since the last look.
 
     Attributes:
-        arrivals: One for each topic and publishing node that was heard.
+        arrivals: For each topic and publishing node, how many messages came, and the last one.
         logs: The log lines.
         faults: The exceptions that ended nodes.
     """
 
-    arrivals: tuple[Arrival, ...] = ()
+    arrivals: tuple[tuple[int, Sample], ...] = ()
     logs: tuple[LogRecord, ...] = ()
     faults: tuple[Fault, ...] = ()
 
@@ -47,10 +56,10 @@ class Sampler:
 
     def __init__(self, instruments: SessionInstruments) -> None:
         self._instruments = instruments
-        self._charts: dict[str, Chart] = {}
-        self._changed: set[str] = set()
+        self._charts: dict[str, TopicChart] = {}
         self._lines: deque[Line] = deque(maxlen=KEPT_LINES)
-        self._said = self._sent_lines = 0
+        self._new_lines: deque[Line] = deque(maxlen=LINES_PER_FRAME)
+        self._new_count = 0
         self._wiring: Wiring | None = None
         self._layout: dict[str, Any] = {}
         self._state: dict[str, Any] = {}
@@ -59,13 +68,12 @@ class Sampler:
     def look(self) -> None:
         """Look at the session once."""
         news = self._instruments.news()
-        for arrival in news.arrivals:
-            topic = arrival.newest.topic
-            self._charts.setdefault(topic, Chart()).add(arrival)
-            self._changed.add(topic)
-        for line in sorted([*map(_log_line, news.logs), *map(_fault_line, news.faults)]):
-            self._lines.append(line)
-            self._said += 1
+        for count, newest in news.arrivals:
+            self._charts.setdefault(newest.topic, TopicChart()).add(count, newest)
+        lines = sorted([*map(_log_line, news.logs), *map(_fault_line, news.faults)])
+        self._lines.extend(lines)
+        self._new_lines.extend(lines)
+        self._new_count += len(lines)
         shown = wiring(self._instruments.graph())
         if shown != self._wiring:
             self._wiring, self._layout = shown, layout(shown)
@@ -82,30 +90,27 @@ class Sampler:
             whole: Whether to return everything, for a browser that has no state yet.
         """
         now = self._instruments.now_ns() / NANOSECONDS
-        told = {name: chart for name, chart in self._charts.items() if self._is_told(name, whole)}
+        charts = self._charts.items()
         frame: dict[str, Any] = {
             "whole": whole,
             "time": round(now, 3),
-            "topics": {name: chart.news(now, whole) for name, chart in told.items()},
+            "topics": {
+                name: chart.news(now, whole) for name, chart in charts if whole or chart.has_news
+            },
             **self._log(whole),
         }
         for part, state in self._state.items():
             if whole or self._sent_state.get(part) != state:
                 frame[part] = state
         self._sent_state = dict(self._state)
-        self._changed.clear()
         return frame
 
-    def _is_told(self, topic: str, whole: bool) -> bool:
-        """Whether a frame has something to say of a topic: for one that falls silent, its rate."""
-        return whole or topic in self._changed or self._charts[topic].was_busy
-
     def _log(self, whole: bool) -> dict[str, Any]:
-        new = len(self._lines) if whole else self._said - self._sent_lines
-        taken = min(new, LINES_PER_FRAME if not whole else KEPT_LINES, len(self._lines))
-        self._sent_lines = self._said
-        lines = list(self._lines)[len(self._lines) - taken :]
-        return {"log": lines, "left_out": new - taken} if lines else {}
+        lines = list(self._lines if whole else self._new_lines)
+        left_out = 0 if whole else self._new_count - len(lines)
+        self._new_lines.clear()
+        self._new_count = 0
+        return {"log": lines, "left_out": left_out} if lines else {}
 
 
 def _log_line(record: LogRecord) -> Line:
@@ -117,3 +122,87 @@ def _fault_line(fault: Fault) -> Line:
     where = f", line {fault.line}: {fault.code}" if fault.line else ""
     text = f"stopped in {fault.callback}: {fault.kind}: {fault.text}{where}"
     return round(fault.time, 3), "FATAL", name, text
+
+
+# One topic.
+
+
+class TopicChart:
+    """Collect the recent messages on one topic for the panel.
+
+    Attributes:
+        has_news: Whether the browser has something to hear of this topic; of one that falls silent
+            it hears once more, for its rate.
+    """
+
+    def __init__(self) -> None:
+        self.has_news = False
+        self._total = 0
+        self._text = self._field = ""
+        self._from: Counter[str] = Counter()
+        self._points: deque[Point] = deque(maxlen=POINTS)
+        self._new_points: deque[Point] = deque(maxlen=POINTS)
+        self._totals: deque[tuple[float, int]] = deque()
+
+    def add(self, count: int, newest: Sample) -> None:
+        """Take note of what came from one node.
+
+        Args:
+            count: Number of messages.
+            newest: The last of them, the only one that is drawn.
+        """
+        self.has_news = True
+        self._total += count
+        self._from[newest.node] += count
+        self._field, value = _number(newest.data)
+        self._text = _words(value, newest.value)
+        if value is not None:
+            drawn = float(value) if isfinite(value) else None
+            point = (round(newest.time_ns / NANOSECONDS, 3), drawn)
+            self._points.append(point)
+            self._new_points.append(point)
+
+    def news(self, now: float, whole: bool) -> dict[str, Any]:
+        """Return what the browser does not know yet, as JSON-compatible data, and mark it as known.
+
+        Args:
+            now: Seconds since the session began.
+            whole: Whether to return everything rather than only what is new.
+        """
+        points = self._points if whole else self._new_points
+        rate = round(self._rate(now), 1)
+        found = {
+            "total": self._total,
+            "text": self._text,
+            "field": self._field,
+            "rate": rate,
+            "points": [point for point in points if point[0] >= now - SPAN],
+            "from": dict(self._from),
+        }
+        self._new_points.clear()
+        self._from.clear()
+        self.has_news = rate > 0
+        return found
+
+    def _rate(self, now: float) -> float:
+        """Messages per second, over the last seconds."""
+        self._totals.append((now, self._total))
+        while len(self._totals) > 2 and self._totals[1][0] <= now - _RATE_SPAN:
+            self._totals.popleft()
+        begin, before = self._totals[0]
+        return (self._total - before) / (now - begin) if now > begin else 0.0
+
+
+def _number(data: dict[str, Any]) -> tuple[str, float | None]:
+    """The first number of a message that is not in its header, with its path."""
+    for name, value in paths(data):
+        if isinstance(value, bool | int | float) and not name.startswith("header."):
+            return name if len(data) > 1 else "", value
+    return "", None
+
+
+def _words(value: float | None, whole: Any) -> str:  # noqa: ANN401 - any plain value
+    if isinstance(whole, bool) or value is None:
+        text = whole if isinstance(whole, str) else repr(whole)
+        return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+    return rounded(value)

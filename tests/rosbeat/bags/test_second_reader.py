@@ -2,7 +2,6 @@
 
 import math
 import sqlite3
-from dataclasses import replace
 
 import pytest
 from mcap.reader import make_reader
@@ -12,11 +11,9 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Float32, String
 
-from made_records import run_of
 from nodes import Talker
 from rosbeat import Session
 from rosbeat.bags import record
-from rosbeat.records import NANOSECONDS, Observation
 from rosbeat.ros.recording import plain
 from rosbeat.ros.scenario import message_class
 
@@ -57,16 +54,6 @@ def run():
         return ros.observation()
 
 
-def read(path):
-    """Every message as (topic, type, log time, publish time, decoded)."""
-    with path.open("rb") as file:
-        reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
-        return [
-            (channel.topic, schema.name, message.log_time, message.publish_time, decoded)
-            for schema, channel, message, decoded in reader.iter_decoded_messages()
-        ]
-
-
 def in_order(found):
     """Rows of (topic, type, stamp, plain data), in the order in which they were published."""
     return [(one.topic, one.type_name, one.time_ns, one.data) for one in found.samples]
@@ -79,30 +66,22 @@ def as_in(data, message):
     return list(message) if isinstance(data, list) else message
 
 
-def test_mcap_loses_nothing_for_the_reader_of_its_makers(tmp_path, run, same):
-    record(run, tmp_path / "run")
-    rows = read(tmp_path / "run" / "messages.mcap")
-    expected = in_order(run)
-    assert len(rows) == len(expected) == 1800
-    for (*row, decoded), (topic, kind, stamp, data) in zip(rows, expected, strict=True):
-        assert row == [topic, kind, stamp, stamp]
-        assert same(as_in(data, decoded), data)
-
-
-def test_mcap_has_the_bytes_that_rclpy_reads(tmp_path, run, same):
+def test_mcap_has_every_message_for_the_reader_of_its_makers_and_for_rclpy(tmp_path, run):
     record(run, tmp_path / "run")
     with (tmp_path / "run" / "messages.mcap").open("rb") as file:
-        reader = make_reader(file, validate_crcs=True)
+        reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
         assert reader.get_header().profile == "ros2"
-        assert reader.get_summary().statistics.message_count == len(run.samples)
-        rows = [
-            (channel.topic, schema.name, message.log_time, message.data)
-            for schema, channel, message in reader.iter_messages()
-        ]
-    check(rows, run, same)
+        assert reader.get_summary().statistics.message_count == len(run.samples) == 1800
+        rows = []
+        for schema, channel, message, decoded in reader.iter_decoded_messages():
+            rows.append((channel.topic, schema.name, message.log_time, message.data))
+            assert message.publish_time == message.log_time
+            data = run.samples[len(rows) - 1].data
+            assert repr(as_in(data, decoded)) == repr(data)
+    check(rows, run)
 
 
-def test_sqlite_has_the_bytes_that_rclpy_reads(tmp_path, run, same):
+def test_sqlite_has_the_bytes_that_rclpy_reads(tmp_path, run):
     record(run, tmp_path / "run", storage="sqlite3")
     database = sqlite3.connect(tmp_path / "run" / "messages.db3")
     try:
@@ -119,24 +98,11 @@ def test_sqlite_has_the_bytes_that_rclpy_reads(tmp_path, run, same):
     finally:
         database.close()
     assert set(definitions) == {one.type_name for one in run.samples}
-    check(rows, run, same)
+    check(rows, run)
 
 
-def check(rows, run, same):
+def check(rows, run):
     expected = in_order(run)
     assert [row[:3] for row in rows] == [row[:3] for row in expected]
     for (_, kind, _, wire), (*_, data) in zip(rows, expected, strict=True):
-        assert same(plain(deserialize_message(wire, message_class(kind))), data)
-
-
-def test_thousands_of_messages(tmp_path, same):
-    many = run_of([at / 7 for at in range(20_000)])
-    bag = record(many, tmp_path / "run")
-    assert len(read(tmp_path / "run" / "messages.mcap")) == len(bag) == 20_000
-
-
-def test_an_empty_bag_is_one_for_others_too(tmp_path):
-    record(Observation(NANOSECONDS, 0), tmp_path / "empty")
-    assert read(tmp_path / "empty" / "messages.mcap") == []
-    record(replace(run_of([]), time_ns=1), tmp_path / "silent")
-    assert read(tmp_path / "silent" / "messages.mcap") == []
+        assert repr(plain(deserialize_message(wire, message_class(kind)))) == repr(data)

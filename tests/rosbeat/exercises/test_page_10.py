@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
-from rosbeat.clinic.names import KNOWN
-from rosbeat.clinic.ward import Ward
+from rosbeat.clinic.diagnoses import KNOWN
+from rosbeat.clinic.patients import Ward
 from rosbeat.exercises.check import check
 from rosbeat.exercises.evidence import from_json, to_json
 from rosbeat.exercises.hint import hint

@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 import pytest
 
 from made_records import graph_of, pub, sample, sub
-from rosbeat.panel.charts import Arrival
 from rosbeat.panel.sampling import News
 from rosbeat.records import GraphSnapshot
 
@@ -44,7 +43,7 @@ class MadeUp:
         return dict(self.states)
 
     def hear(self, value, count=1, **about):
-        self.waiting.append(Arrival(count, sample(self.seconds, value, **about)))
+        self.waiting.append((count, sample(self.seconds, value, **about)))
 
     def __getattr__(self, name):
         if name not in ("pause", "resume", "stop", "start", "publish", "repeat", "disturb",

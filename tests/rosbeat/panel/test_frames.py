@@ -6,9 +6,8 @@ from itertools import pairwise
 
 import pytest
 
-from rosbeat.panel.charts import POINTS
-from rosbeat.panel.sampling import KEPT_LINES, LINES_PER_FRAME, Sampler
-from rosbeat.panel.traffic import BEAT, BEATS_FOR, LONGEST_WAIT, WINDOW, Traffic
+from rosbeat.panel.panel import BEAT, BEATS_FOR, LONGEST_WAIT, WINDOW, FlowControl
+from rosbeat.panel.sampling import KEPT_LINES, LINES_PER_FRAME, POINTS, Sampler
 from rosbeat.records import Fault, GraphSnapshot, LogRecord
 
 
@@ -170,66 +169,66 @@ def test_an_exception_is_in_the_log(made_up, sampler):
 # When a frame may be sent.
 
 
-def sent_within(traffic, begin, seconds):
+def sent_within(flow, begin, seconds):
     """Frames that go out when somebody wants to send twenty a second."""
     times = [begin + k / 20 for k in range(round(20 * seconds))]
-    return [traffic.sent(now) for now in times if traffic.may_send(now)]
+    return [flow.sent(now) for now in times if flow.may_send(now)]
 
 
 @pytest.fixture
-def traffic():
-    made = Traffic()
+def flow():
+    made = FlowControl()
     assert sent_within(made, 0, 10) == []  # nothing before a browser asks
     made.ask(10)
     return made
 
 
-def test_a_browser_that_answers_gets_every_frame(traffic):
+def test_a_browser_that_answers_gets_every_frame(flow):
     for k in range(200):
-        assert traffic.may_send(k / 20)
-        number = traffic.sent(k / 20)
+        assert flow.may_send(k / 20)
+        number = flow.sent(k / 20)
         assert number == k + 1
         if number % 3 == 0:
-            traffic.heard(number, k / 20)
-    assert not traffic.asked
+            flow.heard(number, k / 20)
+    assert not flow.asked
 
 
-def test_a_browser_that_sleeps_for_an_hour_gets_hardly_any(traffic):
-    assert WINDOW + 5 < len(sent_within(traffic, 0, 3600)) < 3600 / LONGEST_WAIT + 20
+def test_a_browser_that_sleeps_for_an_hour_gets_hardly_any(flow):
+    assert WINDOW + 5 < len(sent_within(flow, 0, 3600)) < 3600 / LONGEST_WAIT + 20
 
 
-def test_silence_is_never_longer_than_a_beat_until_nobody_seems_to_be_there(traffic):
+def test_silence_is_never_longer_than_a_beat_until_nobody_seems_to_be_there(flow):
     times = [10 + k / 20 for k in range(1, round(20 * BEATS_FOR))]
-    came = [now for now in times if signs_of_life(traffic, now)]
+    came = [now for now in times if signs_of_life(flow, now)]
     assert max(b - a for a, b in pairwise(came)) <= BEAT + 0.1
-    later = [now for now in range(700, 720) if traffic.beats(now)]
+    later = [now for now in range(700, 720) if flow.beats(now)]
     assert later == []
-    traffic.heard(traffic.number, 720)
-    assert traffic.beats(722)
-    assert not traffic.beats(722.5)
+    flow.heard(flow.number, 720)
+    assert flow.beats(722)
+    assert not flow.beats(722.5)
 
 
-def signs_of_life(traffic, now):
-    return traffic.sent(now) if traffic.may_send(now) else traffic.beats(now)
+def signs_of_life(flow, now):
+    return flow.sent(now) if flow.may_send(now) else flow.beats(now)
 
 
-def test_when_it_wakes_up_all_is_as_before(traffic):
-    last = sent_within(traffic, 0, 600)[-1]
-    traffic.heard(last, 600)
-    assert len(sent_within(traffic, 600, 0.3)) == WINDOW
-    assert not traffic.may_send(600.4)
-    assert traffic.may_send(601)
+def test_when_it_wakes_up_all_is_as_before(flow):
+    last = sent_within(flow, 0, 600)[-1]
+    flow.heard(last, 600)
+    assert len(sent_within(flow, 600, 0.3)) == WINDOW
+    assert not flow.may_send(600.4)
+    assert flow.may_send(601)
 
 
-def test_a_new_view_begins_anew_although_the_old_one_never_answered(traffic):
-    sent_within(traffic, 0, 100)
-    traffic.ask(100)
-    assert traffic.asked
-    assert len(sent_within(traffic, 100, 0.3)) == WINDOW
+def test_a_new_view_begins_anew_although_the_old_one_never_answered(flow):
+    sent_within(flow, 0, 100)
+    flow.ask(100)
+    assert flow.asked
+    assert len(sent_within(flow, 100, 0.3)) == WINDOW
 
 
-def test_answers_from_elsewhere_change_nothing(traffic):
-    sent_within(traffic, 0, 0.4)
+def test_answers_from_elsewhere_change_nothing(flow):
+    sent_within(flow, 0, 0.4)
     for number in (-3, 99):
-        traffic.heard(number, 0.4)
-    assert not traffic.may_send(0.5)
+        flow.heard(number, 0.4)
+    assert not flow.may_send(0.5)

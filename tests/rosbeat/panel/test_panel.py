@@ -13,9 +13,7 @@ from ipywidgets.widgets.widget import _instances
 from notebooks.kernel import WatchedKernel
 from rosbeat.errors import SessionError
 from rosbeat.panel import panel as panels
-from rosbeat.panel import still as stills
-from rosbeat.panel.panel import Panel
-from rosbeat.panel.still import is_for_a_browser, still
+from rosbeat.panel.panel import Panel, is_for_a_browser, still
 from rosbeat.records import GraphSnapshot
 
 
@@ -131,11 +129,6 @@ def test_a_second_view_gets_everything(panel, frames, eventually):
     eventually(lambda: any(frame.get("whole") for frame in frames[before:]))
 
 
-def test_looks_are_twenty_a_second_and_those_that_were_missed_are_not_made_up_for():
-    assert panels.next_look(10.0, now=10.01) == pytest.approx(10.05)
-    assert panels.next_look(10.0, now=13.0) == 13.0
-
-
 # The picture, and the end.
 
 
@@ -188,7 +181,7 @@ def test_a_browser_is_expected_only_behind_a_kernel(monkeypatch):
     monkeypatch.delenv("ROSBEAT_STEADY_HOME", raising=False)
     assert not is_for_a_browser()
     shell = SimpleNamespace()
-    monkeypatch.setattr(stills, "get_ipython", lambda: shell)
+    monkeypatch.setattr(panels, "get_ipython", lambda: shell)
     assert not is_for_a_browser()
     shell.kernel = object()
     assert is_for_a_browser()
@@ -196,7 +189,7 @@ def test_a_browser_is_expected_only_behind_a_kernel(monkeypatch):
     assert not is_for_a_browser()
 
 
-# In a real kernel, with no browser or with a make-believe one.
+# In a real kernel, with a make-believe browser; page 07 shows the picture.
 
 
 NODES = """
@@ -257,16 +250,6 @@ def shown(messages):
 def is_fourth_frame(message):
     data = message["content"].get("data", {})
     return message["msg_type"] == "comm_msg" and data.get("content", {}).get("number") == 4
-
-
-@pytest.mark.ros
-def test_while_pages_are_built_it_is_the_same_picture_each_time(kernel):
-    run(kernel, NODES)
-    first, second = (run(kernel, "ros.panel()") for _ in range(2))
-    assert shown(first) == shown(second)
-    assert set(shown(first)) == {"text/html", "text/plain"}
-    assert "/sensor" in shown(first)["text/plain"]
-    assert {m["msg_type"] for m in first} == {"status", "execute_input", "display_data"}
 
 
 @pytest.mark.ros

@@ -1,27 +1,37 @@
 """The bytes of messages, judged by rclpy, and the definitions of their types."""
 
 import json
-import math
 import os
-import struct
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import HealthCheck, Phase, example, given, settings
 from rclpy.serialization import deserialize_message, serialize_message
 from rosbags.interfaces import Connection, MessageDefinition, MessageDefinitionFormat
 from rosbags.typesys import TypesysError
 
-from any_message import ANY, STORE, TYPES
-from rosbeat.bags.plain import from_wire, to_wire
-from rosbeat.bags.types import installed_types, recorded_types
-from rosbeat.bags.writing import MISFITS
+from any_message import ANY, STORE
+from rosbeat.bags.serialization import (
+    MISFITS,
+    from_bytes,
+    installed_types,
+    recorded_types,
+    to_bytes,
+)
 from rosbeat.errors import BagError
 from rosbeat.ros.recording import plain
 from rosbeat.ros.scenario import message_class
 
 FLOAT, BYTES = "std_msgs/msg/Float32", "std_msgs/msg/ByteMultiArray"
-EVERY = settings(
+
+
+def text(data):
+    """A text that is equal for equal data, where NaN is NaN, and 1 is not 1.0."""
+    return json.dumps(data, sort_keys=True)
+
+
+@pytest.mark.ros
+@settings(
     max_examples=150,
     deadline=None,
     derandomize=True,
@@ -29,17 +39,15 @@ EVERY = settings(
     phases=[Phase.explicit, Phase.generate],  # shrinking such data takes minutes
     suppress_health_check=list(HealthCheck),
 )
-
-
-@pytest.mark.ros
-@EVERY
 @given(ANY)
-def test_rclpy_reads_what_is_written_and_the_other_way_around(same, case):
+@example(("std_msgs/msg/Byte", {"data": [200]}))
+@example(("std_msgs/msg/Char", {"data": 200}))
+def test_rclpy_reads_what_is_written_and_the_other_way_around(case):
     name, data = case
-    message = deserialize_message(to_wire(STORE, name, data), message_class(name))
-    assert same(plain(message), data)
-    back = from_wire(STORE, name, serialize_message(message))
-    assert same(back, data)
+    message = deserialize_message(to_bytes(STORE, name, data), message_class(name))
+    assert text(plain(message)) == text(data)
+    back = from_bytes(STORE, name, serialize_message(message))
+    assert text(back) == text(data)
     assert list(back) == list(plain(message))
 
 
@@ -47,35 +55,23 @@ def test_bytes_that_fast_dds_leaves_behind_a_message_do_not_matter():
     # Seen with rclpy 7.1.6: a message of 16 bytes comes as 20, and the library refuses it.
     left = bytes.fromhex("00010000000000000000000000000000a0000000")
     data = {"layout": {"dim": [], "data_offset": 0}, "data": []}
-    assert from_wire(STORE, "std_msgs/msg/Int64MultiArray", left) == data
+    assert from_bytes(STORE, "std_msgs/msg/Int64MultiArray", left) == data
 
 
 @pytest.mark.parametrize("wire", [b"", b"\0\1", b"\0\1\0\0", b"\0\1\0\0\1", b"\0\3\0\0\1\2\3\4"])
 def test_what_is_no_message_is_refused(wire):
     with pytest.raises(MISFITS):
-        from_wire(STORE, FLOAT, wire)
+        from_bytes(STORE, FLOAT, wire)
 
 
 def test_messages_of_computers_that_count_the_other_way_are_read():
-    assert from_wire(STORE, FLOAT, b"\0\0\0\0\x3f\x80\0\0") == {"data": 1.0}
-
-
-def test_there_are_many_types():
-    assert len(TYPES) > 50
-
-
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 0.0, -0.0, 1e-45, 3.4e38])
-def test_odd_numbers_survive(same, value):
-    (number,) = struct.unpack("<f", struct.pack("<f", value))
-    back = from_wire(STORE, FLOAT, to_wire(STORE, FLOAT, {"data": number}))
-    assert same(back, {"data": number})
-    assert math.copysign(1, back["data"]) == math.copysign(1, number)
+    assert from_bytes(STORE, FLOAT, b"\0\0\0\0\x3f\x80\0\0") == {"data": 1.0}
 
 
 def test_a_long_text_survives():
     text = "grüße 🌡 " * 20_000
     name = "std_msgs/msg/String"
-    assert from_wire(STORE, name, to_wire(STORE, name, {"data": text})) == {"data": text}
+    assert from_bytes(STORE, name, to_bytes(STORE, name, {"data": text})) == {"data": text}
 
 
 @pytest.mark.parametrize(
@@ -109,7 +105,7 @@ def test_a_long_text_survives():
 )  # fmt: skip
 def test_what_does_not_fit_is_refused(name, data):
     with pytest.raises(MISFITS):
-        to_wire(STORE, name, data)
+        to_bytes(STORE, name, data)
 
 
 # Definitions.
@@ -166,8 +162,8 @@ def test_a_type_of_ones_own_is_read_from_where_it_is_installed(package):
     store = installed_types(["greenhouse_msgs/msg/Bed"])
     header = {"stamp": {"sec": 1, "nanosec": 2}, "frame_id": "bed"}
     data = {"plants": [{"name": "fern", "span": [1.0, 2.0], "header": header}], "state": 1}
-    wire = to_wire(store, "greenhouse_msgs/msg/Bed", data)
-    assert from_wire(store, "greenhouse_msgs/msg/Bed", wire) == data
+    wire = to_bytes(store, "greenhouse_msgs/msg/Bed", data)
+    assert from_bytes(store, "greenhouse_msgs/msg/Bed", wire) == data
     assert "greenhouse_msgs/msg/Bed" not in installed_types([]).fielddefs
 
 
@@ -180,7 +176,7 @@ def test_an_unknown_type_gets_three_parts(package, says, name):
 
 def test_a_bag_s_own_definition_counts():
     store = recorded_types([connection("std_msgs/msg/Float32", "float64 other\n")])
-    assert to_wire(store, "std_msgs/msg/Float32", {"other": 0.1})[4:] == (
+    assert to_bytes(store, "std_msgs/msg/Float32", {"other": 0.1})[4:] == (
         b"\x9a\x99\x99\x99\x99\x99\xb9\x3f"
     )
 
@@ -196,7 +192,7 @@ def test_what_a_bag_does_not_define_is_known():
 def test_a_definition_in_idl_is_understood():
     text = "module a { module msg { struct B { double x; }; }; };"
     store = recorded_types([connection("a/msg/B", text, MessageDefinitionFormat.IDL)])
-    assert from_wire(store, "a/msg/B", to_wire(store, "a/msg/B", {"x": 1.5})) == {"x": 1.5}
+    assert from_bytes(store, "a/msg/B", to_bytes(store, "a/msg/B", {"x": 1.5})) == {"x": 1.5}
 
 
 def test_definitions_that_contradict_each_other_are_refused():

@@ -6,30 +6,34 @@ import json
 import os
 import shutil
 import sqlite3
-import struct
 from collections.abc import Iterable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from uuid import uuid4
 
+from rosbags.interfaces import (
+    Qos,
+    QosDurability,
+    QosHistory,
+    QosLiveliness,
+    QosReliability,
+    QosTime,
+)
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.rosbag2.errors import WriterError
 from rosbags.typesys.store import Typestore
 
-from rosbeat.bags import qualities, refusals
-from rosbeat.bags.bag import Bag
-from rosbeat.bags.notes import notes_of
-from rosbeat.bags.plain import to_wire
-from rosbeat.bags.sources import Run, chosen, observed, place, types_of
-from rosbeat.bags.types import installed_types
-from rosbeat.errors import called_as
-from rosbeat.records import Observation, Sample
+from rosbeat.bags.bag import PUBLISHERS, SEED, SESSION_NS, Bag
+from rosbeat.bags.inputs import Run, observation_of, path_of, reason, topic_types
+from rosbeat.bags.serialization import installed_types, serialized
+from rosbeat.errors import BagError, called_as
+from rosbeat.records import NANOSECONDS, Observation, QoS
 
 _STORAGES = {"mcap": StoragePlugin.MCAP, "sqlite3": StoragePlugin.SQLITE3}
 # The name does not follow the folder's: so one observation gives the same bytes wherever it goes.
 _DATA = "messages"
-#: What goes wrong when a value does not fit into its field.
-MISFITS = (ValueError, TypeError, ArithmeticError, struct.error)
+# How ROS writes "no limit": the longest time that it can express.
+_NO_LIMIT = QosTime(9223372036, 854775807)
 
 
 @called_as('bags.record(ros, "first_run")')
@@ -62,11 +66,20 @@ def record(
             observed, or a message does not fit its type.
     """
     if storage not in _STORAGES:
-        raise refusals.unknown_storage(storage)
-    seen, target = observed(source), place(folder)
+        raise BagError(
+            f"A recording cannot be stored as {storage!r}.",
+            "There are two storage formats: MCAP, which is the default in ROS 2, and SQLite.",
+            'Write `storage="mcap"` or `storage="sqlite3"`.',
+        )
+    seen, target = observation_of(source), path_of(folder)
     if os.path.lexists(target) and not keep_old:
-        raise refusals.exists_already(target)
-    types = types_of(seen, topics)
+        raise BagError(
+            f"{target} already exists.",
+            "A new recording does not overwrite an existing file or folder.",
+            "Choose another name, or keep the old recording under a new name: `record(..., "
+            "keep_old=True)`.",
+        )
+    types = topic_types(seen, topics)
     store = installed_types(types.values())
     try:
         # The storages take some characters of a path for commands, which the learner's may have.
@@ -76,46 +89,53 @@ def record(
                 _fill(writer, store, seen, types)
             _put(made, target)
     except (OSError, WriterError, sqlite3.Error) as error:
-        raise refusals.not_written(target, error) from error
+        raise BagError(
+            f"The recording could not be written to {target}: {reason(error)}.",
+            "Existing files have not changed.",
+            "Choose a folder with write permission, on a disk with enough space.",
+        ) from error
     return Bag(target)
 
 
 def _fill(writer: Writer, store: Typestore, seen: Observation, types: dict[str, str]) -> None:
-    for name, note in notes_of(seen, types).items():
-        writer.set_custom_data(name, json.dumps(note))
+    samples = [one for one in seen.samples if one.topic in types]
+    publishers = {topic: seen.graph.on(topic, "publisher") for topic in types}
+    nodes = {topic: dict.fromkeys(end.node for end in ends) for topic, ends in publishers.items()}
+    for one in samples:
+        nodes[one.topic][one.node] = None
+    names = {topic: list(found) for topic, found in nodes.items()}
+    for key, fact in ((SESSION_NS, seen.time_ns), (SEED, seen.seed), (PUBLISHERS, names)):
+        writer.set_custom_data(key, json.dumps(fact))
     connections = {
         topic: writer.add_connection(
             topic,
             type_name,
             typestore=store,
-            offered_qos_profiles=[
-                qualities.stored(end.qos) for end in seen.graph.on(topic, "publisher")
-            ],
+            offered_qos_profiles=[_qos(end.qos) for end in publishers[topic]],
         )
         for topic, type_name in types.items()
     }
-    samples = chosen(seen, types)
-    for one, wire in zip(samples, wires(store, samples), strict=True):
-        writer.write(connections[one.topic], one.time_ns, wire)
+    for one, data in zip(samples, serialized(store, samples), strict=True):
+        writer.write(connections[one.topic], one.time_ns, data)
 
 
-def wires(store: Typestore, samples: Iterable[Sample]) -> list[bytes]:
-    """Return messages in serialized form.
+def _qos(qos: QoS) -> Qos:
+    """QoS as a bag stores it; other policies have the ROS default."""
+    return Qos(
+        QosHistory[qos.history],
+        qos.depth,
+        QosReliability[qos.reliability],
+        QosDurability[qos.durability],
+        _limit(qos.deadline_ns),
+        _limit(qos.lifespan_ns),
+        QosLiveliness.AUTOMATIC,
+        _NO_LIMIT,
+        avoid_ros_namespace_conventions=False,
+    )
 
-    Raises:
-        BagError: If a message does not fit its type; the error says which one.
-    """
-    counts: dict[str, int] = {}
-    made = []
-    for one in samples:
-        counts[one.topic] = counts.get(one.topic, 0) + 1
-        try:
-            made.append(to_wire(store, one.type_name, one.data))
-        except MISFITS as error:
-            raise refusals.does_not_fit(
-                one.topic, one.type_name, counts[one.topic], error
-            ) from error
-    return made
+
+def _limit(limit_ns: int) -> QosTime:
+    return QosTime(*divmod(limit_ns, NANOSECONDS)) if limit_ns else _NO_LIMIT
 
 
 def _put(made: Path, target: Path) -> None:

@@ -7,19 +7,16 @@ from dataclasses import replace
 from itertools import product
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
-from hypothesis import strategies as st
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosbags.rosbag2 import Reader
 
 import rosbeat.bags
-from any_message import ANY
 from made_records import FLOAT, at, pub, run_of, sample
 from nodes import Talker
 from rosbeat import Session
 from rosbeat.bags import Bag, record
 from rosbeat.errors import BagError
-from rosbeat.records import GraphSnapshot, Observation, QoS, Sample
+from rosbeat.records import GraphSnapshot, Observation, QoS
 
 BOOL = "std_msgs/msg/Bool"
 STORAGES = ["mcap", "sqlite3"]
@@ -51,31 +48,6 @@ def test_everything_comes_back(tmp_path, storage):
     # A recording can be recorded again, in the other storage.
     other = STORAGES[1 - STORAGES.index(storage)]
     assert record(bag, tmp_path / "second", storage=other).observation() == run
-
-
-@settings(
-    max_examples=15,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    phases=[Phase.explicit, Phase.generate],  # shrinking such data takes minutes
-    suppress_health_check=list(HealthCheck),
-)
-@given(st.data())
-def test_messages_of_any_type_come_back(tmp_path_factory, same, data):
-    cases = data.draw(st.lists(ANY, min_size=1, max_size=4, unique_by=lambda case: case[0]))
-    times = sorted(data.draw(st.lists(st.integers(0, 2**62), max_size=8)))
-    samples = []
-    for time in times:
-        number = data.draw(st.integers(0, len(cases) - 1))
-        name, value = cases[number]
-        samples.append(Sample(time, f"/t{number}", name, f"/node{number}", value))
-    run = Observation(2**62, 0, tuple(samples))
-    folder = tmp_path_factory.mktemp("bag")
-    for storage in STORAGES:
-        back = record(run, folder / storage, storage=storage).observation().samples
-        assert [replace(one, data={}) for one in back] == [replace(one, data={}) for one in samples]
-        assert all(same(a.data, b.data) for a, b in zip(back, samples, strict=True))
 
 
 @pytest.mark.parametrize("storage", STORAGES)
